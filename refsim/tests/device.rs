@@ -1,8 +1,8 @@
 //! Tests the profiles: loading, contents, and errors for unknown names.
 
 use refsim::device::{
-    ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, ResultRange, SignedTexelMinimum,
-    TexkillComponents,
+    ColorClamp, ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, ResultRange,
+    SignedTexelMinimum, SubpixelRounding, TargetRounding, TexkillComponents,
 };
 use refsim::isa::Version;
 use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials};
@@ -127,6 +127,29 @@ fn nv2x_clamps_results_and_not_sums() {
     }
 }
 
+/// What was measured on a sibling: the answers that hold, with their counts; other cards keep theirs.
+#[test]
+fn nv2x_obeys_what_nv2a_drew() {
+    for name in ["nv20", "nv25"] {
+        let card = Profile::named(name).unwrap();
+        assert_eq!(card.rules.subpixel_rounding, SubpixelRounding::Cut);
+        assert_eq!(card.rules.depth_rounding, TargetRounding::Truncate);
+        assert_eq!(card.rules.color_clamp, ColorClamp::Vertex);
+        assert!(card.rules.vertex_zero_times_anything && !card.rules.zero_times_anything);
+        assert_eq!(card.rules.vertex_format, "fp32:ftz".parse().unwrap());
+        let counted = card.figures().into_iter().filter(|row| row.counts.is_some());
+        for row in counted {
+            assert!(row.confidence == Confidence::Measured && row.source.contains("NV2A, a sibling"), "{}", row.key);
+        }
+    }
+    for name in ["r200", "r300", "nv30", "r350", "nv35", "gt200", "ideal-fp32"] {
+        let rules = Profile::named(name).unwrap().rules;
+        assert_eq!(rules.subpixel_rounding, SubpixelRounding::Nearest, "{name}");
+        assert_eq!((rules.depth_rounding, rules.color_clamp), (TargetRounding::Nearest, ColorClamp::Program), "{name}");
+        assert!(!rules.vertex_zero_times_anything, "{name}");
+    }
+}
+
 #[test]
 fn ideal_devices_take_any_format() {
     let ideal = Profile::named("ideal-s1.6:rtz:wrap").unwrap();
@@ -142,7 +165,7 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 fx5800 fx5900 ideal-<format>");
     insta::assert_snapshot!(text(Profile::named("ideal-q7")), @"device `ideal-q7`: expected a number format after `ideal-`");
     let mut nv20 = Profile::named("nv20").unwrap();
-    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of color-iterator constants depth-rounding dot filter-fraction-bits lod-fraction-bits lrp mad mipmap-rounding registers rounding signed-texel-minimum subpixel-bits target-rounding texcrd-overflow");
+    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of color-clamp color-iterator constants depth-rounding dot filter-fraction-bits lod-fraction-bits lrp mad mipmap-rounding registers rounding signed-texel-minimum subpixel-bits subpixel-rounding target-rounding texcrd-overflow vertex-format vertex-zero-times-anything");
     insta::assert_snapshot!(nv20.set_switch("mad", "x").unwrap_err(), @"switch `mad` of device `nv20`: expected one of two-roundings fused, found `x`");
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }

@@ -7,6 +7,8 @@
 mod blending;
 #[path = "numbers_page/clipping.rs"]
 mod clipping;
+#[path = "numbers_page/colors.rs"]
+mod colors;
 #[path = "numbers_page/formats.rs"]
 mod formats;
 #[path = "numbers_page/reads.rs"]

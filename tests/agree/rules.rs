@@ -2,8 +2,8 @@
 
 use crate::random::Random;
 use refsim::device::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, Profile, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
-    TexdepthDenominator, TexkillComponents,
+    ColorClamp, ColorIterator, ConstantStorage, LrpMode, MadMode, Profile, SignedTexelMinimum, SubpixelRounding,
+    TargetRounding, TexcrdOverflow, TexdepthDenominator, TexkillComponents,
 };
 use refsim::num::{DotOrder, Format};
 use std::collections::BTreeMap;
@@ -126,6 +126,7 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.dot = r.choose(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
         rules.lrp = r.choose(LrpMode::ALL);
         rules.zero_times_anything = r.one_in(3);
+        rules.vertex_zero_times_anything = r.one_in(3);
     }
     if group.has(Group::Sampling) {
         rules.texcrd_overflow = r.choose(TexcrdOverflow::ALL);
@@ -144,6 +145,8 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.target_rounding = r.choose(TargetRounding::ALL);
         rules.depth_rounding = r.choose(TargetRounding::ALL);
         rules.subpixel_bits = r.choose(&[0, 4, 8]);
+        rules.subpixel_rounding = r.choose(SubpixelRounding::ALL);
+        rules.color_clamp = r.choose(ColorClamp::ALL);
     }
     profile
 }

@@ -12,7 +12,7 @@ use super::DeviceError;
 pub enum Confidence {
     /// From a manufacturer's document or a specification.
     Documented,
-    /// Measured on the card.
+    /// Measured, on the card or on a sibling of it, which the source names.
     Measured,
     /// Calculated from documented or measured figures; the source says how.
     Derived,
@@ -44,6 +44,27 @@ pub struct FigureRow {
     pub source: String,
     /// Confidence in the value.
     pub confidence: Confidence,
+    /// What was counted, if the value was chosen among hypotheses.
+    pub counts: Option<MeasuredCounts>,
+}
+
+/// Counts of a measurement: how many of the values that a chip produced each hypothesis predicts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeasuredCounts {
+    /// The chip that was measured.
+    pub of: String,
+    /// Number of values.
+    pub all: u64,
+    /// Hypotheses with the number of values that each predicts, best first. Of a switch these are its values.
+    pub right: Vec<(String, u64)>,
+}
+
+impl fmt::Display for MeasuredCounts {
+    /// `NV2A: cut 52, nearest 24 of 52`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let right: Vec<String> = self.right.iter().map(|(hypothesis, right)| format!("{hypothesis} {right}")).collect();
+        write!(f, "{}: {} of {}", self.of, right.join(", "), self.all)
+    }
 }
 
 /// A figure as stored in a profile's TOML. A figure with `values` is a switch.
@@ -59,6 +80,13 @@ pub(super) struct RawFigure {
     pub(super) values: Vec<String>,
     #[serde(default)]
     pub(super) meaning: String,
+    /// These three together are [`MeasuredCounts`].
+    #[serde(default)]
+    of: Option<String>,
+    #[serde(default)]
+    all: Option<u64>,
+    #[serde(default)]
+    right: BTreeMap<String, u64>,
 }
 
 impl RawFigure {
@@ -74,14 +102,44 @@ impl RawFigure {
         }
     }
 
-    pub(super) fn row(&self, key: String) -> FigureRow {
-        FigureRow {
+    /// The counts, if the figure states any.
+    ///
+    /// # Errors
+    /// If they are incomplete or do not support the value: it must predict more than every other hypothesis, and the
+    /// hypotheses of a switch must be its values.
+    fn counts(&self) -> Result<Option<MeasuredCounts>, &'static str> {
+        if self.of.is_none() && self.all.is_none() && self.right.is_empty() {
+            return Ok(None);
+        }
+        let (Some(of), Some(all)) = (self.of.clone(), self.all) else {
+            return Err("counts consist of `of`, `all` and `right`");
+        };
+        if self.confidence != Confidence::Measured {
+            return Err("only a measured figure has counts");
+        }
+        let mut right: Vec<_> = self.right.iter().map(|(name, &right)| (name.clone(), right)).collect();
+        right.sort_by_key(|(_, right)| std::cmp::Reverse(*right));
+        match &right[..] {
+            [best, next, ..] if best.0 == self.text() && best.1 > next.1 && best.1 <= all => {}
+            _ => return Err("the value must predict more than another hypothesis, and no more than all"),
+        }
+        let named = |value: &String| self.right.contains_key(value);
+        if !self.values.is_empty() && !(self.values.len() == right.len() && self.values.iter().all(named)) {
+            return Err("`right` must have every value of the switch");
+        }
+        Ok(Some(MeasuredCounts { of, all, right }))
+    }
+
+    pub(super) fn row(&self, key: String) -> Result<FigureRow, String> {
+        let counts = self.counts().map_err(|problem| format!("{key}: {problem}"))?;
+        Ok(FigureRow {
             key,
             value: self.text(),
             unit: self.unit.clone(),
             source: self.source.clone(),
             confidence: self.confidence,
-        }
+            counts,
+        })
     }
 }
 
@@ -130,6 +188,36 @@ impl Section<'_> {
         match self.figures.keys().next() {
             Some(key) => Err(self.problem(key, "no such figure")),
             None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counts(figure: &str) -> Result<Option<String>, &'static str> {
+        let figure: RawFigure = toml::from_str(figure).expect("a figure");
+        Ok(figure.counts()?.map(|counts| counts.to_string()))
+    }
+
+    #[test]
+    fn counts_support_the_value() {
+        let switch = "value = 'cut'\nvalues = ['nearest', 'cut']\nsource = 'x'\nconfidence = ";
+        let with = |rest: &str| counts(&format!("{switch}{rest}"));
+        assert_eq!(with("'measured'"), Ok(None));
+        let whole = "'measured'\nof = 'NV2A'\nall = 52\nright = { cut = 52, nearest = 24 }";
+        assert_eq!(with(whole), Ok(Some("NV2A: cut 52, nearest 24 of 52".to_owned())));
+        for wrong in [
+            whole.replace("of = 'NV2A'\n", ""),
+            whole.replace("all = 52\n", ""),
+            whole.replace("measured", "guess"),
+            whole.replace("cut = 52, ", ""),
+            whole.replace("nearest = 24", "nearest = 52"),
+            whole.replace("all = 52", "all = 51"),
+            whole.replace("nearest = 24", "ceiling = 24"),
+        ] {
+            assert!(with(&wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -3,7 +3,9 @@
 //! A profile is a TOML file in `profiles/`, embedded in the library. It holds a card's arithmetic ([`Rules`], for the
 //! executors), limits ([`Limits`], for [`crate::check`]) and speeds ([`Rates`], [`Bus`], for the timing model). Every
 //! figure has a source and a confidence. An unpublished property is a *switch*: a figure with several allowed values
-//! whose default is marked as a guess, so that a study can compare all of them. See docs/devices.md.
+//! whose default is marked as a guess, so that a study can compare all of them. A property that was measured, on the card
+//! or on a sibling of it, keeps its refuted values as a switch and can state how many measured values each of them
+//! predicts ([`MeasuredCounts`]). See docs/devices.md.
 //!
 //! In addition there is `ideal-<format>` for any number format: without limits or timing, and with the rules of r300.
 
@@ -15,11 +17,11 @@ mod rules;
 mod switch;
 
 pub use error::DeviceError;
-pub use figure::{Confidence, FigureRow};
+pub use figure::{Confidence, FigureRow, MeasuredCounts};
 pub use limits::{Bus, DEFAULT_STEP_BUDGET, Limits, Rates};
 pub use profile::Profile;
 pub use rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
-    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
+    ColorClamp, ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum,
+    SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexkillComponents,
 };
 pub use switch::Switch;

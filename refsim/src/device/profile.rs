@@ -8,8 +8,8 @@ use super::DeviceError;
 use super::figure::{FigureRow, RawFigure, Section};
 use super::limits::{Bus, Limits, Rates};
 use super::rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
-    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
+    ColorClamp, ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum,
+    SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexkillComponents,
 };
 use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name, rounding_name};
 use crate::isa::Version;
@@ -247,7 +247,7 @@ impl Profile {
     fn from_toml(device: &str, text: &str) -> Result<Self, DeviceError> {
         let problem = |problem: String| DeviceError::Profile { device: device.to_owned(), problem };
         let raw = RawProfile::read(text).map_err(problem)?;
-        let figures = rows(&raw);
+        let figures = rows(&raw).map_err(problem)?;
         let switches = switches(&raw.rules);
         let rules = read_rules(&raw.rules).map_err(problem)?;
         let section = |name, figures| Section { device, name, figures };
@@ -303,8 +303,9 @@ impl Profile {
     }
 }
 
-fn rows(raw: &RawProfile) -> Vec<FigureRow> {
-    let mut rows: Vec<FigureRow> = raw.versions.iter().map(|figure| figure.row("versions".to_owned())).collect();
+fn rows(raw: &RawProfile) -> Result<Vec<FigureRow>, String> {
+    let mut rows: Vec<FigureRow> =
+        raw.versions.iter().map(|figure| figure.row("versions".to_owned())).collect::<Result<_, _>>()?;
     let sections = [
         ("rules", &raw.rules),
         ("limits", &raw.limits),
@@ -314,9 +315,11 @@ fn rows(raw: &RawProfile) -> Vec<FigureRow> {
         ("bus", &raw.bus),
     ];
     for (name, figures) in sections {
-        rows.extend(figures.iter().map(|(key, figure)| figure.row(format!("{name}.{key}"))));
+        for (key, figure) in figures {
+            rows.push(figure.row(format!("{name}.{key}"))?);
+        }
     }
-    rows
+    Ok(rows)
 }
 
 fn switches(rules: &BTreeMap<String, RawFigure>) -> Vec<Switch> {
@@ -351,9 +354,12 @@ fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
         texkill_components: TexkillComponents::Four,
         signed_texel_minimum: SignedTexelMinimum::Clamp,
         zero_times_anything: false,
+        vertex_zero_times_anything: false,
+        color_clamp: ColorClamp::Program,
         target_rounding: TargetRounding::Nearest,
         mipmap_rounding: TargetRounding::Nearest,
         depth_rounding: TargetRounding::Nearest,
+        subpixel_rounding: SubpixelRounding::Nearest,
         subpixel_bits: 8,
         filter_fraction_bits: 8,
         lod_fraction_bits: 8,

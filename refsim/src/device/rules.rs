@@ -97,6 +97,29 @@ named_choice! {
 }
 
 named_choice! {
+    /// Rounding of window positions to the grid of `subpixel_bits`.
+    SubpixelRounding {
+        /// To the nearest grid line, halves toward larger columns and rows.
+        Nearest = "nearest",
+        /// Toward the corner of the first pixel: (0, 0) where pixel centres lie at one half, (-1/2, -1/2) where they
+        /// lie at integers.
+        Cut = "cut",
+    }
+}
+
+named_choice! {
+    /// Where the vertex colours are clamped to [0, 1] first. Interpolated colours are clamped in any case.
+    ColorClamp {
+        /// At every vertex, before interpolation. +NaN gives 1, and -NaN 0.
+        Vertex = "vertex",
+        /// At the vertex if a vertex program wrote them, where NaN gives 0; those of transformed vertices at the pixel.
+        Program = "program",
+        /// At the pixel, where NaN gives 0.
+        Pixel = "pixel",
+    }
+}
+
+named_choice! {
     /// Storage format of constants before they are read into registers.
     ConstantStorage {
         /// Converted to the register format directly.
@@ -186,6 +209,12 @@ pub struct Rules {
     pub mipmap_rounding: TargetRounding,
     /// Rounding into integer depth buffers.
     pub depth_rounding: TargetRounding,
+    /// `true` if 0 times anything, including infinity and NaN, is 0 in vertex arithmetic.
+    pub vertex_zero_times_anything: bool,
+    /// Clamp of vertex colours.
+    pub color_clamp: ColorClamp,
+    /// Rounding of a window position at set-up.
+    pub subpixel_rounding: SubpixelRounding,
     /// Fraction bits of a window position at set-up, 0 to 8.
     pub subpixel_bits: u8,
     /// Fraction bits of the weights of a linear filter, 0 to 8.

@@ -2,8 +2,8 @@
 
 use super::figure::Confidence;
 use super::rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
-    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
+    ColorClamp, ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum,
+    SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexkillComponents,
 };
 use crate::num::{Denormals, DotOrder, Format, FormatKind, Overflow, Rounding};
 
@@ -28,7 +28,7 @@ pub struct Switch {
 
 /// Names of the rules that every profile must state, in the order in which they are applied: `format` first, then those
 /// that modify it.
-pub(super) const RULES: [&str; 21] = [
+pub(super) const RULES: [&str; 24] = [
     "format",
     "result-range",
     "partial",
@@ -44,10 +44,13 @@ pub(super) const RULES: [&str; 21] = [
     "texkill-components",
     "signed-texel-minimum",
     "zero-times-anything",
+    "vertex-zero-times-anything",
+    "color-clamp",
     "target-rounding",
     "mipmap-rounding",
     "depth-rounding",
     "subpixel-bits",
+    "subpixel-rounding",
     "filter-fraction-bits",
     "lod-fraction-bits",
 ];
@@ -166,10 +169,13 @@ pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
         "texkill-components" => rules.texkill_components = TexkillComponents::from_name(value)?,
         "signed-texel-minimum" => rules.signed_texel_minimum = SignedTexelMinimum::from_name(value)?,
         "zero-times-anything" => rules.zero_times_anything = parse_bool(value)?,
+        "vertex-zero-times-anything" => rules.vertex_zero_times_anything = parse_bool(value)?,
+        "color-clamp" => rules.color_clamp = ColorClamp::from_name(value)?,
         "target-rounding" => rules.target_rounding = TargetRounding::from_name(value)?,
         "mipmap-rounding" => rules.mipmap_rounding = TargetRounding::from_name(value)?,
         "depth-rounding" => rules.depth_rounding = TargetRounding::from_name(value)?,
         "subpixel-bits" => rules.subpixel_bits = parse_bits(value)?,
+        "subpixel-rounding" => rules.subpixel_rounding = SubpixelRounding::from_name(value)?,
         "filter-fraction-bits" => rules.filter_fraction_bits = parse_bits(value)?,
         "lod-fraction-bits" => rules.lod_fraction_bits = parse_bits(value)?,
         "registers" | "rounding" | "overflow" | "denormals" => {

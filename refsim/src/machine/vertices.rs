@@ -4,7 +4,7 @@ use super::validate::Plan;
 use super::{
     DEFAULT_ATTRIBUTE, DrawCall, ExecutorKind, MachineError, ProgramPlace, StepRate, VertexSource, VertexStreams,
 };
-use crate::device::Profile;
+use crate::device::{ColorClamp, Profile};
 use crate::event::PrimitiveCounts;
 use crate::exec::batch::{BatchExecutor, BatchVertices, VertexRows};
 use crate::exec::scalar::VertexProgram;
@@ -24,7 +24,8 @@ pub(super) struct Batch {
 
 /// The vertex stage of a call.
 pub(super) enum VertexStage<'a> {
-    Transformed(&'a [Vertex]),
+    /// Transformed vertices, and the clamp of their colours.
+    Transformed(&'a [Vertex], ColorClamp),
     Program(VertexShader<'a>, Box<VertexProgram<'a>>),
     Batch(VertexShader<'a>, Box<BatchVertices>),
 }
@@ -54,7 +55,7 @@ impl<'a> VertexStage<'a> {
         needed: ComponentMask,
     ) -> Self {
         match &call.vertices {
-            VertexSource::Transformed(vertices) => Self::Transformed(vertices),
+            VertexSource::Transformed(vertices) => Self::Transformed(vertices, profile.rules.color_clamp),
             VertexSource::Program { program, constants, streams } => {
                 let (rules, budget) = (&profile.rules, profile.limits.step_budget(Stage::Vertex));
                 let shader = VertexShader { program, streams, budget };
@@ -74,7 +75,13 @@ impl<'a> VertexStage<'a> {
     /// If a vertex exceeds the step budget.
     pub(super) fn run(&self, first: usize, count: usize, plan: &Plan) -> Result<Batch, MachineError> {
         Ok(match self {
-            Self::Transformed(vertices) => Batch { vertices: vertices.to_vec(), slots: 0 },
+            Self::Transformed(vertices, clamp) => {
+                let mut vertices = vertices.to_vec();
+                if *clamp == ColorClamp::Vertex {
+                    vertices.iter_mut().for_each(Vertex::clamp_colors);
+                }
+                Batch { vertices, slots: 0 }
+            }
             Self::Program(shader, program) => {
                 let place = |i: usize| (first + i / plan.vertex_count, i % plan.vertex_count);
                 let results: Vec<_> = (0..count * plan.vertex_count)
@@ -122,7 +129,13 @@ impl<'a> VertexStage<'a> {
                 shader.overrun(rows.cut.iter().map(|&(i, instruction)| (first + i % count, i / count, instruction)))?;
                 rows
             }
-            Self::Transformed(vertices) => VertexRows::from_vertices(vertices, needed),
+            Self::Transformed(vertices, clamp) => {
+                let mut rows = VertexRows::from_vertices(vertices, needed);
+                if *clamp == ColorClamp::Vertex {
+                    rows.clamp_colors();
+                }
+                rows
+            }
             Self::Program(..) => {
                 let batch = self.run(first, count, plan)?;
                 // Transposes from all vertices of an instance to all instances of a vertex.
@@ -136,7 +149,7 @@ impl<'a> VertexStage<'a> {
     /// Bytes read per vertex, and bytes read once per instance.
     pub(super) fn bytes(&self) -> (u64, u64) {
         match self {
-            Self::Transformed(_) => (size_of::<Vertex>() as u64, 0),
+            Self::Transformed(..) => (size_of::<Vertex>() as u64, 0),
             Self::Program(shader, _) | Self::Batch(shader, _) => {
                 let of = |step| 16 * shader.streams.streams.iter().filter(|s| s.step == step).count() as u64;
                 (of(StepRate::Vertex), of(StepRate::Instance))
@@ -193,7 +206,7 @@ fn fill_attribute(
 
 /// The device's rasterisation rules.
 pub(super) fn raster_rules(profile: &Profile) -> RasterRules {
-    RasterRules { subpixel_bits: profile.rules.subpixel_bits, iterator_format: profile.rules.iterator_format }
+    (&profile.rules).into()
 }
 
 /// Sets up the triangles of `instances` instances with consecutive vertices.

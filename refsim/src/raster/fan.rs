@@ -16,8 +16,7 @@ pub(super) fn clipped_setup(
     rules: &RasterRules,
     out: &mut Vec<TriangleSetup>,
 ) -> SetupReport {
-    let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
-    let snapped = |v: &ClipVertex| Some((*v, to_window(v.position, state, subpixel_bits)?));
+    let snapped = |v: &ClipVertex| Some((*v, to_window(v.position, state, rules)?));
     let Some(corners) = polygon.corners().iter().map(snapped).collect::<Option<Vec<_>>>() else {
         return SetupReport { emitted: 0, dropped: Some(Dropped::NotFinite) };
     };

@@ -33,7 +33,8 @@ pub use setup::setup;
 pub use state::{ClipSpace, Cull, PixelCenter, RasterRules, RasterState, Viewport};
 pub(crate) use triangle::shape;
 pub use triangle::{Dropped, Edge, SetupReport, TriangleSetup};
+pub(crate) use vertex::clamped_color;
 pub use vertex::{
     COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT, Vertex,
 };
-pub(crate) use window::{Corner, FARTHEST};
+pub(crate) use window::{Corner, FARTHEST, cut_origin};

@@ -43,8 +43,7 @@ fn setup_inside(
     state: &RasterState,
     rules: &RasterRules,
 ) -> Result<TriangleSetup, Dropped> {
-    let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
-    let [Some(c0), Some(c1), Some(c2)] = vertices.map(|v| to_window(v.position, state, subpixel_bits)) else {
+    let [Some(c0), Some(c1), Some(c2)] = vertices.map(|v| to_window(v.position, state, rules)) else {
         return Err(Dropped::NotFinite);
     };
     prepare(vertices, [c0, c1, c2], state, rules)

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::RasterError;
-use crate::device::Rules;
+use crate::device::{Rules, SubpixelRounding};
 use crate::num::Format;
 use crate::texture::{Region, value};
 
@@ -15,13 +15,19 @@ const MAX_PIXELS: u32 = 16_384;
 pub struct RasterRules {
     /// Fraction bits of a window position, 0 to 8.
     pub subpixel_bits: u8,
+    /// Rounding of a window position to these bits.
+    pub subpixel_rounding: SubpixelRounding,
     /// Format in which components are interpolated. The weights are always FP32.
     pub iterator_format: Format,
 }
 
 impl From<&Rules> for RasterRules {
     fn from(rules: &Rules) -> Self {
-        Self { subpixel_bits: rules.subpixel_bits, iterator_format: rules.iterator_format }
+        Self {
+            subpixel_bits: rules.subpixel_bits,
+            subpixel_rounding: rules.subpixel_rounding,
+            iterator_format: rules.iterator_format,
+        }
     }
 }
 

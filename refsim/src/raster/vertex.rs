@@ -36,6 +36,11 @@ impl Default for Vertex {
 }
 
 impl Vertex {
+    /// Clamps the colours to [0, 1] by the order of their patterns: +NaN gives 1, and -NaN 0.
+    pub(crate) fn clamp_colors(&mut self) {
+        self.colors.as_flattened_mut().iter_mut().for_each(|color| *color = clamped_color(*color));
+    }
+
     /// The interpolated component with this index; 0 past the last.
     pub fn component(&self, index: usize) -> u32 {
         match index {
@@ -50,6 +55,11 @@ impl Vertex {
     pub(crate) fn components(&self) -> [u32; COMPONENTS] {
         std::array::from_fn(|i| self.component(i))
     }
+}
+
+/// [`Vertex::clamp_colors`] of one component.
+pub(crate) fn clamped_color(bits: u32) -> u32 {
+    if bits >> 31 == 1 { 0 } else { bits.min(0x3f80_0000) }
 }
 
 /// A set of interpolated components.

@@ -1,11 +1,15 @@
 //! Window positions: viewport transform and snapping to the grid.
 
-use super::state::{ClipSpace, RasterState};
+use super::state::{ClipSpace, PixelCenter, RasterRules, RasterState};
+use crate::device::SubpixelRounding;
 use crate::texture::value;
 
 /// Limit at which positions saturate, in pixels from the origin. With 8 subpixel bits an edge function stays below
 /// 2^56.
 pub(crate) const FARTHEST: i64 = 1 << 17;
+
+/// Sign bit of an FP32 pattern.
+const SIGN: u32 = 1 << 31;
 
 /// A corner in window space.
 #[derive(Clone, Copy)]
@@ -18,8 +22,8 @@ pub(crate) struct Corner {
     pub(crate) reciprocal_w: u32,
 }
 
-/// Applies the viewport transform in FP32 operations and snaps to the grid (nearest, halves up).
-pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bits: u32) -> Option<Corner> {
+/// Applies the viewport transform in FP32 operations and snaps to the grid.
+pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, rules: &RasterRules) -> Option<Corner> {
     let v = &state.viewport;
     // Half extents and centre are exact in FP32.
     let halves = |n: i64| value::mul(value::from_integer(n), value::HALF);
@@ -39,9 +43,26 @@ pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bi
     if [window_x, window_y, depth, reciprocal_w].into_iter().any(value::is_not_finite) {
         return None;
     }
-    let far = FARTHEST << subpixel_bits;
-    let snap = |c: u32| value::scaled_floor(c, 1, subpixel_bits, true).clamp(-far, far);
+    let bits = u32::from(rules.subpixel_bits.min(8));
+    let far = FARTHEST << bits;
+    let snap = |c: u32| {
+        let line = match rules.subpixel_rounding {
+            SubpixelRounding::Nearest => value::scaled_floor(c, 1, bits, true),
+            SubpixelRounding::Cut if c > cut_origin(state.center) => -value::scaled_floor(c ^ SIGN, 1, bits, false),
+            SubpixelRounding::Cut => value::scaled_floor(c, 1, bits, false),
+        };
+        line.clamp(-far, far)
+    };
     Some(Corner { x: snap(window_x), y: snap(window_y), depth, reciprocal_w })
+}
+
+/// The column or row, an FP32 pattern with its sign set, toward which [`SubpixelRounding::Cut`] rounds: that of the
+/// first pixel's corner, where the hardware's window begins. Patterns of smaller numbers are larger.
+pub(crate) fn cut_origin(center: PixelCenter) -> u32 {
+    match center {
+        PixelCenter::Direct3d => SIGN | value::HALF,
+        PixelCenter::OpenGl => SIGN | value::ZERO,
+    }
 }
 
 /// Twice the signed area in units of the squared snapping grid; positive is clockwise with rows downward.

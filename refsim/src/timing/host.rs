@@ -180,6 +180,7 @@ impl HostWeights {
             unit: String::new(),
             source: operation.source().to_owned(),
             confidence: Confidence::Guess,
+            counts: None,
         };
         HostOperation::ALL.iter().map(row).collect()
     }

@@ -11,13 +11,13 @@ use refsim::texture::{Image, TextureKind};
 pub(crate) const COLUMNS: u32 = 64;
 
 /// A viewport around the window's origin whose half extents are powers of two, so that positions arrive as they are:
-/// window (x, y), from 0 to 4096, is clip space (x / 512, -y / 512).
+/// window (x, y) is clip space (x / 1024, -y / 1024). Pixels up to column and row 1023 are drawn.
 pub(crate) const WINDOW: Viewport =
-    Viewport { x: -512, y: -512, width: 1024, height: 1024, min_depth: 0, max_depth: 0x3f80_0000 };
+    Viewport { x: -1024, y: -1024, width: 2048, height: 2048, min_depth: 0, max_depth: 0x3f80_0000 };
 
 /// A vertex at a window position, y downward, with a depth from 0 to 1.
 pub(crate) fn at([x, y]: [f32; 2], depth: f32) -> Vertex {
-    Vertex { position: bits([x / 512.0, -y / 512.0, depth, 1.0]), ..Vertex::default() }
+    Vertex { position: bits([x / 1024.0, -y / 1024.0, depth, 1.0]), ..Vertex::default() }
 }
 
 /// The corners of cell `index`, a pixel of a target that is [`COLUMNS`] wide, as a quad.

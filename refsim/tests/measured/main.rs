@@ -7,7 +7,10 @@
 #[path = "../common/adapter.rs"]
 mod adapter;
 mod blending;
+mod colors;
 mod combiners;
+mod coverage;
+mod depth;
 mod draws;
 mod page;
 mod rule;
@@ -22,7 +25,7 @@ const CARDS: [&str; 2] = ["nv20", "nv25"];
 
 /// Rules of all topics, in the order of the page.
 fn topics() -> Vec<Rule> {
-    [blending::rules(), combiners::rules()].concat()
+    [coverage::rules(), depth::rules(), colors::rules(), blending::rules(), combiners::rules()].concat()
 }
 
 fn main() -> std::process::ExitCode {

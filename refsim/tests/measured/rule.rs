@@ -1,7 +1,7 @@
 //! Rules of a card, their hypotheses, and how many measured values each of them predicts.
 
 use super::CARDS;
-use refsim::device::{Profile, Rules};
+use refsim::device::{MeasuredCounts, Profile, Rules};
 use refsim::machine::{Executor, ExecutorKind};
 use std::ops::AddAssign;
 
@@ -24,6 +24,13 @@ pub(crate) struct Rule {
     pub(crate) settled: bool,
     /// What remains open; empty if nothing does.
     pub(crate) open: &'static str,
+}
+
+impl Rule {
+    /// The chip, which is the folder of the files.
+    fn chip(&self) -> String {
+        self.data.split('/').next().unwrap_or_default().to_uppercase()
+    }
 }
 
 /// The answers to a rule. The cards' own answer is what their profile says.
@@ -124,7 +131,26 @@ impl Measured {
             }
         }
         let right = counts.iter().map(|(hypothesis, count)| (hypothesis.clone(), count.right)).collect();
-        Self { own: counts[0].0.clone(), right, all: own.all, rule }
+        let measured = Self { own: counts[0].0.clone(), right, all: own.all, rule };
+        measured.stands_in_the_profiles();
+        measured
+    }
+
+    /// Panics if the figure of a settled switch does not have the counts.
+    fn stands_in_the_profiles(&self) {
+        let Hypotheses::Switch(name) = self.rule.hypotheses else { return };
+        if !self.rule.settled {
+            return;
+        }
+        let mut right: Vec<_> = self.right.iter().map(|(name, right)| (name.clone(), *right as u64)).collect();
+        right.sort_by_key(|(_, right)| std::cmp::Reverse(*right));
+        let expected = MeasuredCounts { of: self.rule.chip(), all: self.all as u64, right };
+        for card in CARDS {
+            let figures = Profile::named(card).expect("a card").figures();
+            let figure = figures.into_iter().find(|row| row.key == format!("rules.{name}")).expect("a figure");
+            let found = figure.counts.map(|counts| counts.to_string()).unwrap_or_default();
+            assert_eq!(found, expected.to_string(), "{card}, {name}: counts of the profile");
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! "Clipping", "Window" and "The fan": triangle set-up reimplemented in host singles.
 
 use super::{Random, probes};
+use refsim::device::SubpixelRounding;
 use refsim::num::Format;
 use refsim::raster::{ClipSpace, Cull, FOG_COMPONENT, PixelCenter, RasterRules, RasterState, Vertex, Viewport, setup};
 use refsim::texture::Region;
@@ -15,6 +16,9 @@ struct Corner {
 
 /// A corner in window space: snapped column and row, depth, 1 / w.
 type Snapped = (i64, i64, f32, f32);
+
+/// Fraction bits of window positions, and their rounding.
+type Grid = (u32, SubpixelRounding);
 
 fn distances([x, y, z, w]: [f32; 4], opengl: bool) -> [f32; 7] {
     let band = 8.0 * w;
@@ -54,7 +58,7 @@ fn clip(triangle: [Corner; 3], opengl: bool) -> Vec<Corner> {
     polygon
 }
 
-fn to_window(position: [f32; 4], state: &RasterState, bits: u32) -> Option<Snapped> {
+fn to_window(position: [f32; 4], state: &RasterState, (bits, rounding): Grid) -> Option<Snapped> {
     let [x, y, z, w] = position;
     let (v, opengl) = (&state.viewport, state.clip_space == ClipSpace::OpenGl);
     let [half_width, half_height] = [v.width, v.height].map(|n| n as f32 / 2.0);
@@ -67,7 +71,13 @@ fn to_window(position: [f32; 4], state: &RasterState, bits: u32) -> Option<Snapp
     let reciprocal = 1.0 / w;
     let all = [column, row, depth, reciprocal];
     let scale = f64::from(1u32 << bits);
-    let snap = |c: f32| ((f64::from(c) * scale + 0.5).floor()).clamp(-131_072.0 * scale, 131_072.0 * scale) as i64;
+    let corner = if state.center == PixelCenter::Direct3d { -0.5 } else { 0.0 };
+    let line = |c: f64| match rounding {
+        SubpixelRounding::Nearest => (c * scale + 0.5).floor(),
+        SubpixelRounding::Cut if c < corner => (c * scale).ceil(),
+        SubpixelRounding::Cut => (c * scale).floor(),
+    };
+    let snap = |c: f32| line(f64::from(c)).clamp(-131_072.0 * scale, 131_072.0 * scale) as i64;
     all.iter().all(|c| c.is_finite()).then(|| (snap(column), snap(row), depth, reciprocal))
 }
 
@@ -88,14 +98,14 @@ fn has_pixels(part: [Snapped; 3], state: &RasterState, bits: u32) -> bool {
 }
 
 /// The parts of a triangle: snapped corners and the component at each.
-fn parts(triangle: [Corner; 3], state: &RasterState, bits: u32) -> Vec<[(Snapped, f32); 3]> {
+fn parts(triangle: [Corner; 3], state: &RasterState, grid: Grid) -> Vec<[(Snapped, f32); 3]> {
     let opengl = state.clip_space == ClipSpace::OpenGl;
     if triangle.iter().flat_map(|c| c.position).any(|p| !p.is_finite()) {
         return Vec::new();
     }
     let is_whole = triangle.iter().all(|c| distances(c.position, opengl).into_iter().all(is_inside));
     let polygon = if is_whole { triangle.to_vec() } else { clip(triangle, opengl) };
-    let Some(snapped) = polygon.iter().map(|c| to_window(c.position, state, bits)).collect::<Option<Vec<_>>>() else {
+    let Some(snapped) = polygon.iter().map(|c| to_window(c.position, state, grid)).collect::<Option<Vec<_>>>() else {
         return Vec::new();
     };
     let n = snapped.len();
@@ -107,7 +117,7 @@ fn parts(triangle: [Corner; 3], state: &RasterState, bits: u32) -> Vec<[(Snapped
     let fan = left.get(1..).unwrap_or_default().windows(2).map(|pair| [left[0], pair[0], pair[1]]);
     fan.filter(|part| {
         let corners = part.map(|(corner, _)| corner);
-        area(corners) != 0 && area(corners).signum() == winding && has_pixels(corners, state, bits)
+        area(corners) != 0 && area(corners).signum() == winding && has_pixels(corners, state, grid.0)
     })
     .collect()
 }
@@ -117,7 +127,7 @@ fn clipped_triangles_are_the_fans_of_the_page() {
     let mut r = Random(6);
     let (mut cut, mut dropped) = (0, 0);
     for _ in 0..probes(6_000) {
-        let bits = r.choose(&[4, 8]);
+        let (bits, rounding) = (r.choose(&[4, 8]), r.choose(SubpixelRounding::ALL));
         let (width, height) = r.choose(&[(640, 480), (64, 64), (7, 33)]);
         let viewport = Viewport { min_depth: 0.25f32.to_bits(), ..Viewport::new(width, height) };
         let state = RasterState {
@@ -142,11 +152,12 @@ fn clipped_triangles_are_the_fans_of_the_page() {
             fog: c.fog.to_bits(),
             ..Vertex::default()
         });
-        let rules = RasterRules { subpixel_bits: bits as u8, iterator_format: Format::FP32 };
+        let rules =
+            RasterRules { subpixel_bits: bits as u8, subpixel_rounding: rounding, iterator_format: Format::FP32 };
         let mut found = Vec::new();
         setup(vertices.each_ref(), &state, &rules, &mut found);
-        let expected = parts(triangle, &state, bits);
-        let place = format!("{triangle:?}, {state:?}, {bits} bits");
+        let expected = parts(triangle, &state, (bits, rounding));
+        let place = format!("{triangle:?}, {state:?}, {bits} bits, {rounding:?}");
         assert_eq!(found.len(), expected.len(), "{place}");
         for (found, part) in found.iter().zip(&expected) {
             let corners = part.map(|(corner, _)| corner);

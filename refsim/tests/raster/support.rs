@@ -1,12 +1,14 @@
 //! Helpers of the raster tests.
 
+use refsim::device::SubpixelRounding;
 use refsim::num::Format;
 use refsim::raster::{
     ClipSpace, Cull, PixelCenter, RasterRules, RasterState, SetupReport, TriangleSetup, Vertex, Viewport, setup,
 };
 use refsim::texture::Region;
 
-pub(crate) const RULES: RasterRules = RasterRules { subpixel_bits: 4, iterator_format: Format::FP32 };
+pub(crate) const RULES: RasterRules =
+    RasterRules { subpixel_bits: 4, subpixel_rounding: SubpixelRounding::Nearest, iterator_format: Format::FP32 };
 
 pub(crate) const CONVENTIONS: [(PixelCenter, ClipSpace); 4] = [
     (PixelCenter::Direct3d, ClipSpace::Direct3d),

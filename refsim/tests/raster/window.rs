@@ -1,7 +1,8 @@
 //! Tests the batch executor's viewport transform and clip tests in rows against [`refsim::raster::setup`].
 
-use super::support::{CONVENTIONS, RULES, state};
+use super::support::{CONVENTIONS, RULES, state, vertex};
 use proptest::prelude::*;
+use refsim::device::SubpixelRounding;
 use refsim::exec::batch::{Instances, SimdLevel, Surfaces, VertexRows};
 use refsim::raster::{ComponentMask, Cull, RasterRules, RasterState, TriangleSetup, Vertex, Viewport, setup};
 
@@ -93,12 +94,13 @@ fn any_state() -> impl Strategy<Value = (RasterState, RasterRules)> {
     let depth = || prop_oneof![Just(0u32), Just(1.0f32.to_bits()), (0.0f32..1.0).prop_map(f32::to_bits)];
     let viewport = (-40i32..40, -40i32..40, 1u32..200, 1u32..200, depth(), depth());
     let culls = [Cull::None, Cull::Clockwise, Cull::CounterClockwise];
-    (0..CONVENTIONS.len(), viewport, prop::sample::select(culls.to_vec()), 0u8..=8).prop_map(
-        |(convention, (x, y, width, height, min_depth, max_depth), cull, subpixel_bits)| {
+    let grid = (0u8..=8, prop::sample::select(SubpixelRounding::ALL.to_vec()));
+    (0..CONVENTIONS.len(), viewport, prop::sample::select(culls.to_vec()), grid).prop_map(
+        |(convention, (x, y, width, height, min_depth, max_depth), cull, (subpixel_bits, subpixel_rounding))| {
             let mut state = state(64, 48, CONVENTIONS[convention]);
             state.viewport = Viewport { x, y, width, height, min_depth, max_depth };
             state.cull = cull;
-            (state, RasterRules { subpixel_bits, ..RULES })
+            (state, RasterRules { subpixel_bits, subpixel_rounding, ..RULES })
         },
     )
 }
@@ -128,8 +130,42 @@ fn edge_values_arrive_where_the_definition_has_them() {
         }
     }
     for convention in CONVENTIONS {
-        for subpixel_bits in [0, 4, 8] {
-            compare(&vertices, &state(64, 48, convention), &RasterRules { subpixel_bits, ..RULES });
+        for (subpixel_bits, &subpixel_rounding) in
+            [0, 4, 8].into_iter().flat_map(|b| SubpixelRounding::ALL.iter().map(move |r| (b, r)))
+        {
+            let rules = RasterRules { subpixel_bits, subpixel_rounding, ..RULES };
+            compare(&vertices, &state(64, 48, convention), &rules);
+        }
+    }
+}
+
+/// Columns and rows left of and above the window's corner are rounded up, all others down; with pixel centers at
+/// integers the corner is at (-1/2, -1/2).
+#[test]
+fn cut_positions_move_toward_the_corner_of_the_window() {
+    let step = 1.0 / 16.0;
+    for (convention, corner) in [(CONVENTIONS[0], -0.5), (CONVENTIONS[2], 0.0)] {
+        let mut state = state(64, 64, convention);
+        state.viewport = Viewport { x: -64, y: -64, width: 128, height: 128, ..state.viewport };
+        let rules = RasterRules { subpixel_rounding: SubpixelRounding::Cut, ..RULES };
+        // The base of the triangle starts at `x`; its edge function has the column's coefficient.
+        let base = |x: f32| {
+            let place = [[x, 0.0], [32.0, 0.0], [32.0, 32.0]];
+            let [a, b, c] = place.map(|[x, y]| vertex([x / 64.0, -y / 64.0, 0.5, 1.0]));
+            let mut out = Vec::new();
+            setup([&a, &b, &c], &state, &rules, &mut out);
+            32.0 - out[0].area.abs() as f32 / (32.0 * 256.0)
+        };
+        for (x, cut) in [
+            (corner + 1.9 * step, corner + step),
+            (corner + 0.99 * step, corner),
+            (corner - 0.01 * step, corner),
+            (corner - 0.99 * step, corner),
+            (corner - step, corner - step),
+            (corner - 1.9 * step, corner - step),
+            (20.0 + 0.99 * step, 20.0),
+        ] {
+            assert_eq!(base(x), cut, "{x} from {corner}");
         }
     }
 }

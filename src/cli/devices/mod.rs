@@ -1,6 +1,6 @@
 //! `crossbar devices`: the profiles, and where every figure of one is from.
 
-use refsim::device::{FigureRow, Profile, Switch};
+use refsim::device::{FigureRow, MeasuredCounts, Profile, Switch};
 use serde_json::{Value, json};
 
 #[cfg(feature = "wgpu")]
@@ -121,7 +121,7 @@ fn one(profile: &Profile) -> Findings {
     found.introduce(format!("{}: {}", profile.name, profile.title));
     let mut figures = Table::new("Figures", &["figure", "value", "unit", "confidence", "source"]);
     for row in profile.figures() {
-        let confidence = row.confidence.to_string();
+        let confidence = confidence(&row);
         let value = row.value.parse::<u64>().map_or_else(|_| row.value.into(), Cell::Count);
         figures.push([row.key.into(), value, row.unit.into(), confidence.into(), row.source.into()]);
     }
@@ -129,17 +129,24 @@ fn one(profile: &Profile) -> Findings {
     let title = "Switches: open questions of the hardware. Set one in a case file under [switches].";
     let mut switches = Table::new(title, &["switch", "now", "values", "confidence", "decides", "source"]);
     for switch in profile.switches() {
+        let figure = profile.figures().into_iter().find(|row| row.key == format!("rules.{}", switch.name));
         switches.push([
             switch.name.as_str().into(),
             switch.current.as_str().into(),
             switch.values.join(" ").into(),
-            switch.confidence.to_string().into(),
+            figure.as_ref().map_or_else(|| switch.confidence.to_string(), confidence).into(),
             switch.meaning.as_str().into(),
             switch.source.as_str().into(),
         ]);
     }
     found.table(switches);
     found
+}
+
+/// Confidence in a figure, with what was counted.
+fn confidence(row: &FigureRow) -> String {
+    let counts = row.counts.as_ref().map(|counts| format!(" ({counts})")).unwrap_or_default();
+    format!("{}{counts}", row.confidence)
 }
 
 fn figure_json(row: &FigureRow) -> Value {
@@ -149,7 +156,14 @@ fn figure_json(row: &FigureRow) -> Value {
         "unit": row.unit,
         "source": row.source,
         "confidence": row.confidence.to_string(),
+        "counts": row.counts.as_ref().map(counts_json),
     })
+}
+
+fn counts_json(counts: &MeasuredCounts) -> Value {
+    let right: serde_json::Map<String, Value> =
+        counts.right.iter().map(|(name, right)| (name.clone(), json!(right))).collect();
+    json!({ "of": counts.of, "all": counts.all, "right": right })
 }
 
 fn switch_json(switch: &Switch) -> Value {

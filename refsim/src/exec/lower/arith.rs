@@ -21,7 +21,8 @@ pub(crate) struct GraphBuilder<'a> {
 
 impl<'a> GraphBuilder<'a> {
     pub(crate) fn new(formats: Formats, rules: &'a Rules, pixel: bool) -> Self {
-        Self { graph: Graph::default(), formats, rules, legacy_zero: pixel && rules.zero_times_anything }
+        let legacy_zero = if pixel { rules.zero_times_anything } else { rules.vertex_zero_times_anything };
+        Self { graph: Graph::default(), formats, rules, legacy_zero }
     }
 
     /// A constant given as a bit pattern of a format.

@@ -32,8 +32,12 @@ impl<'r> Alu<'r> {
         Self { rules, legacy_zero: rules.zero_times_anything, to_one, format, flags: Flags::empty() }
     }
 
-    /// Creates vertex and address arithmetic in `format`: without the legacy rule for zero and without the range of
-    /// pixel results.
+    /// Creates vertex arithmetic in `format`: without the range of pixel results.
+    pub(crate) fn vertex(rules: &'r Rules, format: Format) -> Self {
+        Self { legacy_zero: rules.vertex_zero_times_anything, ..Self::plain(rules, format) }
+    }
+
+    /// Creates address arithmetic in `format`: without the legacy rule for zero and without the range of pixel results.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
         Self { legacy_zero: false, to_one: false, ..Self::new(rules, format) }
     }
@@ -101,7 +105,7 @@ impl<'r> Alu<'r> {
         cnd(condition, a, b) = ops::cnd;
     }
 
-    /// Operands of a product. With the legacy rule `zero_times_anything`, a zero together with an infinity or NaN
+    /// Operands of a product. With the legacy rule that zero times anything is zero, a zero together with an infinity or NaN
     /// replaces both by +0, so that the product is +0.
     fn factors(&self, a: u32, b: u32) -> (u32, u32) {
         let f = &self.format;

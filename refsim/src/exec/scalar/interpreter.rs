@@ -87,7 +87,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     pub(super) fn new(prepared: &'p Prepared<'a>, active: u8, observer: &'p mut O) -> Self {
         let rules = prepared.rules;
         let pixel = prepared.is_pixel();
-        let unit = |format| if pixel { Alu::new(rules, format) } else { Alu::plain(rules, format) };
+        let unit = |format| if pixel { Alu::new(rules, format) } else { Alu::vertex(rules, format) };
         Self {
             prepared,
             lanes: [const { Registers::new() }; LANES],

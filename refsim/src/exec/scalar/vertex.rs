@@ -2,7 +2,7 @@
 
 use super::interpreter::Interpreter;
 use super::prepared::Prepared;
-use crate::device::Rules;
+use crate::device::{ColorClamp, Rules};
 use crate::exec::{CheckedProgram, Constants, Observer};
 use crate::num::{Format, ops};
 use crate::raster::Vertex;
@@ -16,7 +16,7 @@ pub struct VertexProgram<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VertexResult {
     /// The vertex, in single precision. Unwritten outputs are zero; colours are clamped to [0, 1], as Direct3D does
-    /// before interpolation.
+    /// before interpolation, unless the rules clamp them at the pixel.
     pub vertex: Vertex,
     /// Instruction slots executed (a matrix product counts its rows).
     pub slots: u64,
@@ -44,16 +44,21 @@ impl<'a> VertexProgram<'a> {
         run.run();
         let out = |x: u32| ops::convert(&format, Format::FP32, x).bits;
         let registers = &run.lanes[0];
-        let result = VertexResult {
-            vertex: Vertex {
-                position: registers.position.map(out),
-                colors: registers.diffuse.map(|c| c.map(|x| out(ops::saturate01(format, x).bits))),
-                texcoords: registers.texcoord.map(|t| t.map(out)),
-                fog: out(registers.fog[0]),
-                point_size: out(registers.point_size[0]),
-            },
-            slots: run.slots,
+        let clamp = self.prepared.rules.color_clamp;
+        let color = |x: u32| match clamp {
+            ColorClamp::Program => out(ops::saturate01(format, x).bits),
+            ColorClamp::Vertex | ColorClamp::Pixel => out(x),
         };
-        (result, run.cut_at[0])
+        let mut vertex = Vertex {
+            position: registers.position.map(out),
+            colors: registers.diffuse.map(|c| c.map(color)),
+            texcoords: registers.texcoord.map(|t| t.map(out)),
+            fog: out(registers.fog[0]),
+            point_size: out(registers.point_size[0]),
+        };
+        if clamp == ColorClamp::Vertex {
+            vertex.clamp_colors();
+        }
+        (VertexResult { vertex, slots: run.slots }, run.cut_at[0])
     }
 }

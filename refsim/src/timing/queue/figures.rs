@@ -85,5 +85,6 @@ fn row(field: &str, value: u64, unit: &str, source: &str) -> FigureRow {
         unit: unit.to_owned(),
         source: source.to_owned(),
         confidence: Confidence::Guess,
+        counts: None,
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::rows::VertexRows;
-use crate::device::Rules;
+use crate::device::{ColorClamp, Rules};
 use crate::event::SAMPLERS;
 use crate::exec::batch::cache::{Cache, Pool};
 use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneFormats, SimdLevel, with_any_lane};
@@ -34,6 +34,7 @@ pub type AttributeRows<'f> = dyn Fn(usize, usize, usize, &mut [u32]) + Sync + 'f
 #[derive(Debug)]
 pub struct BatchVertices {
     formats: LaneFormats,
+    color_clamp: ColorClamp,
     constants: Vec<[u32; 4]>,
     /// Components that are computed, after the position's four.
     components: Vec<usize>,
@@ -124,7 +125,8 @@ impl BatchVertices {
         let constants = ResolvedConstants::vertex(program, rules, constants);
         let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
         let code = decoded(programs, program, rules, &constants, (needed, &components), step_budget);
-        Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
+        let color_clamp = rules.color_clamp;
+        Some(Self { constants: raw_constants(&constants.float, &formats), color_clamp, code, components, formats })
     }
 
     /// Executes the program on `total` vertices.
@@ -173,6 +175,9 @@ impl BatchVertices {
             self.group(first + start, (count - start).min(LANES), attributes, &mut slots, &mut out);
         }
         self.code.slots.keep(slots);
+        if self.color_clamp == ColorClamp::Vertex {
+            out.clamp_colors();
+        }
         out
     }
 
@@ -240,7 +245,7 @@ impl BatchVertices {
     fn held(&self, slot: Option<Slot>, place: RegisterComponent, slots: &Slots, count: usize) -> Vec<u32> {
         let Some(slot) = slot else { return vec![0; count] };
         let main = self.formats.lane(Arith::Main);
-        let color = place.0 == RegisterFile::DiffuseOut;
+        let color = place.0 == RegisterFile::DiffuseOut && self.color_clamp == ColorClamp::Program;
         let value = |&raw: &u32| self.single(if color { saturated(main, raw) } else { raw });
         slots.row(slot)[..count].iter().map(value).collect()
     }
@@ -292,7 +297,9 @@ fn straight(
         .map(|place| {
             let value = t.registers.get(&place).copied().unwrap_or(zero);
             let value = match place.0 {
-                RegisterFile::DiffuseOut => t.make.unary(Arith::Main, NumberOperation::Saturate, value),
+                RegisterFile::DiffuseOut if rules.color_clamp == ColorClamp::Program => {
+                    t.make.unary(Arith::Main, NumberOperation::Saturate, value)
+                }
                 _ => value,
             };
             t.make.convert(Arith::Main, Arith::Single, value)

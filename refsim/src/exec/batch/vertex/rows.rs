@@ -1,6 +1,6 @@
 //! Vertices in structure-of-arrays layout.
 
-use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex};
+use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex, clamped_color};
 
 /// Vertices as rows of single-precision patterns: the position and the components requested.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +29,12 @@ impl VertexRows {
             *row = vertices.iter().map(|v| v.component(component)).collect();
         }
         rows
+    }
+
+    /// [`Vertex::clamp_colors`] of all vertices.
+    pub(crate) fn clamp_colors(&mut self) {
+        let colors = self.components[COLOR_COMPONENT..FOG_COMPONENT].iter_mut();
+        colors.flatten().for_each(|color| *color = clamped_color(*color));
     }
 
     /// A vertex with the components in the rows; the others are zero.

@@ -4,8 +4,9 @@
 use rayon::prelude::*;
 
 use super::rows::VertexRows;
+use crate::device::SubpixelRounding;
 use crate::exec::batch::lanes::SimdLevel;
-use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRules, RasterState};
+use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRules, RasterState, cut_origin};
 
 /// Vertices per task.
 const SPAN: usize = 4096;
@@ -52,9 +53,19 @@ struct ViewportTransform {
     depths: [f32; 2],
     least_w: f32,
     band: f32,
+    snap: Snap,
+}
+
+/// Snapping of positions to the grid.
+#[derive(Clone, Copy)]
+struct Snap {
     /// Grid units per pixel, and the farthest grid line.
     grid: f64,
     far: f64,
+    /// Added in front of the floor, in grid units.
+    half: f64,
+    /// Positions below are rounded up.
+    origin: f64,
 }
 
 impl Window {
@@ -62,6 +73,10 @@ impl Window {
         let subpixel_bits = rules.subpixel_bits.min(8);
         let v = &state.viewport;
         let grid = f64::from(1u32 << subpixel_bits);
+        let (half, origin) = match rules.subpixel_rounding {
+            SubpixelRounding::Nearest => (0.5, f64::NEG_INFINITY),
+            SubpixelRounding::Cut => (0.0, f32::from_bits(cut_origin(state.center)).into()),
+        };
         let transform = ViewportTransform {
             half: [v.width, v.height].map(|size| size as f32 * 0.5),
             middle: [(v.x, v.width), (v.y, v.height)]
@@ -69,8 +84,7 @@ impl Window {
             depths: [v.min_depth, v.max_depth].map(f32::from_bits),
             least_w: f32::from_bits(LEAST_W),
             band: f32::from_bits(GUARD_BAND),
-            grid,
-            far: FARTHEST as f64 * grid,
+            snap: Snap { grid, far: FARTHEST as f64 * grid, half, origin },
         };
         let total = rows.position[3].len();
         let span = |i: usize| {
@@ -123,7 +137,7 @@ impl WindowSpan {
         let (ys, zs, ws) = (&ys[..count], &zs[..count], &ws[..count]);
         let (flags, to_x, to_y) = (&mut self.flags[..count], &mut self.x[..count], &mut self.y[..count]);
         let (depths, reciprocals) = (&mut self.depth[..count], &mut self.reciprocal_w[..count]);
-        let ViewportTransform { half, middle, least_w, band, grid, far, depths: [near, distant] } = *transform;
+        let ViewportTransform { half, middle, least_w, band, snap, depths: [near, distant] } = *transform;
         for i in 0..count {
             let [x, y, z, w] = [xs[i], ys[i], zs[i], ws[i]].map(f32::from_bits);
             let finite = is_finite(x) & is_finite(y) & is_finite(z) & is_finite(w);
@@ -145,8 +159,8 @@ impl WindowSpan {
             let arrived = is_finite(window_x) & is_finite(window_y) & is_finite(depth) & is_finite(reciprocal);
             // Index into `ClipResult::ALL`: 1 lost, 2 outside, 3 not finite.
             flags[i] = u32::from(inside & !arrived) | (u32::from(!inside) << 1) | (u32::from(!finite) * 3);
-            to_x[i] = snapped(window_x, grid, far);
-            to_y[i] = snapped(window_y, grid, far);
+            to_x[i] = snapped(window_x, snap);
+            to_y[i] = snapped(window_y, snap);
             depths[i] = depth.to_bits();
             reciprocals[i] = reciprocal.to_bits();
         }
@@ -158,10 +172,11 @@ fn is_finite(x: f32) -> bool {
     x.abs() < f32::INFINITY
 }
 
-/// Nearest grid line, halves up. In double precision the sum is exact near a rounding boundary.
+/// The grid line of a position. In double precision the sum is exact near a rounding boundary.
 #[inline(always)]
-fn snapped(x: f32, grid: f64, far: f64) -> i32 {
-    let line = (f64::from(x) * grid + 0.5).floor();
+fn snapped(x: f32, Snap { grid, far, half, origin }: Snap) -> i32 {
+    let x = f64::from(x);
+    let line = if x < origin { (x * grid).ceil() } else { (x * grid + half).floor() };
     let low = if line > -far { line } else { -far };
     (if low < far { low } else { far }) as i32
 }

@@ -1,0 +1,255 @@
+//! Colors from the vertex to the pixel, and the alpha test.
+
+use super::draws::{COLUMNS, at, cell, codes, color_program, colored, quads, rows};
+use super::rule::{Count, Hypotheses, Rule};
+use super::running::checked;
+use super::table::{Row, table};
+use refsim::device::{ColorIterator, Profile};
+use refsim::exec::Constants;
+use refsim::machine::{AttributeStream, Executor, StepRate, VertexSource, VertexStreams};
+use refsim::output::{AlphaTest, CompareFunction};
+use refsim::raster::Vertex;
+use refsim::texture::{Region, TexelFormat};
+
+const ENDS: &str = "nv2a/a_vertex_colour.csv";
+const GRADIENTS: &str = "nv2a/a_colour.csv";
+const ALPHA: &str = "nv2a/a_alpha_test.csv";
+const ONE: u32 = 0x3f80_0000;
+
+/// Ends of gradients that the chip draws as it draws the one from 0 to 1: infinity, the largest number, 8.
+const BEYOND: [[u32; 2]; 5] =
+    [[0xbf80_0000, ONE], [0xc100_0000, ONE], [0, 0x4100_0000], [0xff7f_ffff, 0x7f7f_ffff], [0xff80_0000, 0x7f80_0000]];
+
+pub(crate) fn rules() -> Vec<Rule> {
+    let product = Rule {
+        name: "Vertex programs: 0 times anything is 0",
+        data: ENDS,
+        unit: "color",
+        hypotheses: Hypotheses::Switch("vertex-zero-times-anything"),
+        redraw: ends,
+        unexplained: 1,
+        settled: true,
+        open: "Sums and dot products, which were not seen. The value that is not predicted is -NaN, moved: the card makes 0 \
+               of it, and here a move keeps no sign of a NaN.",
+    };
+    let subnormals = Rule {
+        name: "Vertex programs: subnormal numbers are 0",
+        hypotheses: Hypotheses::Switch("vertex-format"),
+        open: "As above.",
+        ..product.clone()
+    };
+    let clamp = Rule {
+        name: "Vertex colors are clamped at the vertex; NaN is 1",
+        data: "nv2a/a_vertex_colour.csv`, `nv2a/a_colour.csv",
+        hypotheses: Hypotheses::Switch("color-clamp"),
+        redraw: |profile, executor| {
+            let mut count = ends(profile, executor);
+            count += gradients_beyond(profile, executor);
+            count
+        },
+        open: "-NaN by a move, as above.",
+        ..product.clone()
+    };
+    let iterated = Rule {
+        name: "Iterated colors to the code",
+        data: GRADIENTS,
+        unit: "pixel",
+        hypotheses: Hypotheses::Switch("color-iterator"),
+        redraw: |profile, executor| gradients(profile, executor, |found, row| found == row.number("code")),
+        unexplained: 0,
+        settled: false,
+        open: "The card holds colors in 256ths of 8 bits, signed about one half and cut toward it, from a base at one of the \
+               corners; which corner is not known. Its codes and ours differ by one at most (next row).",
+    };
+    let near = Rule {
+        name: "Iterated colors within one code",
+        hypotheses: Hypotheses::Options(&[
+            ("8", |_| ()),
+            ("7", |rules| rules.color_iterator = ColorIterator::Unorm(7)),
+            ("6", |rules| rules.color_iterator = ColorIterator::Unorm(6)),
+        ]),
+        redraw: |profile, executor| gradients(profile, executor, |found, row| found.abs_diff(row.number("code")) <= 1),
+        settled: true,
+        open: "As above.",
+        ..iterated.clone()
+    };
+    let alpha = Rule {
+        name: "The alpha test compares 8-bit codes",
+        data: ALPHA,
+        unit: "comparison",
+        hypotheses: Hypotheses::Options(&[
+            ("8 bits", |_| ()),
+            ("7 bits", |rules| rules.color_iterator = ColorIterator::Unorm(7)),
+        ]),
+        redraw: alpha_test,
+        unexplained: 0,
+        settled: true,
+        open: "",
+    };
+    let dither = Rule {
+        name: "Nothing is dithered: pixels of a row with the same exact color have the same code",
+        hypotheses: Hypotheses::Options(&[("none", |_| ())]),
+        redraw: undithered,
+        unexplained: 11,
+        settled: true,
+        open: "Dithering as a state of Direct3D, which the pictures do not set. The values that differ are whole numbers of \
+               256ths, where the error of the plane decides.",
+        ..iterated.clone()
+    };
+    vec![product, subnormals, clamp, iterated, near, dither, alpha]
+}
+
+/// Constant colors of `mov oD0, v1` and `mul oD0, v1, c0`, a cell each.
+fn ends(profile: &Profile, executor: &Executor) -> Count {
+    let table = table(ENDS);
+    let (pixel, pixel_constants) = (color_program(profile), Constants::default());
+    let mut machine = executor.machine(profile.clone()).expect("a machine");
+    let target = machine.create_target(TexelFormat::Bgra8, COLUMNS, rows(table.len())).expect("a target");
+    for (i, row) in table.iter().enumerate() {
+        let (step, constant) = match row.text("constant_bits") {
+            "mov" => ("mov oD0, v1", 0),
+            _ => ("mul oD0, v1, c0", row.hex("constant_bits")),
+        };
+        let vertex = checked(&format!("vs_1_1\ndcl_position v0\ndcl_color v1\nmov oPos, v0\n{step}"), profile);
+        let constants = Constants { float: vec![[constant; 4]], ..Constants::default() };
+        let colors = [[row.hex("attribute_bits"); 4]; 4];
+        let positions = cell(i).map(|corner| corner.position);
+        let source =
+            VertexSource::Program { program: &vertex, constants: &constants, streams: streams(&positions, &colors) };
+        machine.draw(&quads(source, &pixel, &pixel_constants, target)).expect("drawn");
+    }
+    let image = machine.read_back(target).expect("read back");
+    let mut count = Count::default();
+    for (i, row) in table.iter().enumerate() {
+        count.add(codes(image, i)[0] == row.number("code"));
+    }
+    count
+}
+
+fn streams<'a>(positions: &'a [[u32; 4]], colors: &'a [[u32; 4]]) -> VertexStreams<'a> {
+    let stream = |register, data| AttributeStream { register, step: StepRate::Vertex, data };
+    VertexStreams {
+        vertex_count: positions.len(),
+        instance_count: 1,
+        streams: vec![stream(0, positions), stream(1, colors)],
+    }
+}
+
+/// The quad of a gradient: first column and row, the ones past the last, and whether it runs to the right.
+fn gradient_quad(picture: &str) -> ([f32; 4], bool) {
+    match picture {
+        "0_1" => ([128.0, 144.0, 179.2, 432.0], false),
+        "AlphaFuncAlways_Disabled" => ([64.0, 0.0, 576.0, 480.0], true),
+        other => panic!("picture `{other}`"),
+    }
+}
+
+/// Draws the gradients of the file and compares the codes at its pixels.
+fn gradients(profile: &Profile, executor: &Executor, right: fn(u8, &Row) -> bool) -> Count {
+    let mut count = Count::default();
+    let same = |a: &Row, b: &Row| a.text("picture") == b.text("picture") && is_falling(a) == is_falling(b);
+    for rows in table(GRADIENTS).chunk_by(same) {
+        let ends = if is_falling(&rows[0]) { [ONE, 0] } else { [0, ONE] };
+        for (found, row) in drawn(profile, executor, ends, rows).into_iter().zip(rows) {
+            count.add(right(found, row));
+        }
+    }
+    count
+}
+
+/// Pixels of the vertical gradient: those of a row are alike in the file, and alike as drawn.
+fn undithered(profile: &Profile, executor: &Executor) -> Count {
+    let rows: Vec<Row> = table(GRADIENTS).into_iter().filter(|row| row.text("picture") == "0_1").collect();
+    let found = drawn(profile, executor, [0, ONE], &rows);
+    let numbered: Vec<(&Row, u8)> = rows.iter().zip(found).collect();
+    let mut count = Count::default();
+    let same = |(a, _): &(&Row, u8), (b, _): &(&Row, u8)| {
+        ["triangle", "row", "exact_256ths"].into_iter().all(|column| a.text(column) == b.text(column))
+    };
+    for alike in numbered.chunk_by(same) {
+        let (first, code) = alike[0];
+        for (row, found) in alike {
+            count.add(row.text("code") == first.text("code") && *found == code);
+        }
+    }
+    count
+}
+
+fn row_number(row: &Row) -> u32 {
+    row.number("row")
+}
+
+fn is_falling(row: &Row) -> bool {
+    row.text("triangle") == "alpha falling"
+}
+
+/// Gradients between ends beyond 0 and 1, by a vertex program: the codes are those of the one from 0 to 1.
+fn gradients_beyond(profile: &Profile, executor: &Executor) -> Count {
+    let table = table(GRADIENTS);
+    let rows: Vec<Row> = table.into_iter().filter(|row| row.text("picture") == "0_1").collect();
+    let expected = drawn(profile, executor, [0, ONE], &rows);
+    let mut count = Count::default();
+    for ends in BEYOND {
+        for (found, expected) in drawn(profile, executor, ends, &rows).into_iter().zip(&expected) {
+            count.add(found == *expected);
+        }
+    }
+    count
+}
+
+/// Draws the gradient of a picture between two values and reads the codes at the rows' pixels.
+fn drawn(profile: &Profile, executor: &Executor, [from, to]: [u32; 2], rows: &[Row]) -> Vec<u8> {
+    let ([left, top, right, bottom], across) = gradient_quad(rows[0].text("picture"));
+    let places = [[left, top], [right, top], [right, bottom], [left, bottom]];
+    let values = if across { [from, to, to, from] } else { [from, from, to, to] };
+    let (positions, colors) = (places.map(|place| at(place, 0.5).position), values.map(|value| [value; 4]));
+    let vertex = checked("vs_1_1\ndcl_position v0\ndcl_color v1\nmov oPos, v0\nmov oD0, v1", profile);
+    let (program, constants) = (color_program(profile), Constants::default());
+    let mut machine = executor.machine(profile.clone()).expect("a machine");
+    let target = machine.create_target(TexelFormat::Bgra8, 640, 480).expect("a target");
+    let source =
+        VertexSource::Program { program: &vertex, constants: &constants, streams: streams(&positions, &colors) };
+    let mut call = quads(source, &program, &constants, target);
+    let (first, last) = (rows.iter().map(row_number).min(), rows.iter().map(row_number).max());
+    let y = first.expect("a row");
+    call.scissor = Some(Region { x: 0, y, width: 640, height: last.expect("a row") - y + 1 });
+    machine.draw(&call).expect("drawn");
+    let image = machine.read_back(target).expect("read back");
+    rows.iter().map(|row| image.raw(0, 0, row_number(row), row.number("column")) as u8).collect()
+}
+
+/// Each row is a cell whose alpha is compared; what passes is drawn.
+fn alpha_test(profile: &Profile, executor: &Executor) -> Count {
+    let table = table(ALPHA);
+    let (program, constants) = (color_program(profile), Constants::default());
+    let mut machine = executor.machine(profile.clone()).expect("a machine");
+    let target = machine.create_target(TexelFormat::Bgra8, COLUMNS, rows(table.len())).expect("a target");
+    machine.clear_target(target, [0; 4]).expect("cleared");
+    let numbered: Vec<(usize, &Row)> = table.iter().enumerate().collect();
+    let state = |row: &Row| (row.text("test").to_owned(), row.number::<u8>("reference_code"));
+    for alike in numbered.chunk_by(|(_, a), (_, b)| state(a) == state(b)) {
+        let white = |&(i, row): &(usize, &Row)| colored(i, [255, 255, 255, row.number("alpha_code")]);
+        let vertices: Vec<Vertex> = alike.iter().flat_map(white).collect();
+        let mut call = quads(VertexSource::Transformed(&vertices), &program, &constants, target);
+        let (test, reference) = state(alike[0].1);
+        let function = match test.as_str() {
+            "never" => CompareFunction::Never,
+            "less" => CompareFunction::Less,
+            "equal" => CompareFunction::Equal,
+            "less-equal" => CompareFunction::LessEqual,
+            "greater" => CompareFunction::Greater,
+            "not-equal" => CompareFunction::NotEqual,
+            "greater-equal" => CompareFunction::GreaterEqual,
+            "always" => CompareFunction::Always,
+            other => panic!("test `{other}`"),
+        };
+        call.alpha_test = Some(AlphaTest { function, reference: (f32::from(reference) / 255.0).to_bits() });
+        machine.draw(&call).expect("drawn");
+    }
+    let image = machine.read_back(target).expect("read back");
+    let mut count = Count::default();
+    for (i, row) in numbered {
+        count.add(u8::from(codes(image, i)[0] != 0) == row.number("passes"));
+    }
+    count
+}
