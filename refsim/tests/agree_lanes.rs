@@ -126,11 +126,11 @@ fn layout(text: &str) -> Format {
 fn short_formats_agree_on_all_pairs() {
     let layouts: &[&str] = if full() {
         &[
-            "s0.1", "s1.1", "s2.0", "s0.4", "s3.4", "s7.0", "s2.5", "e2m1", "e2m3", "e3m2", "e4m3", "e5m2", "e3m4",
-            "e2m5", "e6m1",
+            "s0.1", "s1.1", "s2.0", "s0.4", "s3.4", "s7.0", "s2.5", "n0.2", "n2.3", "n0.6", "e2m1", "e2m3", "e3m2",
+            "e4m3", "e5m2", "e3m4", "e2m5", "e6m1",
         ]
     } else {
-        &["s0.1", "s2.0", "s2.3", "e2m1", "e2m3", "e3m2", "e4m1"]
+        &["s0.1", "s2.0", "s2.3", "n0.2", "n2.3", "e2m1", "e2m3", "e3m2", "e4m1"]
     };
     for text in layouts {
         for f in variants(layout(text)) {
@@ -157,9 +157,9 @@ fn short_formats_agree_on_all_pairs() {
 #[test]
 fn all_formats_agree_on_random_operands() {
     let layouts = [
-        "s3.12", "s1.10", "s0.8", "s0.15", "s15.0", "s7.8", "s8.8", "s0.31", "s31.0", "s15.16", "s7.16", "e5m10",
-        "e7m16", "e8m23", "e8m7", "e3m4", "e8m10", "e6m10", "e7m10", "e6m9", "e5m11", "e8m16", "e2m23", "e8m1",
-        "e7m23",
+        "s3.12", "s1.10", "s0.8", "s0.15", "s15.0", "s7.8", "s8.8", "s0.31", "s31.0", "s15.16", "s7.16", "n3.8",
+        "n0.8", "n7.8", "n13.2", "n2.7", "e5m10", "e7m16", "e8m23", "e8m7", "e3m4", "e8m10", "e6m10", "e7m10", "e6m9",
+        "e5m11", "e8m16", "e2m23", "e8m1", "e7m23",
     ];
     let n = if full() { 65536 } else { 512 };
     for (seed, text) in layouts.iter().enumerate() {
@@ -177,13 +177,31 @@ fn all_formats_agree_on_random_operands() {
 #[test]
 fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
     let stride = if full() { 1 } else { 97 };
-    for f in ["fp16", "bf16", "s3.12", "s0.15"].into_iter().flat_map(|text| variants(layout(text))) {
+    for f in
+        ["fp16", "bf16", "s3.12", "s0.15", "n3.8", "n7.8", "n9.6"].into_iter().flat_map(|text| variants(layout(text)))
+    {
         let all: Vec<u32> = (0..=f.mask()).step_by(stride).collect();
         for op in operations() {
             if is_unary(op) {
                 compare(f, op, &all, &all, &all);
             }
         }
+    }
+}
+
+/// All pairs of the registers of NV2x in the full form; every thirteenth first operand in the short one.
+#[test]
+fn normalized_registers_agree_on_pairs() {
+    let step = if full() { 1 } else { 13 };
+    for text in ["n3.8:rna", "n3.8:rtz", "n3.8:rdn", "n0.8:rna", "n3.8:rne:wrap"] {
+        let f = layout(text);
+        let all: Vec<u32> = (0..=f.mask()).collect();
+        (0..=f.mask()).step_by(step).collect::<Vec<_>>().into_par_iter().for_each(|a| {
+            let (a, c) = (vec![a; all.len()], Random::new(a.into()).patterns(&f, all.len()));
+            for op in [Op::Add, Op::Mul, Op::Div, Op::Mad, Op::FusedMad] {
+                compare(f, op, &a, &all, &c);
+            }
+        });
     }
 }
 
@@ -298,7 +316,7 @@ fn single_floats_agree_at_their_largest_and_smallest() {
 #[test]
 fn conversions_agree() {
     let texts = "s3.12 s3.12:rna s3.12:rtz:wrap s3.12:rdn s3.12:rne:wrap s3.12:rna:wrap s3.12:rdn:wrap \
-                 s1.10 s0.8:wrap s0.31 s31.0:wrap s15.16:rtz fp16 fp16:rtz fp16:ftz fp16:nvovf fp24 \
+                 n3.8 n3.8:rna n3.8:rtz n3.8:rdn:wrap n0.8:rdn n7.8:rna:wrap n0.5:rtz s1.10 s0.8:wrap s0.31 s31.0:wrap s15.16:rtz fp16 fp16:rtz fp16:ftz fp16:nvovf fp24 \
                  fp24:rdn fp24:sat fp32 fp32:ftz fp32:ftz:nvovf:nv fp32:rdn bf16 e3m4 e8m10:rna";
     let layouts: Vec<Format> = texts.split(' ').map(layout).collect();
     let n = if full() { 100_000 } else { 1000 };

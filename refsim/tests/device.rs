@@ -112,11 +112,18 @@ fn switches_reach_the_formats() {
 fn nv2x_clamps_results_and_not_sums() {
     for name in ["nv20", "nv25"] {
         let mut card = Profile::named(name).unwrap();
-        assert_eq!((card.rules.format, card.rules.result_range), ("s3.8".parse().unwrap(), ResultRange::One));
+        assert_eq!((card.rules.format, card.rules.result_range), ("n3.8:rna".parse().unwrap(), ResultRange::One));
+        for (registers, format) in [("256ths", "s3.8:rna"), ("255ths", "n3.8:rna")] {
+            card.set_switch("registers", registers).unwrap();
+            assert_eq!((card.rules.format, card.rules.result_range), (format.parse().unwrap(), ResultRange::One));
+        }
         card.set_format(Format::FP16);
         assert_eq!(card.rules.result_range, ResultRange::Format);
         let range = card.figures().into_iter().find(|r| r.key == "rules.result-range").unwrap();
         assert_eq!(range.value, "format");
+        let registers = card.switches().iter().find(|switch| switch.name == "registers").unwrap();
+        assert_eq!((registers.current.as_str(), registers.default.as_str()), ("256ths", "255ths"));
+        assert!(matches!(card.set_switch("registers", "255ths"), Err(DeviceError::SwitchValue { .. })), "not in fp16");
     }
 }
 
@@ -158,7 +165,7 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 fx5800 fx5900 ideal-<format>");
     insta::assert_snapshot!(text(Profile::named("ideal-q7")), @"device `ideal-q7`: expected a number format after `ideal-`");
     let mut nv20 = Profile::named("nv20").unwrap();
-    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of border-storage color-clamp color-iterator constants depth-rounding dot filter-arithmetic filter-fraction-bits filter-weight-rounding lod-fraction-bits lrp mad mipmap-rounding missing-channels rounding signed-texel-minimum subpixel-bits subpixel-rounding target-rounding texcrd-overflow texel-values vertex-format vertex-zero-times-anything");
+    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of border-storage color-clamp color-iterator constants depth-rounding dot filter-arithmetic filter-fraction-bits filter-weight-rounding lod-fraction-bits lrp mad mipmap-rounding missing-channels registers rounding signed-texel-minimum subpixel-bits subpixel-rounding target-rounding texcrd-overflow texel-values vertex-format vertex-zero-times-anything");
     insta::assert_snapshot!(nv20.set_switch("mad", "x").unwrap_err(), @"switch `mad` of device `nv20`: expected one of two-roundings fused, found `x`");
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }

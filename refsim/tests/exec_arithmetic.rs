@@ -94,7 +94,7 @@ fn vectors(seed: &mut u64) -> [[f32; 4]; 3] {
 
 fn profiles() -> Vec<Profile> {
     let mut out = Vec::new();
-    for format in ["s3.12", "s3.12:rdn:wrap", "e5m10", "e7m16:rtz:ftz", "e8m23"] {
+    for format in ["s3.12", "s3.12:rdn:wrap", "n3.8:rna", "e5m10", "e7m16:rtz:ftz", "e8m23"] {
         for (mad, dot, lrp) in [("two-roundings", "sequential", "sub-mul-add"), ("fused", "exact", "two-products")] {
             let mut profile = ideal(format);
             profile.set_switch("mad", mad).unwrap();

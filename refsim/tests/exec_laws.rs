@@ -18,7 +18,19 @@ use refsim::texture::{Filter, Image, SamplerState, TexelFormat, TextureKind};
 /// The cards, and some ideal devices with unusual formats.
 fn profiles() -> Vec<Profile> {
     let mut names: Vec<String> = Profile::card_names().into_iter().map(str::to_owned).collect();
-    for format in ["s3.12:rdn:wrap", "s0.7", "e5m10:nvovf:nv", "e2m1", "e7m16:rtz:ftz", "e8m23:sat", "s31.0", "s7.24"] {
+    let formats = [
+        "s3.12:rdn:wrap",
+        "s0.7",
+        "e5m10:nvovf:nv",
+        "e2m1",
+        "e7m16:rtz:ftz",
+        "e8m23:sat",
+        "s31.0",
+        "s7.24",
+        "n3.8:rna",
+        "n0.4:wrap",
+    ];
+    for format in formats {
         names.push(format!("ideal-{format}"));
     }
     names.iter().map(|n| Profile::named(n).unwrap()).collect()

@@ -230,7 +230,7 @@ fn results_of_nv2x_are_clamped_to_one() {
     let nv25 = Profile::named("nv25").unwrap();
     let c = [[0.75, -0.75, 0.5, -0.25], [1.0, 1.0, -1.0, 1.0], [1.0; 4]];
     let ran = run("ps_1_3\nmov r0, c0\nadd_d2 r1, r0, c0\nadd r0, r0, c0", &nv25, &c);
-    let s = |v| into("s3.8".parse().unwrap(), v);
+    let s = |v| into("n3.8:rna".parse().unwrap(), v);
     assert_eq!(ran.value(1), s([0.75, -0.75, 0.5, -0.25]), "scaled before it is clamped");
     assert_eq!(ran.value(2), s([1.0, -1.0, 1.0, -0.5]), "both ends belong to the range");
     let flags = |index| ran.steps.iter().find(|s| s.instruction == index).map(|s| s.flags);

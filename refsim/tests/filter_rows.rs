@@ -21,7 +21,7 @@ use sampling::switched;
 /// Width and height in pixels: a tile and a few more.
 const SIDE: u32 = 18;
 const ONE: u32 = 0x3f80_0000;
-const FORMATS: [&str; 14] = [
+const FORMATS: [&str; 16] = [
     "fp32",
     "fp24",
     "fp16",
@@ -35,6 +35,8 @@ const FORMATS: [&str; 14] = [
     "s1.10:rtz",
     "s0.31",
     "s3.12:wrap",
+    "n3.8:rna",
+    "n0.5:rtz",
     "bf16",
 ];
 const MODES: [AddressMode; 4] = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];

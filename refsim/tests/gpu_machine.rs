@@ -197,7 +197,7 @@ fn triangles(gpu: &Arc<Gpu>) {
 
 /// Every target and depth format and the whole output stage, in number formats of every kind.
 fn output_stage(gpu: &Arc<Gpu>) {
-    for (number, device) in ["fp32", "fp16", "fp24", "s3.12", "s7.24", "e4m3"].into_iter().enumerate() {
+    for (number, device) in ["fp32", "fp16", "fp24", "s3.12", "s7.24", "e4m3", "n3.8:rna"].into_iter().enumerate() {
         let mut profile = ideal(device);
         if number % 2 == 1 {
             profile.rules.target_rounding = TargetRounding::Truncate;

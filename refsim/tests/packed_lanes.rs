@@ -88,7 +88,7 @@ impl SmallTriangles {
             alpha: (r.below(4) == 0).then_some(AlphaTest { function, reference: 0x3e80_0000 }),
             mask: WriteMask(if r.below(3) == 0 { r.below(16) as u8 } else { 15 }),
             iterators: r.choose(&["fp32", "fp32", "fp32", "fp16", "s7.16"]),
-            register: r.choose(&["fp32", "fp24", "s3.12", "fp16:rtz"]),
+            register: r.choose(&["fp32", "fp24", "s3.12", "n3.8:rna", "fp16:rtz"]),
         }
     }
 }

@@ -43,7 +43,17 @@ impl Family {
             Self::S3_12 => {
                 &["s3.12", "s3.12:rna", "s3.12:rtz", "s3.12:rdn", "s3.12:wrap", "s3.12:rdn:wrap", "s3.12:rna:wrap"]
             }
-            Self::ShortFixed => &["s1.10", "s0.8", "s7.8", "s1.10:rtz", "s0.15:wrap", "s2.5:rna", "s1.6:rdn:wrap"],
+            Self::ShortFixed => &[
+                "s1.10",
+                "s0.8",
+                "s7.8",
+                "s1.10:rtz",
+                "s0.15:wrap",
+                "s2.5:rna",
+                "s1.6:rdn:wrap",
+                "n3.8:rna",
+                "n2.6:rtz",
+            ],
             Self::LongFixed => &["s7.16", "s15.16:rtz", "s0.31", "s8.20:rdn", "s15.0:rna", "s7.24:wrap"],
             Self::Fp16 => &["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "fp16:sat", "fp16:rna", "fp16:rdn:ftz"],
             Self::Fp24 => &["fp24", "fp24:ftz", "fp24:rtz", "fp24:rdn:sat", "fp24:rna", "fp24:nvovf:nv"],

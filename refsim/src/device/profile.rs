@@ -12,7 +12,7 @@ use super::rules::{
     ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
     TexelValues, TexkillComponents, WeightRounding,
 };
-use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, rounding_name};
+use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name, rounding_name};
 use crate::isa::Version;
 use crate::num::{DotOrder, Format};
 
@@ -217,6 +217,7 @@ impl Profile {
         let format = self.rules.format;
         for switch in &mut self.switches {
             let current = match switch.name.as_str() {
+                "registers" => registers_name(format).to_owned(),
                 "rounding" => rounding_name(format.rounding).to_owned(),
                 "overflow" => overflow_name(format.overflow).to_owned(),
                 "denormals" => denormals_name(format.denormals).to_owned(),

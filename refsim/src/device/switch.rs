@@ -6,7 +6,7 @@ use super::rules::{
     ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
     TexelValues, TexkillComponents, WeightRounding,
 };
-use crate::num::{Denormals, DotOrder, Format, Overflow, Rounding};
+use crate::num::{Denormals, DotOrder, Format, FormatKind, Overflow, Rounding};
 
 /// A switch: an unpublished property of the hardware, with several allowed values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,7 +62,27 @@ pub(super) const RULES: [&str; 29] = [
 ];
 
 /// Names of optional rules: they modify `format` (and `partial`).
-pub(super) const FORMAT_RULES: [&str; 3] = ["rounding", "overflow", "denormals"];
+pub(super) const FORMAT_RULES: [&str; 4] = ["registers", "rounding", "overflow", "denormals"];
+
+/// What fixed-point registers count in: a power of two, or one less.
+pub(super) fn registers_name(format: Format) -> &'static str {
+    if format.denominator() == 1 { "256ths" } else { "255ths" }
+}
+
+/// The format with 8 fraction bits in the other unit, or in the same; `None` for other formats.
+fn counted_in(format: Format, value: &str) -> Option<Format> {
+    let (FormatKind::Fixed { int_bits, frac_bits: 8 } | FormatKind::Normalized { int_bits, frac_bits: 8 }) =
+        format.kind
+    else {
+        return None;
+    };
+    let layout = match value {
+        "255ths" => Format::normalized(int_bits, 8),
+        "256ths" => Format::fixed(int_bits, 8),
+        _ => None,
+    }?;
+    Some(Format { kind: layout.kind, ..format })
+}
 
 /// Format suffix of a rounding rule.
 pub(super) fn rounding_name(rounding: Rounding) -> &'static str {
@@ -94,6 +114,7 @@ pub(super) fn denormals_name(denormals: Denormals) -> &'static str {
 
 fn set_format_rule(format: &mut Format, name: &str, value: &str) -> Option<()> {
     match name {
+        "registers" => *format = counted_in(*format, value)?,
         "rounding" => {
             let all = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
             format.rounding = all.into_iter().find(|r| rounding_name(*r) == value)?;
@@ -168,7 +189,7 @@ pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
         "texel-values" => rules.texel_values = TexelValues::from_name(value)?,
         "missing-channels" => rules.missing_channels = MissingChannels::from_name(value)?,
         "border-storage" => rules.border_storage = BorderStorage::from_name(value)?,
-        "rounding" | "overflow" | "denormals" => {
+        "registers" | "rounding" | "overflow" | "denormals" => {
             set_format_rule(&mut rules.format, name, value)?;
             if let Some(partial) = &mut rules.partial {
                 // fp16 of NV30 keeps its subnormals whatever fp32 does.

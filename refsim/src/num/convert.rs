@@ -3,7 +3,7 @@
 use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::{Denormals, Format};
-use super::round::{from_parts, infinite};
+use super::round::{infinite, round_quotient};
 use super::unpack::{Unpacked, nan_bits, unpack};
 
 /// Converts the number `bits` from format `from` to format `to`, rounding once by `to`'s rules.
@@ -18,20 +18,20 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
             Outcome::new(nan_bits(&to.format), if bad { Flags::INVALID } else { Flags::empty() })
         }
         Unpacked::Inf { sign } => infinite(&to.format, sign),
-        Unpacked::Finite { sign, sig, exp } => from_parts(to, sign, sig.into(), exp, false),
+        Unpacked::Finite { sign, sig, exp, den } => round_quotient(&to, sign, sig, exp, den.into()),
     }
 }
 
-/// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits; NaN and
-/// infinities are preserved.
+/// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits, but for
+/// normalized ones, which are rounded to the nearest; NaN and infinities are preserved.
 pub fn to_f64(format: &Format, bits: u32) -> f64 {
     // Subnormals keep their value even in flushing formats: this shows the stored number, not the operand.
     match unpack(&format.with_denormals(Denormals::Keep), bits) {
         Unpacked::Nan { .. } => f64::NAN,
         Unpacked::Inf { sign: true } => f64::NEG_INFINITY,
         Unpacked::Inf { sign: false } => f64::INFINITY,
-        Unpacked::Finite { sign, sig, exp } => {
-            let magnitude = sig as f64 * power_of_two(exp);
+        Unpacked::Finite { sign, sig, exp, den } => {
+            let magnitude = sig as f64 * power_of_two(exp) / f64::from(den);
             if sign { -magnitude } else { magnitude }
         }
     }

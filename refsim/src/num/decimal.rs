@@ -1,12 +1,11 @@
 //! Correctly rounded conversion between decimal text of any length and bits.
 
 use num_bigint::BigUint;
-use num_traits::{ToPrimitive, Zero};
 
 use super::env::Env;
 use super::flags::Outcome;
 use super::format::Format;
-use super::round::{from_parts, infinite, zero};
+use super::round::{from_parts, infinite, round_big, zero};
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// Number of significant digits read; later nonzero digits only set a sticky bit. The midpoint between two neighbours
@@ -144,29 +143,27 @@ fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
     if literal.point < -FAR {
         return from_parts(*env, negative, 0, -4 * FAR as i32, true);
     }
-    let ten = BigUint::from(10u32);
-    let digits = BigUint::from_radix_be(&literal.digits, 10).unwrap_or_default();
-    let scale = literal.point - count(&literal.digits);
-    let power = ten.pow(u32::try_from(scale.unsigned_abs()).unwrap_or(0));
+    let mut all = literal.digits.clone();
+    // Any further digit stands for those that were cut off.
+    all.extend(literal.more.then_some(1));
+    let digits = BigUint::from_radix_be(&all, 10).unwrap_or_default();
+    let scale = literal.point - count(&all);
+    let power = BigUint::from(10u32).pow(u32::try_from(scale.unsigned_abs()).unwrap_or(0));
     let (num, den) = if scale >= 0 { (digits * power, BigUint::from(1u32)) } else { (digits, power) };
-    // 66 quotient bits at least, down to 2^-40 at least.
-    let left = (den.bits() + 66).saturating_sub(num.bits()).max(40);
-    let scaled = num << left;
-    let quotient = &scaled / &den;
-    let mut sticky = literal.more || !(&scaled % &den).is_zero();
-    let drop = quotient.bits().saturating_sub(126);
-    sticky |= quotient.trailing_zeros().unwrap_or(0) < drop;
-    let kept = (quotient >> drop).to_u128().unwrap_or(0);
-    let exp = drop.cast_signed() - left.cast_signed();
-    if format.is_fixed() && exp > -40 {
+    if format.is_fixed() && &num >> 86 >= den {
         return too_large();
     }
-    from_parts(*env, negative, kept, exp as i32, sticky)
+    round_big(env, negative, &num, &den)
 }
 
 /// Formats the exact value of `bits` with all its digits and no exponent: `-0.333251953125`, `65504`, `-0`, `inf`,
-/// `nan`.
+/// `nan`. A normalized number that is no integer is a fraction: `37/255`.
 pub fn to_decimal_exact(format: &Format, bits: u32) -> String {
+    if let Unpacked::Finite { sign, sig, den, .. } = unpack(format, bits)
+        && sig % u64::from(den) != 0
+    {
+        return format!("{}{sig}/{den}", if sign { "-" } else { "" });
+    }
     let (sign, digits, point) = match expand(format, bits) {
         Ok(parts) => parts,
         Err(word) => return word.to_owned(),
@@ -194,19 +191,25 @@ pub fn to_decimal(format: &Format, bits: u32) -> String {
     compact(sign, &digits, point)
 }
 
+/// Decimal places of a normalized number that is no integer: more than distinguish all of a format.
+const PLACES: u32 = 20;
+
 /// Returns the sign, the digits without leading or trailing zeros, and the power of ten of the point as in [`Literal`].
+/// Those of a normalized number that is no integer are cut off after [`PLACES`] places.
 fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static str> {
-    let (sign, sig, exp) = match unpack(format, bits) {
+    let (sign, sig, exp, den) = match unpack(format, bits) {
         Unpacked::Nan { .. } => return Err("nan"),
         Unpacked::Inf { sign: true } => return Err("-inf"),
         Unpacked::Inf { sign: false } => return Err("inf"),
-        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+        Unpacked::Finite { sign, sig, exp, den } => (sign, sig, exp, den),
     };
     if sig == 0 {
         return Ok((sign, Vec::new(), 0));
     }
     // sig * 2^-n = sig * 5^n / 10^n
-    let (number, places) = if exp >= 0 {
+    let (number, places) = if den != 1 {
+        (BigUint::from(sig) * BigUint::from(10u32).pow(PLACES) / den, i64::from(PLACES))
+    } else if exp >= 0 {
         (BigUint::from(sig) << exp.unsigned_abs(), 0)
     } else {
         (BigUint::from(sig) * BigUint::from(5u32).pow(exp.unsigned_abs()), i64::from(exp.unsigned_abs()))

@@ -32,6 +32,14 @@ pub enum FormatKind {
         /// Fraction bits.
         frac_bits: u8,
     },
+    /// Normalized integers: two's complement, `1 + int_bits + frac_bits` bits (at most 16), in units of
+    /// `1 / (2^frac_bits - 1)`: `nI.F`. `n0.8` has the codes of an 8-bit texel channel, and their negatives.
+    Normalized {
+        /// Integer bits without the sign.
+        int_bits: u8,
+        /// Bits of the codes from 0 to 1, 2 to 8.
+        frac_bits: u8,
+    },
     /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits.
     Float {
         /// Exponent bits, 2 to 8; the bias is `2^(X-1) - 1` and the largest field means infinity or NaN.
@@ -131,6 +139,18 @@ impl Format {
         if total >= 1 && total <= 31 { Some(Format::fixed_unchecked(int_bits, frac_bits)) } else { None }
     }
 
+    /// A format of normalized integers with the default rules of fixed point, or `None` if `frac_bits` is not within 2
+    /// to 8 or `int_bits + frac_bits` is above 15.
+    pub const fn normalized(int_bits: u8, frac_bits: u8) -> Option<Format> {
+        if frac_bits >= 2 && frac_bits <= 8 && int_bits as u32 + frac_bits as u32 <= 15 {
+            let mut format = Format::fixed_unchecked(int_bits, frac_bits);
+            format.kind = FormatKind::Normalized { int_bits, frac_bits };
+            Some(format)
+        } else {
+            None
+        }
+    }
+
     /// A float format with the default rules, or `None` outside exponent 2 to 8 and mantissa 1 to 23 bits.
     pub const fn float(exp_bits: u8, man_bits: u8) -> Option<Format> {
         if exp_bits >= 2 && exp_bits <= 8 && man_bits >= 1 && man_bits <= 23 {
@@ -164,15 +184,27 @@ impl Format {
         self
     }
 
-    /// Returns `true` for fixed-point formats.
+    /// Returns `true` for fixed-point formats, normalized ones among them: a pattern is a two's complement integer in
+    /// units of the format, and there is one zero, no infinity and no NaN.
     pub const fn is_fixed(&self) -> bool {
-        matches!(self.kind, FormatKind::Fixed { .. })
+        !matches!(self.kind, FormatKind::Float { .. })
+    }
+
+    /// The odd part of what numbers are divided by: every number is an integer times a power of two, over this.
+    /// `2^frac_bits - 1` in normalized formats, else 1.
+    pub const fn denominator(&self) -> u32 {
+        match self.kind {
+            FormatKind::Normalized { frac_bits, .. } => (1 << frac_bits) - 1,
+            FormatKind::Fixed { .. } | FormatKind::Float { .. } => 1,
+        }
     }
 
     /// Width in bits, 2 to 32.
     pub const fn width(&self) -> u32 {
         match self.kind {
-            FormatKind::Fixed { int_bits, frac_bits } => 1 + int_bits as u32 + frac_bits as u32,
+            FormatKind::Fixed { int_bits, frac_bits } | FormatKind::Normalized { int_bits, frac_bits } => {
+                1 + int_bits as u32 + frac_bits as u32
+            }
             FormatKind::Float { exp_bits, man_bits } => 1 + exp_bits as u32 + man_bits as u32,
         }
     }
@@ -197,6 +229,7 @@ impl Format {
         match self.kind {
             FormatKind::Fixed { int_bits: 0, .. } => self.max_finite(),
             FormatKind::Fixed { frac_bits, .. } => 1 << frac_bits,
+            FormatKind::Normalized { .. } => self.denominator(),
             FormatKind::Float { exp_bits, man_bits } => ((1 << (exp_bits - 1)) - 1) << man_bits,
         }
     }
@@ -204,7 +237,7 @@ impl Format {
     /// The largest finite number.
     pub const fn max_finite(&self) -> u32 {
         match self.kind {
-            FormatKind::Fixed { .. } => self.sign_bit() - 1,
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => self.sign_bit() - 1,
             FormatKind::Float { man_bits, .. } => self.sign_bit() - 1 - (1 << man_bits),
         }
     }
@@ -212,7 +245,7 @@ impl Format {
     /// The most negative finite number.
     pub const fn min_finite(&self) -> u32 {
         match self.kind {
-            FormatKind::Fixed { .. } => self.sign_bit(),
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => self.sign_bit(),
             FormatKind::Float { .. } => self.sign_bit() | self.max_finite(),
         }
     }
@@ -225,7 +258,7 @@ impl Format {
     /// The pattern of an infinity; `None` in fixed point.
     pub const fn infinity(&self, negative: bool) -> Option<u32> {
         match self.kind {
-            FormatKind::Fixed { .. } => None,
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => None,
             FormatKind::Float { man_bits, .. } => {
                 let inf = self.sign_bit() - (1 << man_bits);
                 Some(if negative { inf | self.sign_bit() } else { inf })
@@ -236,7 +269,7 @@ impl Format {
     /// The NaN that operations return: positive, quiet, rest of the payload zero. `None` in fixed point.
     pub const fn canonical_nan(&self) -> Option<u32> {
         match self.kind {
-            FormatKind::Fixed { .. } => None,
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => None,
             FormatKind::Float { man_bits, .. } => Some((self.sign_bit() - (1 << man_bits)) | (1 << (man_bits - 1))),
         }
     }
@@ -244,7 +277,7 @@ impl Format {
     /// Returns `true` if the pattern is a NaN. Bits above the width are ignored.
     pub const fn is_nan(&self, bits: u32) -> bool {
         match self.kind {
-            FormatKind::Fixed { .. } => false,
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
             FormatKind::Float { man_bits, .. } => {
                 let magnitude = bits & (self.sign_bit() - 1);
                 magnitude > self.sign_bit() - (1 << man_bits)
@@ -255,7 +288,7 @@ impl Format {
     /// Returns `true` if the pattern is an infinity.
     pub const fn is_infinite(&self, bits: u32) -> bool {
         match self.kind {
-            FormatKind::Fixed { .. } => false,
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
             FormatKind::Float { man_bits, .. } => bits & (self.sign_bit() - 1) == self.sign_bit() - (1 << man_bits),
         }
     }
@@ -273,7 +306,7 @@ impl Format {
     /// Returns `true` if operations treat the pattern as zero: either zero, or a subnormal of a flushing format.
     pub const fn is_zero(&self, bits: u32) -> bool {
         match self.kind {
-            FormatKind::Fixed { .. } => bits & self.mask() == 0,
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => bits & self.mask() == 0,
             FormatKind::Float { .. } => {
                 let magnitude = bits & (self.sign_bit() - 1);
                 magnitude == 0 || (self.is_subnormal(bits) && matches!(self.denormals, Denormals::Flush))
@@ -284,7 +317,7 @@ impl Format {
     /// Returns `true` if the pattern is a subnormal float, whatever the denormal rule.
     pub const fn is_subnormal(&self, bits: u32) -> bool {
         match self.kind {
-            FormatKind::Fixed { .. } => false,
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
             FormatKind::Float { man_bits, .. } => {
                 let magnitude = bits & (self.sign_bit() - 1);
                 magnitude != 0 && magnitude < (1 << man_bits)

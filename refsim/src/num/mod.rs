@@ -6,18 +6,21 @@
 //! | string | meaning |
 //! |---|---|
 //! | `s3.12` | fixed point: sign, 3 integer and 12 fraction bits, two's complement |
+//! | `n3.8` | normalized integers: sign, 3 integer and 8 fraction bits, two's complement, in units of 1/255 |
 //! | `e5m10` | float: sign, 5 exponent and 10 mantissa bits, as IEEE 754 lays them out |
 //! | `ps14` `fx12` `fp16` `fp24` `fp32` `bf16` | `s3.12` `s1.10` `e5m10` `e7m16` `e8m23` `e8m7` |
 //! | `:rne` `:rna` `:rtz` `:rdn` | rounding: nearest even (default), nearest away, toward zero, down |
-//! | `:sat` `:wrap` | overflow in fixed point: saturate (default), wrap |
+//! | `:sat` `:wrap` | overflow in fixed point and normalized integers: saturate (default), wrap |
 //! | `:inf` `:sat` `:nvovf` | overflow in floats: IEEE (default), saturate, `NV_fragment_program` |
 //! | `:keep` `:ftz` | floats: subnormals kept (default), flushed to zero |
 //! | `:ieee` `:nv` | floats: special values as Direct3D 9 (default) or `NV_fragment_program` has them |
 //!
 //! Values are bit patterns in the low bits of a `u32`. An operation of [`ops`] takes a format and patterns and returns
 //! an [`Outcome`]: a pattern, and the exceptions as [`Flags`]. Its result is **the exact real result, rounded once**:
-//! an operation computes the exact magnitude (or enough leading bits and a sticky bit), and [`from_parts`], the only
-//! function that rounds, encodes it. Operations with intermediate roundings have names of their own: [`ops::mad`] has
+//! an operation computes the exact magnitude (or enough leading bits and a sticky bit), and one function rounds and
+//! encodes it ([`from_parts`] is its public face). Numbers of a normalized format are integers over
+//! [`Format::denominator`]: that function counts in units of the format, operations give it what they find in those
+//! units, and only `round_quotient` divides. Operations with intermediate roundings have names of their own: [`ops::mad`] has
 //! two roundings, [`ops::fused_mad`] has one, and [`ops::dot`] takes the order of summation.
 //!
 //! [`NumberOperation`] enumerates the operations.

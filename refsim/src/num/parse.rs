@@ -1,4 +1,4 @@
-//! Parsing and printing of format strings: `s3.12`, `e5m10:rtz`, `fp24:rne:ftz`.
+//! Parsing and printing of format strings: `s3.12`, `n3.8:rna`, `e5m10:rtz`, `fp24:rne:ftz`.
 
 use std::fmt;
 use std::str::FromStr;
@@ -21,9 +21,12 @@ const ALIASES: [(&str, Format); 6] = [
 pub enum FormatError {
     /// The part before the first colon is not a layout.
     #[error(
-        "number format `{text}`: expected a layout `sI.F`, `eXmY` or one of ps14, fx12, fp16, fp24, fp32, bf16, found `{found}`"
+        "number format `{text}`: expected a layout `sI.F`, `nI.F`, `eXmY` or one of ps14, fx12, fp16, fp24, fp32, bf16, found `{found}`"
     )]
-    #[diagnostic(code(num::format_layout), help("write for example `s3.12` (fixed point) or `e5m10` (float)"))]
+    #[diagnostic(
+        code(num::format_layout),
+        help("write for example `s3.12` (fixed point), `n3.8` (normalized integers) or `e5m10` (float)")
+    )]
     Layout {
         /// The whole string.
         text: String,
@@ -32,7 +35,10 @@ pub enum FormatError {
     },
     /// A layout whose bit counts are out of range.
     #[error("number format `{text}`: expected {expected}, found `{found}`")]
-    #[diagnostic(code(num::format_range), help("fixed point goes up to 32 bits, floats from `e2m1` to `e8m23`"))]
+    #[diagnostic(
+        code(num::format_range),
+        help("fixed point goes up to 32 bits, normalized integers up to 16, floats from `e2m1` to `e8m23`")
+    )]
     Range {
         /// The whole string.
         text: String,
@@ -105,7 +111,7 @@ impl FromStr for Format {
     }
 }
 
-/// `sI.F`, `eXmY` or an alias.
+/// `sI.F`, `nI.F`, `eXmY` or an alias.
 fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
     if let Some((_, format)) = ALIASES.iter().find(|(name, _)| *name == layout) {
         return Ok(*format);
@@ -113,6 +119,10 @@ fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
     let range = |expected| FormatError::Range { text: text.to_owned(), found: layout.to_owned(), expected };
     if let Some((i, f)) = split_counts(layout, 's', '.') {
         return Format::fixed(i, f).ok_or_else(|| range("1 to 31 integer and fraction bits together"));
+    }
+    if let Some((i, f)) = split_counts(layout, 'n', '.') {
+        return Format::normalized(i, f)
+            .ok_or_else(|| range("2 to 8 fraction bits, and 15 integer and fraction bits together"));
     }
     if let Some((x, m)) = split_counts(layout, 'e', 'm') {
         return Format::float(x, m).ok_or_else(|| range("2 to 8 exponent and 1 to 23 mantissa bits"));
@@ -173,6 +183,7 @@ impl fmt::Display for Format {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut text = match self.kind {
             FormatKind::Fixed { int_bits, frac_bits } => format!("s{int_bits}.{frac_bits}"),
+            FormatKind::Normalized { int_bits, frac_bits } => format!("n{int_bits}.{frac_bits}"),
             FormatKind::Float { exp_bits, man_bits } => format!("e{exp_bits}m{man_bits}"),
         };
         text.push_str(match self.rounding {

@@ -1,5 +1,8 @@
 //! Rounding: encodes an exact magnitude as bits and flags.
 
+use num_bigint::BigUint;
+use num_traits::{ToPrimitive, Zero};
+
 use super::env::{Env, Tininess};
 use super::flags::{Flags, Outcome};
 use super::format::{Denormals, Format, FormatKind, Overflow, Rounding};
@@ -8,34 +11,74 @@ use super::format::{Denormals, Format, FormatKind, Overflow, Rounding};
 const FAR: i32 = 1 << 20;
 
 /// Rounds `(-1)^sign * v` once into the format, where `v = sig * 2^exp`, or with `sticky` some `v` strictly between
-/// `sig * 2^exp` and `(sig + 1) * 2^exp`. With `sticky`, `2^exp` must be at most half a unit in the last place of the
-/// result; otherwise the result is not determined.
+/// `sig * 2^exp` and `(sig + 1) * 2^exp`. With `sticky` there must be no number of the format, and no midpoint of two,
+/// strictly between these two, otherwise the result is not determined: `2^exp` is at most half a unit in the last place
+/// of the result.
 pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: bool) -> Outcome {
     let env = env.into();
+    // A denominator has 8 bits at most: what it moves out of the word is below every unit in the last place.
+    let den = u128::from(env.format.denominator());
+    match sig.checked_mul(den) {
+        Some(sig) => in_units(&env, sign, sig, exp, sticky),
+        None => {
+            let low = (sig & 0xff) * den;
+            in_units(&env, sign, (sig >> 8) * den + (low >> 8), exp + 8, sticky || low & 0xff != 0)
+        }
+    }
+}
+
+/// Rounds `(-1)^sign * sig * 2^exp / den` once into the format; `den` is not zero, and `sig` times the format's
+/// denominator below `2^64`. The one place where a denominator is divided by.
+#[inline]
+pub(crate) fn round_quotient(env: &Env, sign: bool, sig: u64, exp: i32, den: u64) -> Outcome {
+    let unit = u64::from(env.format.denominator());
+    let (sig, den) = match den {
+        _ if den == unit => (sig, 1),
+        _ if den == unit * unit => (sig, unit),
+        _ => (sig * unit, den),
+    };
+    if den == 1 || sig == 0 {
+        return round(env, sign, sig, exp, false);
+    }
+    // With the dividend's leading bit at 2^63 a float's quotient has 40 bits or more; in fixed point its last bit is
+    // 2^-32 or less, half a unit of the finest format.
+    let left = sig.leading_zeros();
+    let dividend = sig << left;
+    round(env, sign, dividend / den, exp - left.cast_signed(), dividend % den != 0)
+}
+
+/// [`from_parts`] of `sig * 2^exp` over the format's denominator.
+pub(crate) fn in_units(env: &Env, sign: bool, sig: u128, exp: i32, sticky: bool) -> Outcome {
     if sig >> 64 == 0 {
-        return round(&env, sign, sig as u64, exp, sticky);
+        return round(env, sign, sig as u64, exp, sticky);
     }
     let exp = exp.clamp(-FAR, FAR);
     match env.format.kind {
         FormatKind::Fixed { int_bits, frac_bits } => {
             round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, sig, exp, sticky)
         }
+        FormatKind::Normalized { int_bits, frac_bits } => {
+            round_fixed(&env.format, int_bits + frac_bits, 0, sign, sig, exp, sticky)
+        }
         FormatKind::Float { exp_bits, man_bits } => {
             // Rounding needs only 64 leading bits and a sticky bit.
             let drop = 64 - sig.leading_zeros();
             let lost = sig & ((1 << drop) - 1) != 0;
-            round_float(&env, exp_bits, man_bits, sign, (sig >> drop) as u64, exp + drop.cast_signed(), sticky | lost)
+            round_float(env, exp_bits, man_bits, sign, (sig >> drop) as u64, exp + drop.cast_signed(), sticky | lost)
         }
     }
 }
 
-/// [`from_parts`] for magnitudes of 64 bits: the common case.
+/// [`in_units`] for magnitudes of 64 bits: the common case.
 #[inline]
 pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
     let exp = exp.clamp(-FAR, FAR);
     match env.format.kind {
         FormatKind::Fixed { int_bits, frac_bits } => {
             round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, u128::from(sig), exp, sticky)
+        }
+        FormatKind::Normalized { int_bits, frac_bits } => {
+            round_fixed(&env.format, int_bits + frac_bits, 0, sign, u128::from(sig), exp, sticky)
         }
         FormatKind::Float { exp_bits, man_bits } => round_float(env, exp_bits, man_bits, sign, sig, exp, sticky),
     }
@@ -197,12 +240,11 @@ pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> 
         _ => {}
     }
     if num >> 32 == 0 && den >> 32 == 0 {
-        // At least 32 quotient bits, down to at least 2^-32: enough for every format.
-        let shift = (num as u64).leading_zeros();
-        let scaled = (num as u64) << shift;
-        let (quotient, rest) = (scaled / den as u64, scaled % den as u64);
-        return from_parts(env, negative, u128::from(quotient), -shift.cast_signed(), rest != 0);
+        return round_quotient(&env, negative, num as u64, 0, den as u64);
     }
+    let Some(num) = num.checked_mul(env.format.denominator().into()) else {
+        return round_big(&env, negative, &num.into(), &den.into());
+    };
     let shift = num.leading_zeros();
     let scaled = num << shift;
     let (mut quotient, mut rest) = (scaled / den, scaled % den);
@@ -214,5 +256,18 @@ pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> 
         quotient = quotient << 1 | u128::from(bit);
         exp -= 1;
     }
-    from_parts(env, negative, quotient, exp, rest != 0)
+    in_units(&env, negative, quotient, exp, rest != 0)
+}
+
+/// `num / den`, neither of them zero, rounded once.
+pub(crate) fn round_big(env: &Env, negative: bool, num: &BigUint, den: &BigUint) -> Outcome {
+    let num = num * env.format.denominator();
+    // 66 quotient bits at least, down to 2^-40 at least.
+    let left = (den.bits() + 66).saturating_sub(num.bits()).max(40);
+    let scaled = num << left;
+    let quotient = &scaled / den;
+    let drop = quotient.bits().saturating_sub(126);
+    let sticky = quotient.trailing_zeros().unwrap_or(0) < drop || !(&scaled % den).is_zero();
+    let kept = (quotient >> drop).to_u128().unwrap_or(0);
+    in_units(env, negative, kept, (drop.cast_signed() - left.cast_signed()) as i32, sticky)
 }

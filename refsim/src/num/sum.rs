@@ -3,9 +3,9 @@
 use super::env::Env;
 use super::flags::Outcome;
 use super::format::Rounding;
-use super::round::{from_parts, round, zero};
+use super::round::{in_units, round_quotient, zero};
 
-/// `(-1)^sign * sig * 2^exp`, exact; `sig` below `2^64`.
+/// `(-1)^sign * sig * 2^exp` over a denominator that the terms of a sum share, exact; `sig` below `2^64`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Term {
     pub(crate) sign: bool,
@@ -18,17 +18,22 @@ pub(crate) fn cancelled(env: &Env) -> bool {
     env.format.rounding == Rounding::Down
 }
 
-/// `a + b`, rounded once.
+/// `a + b` in units of the format, rounded once.
 pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
+    sum_over(env, a, b, env.format.denominator().into())
+}
+
+/// `(a + b) / den`, rounded once; `den` is 1 where terms have exponents, and the sum fits in one word where it is not.
+pub(crate) fn sum_over(env: &Env, a: Term, b: Term, den: u64) -> Outcome {
     if a.sig == 0 && b.sig == 0 {
         let sign = if a.sign == b.sign { a.sign } else { cancelled(env) };
         return zero(&env.format, sign);
     }
     if b.sig == 0 {
-        return round(env, a.sign, a.sig, a.exp, false);
+        return round_quotient(env, a.sign, a.sig, a.exp, den);
     }
     if a.sig == 0 {
-        return round(env, b.sign, b.sig, b.exp, false);
+        return round_quotient(env, b.sign, b.sig, b.exp, den);
     }
     let (high, low) = if a.exp >= b.exp { (a, b) } else { (b, a) };
     let distance = high.exp.abs_diff(low.exp);
@@ -37,7 +42,7 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
         let signed = |negative: bool, sig: u64| if negative { -sig.cast_signed() } else { sig.cast_signed() };
         let total = signed(high.sign, high.sig << distance) + signed(low.sign, low.sig);
         let sign = if total == 0 { cancelled(env) } else { total < 0 };
-        return round(env, sign, total.unsigned_abs(), low.exp, false);
+        return round_quotient(env, sign, total.unsigned_abs(), low.exp, den);
     }
     // Left shift of the higher term (two bits stay free for the carry) and right shift of the lower one.
     let left = distance.min(u128::from(high.sig).leading_zeros() - 2);
@@ -49,15 +54,15 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
     let low_sig = u128::from(low_sig);
     let exp = high.exp - left.cast_signed();
     if high.sign == low.sign {
-        return from_parts(*env, high.sign, high_sig + low_sig, exp, sticky);
+        return in_units(env, high.sign, high_sig + low_sig, exp, sticky);
     }
     if high_sig == low_sig && !sticky {
         return zero(&env.format, cancelled(env));
     }
     if high_sig >= low_sig {
         // The dropped bits make the difference smaller by less than one unit.
-        from_parts(*env, high.sign, high_sig - low_sig - u128::from(sticky), exp, sticky)
+        in_units(env, high.sign, high_sig - low_sig - u128::from(sticky), exp, sticky)
     } else {
-        from_parts(*env, low.sign, low_sig - high_sig, exp, false)
+        in_units(env, low.sign, low_sig - high_sig, exp, false)
     }
 }

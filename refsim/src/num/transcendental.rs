@@ -2,8 +2,9 @@
 //!
 //! An irrational value is enclosed between two integers in units of `2^-places`. If both ends round to the same bits
 //! and flags, so does the value between them (rounding is monotone); if not, the enclosure is recomputed with twice the
-//! places (Ziv's strategy). Exact results are handled separately, so the loop ends: `2^x` is irrational for every
-//! rational `x` that isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
+//! places (Ziv's strategy). What is rounded is the enclosure times the format's denominator, since rounding counts in
+//! units of the format. Exact results are handled separately, so the loop ends: `2^x` is irrational for every rational
+//! `x` that isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
 
 mod circle;
 mod enclose;
@@ -16,7 +17,7 @@ use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::{FormatKind, Overflow, Specials};
 use super::ops::mul;
-use super::round::{divide_by_zero, from_parts, infinite, zero};
+use super::round::{divide_by_zero, from_parts, in_units, infinite, zero};
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// Numbers of places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24
@@ -28,37 +29,38 @@ pub fn exp2(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     let format = &env.format;
     let value = unpack(format, x);
-    let (sign, sig, exp) = match value {
+    let (sign, sig, exp, den) = match value {
         Unpacked::Nan { .. } => return nan_result(format, &[value]),
         Unpacked::Inf { sign: false } => return infinite(format, false),
         Unpacked::Inf { sign: true } => return zero(format, false),
-        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+        Unpacked::Finite { sign, sig, exp, den } => (sign, sig, exp, den),
     };
-    let whole = floor_clamped(sign, sig, exp);
+    let whole = floor_clamped(sign, sig, exp, den);
     // An overflowing exponential has no residue to wrap to, so it saturates.
-    if let FormatKind::Fixed { int_bits, .. } = format.kind
+    if let FormatKind::Fixed { int_bits, .. } | FormatKind::Normalized { int_bits, .. } = format.kind
         && format.overflow == Overflow::Wrap
         && whole >= i32::from(int_bits)
     {
         return Outcome::new(format.max_finite(), Flags::OVERFLOW | Flags::INEXACT);
     }
     // An integer exponent: the result is an exact power of two.
-    if exp >= 0 || sig == 0 || sig.trailing_zeros() >= exp.unsigned_abs() {
+    let integral = exp >= 0 || sig == 0 || sig.trailing_zeros() >= exp.unsigned_abs();
+    if integral && sig.is_multiple_of(den.into()) {
         return from_parts(env, false, 1, whole, false);
     }
-    let quick = enclose::exp2_quick(sign, sig, exp);
+    let quick = enclose::exp2_quick(sign, sig, exp, den);
     decide_quick(&env, quick.low, quick.high, quick.exp + whole).unwrap_or_else(|| {
         decide_long(&env, |places| {
-            let long = enclose::exp2_long(sign, sig, exp, places);
+            let long = enclose::exp2_long(sign, sig, exp, den, places);
             Enclosure { exp: long.exp + whole, ..long }
         })
     })
 }
 
 /// `floor(x)`, clamped to +-2^20: beyond that every format overflows or underflows.
-fn floor_clamped(sign: bool, sig: u64, exp: i32) -> i32 {
+fn floor_clamped(sign: bool, sig: u64, exp: i32, den: u32) -> i32 {
     const FAR: i64 = 1 << 20;
-    let value = if sign { -i128::from(sig) } else { i128::from(sig) };
+    let value = if sign { -i128::from(sig) } else { i128::from(sig) }.div_euclid(den.into());
     let floor = if exp >= 0 { value << exp.min(60) } else { value >> exp.unsigned_abs().min(100) };
     i32::try_from(floor.clamp(-i128::from(FAR), i128::from(FAR))).unwrap_or(0)
 }
@@ -78,22 +80,30 @@ pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sig: 0, .. } => divide_by_zero(format, true),
         Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } if !magnitude => invalid(format),
         Unpacked::Inf { .. } => infinite(format, false),
-        Unpacked::Finite { sig, exp, .. } => {
-            let top = 63 - sig.leading_zeros().cast_signed();
-            let whole = exp + top;
+        Unpacked::Finite { sig, exp, den, .. } => {
+            let den = u64::from(den);
             // The logarithm of a power of two is an exact integer.
-            if sig.is_power_of_two() {
+            if sig.is_multiple_of(den) && (sig / den).is_power_of_two() {
+                let whole = exp + (sig / den).ilog2().cast_signed();
                 return from_parts(env, whole < 0, whole.unsigned_abs().into(), 0, false);
             }
-            let quick = enclose::log2_quick(sig);
+            // The difference of two logarithms; that of 1 is 0.
+            let whole = exp + sig.ilog2().cast_signed() - den.ilog2().cast_signed();
+            let [quick, less] = [enclose::log2_quick(sig), enclose::log2_quick(den)];
             let base = i128::from(whole) << quick.exp.unsigned_abs();
-            decide_quick(&env, base + quick.low, base + quick.high, quick.exp).unwrap_or_else(|| {
-                decide_long(&env, |places| {
-                    let long = enclose::log2_long(sig, places);
-                    let base = BigInt::from(whole) << places;
-                    Enclosure { low: &base + long.low, high: base + long.high, exp: long.exp }
-                })
-            })
+            decide_quick(&env, base + quick.low - less.high, base + quick.high - less.low, quick.exp).unwrap_or_else(
+                || {
+                    decide_long(&env, |places| {
+                        let [long, less] = [enclose::log2_long(sig, places), enclose::log2_long(den, places)];
+                        let base = BigInt::from(whole) << places;
+                        Enclosure {
+                            low: &base + long.low - less.high,
+                            high: base + long.high - less.low,
+                            exp: long.exp,
+                        }
+                    })
+                },
+            )
         }
     }
 }
@@ -117,8 +127,8 @@ fn circular(env: Env, x: u32, sine: bool) -> Outcome {
         Unpacked::Inf { .. } => invalid(format),
         Unpacked::Finite { sign, sig: 0, .. } if sine => zero(format, sign),
         Unpacked::Finite { sig: 0, .. } => from_parts(env, false, 1, 0, false),
-        Unpacked::Finite { sign, sig, exp } => {
-            decide_long(&env, |places| circle::circular(sine, sign, sig, exp, places))
+        Unpacked::Finite { sign, sig, exp, den } => {
+            decide_long(&env, |places| circle::circular(sine, sign, sig, exp, den, places))
         }
     }
 }
@@ -141,9 +151,10 @@ fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
         (_, true) => (true, -high, -low),
         _ => return None,
     };
+    let den = u128::from(env.format.denominator());
     // The value's floor is one of near ..= far - 1.
-    let first = from_parts(*env, sign, near.unsigned_abs(), exp, true);
-    let last = from_parts(*env, sign, (far - 1).unsigned_abs(), exp, true);
+    let first = in_units(env, sign, near.unsigned_abs() * den, exp, true);
+    let last = in_units(env, sign, far.unsigned_abs() * den - 1, exp, true);
     (first == last).then_some(first)
 }
 
@@ -152,6 +163,8 @@ fn decide_long(env: &Env, enclosure: impl Fn(u32) -> Enclosure<BigInt>) -> Outco
     let mut best = Outcome::exact(0);
     for places in PLACES {
         let Enclosure { low, high, exp } = enclosure(places);
+        let den = env.format.denominator();
+        let (low, high) = (low * den, high * den);
         let (sign, near, far) = match (low >= BigInt::ZERO, high <= BigInt::ZERO) {
             (true, _) => (false, low, high),
             (_, true) => (true, -high, -low),
@@ -165,10 +178,10 @@ fn decide_long(env: &Env, enclosure: impl Fn(u32) -> Enclosure<BigInt>) -> Outco
     best
 }
 
-/// Rounds a value strictly between `floor * 2^exp` and `(floor + 1) * 2^exp`.
+/// Rounds a value strictly between `floor * 2^exp` and `(floor + 1) * 2^exp`, in units of the format.
 fn round_big(env: &Env, sign: bool, floor: &BigInt, exp: i32) -> Outcome {
     let magnitude = floor.magnitude();
     let drop = magnitude.bits().saturating_sub(120);
     let kept = (magnitude >> drop).to_u128().unwrap_or(0);
-    from_parts(*env, sign, kept, exp + i32::try_from(drop).unwrap_or(0), true)
+    in_units(env, sign, kept, exp + i32::try_from(drop).unwrap_or(0), true)
 }

@@ -17,7 +17,7 @@ pub enum Unpacked {
         /// Negative.
         sign: bool,
     },
-    /// `(-1)^sign * sig * 2^exp`; `sig` need not be normalised, and zero has a sign in floats.
+    /// `(-1)^sign * sig * 2^exp / den`; `sig` need not be normalised, and zero has a sign in floats.
     Finite {
         /// Negative, or -0.
         sign: bool,
@@ -25,6 +25,8 @@ pub enum Unpacked {
         sig: u64,
         /// Exponent of the unit.
         exp: i32,
+        /// [`Format::denominator`] of the number's format: 1 but in normalized formats.
+        den: u32,
     },
 }
 
@@ -34,9 +36,10 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
     let bits = bits & format.mask();
     let sign = format.is_negative(bits);
     match format.kind {
-        FormatKind::Fixed { frac_bits, .. } => {
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => {
             let sig = if sign { (1u64 << format.width()) - u64::from(bits) } else { u64::from(bits) };
-            Unpacked::Finite { sign, sig, exp: -i32::from(frac_bits) }
+            let exp = if let FormatKind::Fixed { frac_bits, .. } = format.kind { -i32::from(frac_bits) } else { 0 };
+            Unpacked::Finite { sign, sig, exp, den: format.denominator() }
         }
         FormatKind::Float { exp_bits, man_bits } => {
             let bias = (1 << (exp_bits - 1)) - 1;
@@ -51,9 +54,10 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
             let unit = 1 - bias - i32::from(man_bits);
             if field == 0 {
                 let sig = if format.denormals == Denormals::Flush { 0 } else { u64::from(man) };
-                return Unpacked::Finite { sign, sig, exp: unit };
+                return Unpacked::Finite { sign, sig, exp: unit, den: 1 };
             }
-            Unpacked::Finite { sign, sig: u64::from(man | 1 << man_bits), exp: unit + field.cast_signed() - 1 }
+            let sig = u64::from(man | 1 << man_bits);
+            Unpacked::Finite { sign, sig, exp: unit + field.cast_signed() - 1, den: 1 }
         }
     }
 }
@@ -93,7 +97,9 @@ pub(crate) fn key(format: &Format, bits: u32) -> i64 {
     let bits = pass(format, bits);
     let negative = format.is_negative(bits);
     match format.kind {
-        FormatKind::Fixed { .. } if negative => i64::from(bits) - (1i64 << format.width()),
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } if negative => {
+            i64::from(bits) - (1i64 << format.width())
+        }
         FormatKind::Float { .. } if negative => -i64::from(bits & (format.sign_bit() - 1)),
         _ => i64::from(bits),
     }

@@ -51,13 +51,18 @@ impl DepthFormat {
     /// Patterns of a format have the order of their depths. `rounding` applies to the fixed-point formats; the float
     /// formats round to nearest, ties to even.
     pub fn quantise(self, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
-        let (significand, exponent) = match value::exact(from, bits) {
-            Exact::Nan | Exact::Infinite { negative: true } | Exact::Finite { negative: true, .. } => (0, 0),
-            Exact::Infinite { negative: false } => (1, 0),
-            Exact::Finite { significand, exponent, .. } => (significand, exponent),
+        let (significand, exponent, denominator) = match value::exact(from, bits) {
+            Exact::Nan | Exact::Infinite { negative: true } | Exact::Finite { negative: true, .. } => (0, 0, 1),
+            Exact::Infinite { negative: false } => (1, 0, 1),
+            Exact::Finite { significand, exponent, denominator, .. } => (significand, exponent, denominator),
         };
         let nearest = rounding == TargetRounding::Nearest;
-        let unorm = |scale: u64| value::scaled_magnitude(significand, exponent, scale, nearest).min(scale) as u32;
+        let unorm = |scale: u64| value::scaled_magnitude(significand, exponent, denominator, scale, nearest) as u32;
+        // Of a quotient, 32 bits and one that stands for the rest: more than the floats round at.
+        let (significand, exponent) = match u64::from(denominator) {
+            1 => (significand, exponent),
+            d => ((significand << 32) / d | u64::from(!(significand << 32).is_multiple_of(d)), exponent - 32),
+        };
         match self {
             Self::Unorm16 => unorm(0xffff),
             Self::Unorm24 => unorm(0x00ff_ffff),

@@ -110,16 +110,18 @@ pub fn encode_channel(channel: Channel, from: Format, bits: u32, rounding: Targe
     }
     let signed = channel.class != ChannelClass::Unorm;
     let nearest = rounding == TargetRounding::Nearest;
-    let (negative, significand, exponent) = match value::exact(from, bits) {
+    let (negative, significand, exponent, denominator) = match value::exact(from, bits) {
         Exact::Nan => return 0,
-        Exact::Infinite { negative } => (negative, 1, 0),
-        Exact::Finite { negative, significand, exponent } => (negative, significand, exponent),
+        Exact::Infinite { negative } => (negative, 1, 0, 1),
+        Exact::Finite { negative, significand, exponent, denominator } => {
+            (negative, significand, exponent, denominator)
+        }
     };
     if negative && !signed {
         return 0;
     }
     let scale = steps(channel, negative);
-    let magnitude = value::scaled_magnitude(significand, exponent, scale, nearest).min(scale) as u32;
+    let magnitude = value::scaled_magnitude(significand, exponent, denominator, scale, nearest) as u32;
     signed_bits(channel, negative, magnitude)
 }
 

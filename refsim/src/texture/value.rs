@@ -88,7 +88,7 @@ pub(crate) enum Exact {
         /// Below zero.
         negative: bool,
     },
-    /// `significand * 2^exponent`
+    /// `significand * 2^exponent / denominator`
     Finite {
         /// Below zero (or -0).
         negative: bool,
@@ -96,6 +96,8 @@ pub(crate) enum Exact {
         significand: u64,
         /// Power of two.
         exponent: i32,
+        /// 1, but for numbers of normalized formats.
+        denominator: u32,
     },
 }
 
@@ -104,7 +106,9 @@ pub(crate) fn exact(format: Format, bits: u32) -> Exact {
     match num::unpack(&format, bits) {
         num::Unpacked::Nan { .. } => Exact::Nan,
         num::Unpacked::Inf { sign } => Exact::Infinite { negative: sign },
-        num::Unpacked::Finite { sign, sig, exp } => Exact::Finite { negative: sign, significand: sig, exponent: exp },
+        num::Unpacked::Finite { sign, sig, exp, den } => {
+            Exact::Finite { negative: sign, significand: sig, exponent: exp, denominator: den }
+        }
     }
 }
 
@@ -116,8 +120,11 @@ pub(crate) fn exact32(bits: u32) -> Exact {
     match field {
         255 if fraction != 0 => Exact::Nan,
         255 => Exact::Infinite { negative },
-        0 => Exact::Finite { negative, significand: fraction, exponent: -149 },
-        _ => Exact::Finite { negative, significand: fraction | 0x0080_0000, exponent: field - 150 },
+        0 => Exact::Finite { negative, significand: fraction, exponent: -149, denominator: 1 },
+        _ => {
+            let significand = fraction | 0x0080_0000;
+            Exact::Finite { negative, significand, exponent: field - 150, denominator: 1 }
+        }
     }
 }
 
@@ -126,7 +133,7 @@ pub(crate) fn exact32(bits: u32) -> Exact {
 ///
 /// `factor` is at most 2^16 and `fraction_bits` at most 16; results saturate at 2^62 in magnitude.
 pub(crate) fn scaled_floor(bits: u32, factor: u32, fraction_bits: u32, round: bool) -> i64 {
-    let Exact::Finite { negative, significand, exponent } = exact32(bits) else {
+    let Exact::Finite { negative, significand, exponent, .. } = exact32(bits) else {
         return 0;
     };
     if significand == 0 {
@@ -147,20 +154,23 @@ pub(crate) fn scaled_floor(bits: u32, factor: u32, fraction_bits: u32, round: bo
     result.clamp(-(1 << 62), 1 << 62) as i64
 }
 
-/// Rounds `value * scale` to an integer, for values of magnitude at most 1.
+/// Rounds `significand * 2^exponent / denominator * scale` to an integer, at most `scale`.
 ///
 /// Halves round away from zero if `nearest`; otherwise the fraction is truncated.
-pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, scale: u64, nearest: bool) -> u64 {
+pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, denominator: u32, scale: u64, nearest: bool) -> u64 {
     let product = u128::from(significand) * u128::from(scale);
-    if exponent >= 0 {
-        return (product << exponent.min(40)).min(u128::from(scale)) as u64;
-    }
-    let shift = exponent.unsigned_abs();
+    let shift = exponent.min(0).unsigned_abs();
     if shift > 100 {
         return 0;
     }
-    let half = if nearest { 1u128 << (shift - 1) } else { 0 };
-    ((product + half) >> shift) as u64
+    // Halves, so that the last bit says whether half a step is reached.
+    let halves = if denominator == 1 {
+        (product << (1 + exponent.clamp(0, 40))) >> shift
+    } else {
+        // Normalized numbers have no exponents.
+        2 * product / u128::from(denominator)
+    };
+    ((halves + u128::from(nearest)) / 2).min(u128::from(scale)) as u64
 }
 
 /// `value / 2^bits` as FP32; exact for magnitudes below 2^24 and `bits` at most 16.

@@ -8,6 +8,7 @@
 mod adapter;
 mod blending;
 mod colors;
+mod combiners;
 mod coverage;
 mod depth;
 mod draws;
@@ -26,7 +27,16 @@ const CARDS: [&str; 2] = ["nv20", "nv25"];
 
 /// Rules of all topics, in the order of the page.
 fn topics() -> Vec<Rule> {
-    [coverage::rules(), depth::rules(), colors::rules(), blending::rules(), texels::rules(), filters::rules()].concat()
+    [
+        coverage::rules(),
+        depth::rules(),
+        colors::rules(),
+        blending::rules(),
+        combiners::rules(),
+        texels::rules(),
+        filters::rules(),
+    ]
+    .concat()
 }
 
 fn main() -> std::process::ExitCode {

@@ -6,6 +6,7 @@
 //! | `half` | every fp16 operand pair with rustc_apfloat |
 //! | `fixed` | every s3.12 product with plain integers |
 //! | `wide` | fp24 with double precision, fp32 with the host, fused operations with rustc_apfloat |
+//! | `normalized` | sums, products, conversions of `n3.8` and the like with their definition |
 //! | `small` | every operation of every format of at most 6 bits with exact rational arithmetic |
 //! | `transcendental` | `exp2` and `log2` with series and roots of their own |
 //! | `laws` | what must hold for all formats and values |
@@ -15,6 +16,7 @@
 mod fixed;
 mod half;
 mod laws;
+mod normalized;
 mod rational;
 mod small;
 mod small_ops;

@@ -60,6 +60,7 @@ impl Q {
 pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     match f.kind {
         FormatKind::Fixed { frac_bits, .. } => Q::scaled(i.into(), -i32::from(frac_bits)),
+        FormatKind::Normalized { frac_bits, .. } => Q::new(i.into(), (1 << frac_bits) - 1),
         FormatKind::Float { exp_bits, man_bits } => {
             let bias = (1 << (exp_bits - 1)) - 1;
             let (field, man) = ((i >> man_bits).cast_signed(), i128::from(i & ((1 << man_bits) - 1)));
@@ -89,7 +90,7 @@ fn below(f: &Format, end: u64, against: &impl Fn(Q) -> Ordering) -> u64 {
     while high - low > 1 {
         let middle = low + (high - low) / 2;
         let candidate = match f.kind {
-            FormatKind::Fixed { frac_bits, .. } => Q::scaled(middle.into(), -i32::from(frac_bits)),
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => unit(f, middle),
             FormatKind::Float { .. } => magnitude(f, middle as u32),
         };
         if against(candidate).is_lt() { high = middle } else { low = middle }
@@ -102,8 +103,13 @@ pub(crate) fn round(f: &Format, tininess: Tininess, negative: bool, against: imp
     if f.is_fixed() { round_fixed(f, negative, &against) } else { round_float(f, tininess, negative, &against) }
 }
 
+/// So many steps of fixed point, in its range or not.
+fn unit(f: &Format, steps: u64) -> Q {
+    Q::new(steps.into(), 1).mul(magnitude(f, 1))
+}
+
 fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> Outcome {
-    let unit = |i: u64| Q::new(i.into(), 1).mul(magnitude(f, 1));
+    let unit = |i: u64| unit(f, i);
     let range = 1u64 << f.width();
     let mut end = range;
     // Nothing that wraps in these tests reaches 2^40, and saturating values need no exact index beyond it.

@@ -18,7 +18,8 @@ const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, 
 fn formats() -> Vec<Format> {
     let mut all = Vec::new();
     let fixed = (0..6).flat_map(|i| (0..6).filter_map(move |f| Format::fixed(i, f)));
-    for layout in fixed.filter(|f| f.width() <= 6) {
+    let normalized = (0..4).flat_map(|i| (2..6).filter_map(move |f| Format::normalized(i, f)));
+    for layout in fixed.chain(normalized).filter(|f| f.width() <= 6) {
         for rounding in ROUNDINGS {
             for overflow in [Overflow::Saturate, Overflow::Wrap] {
                 all.push(layout.with_rounding(rounding).with_overflow(overflow));
@@ -38,7 +39,7 @@ fn formats() -> Vec<Format> {
             }
         }
     }
-    assert_eq!(all.len(), 20 * 8 + 6 * 48);
+    assert_eq!(all.len(), (20 + 10) * 8 + 6 * 48);
     all
 }
 

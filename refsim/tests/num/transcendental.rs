@@ -12,7 +12,7 @@ const PLACES: u32 = 320;
 
 /// A finite pattern in units of `2^-PLACES`.
 fn value(f: &Format, bits: u32) -> BigInt {
-    let Unpacked::Finite { sign, sig, exp } = unpack(f, bits) else { panic!("{bits:#x} is not finite") };
+    let Unpacked::Finite { sign, sig, exp, .. } = unpack(f, bits) else { panic!("{bits:#x} is not finite") };
     let magnitude = BigInt::from(sig) << (exp + PLACES.cast_signed());
     if sign { -magnitude } else { magnitude }
 }

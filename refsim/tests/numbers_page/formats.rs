@@ -8,6 +8,8 @@ pub(crate) struct Words {
     /// Integer and fraction bits, or exponent and mantissa bits.
     layout: (i32, i32),
     fixed: bool,
+    /// Fixed point in units of `1 / (2^F - 1)`.
+    normalized: bool,
     rounding: &'static str,
     overflow: &'static str,
     flush: bool,
@@ -15,23 +17,36 @@ pub(crate) struct Words {
 
 impl Words {
     pub(crate) fn float(exponent: i32, mantissa: i32) -> Self {
-        Self { layout: (exponent, mantissa), fixed: false, rounding: "rne", overflow: "inf", flush: false }
+        Self {
+            layout: (exponent, mantissa),
+            fixed: false,
+            normalized: false,
+            rounding: "rne",
+            overflow: "inf",
+            flush: false,
+        }
     }
 
     fn random(r: &mut Random) -> Self {
         let rounding = r.choose(&["rne", "rna", "rtz", "rdn"]);
         if r.below(2) == 0 {
-            let layout = r.choose(&[(3, 12), (1, 10), (0, 8), (0, 15), (7, 0), (15, 16)]);
-            return Self { layout, fixed: true, rounding, overflow: r.choose(&["sat", "wrap"]), flush: false };
+            let normalized = r.below(2) == 0;
+            let layout = match normalized {
+                true => r.choose(&[(3, 8), (0, 8), (7, 8), (13, 2), (2, 5)]),
+                false => r.choose(&[(3, 12), (1, 10), (0, 8), (0, 15), (7, 0), (15, 16)]),
+            };
+            let overflow = r.choose(&["sat", "wrap"]);
+            return Self { layout, fixed: true, normalized, rounding, overflow, flush: false };
         }
         let layout = r.choose(&[(5, 10), (7, 16), (8, 23), (4, 3), (2, 1), (8, 7)]);
         let overflow = r.choose(&["inf", "sat", "nvovf"]);
-        Self { layout, fixed: false, rounding, overflow, flush: r.below(2) == 0 }
+        Self { layout, fixed: false, normalized: false, rounding, overflow, flush: r.below(2) == 0 }
     }
 
     fn text(&self) -> String {
         let ((a, b), rules) = (self.layout, format!("{}:{}", self.rounding, self.overflow));
         match (self.fixed, self.flush) {
+            (true, _) if self.normalized => format!("n{a}.{b}:{rules}"),
             (true, _) => format!("s{a}.{b}:{rules}"),
             (false, true) => format!("e{a}m{b}:{rules}:ftz"),
             (false, false) => format!("e{a}m{b}:{rules}"),
@@ -50,9 +65,15 @@ impl Words {
 
     /// Rounds a number once; returns pattern and flags.
     pub(crate) fn round(&self, x: f64) -> (u32, Flags) {
+        self.round_quotient(x, 1.0)
+    }
+
+    /// Rounds `x / d` once, where `d` is what numbers of a format are divided by: only whole quotients are exact.
+    fn round_quotient(&self, x: f64, d: f64) -> (u32, Flags) {
         let (a, b) = self.layout;
         if self.fixed {
-            let (top, units) = (power(a + b), x * power(b));
+            let one = if self.normalized { power(b) - 1.0 } else { power(b) };
+            let (top, units) = (power(a + b), x * one / d);
             let (width, kept) = (1 + a + b, self.whole(units));
             let mask = u32::MAX >> (32 - width);
             let pattern = |k: f64| (k as i64 as u32) & mask;
@@ -67,6 +88,7 @@ impl Words {
             }
             return (pattern(kept), if kept == units { Flags::empty() } else { Flags::INEXACT });
         }
+        let x = x / d;
         let (bias, infinity) = ((1 << (a - 1)) - 1, ((1u32 << a) - 1) << b);
         let sign = u32::from(x.is_sign_negative()) << (a + b);
         if x.is_nan() {
@@ -109,12 +131,18 @@ impl Words {
         (sign | (field as u32) << b | mantissa as u32, flags)
     }
 
-    /// Value of a pattern.
+    /// What numbers of the format are divided by.
+    fn divisor(&self) -> f64 {
+        if self.normalized { power(self.layout.1) - 1.0 } else { 1.0 }
+    }
+
+    /// Value of a pattern, times [`Self::divisor`].
     pub(crate) fn value(&self, bits: u32) -> f64 {
         let (a, b) = self.layout;
         if self.fixed {
             let spare = 31 - a - b;
-            return f64::from((bits << spare).cast_signed() >> spare) * power(-b);
+            let code = f64::from((bits << spare).cast_signed() >> spare);
+            return if self.normalized { code } else { code * power(-b) };
         }
         let (bias, field) = ((1 << (a - 1)) - 1, (bits >> b & ((1 << a) - 1)).cast_signed());
         let mantissa = f64::from(bits & ((1 << b) - 1));
@@ -145,7 +173,7 @@ fn one_rounding_into_every_format() {
             _ => ops::convert(&Format::FP32, source, r.single().to_bits()).bits,
         };
         let value = from.value(bits);
-        let (expected, mut flags) = into.round(value);
+        let (expected, mut flags) = into.round_quotient(value, from.divisor());
         let mut bits_expected = expected;
         if value.is_infinite() && into.fixed {
             (bits_expected, flags) = (into.round(value).0, Flags::OVERFLOW | Flags::INEXACT);
@@ -159,7 +187,7 @@ fn one_rounding_into_every_format() {
         }
         let found = ops::convert(&source, target, bits);
         let place = format!("{bits:#x} of {} into {}", from.text(), into.text());
-        assert_eq!((found.bits, found.flags), (bits_expected, flags), "{place}: {value}");
+        assert_eq!((found.bits, found.flags), (bits_expected, flags), "{place}: {value} / {}", from.divisor());
     }
 }
 

@@ -17,12 +17,12 @@ impl Rational {
 
     /// The value of a finite pattern.
     pub(crate) fn of(format: Format, bits: u32) -> Option<Self> {
-        let Unpacked::Finite { sign, sig, exp } = unpack(&format, bits) else { return None };
+        let Unpacked::Finite { sign, sig, exp, den } = unpack(&format, bits) else { return None };
         let n = BigInt::from(sig) * if sign { -1 } else { 1 };
         Some(if exp >= 0 {
-            Self::new(n << exp.unsigned_abs(), 1)
+            Self::new(n << exp.unsigned_abs(), den)
         } else {
-            Self::new(n, BigInt::from(1) << exp.unsigned_abs())
+            Self::new(n, BigInt::from(den) << exp.unsigned_abs())
         })
     }
 

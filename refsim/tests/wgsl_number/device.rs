@@ -169,11 +169,20 @@ pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
 }
 
 pub(crate) fn every_pair_of_short_formats(gpu: &Arc<Gpu>) {
-    let formats: Vec<Format> =
-        ["e3m2", "s1.2", "e2m2:rdn:nvovf:nv", "e3m2:rtz:ftz:sat", "s2.2:rdn:wrap", "s0.4:rna", "e4m1:rna"]
-            .iter()
-            .map(|f| f.parse().expect("a format"))
-            .collect();
+    let formats: Vec<Format> = [
+        "e3m2",
+        "s1.2",
+        "e2m2:rdn:nvovf:nv",
+        "e3m2:rtz:ftz:sat",
+        "s2.2:rdn:wrap",
+        "s0.4:rna",
+        "e4m1:rna",
+        "n1.3:rna",
+        "n0.4:rdn:wrap",
+    ]
+    .iter()
+    .map(|f| f.parse().expect("a format"))
+    .collect();
     let mut items = Vec::new();
     for (format, layout) in formats.iter().enumerate() {
         for operation in NumberOperation::ALL.into_iter().filter(|&o| exhausted(o)) {

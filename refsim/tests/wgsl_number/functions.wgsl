@@ -6,7 +6,7 @@
 fn format_at(k: u32) -> Format {
     let at = 8u * k;
     return Format(formats[at], formats[at + 1u], formats[at + 2u], formats[at + 3u], formats[at + 4u], formats[at + 5u],
-        formats[at + 6u], 0u);
+        formats[at + 6u], formats[at + 7u]);
 }
 
 @compute @workgroup_size(64)
@@ -32,7 +32,7 @@ fn run_functions(@builtin(global_invocation_id) id: vec3<u32>) {
             }
             result = n_encode(f, n_finish(f, n_dot(f, items[at], a, b)));
         }
-        case 5u: { result = n_encode(g, n_finish(g, n_term(N_CONVERT, g, f.kind, f.frac, n_decode(f, x[0]), 0u))); }
+        case 5u: { result = n_encode(g, n_finish(g, n_term(N_CONVERT, g, f.kind, f.frac, f.over, n_decode(f, x[0]), 0u))); }
         case 7u: {
             result = n_encode(f, n_round(f, (x[2] & 1u) == 1u, vec2<u32>(x[0], x[1]), i32(x[3]), (x[2] & 2u) == 2u));
         }

@@ -76,6 +76,13 @@ pub(crate) fn formats() -> Vec<Format> {
         }
         all.push(format.with_overflow(Overflow::Wrap));
     }
+    for (i, (int, frac)) in [(3, 8), (0, 8), (7, 8), (13, 2), (0, 2), (2, 5)].into_iter().enumerate() {
+        let Some(format) = Format::normalized(int, frac) else { continue };
+        for (j, r) in rounding.into_iter().enumerate() {
+            let wrap = if (i + j) % 2 == 0 { Overflow::Saturate } else { Overflow::Wrap };
+            all.push(format.with_rounding(r).with_overflow(wrap));
+        }
+    }
     let overflow = [Overflow::Infinity, Overflow::Saturate, Overflow::Nv30];
     for (i, (exp, man)) in float.into_iter().enumerate() {
         let Some(format) = Format::float(exp, man) else { continue };

@@ -6,7 +6,7 @@
 fn format_at(k: u32) -> Format {
     let at = 8u * k;
     return Format(formats[at], formats[at + 1u], formats[at + 2u], formats[at + 3u], formats[at + 4u], formats[at + 5u],
-        formats[at + 6u], 0u);
+        formats[at + 6u], formats[at + 7u]);
 }
 
 @compute @workgroup_size(64)

@@ -44,7 +44,8 @@ fn integer(format: &Format, bits: u32) -> u32 {
     match unpack(format, bits) {
         Unpacked::Nan { .. } => 0,
         Unpacked::Inf { sign } => if sign { i32::MIN } else { i32::MAX }.cast_unsigned(),
-        Unpacked::Finite { sign, sig, exp } => {
+        Unpacked::Finite { sign, sig, exp, den } => {
+            let sig = sig / u64::from(den);
             let magnitude =
                 if exp >= 0 { i128::from(sig) << exp.min(60) } else { i128::from(sig) >> exp.unsigned_abs().min(100) };
             let value = if sign { -magnitude } else { magnitude };

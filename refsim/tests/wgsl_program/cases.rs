@@ -13,8 +13,20 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 pub(crate) const PIXEL: [Version; 7] =
     [Version::Ps1_1, Version::Ps1_2, Version::Ps1_3, Version::Ps1_4, Version::Ps2_0, Version::Ps2A, Version::Ps2B];
-pub(crate) const FORMATS: [&str; 10] =
-    ["fp32", "s3.12", "fp16", "fp24", "s1.10", "s3.12:rtz", "fp16:rtz:nv", "s7.16", "fp32:ftz", "e4m3"];
+pub(crate) const FORMATS: [&str; 12] = [
+    "fp32",
+    "s3.12",
+    "fp16",
+    "fp24",
+    "s1.10",
+    "s3.12:rtz",
+    "fp16:rtz:nv",
+    "s7.16",
+    "fp32:ftz",
+    "e4m3",
+    "n3.8:rna",
+    "n2.6:rdn",
+];
 
 /// Seeds: only `CROSSBAR_SEED` if set; thirty times as many with `CROSSBAR_FULL`.
 pub(crate) fn seeds(quick: u64) -> std::ops::Range<u64> {

@@ -74,6 +74,7 @@ impl Number {
     fn last_place(&self, magnitude: f64) -> f64 {
         match self.format.kind {
             FormatKind::Fixed { frac_bits, .. } => power_of_two(-i32::from(frac_bits)),
+            FormatKind::Normalized { .. } => 1.0 / f64::from(self.format.denominator()),
             FormatKind::Float { exp_bits, man_bits } => {
                 let bias = (1 << (exp_bits - 1)) - 1;
                 let exponent = ((magnitude.to_bits() >> 52) & 0x7ff) as i32 - 1023;
@@ -86,7 +87,9 @@ impl Number {
     fn step(&self) -> i64 {
         let bits = i64::from(self.bits & self.format.mask());
         match self.format.kind {
-            FormatKind::Fixed { .. } if self.format.is_negative(self.bits) => bits - (1i64 << self.format.width()),
+            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } if self.format.is_negative(self.bits) => {
+                bits - (1i64 << self.format.width())
+            }
             FormatKind::Float { .. } if self.format.is_negative(self.bits) => i64::from(self.format.sign_bit()) - bits,
             _ => bits,
         }

@@ -28,7 +28,7 @@ Lines: hexadecimal operands parted by blanks, as TestFloat writes them; blank li
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
 08 division by zero, 10 invalid.
 
-Formats: sI.F (fixed point), eXmY (float), or ps14 fx12 fp16 bf16 fp24 fp32; then, if wanted, rounding :rne :rna :rtz \
+Formats: sI.F (fixed point), nI.F (normalized integers: n3.8 counts in 255ths), eXmY (float), or ps14 fx12 fp16 bf16 fp24 fp32; then, if wanted, rounding :rne :rna :rtz \
 :rdn, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv.
 
 The digest: for each first operand a in rising order h = 0xcbf29ce484222325, then for each second operand b in rising \

@@ -84,12 +84,13 @@ const SINGLE: f64 = 1.0 / 16_777_216.0;
 /// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are
 /// single precision.
 fn unit_roundoff(format: Format) -> f64 {
-    let bits = match format.kind {
-        FormatKind::Fixed { frac_bits, .. } => frac_bits,
-        FormatKind::Float { man_bits, .. } => man_bits,
+    let step = match format.kind {
+        FormatKind::Fixed { frac_bits: bits, .. } | FormatKind::Float { man_bits: bits, .. } => {
+            1.0 / f64::from(1_u32 << bits.min(31))
+        }
+        FormatKind::Normalized { .. } => 1.0 / f64::from(format.denominator()),
     };
     let nearest = matches!(format.rounding, Rounding::NearestEven | Rounding::NearestAway);
-    let step = 1.0 / f64::from(1_u32 << bits.min(31));
     (if nearest { step / 2.0 } else { step }).max(SINGLE)
 }
 

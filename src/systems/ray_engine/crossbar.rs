@@ -270,6 +270,6 @@ fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
 fn represents_integers_to(format: &Format, most: usize) -> bool {
     match format.kind {
         FormatKind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),
-        FormatKind::Fixed { .. } => false,
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
     }
 }

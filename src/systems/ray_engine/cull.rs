@@ -60,8 +60,11 @@ impl Errors {
 
     fn of_format(format: &Format) -> Self {
         match format.kind {
-            FormatKind::Fixed { int_bits, frac_bits } => {
-                let step = power_of_two(-i32::from(frac_bits));
+            FormatKind::Fixed { int_bits, frac_bits } | FormatKind::Normalized { int_bits, frac_bits } => {
+                let step = match format.denominator() {
+                    1 => power_of_two(-i32::from(frac_bits)),
+                    denominator => 1.0 / f64::from(denominator),
+                };
                 // Ray textures of fixed-point cards have 16 bits.
                 let texel = 2.0 * step + power_of_two(-14);
                 Self { share: 0.0, step, texel, largest: power_of_two(i32::from(int_bits)), fixed: true }

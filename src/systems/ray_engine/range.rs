@@ -61,6 +61,9 @@ impl Range {
             FormatKind::Fixed { int_bits, frac_bits } => {
                 (power_of_two(int_bits.into()), power_of_two(-i32::from(frac_bits)), RangeKind::Fixed)
             }
+            FormatKind::Normalized { int_bits, .. } => {
+                (power_of_two(int_bits.into()), 1.0 / f64::from(format.denominator()), RangeKind::Fixed)
+            }
             FormatKind::Float { exp_bits, .. } => {
                 // The largest number is nearly 2^(bias + 1).
                 let bias = (1 << (i32::from(exp_bits) - 1)) - 1;

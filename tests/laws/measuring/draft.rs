@@ -78,20 +78,35 @@ impl Draft {
         let is_2 = version.starts_with("ps_2");
         if is_2 {
             let special = |dice: &mut Dice| {
-                dice.pick(&["0", "1", "0.5", "3", "1e-19", "1e-12", "1e12", "1e19", "1e38", "0.3333", "-0.7"]).to_owned()
+                dice.pick(&["0", "1", "0.5", "3", "1e-19", "1e-12", "1e12", "1e19", "1e38", "0.3333", "-0.7"])
+                    .to_owned()
             };
             draft.constants = (0..4).map(|_| std::array::from_fn(|_| special(dice))).collect();
         }
         let operations: &[(&str, usize)] = match version {
             "ps_1_1" => &[("add", 2), ("mul", 2), ("mad", 3), ("lrp", 3), ("dp3", 2), ("sub", 2)],
             "ps_1_4" => &[("add", 2), ("mul", 2), ("mad", 3), ("lrp", 3), ("dp3", 2), ("dp4", 2)],
-            _ => &[("add", 2), ("mul", 2), ("mul", 2), ("mad", 3), ("lrp", 3), ("dp3", 2), ("dp4", 2), ("rcp", 1), ("rsq", 1)],
+            _ => &[
+                ("add", 2),
+                ("mul", 2),
+                ("mul", 2),
+                ("mad", 3),
+                ("lrp", 3),
+                ("dp3", 2),
+                ("dp4", 2),
+                ("rcp", 1),
+                ("rsq", 1),
+            ],
         };
         for at in 0..1 + dice.below(4) {
             let (name, count) = operations[dice.below(operations.len())];
             let modifier = if is_2 { dice.pick(&["", "", "_sat"]) } else { dice.pick(&["", "", "_x2", "_d2", "_x4"]) };
             let source = |dice: &mut Dice| {
-                let register = if at == 0 { dice.pick(&["c0", "c1", "c2", "v0"]) } else { dice.pick(&["r0", "r0", "c1", "c2", "v0"]) };
+                let register = if at == 0 {
+                    dice.pick(&["c0", "c1", "c2", "v0"])
+                } else {
+                    dice.pick(&["r0", "r0", "c1", "c2", "v0"])
+                };
                 let negated = if name == "lrp" { "" } else { dice.pick(&["", "", "-"]) };
                 let scalar = if count == 1 { ".x" } else { "" };
                 format!("{negated}{register}{scalar}")
@@ -136,13 +151,15 @@ impl Draft {
     pub(super) fn triangle(version: &'static str, dice: &mut Dice) -> Self {
         let mut draft = Self::new(version, dice);
         let is_2 = version.starts_with("ps_2");
-        draft.lines = if is_2 { vec!["dcl v0".to_owned(), "mov oC0, v0".to_owned()] } else { vec!["mov r0, v0".to_owned()] };
+        draft.lines =
+            if is_2 { vec!["dcl v0".to_owned(), "mov oC0, v0".to_owned()] } else { vec!["mov r0, v0".to_owned()] };
         draft.attributes.clear();
         draft.depth = dice.below(2) == 0;
         draft.size = [4, 4];
         let at = |dice: &mut Dice| (dice.below(4097) as f64 / 2048.0 - 1.0).to_string();
         let high = if dice.below(3) == 0 { 1024 } else { 256 };
-        let color = |dice: &mut Dice| (dice.below(high + 1) as f64 / 256.0 - if high > 256 { 1.0 } else { 0.0 }).to_string();
+        let color =
+            |dice: &mut Dice| (dice.below(high + 1) as f64 / 256.0 - if high > 256 { 1.0 } else { 0.0 }).to_string();
         for _ in 0..3 {
             let (x, y, z) = (at(dice), at(dice), dice.below(1025) as f64 / 1024.0);
             let (r, g, b, a) = (color(dice), color(dice), color(dice), color(dice));
@@ -156,8 +173,13 @@ impl Draft {
         let mut draft = Self::new(version, dice);
         let is_2 = version.starts_with("ps_2");
         let coordinate = |dice: &mut Dice| (dice.below(2049) as f64 / 64.0 - 16.0).to_string();
-        draft.attributes =
-            vec![format!("t0 = [{}, {}, {}, {}]", coordinate(dice), coordinate(dice), coordinate(dice), coordinate(dice))];
+        draft.attributes = vec![format!(
+            "t0 = [{}, {}, {}, {}]",
+            coordinate(dice),
+            coordinate(dice),
+            coordinate(dice),
+            coordinate(dice)
+        )];
         draft.vertices = [[-1, -1], [3, -1], [-1, 3]].map(|[x, y]| format!("position = [{x}, {y}]")).to_vec();
         let lines: &[&str] = match (is_2, dice.below(3)) {
             (true, _) => &["dcl t0", "texkill t0", "mov r0, c0", "mov oC0, r0"],
@@ -250,7 +272,8 @@ impl Draft {
         for (at, constant) in self.constants.iter().enumerate() {
             for (component, value) in constant.iter().enumerate() {
                 for plain in ["0", "1", "0.5"] {
-                    let is_plain = ["0", "1", "0.5"].iter().take_while(|other| **other != plain).any(|other| other == value);
+                    let is_plain =
+                        ["0", "1", "0.5"].iter().take_while(|other| **other != plain).any(|other| other == value);
                     if !is_plain {
                         with(&|draft| plain.clone_into(&mut draft.constants[at][component]));
                     }

@@ -74,9 +74,11 @@ fn there_are_no_other_probes() {
         let profile = Profile::named(device).expect("a card");
         expected.extend(drawn(&profile).map(|switch| place(device, &switch.name)));
     }
-    for device in fs::read_dir(file("fixtures/probes/open")).expect("the folder").map(|entry| entry.expect("a folder")) {
+    for device in fs::read_dir(file("fixtures/probes/open")).expect("the folder").map(|entry| entry.expect("a folder"))
+    {
         for probe in fs::read_dir(device.path()).expect("a folder").map(|entry| entry.expect("a file")) {
-            let name = [device.file_name(), probe.file_name()].map(|name| name.to_string_lossy().into_owned()).join("/");
+            let name =
+                [device.file_name(), probe.file_name()].map(|name| name.to_string_lossy().into_owned()).join("/");
             assert!(expected.contains(&format!("fixtures/probes/open/{name}")), "{name} belongs to no open switch");
         }
     }
@@ -85,7 +87,8 @@ fn there_are_no_other_probes() {
 /// The page's table is that of the folder.
 #[test]
 fn the_page_lists_the_probes() {
-    let mut table = "| card | switch | values, the default first | probe | measured |\n|---|---|---|---|---|\n".to_owned();
+    let mut table =
+        "| card | switch | values, the default first | probe | measured |\n|---|---|---|---|---|\n".to_owned();
     for device in CARDS {
         let profile = Profile::named(device).expect("a card");
         for switch in search::open(&profile) {

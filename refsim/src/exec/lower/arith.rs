@@ -4,7 +4,7 @@ use super::formats::Formats;
 use super::graph::TRUE;
 use super::graph::{Arith, Graph, NodeId, NodeKind};
 use crate::device::{LrpMode, MadMode, Rules};
-use crate::num::{self, DotOrder, NumberOperation as Op};
+use crate::num::{self, DotOrder, Format, FormatKind, NumberOperation as Op, Rounding};
 
 /// Four components.
 pub(crate) type NodeVector = [NodeId; 4];
@@ -100,11 +100,17 @@ impl<'a> GraphBuilder<'a> {
             return a;
         }
         // Single precision represents every number of a format with up to 24 significant bits, so the round trip
-        // preserves the number, which also fits the format's wrapping variant.
+        // preserves the number, which also fits the format's wrapping variant. Of normalized numbers it has the nearest,
+        // from which only rounding to nearest leads back.
+        let returns = |format: Format| match format.kind {
+            FormatKind::Float { .. } => true,
+            FormatKind::Fixed { .. } => format.width() <= 24,
+            FormatKind::Normalized { .. } => matches!(format.rounding, Rounding::NearestEven | Rounding::NearestAway),
+        };
         if let NodeKind::Convert(origin, Arith::Single, number) = self.graph.kind(a)
             && from == Arith::Single
             && (origin == to || (origin, to) == (Arith::Main, Arith::Wrapped))
-            && (!self.formats.format(origin).is_fixed() || self.formats.format(origin).width() <= 24)
+            && returns(self.formats.format(origin))
         {
             return number;
         }

@@ -1,6 +1,6 @@
 //! Raw values: representation of numbers of any format in 32 bits in `batch` and `wgsl`.
 //!
-//! A fixed-point number is a sign-extended two's complement integer. A float is the binary32 pattern of the same
+//! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32 pattern of the same
 //! number, which exists for every format; NaN is always `0x7fc0_0000`.
 
 use crate::num::{Denormals, Format, FormatKind};
@@ -81,7 +81,7 @@ impl FloatLayout {
 /// Converts a bit pattern of a format to a raw value.
 pub(super) fn decode(format: &Format, bits: u32) -> u32 {
     match format.kind {
-        FormatKind::Fixed { .. } => {
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => {
             let spare = 32 - format.width();
             (bits.cast_signed() << spare >> spare).cast_unsigned()
         }
@@ -94,7 +94,7 @@ pub(super) fn decode(format: &Format, bits: u32) -> u32 {
 /// Converts a raw value to a bit pattern.
 pub(super) fn encode(format: &Format, raw: u32) -> u32 {
     match format.kind {
-        FormatKind::Fixed { .. } => raw & format.mask(),
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => raw & format.mask(),
         FormatKind::Float { exp_bits, man_bits } => {
             FloatLayout::new(exp_bits, man_bits, format.denormals).encode(f32::from_bits(raw))
         }

@@ -51,8 +51,10 @@ fn address_value(format: Format, opcode: Opcode, bits: u32) -> i32 {
                 i32::MAX
             }
         }
-        Unpacked::Finite { sign, sig, exp } => {
-            // An integer: bits below the point are zero.
+        Unpacked::Finite { sign, sig, exp, den } => {
+            // An integer: bits below the point are zero. Where a normalized format ends before the next one, its end
+            // stands for it, and is cut off.
+            let sig = sig / u64::from(den);
             let magnitude = match exp {
                 0.. if sig == 0 => 0,
                 0..=40 => i128::from(sig) << exp,

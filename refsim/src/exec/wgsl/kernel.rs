@@ -375,7 +375,7 @@ fn orders(function: CompareFunction) -> u32 {
 /// pattern of the same number with canonical NaN.
 pub fn raw(format: &Format, bits: u32) -> u32 {
     match format.kind {
-        FormatKind::Fixed { .. } => {
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => {
             let spare = 32 - format.width();
             ((bits << spare).cast_signed() >> spare).cast_unsigned()
         }

@@ -26,12 +26,14 @@ impl NumberOperation {
 }
 
 /// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
-/// rounding, overflow, denormals, special values, and an unused word.
+/// rounding, overflow, denormals, special values, and the denominator of a normalized format, else 0. Shaders take a
+/// normalized format for one of fixed point without fraction bits, whose numbers are divided by the denominator.
 ///
 /// Rules that do not apply to the kind are replaced by its default, as in [`Format`].
 pub fn format_words(format: &Format) -> [u32; 8] {
     let (kind, upper, frac) = match format.kind {
         FormatKind::Fixed { int_bits, frac_bits } => (0, int_bits, frac_bits),
+        FormatKind::Normalized { int_bits, frac_bits } => (0, int_bits + frac_bits, 0),
         FormatKind::Float { exp_bits, man_bits } => (1, exp_bits, man_bits),
     };
     let rounding = match format.rounding {
@@ -48,13 +50,18 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     };
     let flush = u32::from(format.denormals == Denormals::Flush);
     let special = u32::from(format.specials == Specials::Nv);
-    [kind, upper.into(), frac.into(), rounding, overflow, flush, special, 0]
+    [kind, upper.into(), frac.into(), rounding, overflow, flush, special, denominator_word(format)]
+}
+
+fn denominator_word(format: &Format) -> u32 {
+    if let FormatKind::Normalized { .. } = format.kind { format.denominator() } else { 0 }
 }
 
 /// Operand `b` of [`NumberOperation::Convert`] that encodes the format of `a`.
 pub fn source_word(format: &Format) -> u32 {
     match format.kind {
         FormatKind::Fixed { frac_bits, .. } => 1 + u32::from(frac_bits),
+        FormatKind::Normalized { .. } => 1 | denominator_word(format) << 8,
         FormatKind::Float { .. } => 0,
     }
 }

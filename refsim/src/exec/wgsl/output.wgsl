@@ -1,10 +1,12 @@
 // The way of one fragment into the targets: tests, blending, rounding into texels, masked write.
 
-// A number: significand * 2^exponent, with its sign; a NaN is zero, an infinity 1.
+// A number: significand * 2^exponent / over, with its sign; a NaN is zero, an infinity 1. Over 1, but for normalized
+// numbers, which have exponent 0.
 struct Exact {
     negative: bool,
     significand: u32,
     exponent: i32,
+    over: u32,
 }
 
 // What the program left in a lane.
@@ -20,8 +22,16 @@ fn o_main_is_fixed() -> bool {
     return false;
 }
 
-// The number behind a raw value of fixed point with `fraction` bits below the point, or of floating point.
-fn o_exact(raw: u32, fixed_point: bool, fraction: u32) -> Exact {
+// What numbers of the main format are divided by if it is normalized, else 0.
+fn o_main_over() -> u32 {
+    if (HAS_NORMALIZED) {
+        return draw[8u * MAIN + 7u];
+    }
+    return 0u;
+}
+
+// The number behind a raw value of the main format in fixed point, or of floating point.
+fn o_exact(raw: u32, fixed_point: bool) -> Exact {
     let negative = (raw >> 31u) == 1u;
     let size = raw & 0x7fffffffu;
     let ends = size >= 0x7f800000u;
@@ -29,11 +39,12 @@ fn o_exact(raw: u32, fixed_point: bool, fraction: u32) -> Exact {
     let field = size >> 23u;
     let significand = (size & 0x7fffffu) | select(0x800000u, 0u, field == 0u);
     var number = Exact(
-        negative && !nan, select(significand, select(1u, 0u, nan), ends), select(i32(max(field, 1u)) - 150, 0, ends),
+        negative && !nan, select(significand, select(1u, 0u, nan), ends), select(i32(max(field, 1u)) - 150, 0, ends), 1u,
     );
     if (HAS_FIXED) {
         if (fixed_point) {
-            number = Exact(negative, select(raw, 0u - raw, negative), -i32(fraction));
+            let fraction = draw[8u * MAIN + 2u];
+            number = Exact(negative, select(raw, 0u - raw, negative), -i32(fraction), max(o_main_over(), 1u));
         }
     }
     return number;
@@ -45,13 +56,41 @@ fn o_scaled(number: Exact, scale: u32, nearest: bool) -> u32 {
     // Below one, the exponent is below zero. In halves: all but the last bit are the whole.
     let shift = u32(-number.exponent) - 1u;
     let halves = select(vec2<u32>(0u), k_shr(product, min(shift, 63u)), shift < 64u);
-    let cut = ((halves.x >> 1u) | (halves.y << 31u)) + select(0u, halves.x & 1u, nearest);
-    let above = 31 - i32(countLeadingZeros(number.significand)) + number.exponent >= 0;
+    var cut = ((halves.x >> 1u) | (halves.y << 31u)) + select(0u, halves.x & 1u, nearest);
+    var above = 31 - i32(countLeadingZeros(number.significand)) + number.exponent >= 0;
+    if (HAS_NORMALIZED) {
+        if (number.over != 1u) {
+            above = number.significand >= number.over;
+            cut = o_quotient(product, number.over, nearest);
+        }
+    }
     return select(select(cut, scale, above), 0u, number.significand == 0u);
 }
 
+// product / over, of at most 32 bits, for a divisor of 8: halves away from zero, or cut off.
+fn o_quotient(product: vec2<u32>, over: u32, nearest: bool) -> u32 {
+    var rest = product.y;
+    var quotient = 0u;
+    for (var i = 0u; i < 4u; i++) {
+        rest = (rest << 8u) | ((product.x >> (24u - 8u * i)) & 0xffu);
+        quotient = (quotient << 8u) | (rest / over);
+        rest = rest % over;
+    }
+    return quotient + select(0u, 1u, nearest && 2u * rest > over);
+}
+
 // A depth as an unsigned float of so many mantissa bits; numbers from 1 on give 1.
-fn o_depth_float(number: Exact, bias: i32, mantissa: u32) -> u32 {
+fn o_depth_float(given: Exact, bias: i32, mantissa: u32) -> u32 {
+    var number = given;
+    if (HAS_NORMALIZED) {
+        if (given.over != 1u) {
+            // The quotient as far as it is looked at, the rest jammed; below one, but for what gives 1.
+            let size = min(given.significand, given.over);
+            let quotient = n_divided(vec3<u32>(size << 16u, 0u, 0u), given.over).xy;
+            number = Exact(given.negative, (quotient.x << 15u) | (quotient.y >> 17u), -31, 1u);
+            number.significand |= select(0u, 1u, size % given.over != 0u);
+        }
+    }
     let one = u32(bias) << mantissa;
     let top = number.exponent + 31 - i32(countLeadingZeros(number.significand));
     let unit = max(top, 1 - bias) - i32(mantissa);
@@ -65,7 +104,7 @@ fn o_depth_float(number: Exact, bias: i32, mantissa: u32) -> u32 {
 
 // The pattern of a depth in the draw's depth buffer; below zero and NaN give 0.
 fn o_depth(raw: u32, in_main: bool) -> u32 {
-    var number = o_exact(raw, in_main && o_main_is_fixed(), draw[8u * MAIN + 2u]);
+    var number = o_exact(raw, in_main && o_main_is_fixed());
     if (number.negative) {
         number.significand = 0u;
     }
@@ -131,7 +170,7 @@ fn o_low_bits(n: u32) -> u32 {
 
 // The bits of a channel of integers for a raw value of the main format.
 fn o_encode(channel: Channel, raw: u32) -> u32 {
-    let number = o_exact(raw, o_main_is_fixed(), draw[8u * MAIN + 2u]);
+    let number = o_exact(raw, o_main_is_fixed());
     let scaled = o_scaled(number, o_whole(channel, number.negative), draw[D_NEAREST] == 1u);
     let size = select(scaled, 0u, number.negative && channel.kind == 0u);
     return select(size, 0u - size, number.negative) & o_low_bits(channel.bits);
@@ -263,7 +302,7 @@ fn o_blend_integer(channel: Channel, values: Blend, alpha_denominator: u32, equa
 fn o_float(channel: Channel, raw: u32) -> u32 {
     let into = format_of_draw(channel.format);
     let kind = select(N_FLOAT, N_FIXED, o_main_is_fixed());
-    return n_encode(into, n_finish(into, n_term(N_CONVERT, into, kind, draw[8u * MAIN + 2u], raw, 0u)));
+    return n_encode(into, n_finish(into, n_term(N_CONVERT, into, kind, draw[8u * MAIN + 2u], o_main_over(), raw, 0u)));
 }
 
 // The same, blended in single precision. All roundings happen at one place, since each place costs a copy of the
@@ -349,7 +388,7 @@ fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alp
         let kind = select(N_FLOAT, N_FIXED, given && o_main_is_fixed());
         let fraction = select(0u, draw[8u * MAIN + 2u], given);
         let into = format_of_draw(to);
-        let made = n_finish(into, n_term(code_of, into, kind, fraction, a, b));
+        let made = n_finish(into, n_term(code_of, into, kind, fraction, select(0u, o_main_over(), given), a, b));
         switch step {
             case 0u: {
                 values.source_alpha = made;

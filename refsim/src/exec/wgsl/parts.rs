@@ -6,13 +6,14 @@
 //! unreachable.
 
 use super::program::operations;
-use crate::num::NumberOperation;
+use crate::num::{Format, NumberOperation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws besides operations. In the text, each guards blocks with an `if`.
-const FEATURES: [&str; 23] = [
-    // Numbers: fixed-point registers; formats other than single precision with default rules.
+const FEATURES: [&str; 24] = [
+    // Numbers: fixed-point registers; normalized ones; formats other than single precision with default rules.
     "HAS_FIXED",
+    "HAS_NORMALIZED",
     "HAS_FORMATS",
     // Square roots and their reciprocals; sums of products, rounded once.
     "HAS_ROOTS",
@@ -112,6 +113,12 @@ impl Parts {
         if used {
             self.add(name);
         }
+    }
+
+    /// Adds what numbers of a format need.
+    pub fn add_format(&mut self, format: &Format) {
+        self.add_if(format.is_fixed(), "HAS_FIXED");
+        self.add_if(format.denominator() != 1, "HAS_NORMALIZED");
     }
 
     /// Adds a number operation, with its group.

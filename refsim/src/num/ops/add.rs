@@ -16,7 +16,7 @@ pub fn add(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
 pub fn sub(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
     let negated = match unpack(&env.format, b) {
-        Unpacked::Finite { sign, sig, exp } => Unpacked::Finite { sign: !sign, sig, exp },
+        Unpacked::Finite { sign, sig, exp, den } => Unpacked::Finite { sign: !sign, sig, exp, den },
         Unpacked::Inf { sign } => Unpacked::Inf { sign: !sign },
         nan => nan,
     };
@@ -26,7 +26,7 @@ pub fn sub(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
 fn add_values(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     match (a, b) {
-        (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
+        (Finite { sign: sa, sig: ma, exp: ea, .. }, Finite { sign: sb, sig: mb, exp: eb, .. }) => {
             sum(env, Term { sign: sa, sig: ma, exp: ea }, Term { sign: sb, sig: mb, exp: eb })
         }
         (Nan { .. }, _) | (_, Nan { .. }) => nan_result(&env.format, &[a, b]),

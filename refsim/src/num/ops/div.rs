@@ -2,7 +2,7 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::round::{divide_by_zero, infinite, round, zero};
+use crate::num::round::{divide_by_zero, infinite, round_quotient, zero};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a / b`. A finite nonzero `a` over zero is `DIVIDE_BY_ZERO`: infinity of the quotient's sign, or the end of the
@@ -17,7 +17,7 @@ pub fn div(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
 /// fixed point it gives the largest number.
 pub fn rcp(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    div_values(&env, Unpacked::Finite { sign: false, sig: 1, exp: 0 }, unpack(&env.format, x))
+    div_values(&env, Unpacked::Finite { sign: false, sig: 1, exp: 0, den: 1 }, unpack(&env.format, x))
 }
 
 fn div_values(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
@@ -30,12 +30,8 @@ fn div_values(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
         (Finite { sign: sa, .. }, Inf { sign: sb }) => zero(format, sa != sb),
         (Finite { sign: sa, .. }, Finite { sign: sb, sig: 0, .. }) => divide_by_zero(format, sa != sb),
         (Finite { sign: sa, sig: 0, .. }, Finite { sign: sb, .. }) => zero(format, sa != sb),
-        (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
-            // With the dividend's leading bit at 2^63 a float's quotient has 40 bits or more; in fixed point its
-            // last bit is 2^-32 or less, half a unit of the finest format.
-            let left = ma.leading_zeros();
-            let dividend = ma << left;
-            round(env, sa != sb, dividend / mb, ea - left.cast_signed() - eb, dividend % mb != 0)
+        (Finite { sign: sa, sig: ma, exp: ea, den: da }, Finite { sign: sb, sig: mb, exp: eb, den: db }) => {
+            round_quotient(env, sa != sb, ma * u64::from(db), ea - eb, mb * u64::from(da))
         }
     }
 }

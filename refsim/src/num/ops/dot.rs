@@ -6,7 +6,7 @@ use num_traits::ToPrimitive;
 use super::{add, mul};
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::round::{from_parts, infinite, zero};
+use crate::num::round::{from_parts, from_ratio, infinite, zero};
 use crate::num::sum::{Term, cancelled};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
@@ -61,7 +61,7 @@ fn exact(env: &Env, terms: &[(u32, u32)]) -> Outcome {
         match (a, b) {
             (Nan { .. }, _) | (_, Nan { .. }) => nan = true,
             (Inf { .. }, Finite { sig: 0, .. }) | (Finite { sig: 0, .. }, Inf { .. }) => bad = true,
-            (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
+            (Finite { sign: sa, sig: ma, exp: ea, .. }, Finite { sign: sb, sig: mb, exp: eb, .. }) => {
                 finite.push(Term { sign: sa != sb, sig: ma * mb, exp: ea + eb });
             }
             (Inf { sign: sa }, Inf { sign: sb } | Finite { sign: sb, .. })
@@ -93,7 +93,8 @@ fn exact_finite(env: &Env, terms: &[Term]) -> Outcome {
         return zero(&env.format, sign);
     };
     let reach = nonzero().map(|t| t.exp + 64 - t.sig.leading_zeros().cast_signed()).max().unwrap_or(unit);
-    if reach - unit < 120 && terms.len() <= 64 {
+    let den = u128::from(env.format.denominator());
+    if den > 1 || (reach - unit < 120 && terms.len() <= 64) {
         let total: i128 = nonzero()
             .map(|t| {
                 let value = i128::from(t.sig) << (t.exp - unit);
@@ -103,7 +104,11 @@ fn exact_finite(env: &Env, terms: &[Term]) -> Outcome {
         if total == 0 {
             return zero(&env.format, cancelled(env));
         }
-        return from_parts(*env, total < 0, total.unsigned_abs(), unit, false);
+        return match den {
+            1 => from_parts(*env, total < 0, total.unsigned_abs(), unit, false),
+            // Normalized numbers have no exponents.
+            _ => from_ratio(*env, total < 0, total.unsigned_abs(), den * den),
+        };
     }
     let total: BigInt = nonzero()
         .map(|t| {

@@ -4,7 +4,7 @@ use super::{add, mul};
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
 use crate::num::round::infinite;
-use crate::num::sum::{Term, sum};
+use crate::num::sum::{Term, sum_over};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a * b + c` with the product rounded first: the multiply-add of the cards.
@@ -14,7 +14,7 @@ pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     add(env, product.bits, c).also(product.flags)
 }
 
-/// `a * b + c` rounded once. `0 * inf + c` is `INVALID` even for a quiet NaN `c`: IEEE 754 leaves it open, and
+/// `a * b + c` rounded once: over a common denominator, that of the product. `0 * inf + c` is `INVALID` even for a quiet NaN `c`: IEEE 754 leaves it open, and
 /// SoftFloat and RISC-V decide the same.
 pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
@@ -24,16 +24,17 @@ pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     let product = match (a, b) {
         (Nan { .. }, _) | (_, Nan { .. }) => return nan_result(format, &[a, b, c]),
         (Inf { .. }, Finite { sig: 0, .. }) | (Finite { sig: 0, .. }, Inf { .. }) => return invalid(format),
-        (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
-            Finite { sign: sa != sb, sig: ma * mb, exp: ea + eb }
+        (Finite { sign: sa, sig: ma, exp: ea, den }, Finite { sign: sb, sig: mb, exp: eb, .. }) => {
+            Finite { sign: sa != sb, sig: ma * mb, exp: ea + eb, den }
         }
         (Inf { sign: sa }, Inf { sign: sb } | Finite { sign: sb, .. })
         | (Finite { sign: sa, .. }, Inf { sign: sb }) => Inf { sign: sa != sb },
     };
     match (product, c) {
         (_, Nan { .. }) => nan_result(format, &[c]),
-        (Finite { sign: sp, sig: mp, exp: ep }, Finite { sign: sc, sig: mc, exp: ec }) => {
-            sum(&env, Term { sign: sp, sig: mp, exp: ep }, Term { sign: sc, sig: mc, exp: ec })
+        (Finite { sign: sp, sig: mp, exp: ep, .. }, Finite { sign: sc, sig: mc, exp: ec, den }) => {
+            let addend = Term { sign: sc, sig: mc * u64::from(den), exp: ec };
+            sum_over(&env, Term { sign: sp, sig: mp, exp: ep }, addend, u64::from(den) * u64::from(den))
         }
         (Inf { sign: sp }, Inf { sign: sc }) if sp != sc => invalid(format),
         (Inf { sign }, _) | (_, Inf { sign }) => infinite(format, sign),

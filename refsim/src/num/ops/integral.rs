@@ -31,18 +31,18 @@ pub fn round_to_int_exact(env: impl Into<Env>, x: u32) -> Outcome {
 pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact: bool) -> Outcome {
     let env = env.into();
     let value = unpack(&env.format, x);
-    let (sign, sig, exp) = match value {
+    let (sign, sig, exp, den) = match value {
         Unpacked::Nan { .. } => return nan_result(&env.format, &[value]),
         Unpacked::Inf { sign } => return infinite(&env.format, sign),
-        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+        Unpacked::Finite { sign, sig, exp, den } => (sign, sig, exp, den),
     };
-    if exp >= 0 {
+    if exp >= 0 && den == 1 {
         return from_parts(env, sign, sig.into(), exp, false);
     }
-    let (integer, rest, half) = split(sig, exp);
+    let (integer, rest, one) = split(sig, exp, den);
     let up = match rounding {
-        Rounding::NearestEven => rest > half || (rest == half && integer % 2 == 1),
-        Rounding::NearestAway => rest >= half,
+        Rounding::NearestEven => 2 * rest > one || (2 * rest == one && integer % 2 == 1),
+        Rounding::NearestAway => 2 * rest >= one,
         Rounding::TowardZero => false,
         Rounding::Down => sign && rest != 0,
     };
@@ -50,12 +50,11 @@ pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact:
     outcome.also(if exact && rest != 0 { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// Splits `sig * 2^exp`, `exp` negative, into integer part, remainder, and the remainder that equals one half.
-fn split(sig: u64, exp: i32) -> (u64, u64, u64) {
+/// Splits `sig * 2^exp / den`, `exp` not positive, into integer part, remainder, and the remainder that would be one.
+fn split(sig: u64, exp: i32, den: u32) -> (u64, u64, u64) {
     // `sig` has at most 32 bits, so with 40 places dropped the remainder compares below one half as it should.
-    let places = exp.unsigned_abs().min(40);
-    let integer = sig >> places;
-    (integer, sig - (integer << places), 1 << (places - 1))
+    let one = u64::from(den) << exp.unsigned_abs().min(40);
+    (sig / one, sig % one, one)
 }
 
 /// `x - floor(x)`, rounded once. A small negative `x` may round to 1. Integers give +0 (-0 when rounding down);
@@ -63,15 +62,15 @@ fn split(sig: u64, exp: i32) -> (u64, u64, u64) {
 pub fn frc(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     let value = unpack(&env.format, x);
-    let (sign, sig, exp) = match value {
+    let (sign, sig, exp, den) = match value {
         Unpacked::Nan { .. } => return nan_result(&env.format, &[value]),
         Unpacked::Inf { .. } => return invalid(&env.format),
-        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+        Unpacked::Finite { sign, sig, exp, den } => (sign, sig, exp, den),
     };
-    let rest = if exp >= 0 { 0 } else { split(sig, exp).1 };
+    let rest = if exp > 0 { 0 } else { split(sig, exp, den).1 };
     // x - floor(x) is the remainder for positive x, and one minus the remainder for negative x.
     let fraction = Term { sign, sig: rest, exp };
-    let whole = Term { sign: !sign, sig: u64::from(sign && rest != 0), exp: 0 };
+    let whole = Term { sign: !sign, sig: u64::from(sign && rest != 0) * u64::from(den), exp: 0 };
     if rest == 0 {
         return sum(&env, Term { sign: false, sig: 0, exp }, Term { sign: true, sig: 0, exp });
     }

@@ -3,7 +3,7 @@
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
 use crate::num::format::Specials;
-use crate::num::round::from_parts;
+use crate::num::round::round;
 use crate::num::unpack::{Unpacked, key, nan_bits, nan_result, pass, unpack};
 
 /// `-x`. In fixed point the most negative number overflows. A NaN becomes the canonical one and raises nothing.
@@ -21,9 +21,7 @@ pub fn abs(env: impl Into<Env>, x: u32) -> Outcome {
 fn with_sign(env: &Env, x: u32, change: impl Fn(bool) -> bool) -> Outcome {
     let format = &env.format;
     match unpack(format, x) {
-        Unpacked::Finite { sign, sig, exp } if format.is_fixed() => {
-            from_parts(*env, change(sign), sig.into(), exp, false)
-        }
+        Unpacked::Finite { sign, sig, exp, .. } if format.is_fixed() => round(env, change(sign), sig, exp, false),
         Unpacked::Nan { .. } => Outcome::exact(nan_bits(format)),
         Unpacked::Inf { sign } | Unpacked::Finite { sign, .. } => {
             let magnitude = pass(format, x) & !format.sign_bit();
@@ -39,7 +37,7 @@ pub fn scale(env: impl Into<Env>, x: u32, k: i32) -> Outcome {
     match value {
         Unpacked::Nan { .. } => nan_result(&env.format, &[value]),
         Unpacked::Inf { .. } => Outcome::exact(pass(&env.format, x)),
-        Unpacked::Finite { sign, sig, exp } => from_parts(env, sign, sig.into(), exp.saturating_add(k), false),
+        Unpacked::Finite { sign, sig, exp, .. } => round(&env, sign, sig, exp.saturating_add(k), false),
     }
 }
 

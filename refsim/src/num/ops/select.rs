@@ -44,6 +44,7 @@ pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
     let format = env.into().format;
     let first = match format.kind {
         FormatKind::Fixed { frac_bits, .. } => 2 * key(&format, cond) > 1 << frac_bits,
+        FormatKind::Normalized { .. } => 2 * key(&format, cond) > i64::from(format.denominator()),
         FormatKind::Float { .. } => !format.is_nan(cond) && key(&format, cond) > i64::from(half(&format)),
     };
     Outcome::exact(pass(&format, if first { a } else { b }))
@@ -54,6 +55,6 @@ fn half(format: &crate::num::Format) -> u32 {
     match format.kind {
         FormatKind::Float { exp_bits: 2, man_bits } => 1 << (man_bits - 1),
         FormatKind::Float { man_bits, .. } => format.one() - (1 << man_bits),
-        FormatKind::Fixed { .. } => 0,
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => 0,
     }
 }

@@ -3,7 +3,7 @@
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
 use crate::num::format::Specials;
-use crate::num::round::{divide_by_zero, from_parts, infinite, zero};
+use crate::num::round::{divide_by_zero, in_units, infinite, zero};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// The square root. Negative operands are `INVALID` (fixed point: 0); `sqrt(-0)` is -0.
@@ -15,10 +15,11 @@ pub fn sqrt(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sign, sig: 0, .. } => zero(&env.format, sign),
         Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => invalid(&env.format),
         Unpacked::Inf { sign: false } => infinite(&env.format, false),
-        Unpacked::Finite { sig, exp, .. } => {
-            let (square, exp) = even(sig, exp);
+        Unpacked::Finite { sig, exp, den, .. } => {
+            // In units, the root of s/d is that of s d.
+            let (square, exp) = even(sig * u64::from(den), exp);
             let root = square.isqrt();
-            from_parts(env, false, root, exp / 2, root * root != square)
+            in_units(&env, false, root, exp / 2, root * root != square)
         }
     }
 }
@@ -39,16 +40,18 @@ pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sign, sig: 0, .. } => divide_by_zero(format, sign && !magnitude),
         Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } if !magnitude => invalid(format),
         Unpacked::Inf { .. } => zero(format, false),
-        Unpacked::Finite { sig, exp, .. } => {
-            // 1/sqrt(s * 2^e) = sqrt(2^126 / s) * 2^(-e/2 - 63) with s in [2^31, 2^33): the floor of the root of a
-            // floor is the floor of the root, and the root is exact only if both steps are.
+        Unpacked::Finite { sig, exp, den, .. } => {
+            // In units of 1/d, 1/sqrt(s/d * 2^e) = sqrt(d^3 2^p / s) * 2^(-e/2 - p/2) with s in [2^31, 2^33), p even
+            // and d^3 2^p of 126 bits or so: the floor of the root of a floor is the floor of the root, and the root is
+            // exact only if both steps are.
             let left =
                 sig.leading_zeros() - 32 + (exp - sig.leading_zeros().cast_signed()).rem_euclid(2).unsigned_abs();
             let (s, e) = (u128::from(sig) << left, exp - left.cast_signed());
-            let quotient = (1u128 << 126) / s;
-            let root = quotient.isqrt();
-            let exact = root * root * s == 1u128 << 126;
-            from_parts(env, false, root, -e / 2 - 63, !exact)
+            let cube = u128::from(den).pow(3);
+            let places = (126 - cube.ilog2()) & !1;
+            let root = ((cube << places) / s).isqrt();
+            let exact = root * root * s == cube << places;
+            in_units(&env, false, root, -e / 2 - (places / 2).cast_signed(), !exact)
         }
     }
 }

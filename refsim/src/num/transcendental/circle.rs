@@ -8,18 +8,19 @@ use super::enclose::Enclosure;
 /// Guard bits beyond the places requested.
 const GUARD: u32 = 32;
 
-/// `cos x` or `sin x` for `x = (-1)^sign * sig * 2^exp`, in units of `2^-places`.
+/// `cos x` or `sin x` for `x = (-1)^sign * sig * 2^exp / den`, in units of `2^-places`.
 ///
 /// The angle is reduced modulo `2 pi` into +-pi, with as many more bits of pi as the angle has before the point; then
 /// the power series is summed. Truncation error in units of `2^-(places + 32)`: one from `x`, below `2^9` from the
 /// multiple of `2 pi`, and four per term of the series. With fewer than `2^13` terms the total is below `2^20`, a small
 /// part of one unit of `2^-places`.
-pub(super) fn circular(sine: bool, sign: bool, sig: u64, exp: i32, places: u32) -> Enclosure<BigInt> {
+pub(super) fn circular(sine: bool, sign: bool, sig: u64, exp: i32, den: u32, places: u32) -> Enclosure<BigInt> {
     let whole = u32::try_from(exp + 64).unwrap_or(0);
     let bits = places + GUARD + whole;
     let signed = if sign { -BigInt::from(sig) } else { BigInt::from(sig) };
     let shift = i64::from(bits) + i64::from(exp);
-    let x = if shift >= 0 { signed << shift } else { signed >> -shift };
+    let shifted = if shift >= 0 { signed << shift } else { signed >> -shift };
+    let x = shifted / den;
     let half_turn = pi(bits);
     let turn: BigInt = &half_turn << 1;
     // The nearest multiple: a shift rounds toward minus infinity, a division toward zero.
@@ -81,7 +82,7 @@ mod tests {
         for sig in [1u64, 3, 0x00c9_0fdb, 0x00ff_ffff, 0x0080_0001, 12345] {
             for exp in [-149, -60, -24, -23, -22, -10, -1, 0, 5, 40, 104] {
                 for (sine, sign) in [(false, false), (false, true), (true, false), (true, true)] {
-                    let (coarse, fine) = (circular(sine, sign, sig, exp, 128), circular(sine, sign, sig, exp, 512));
+                    let [coarse, fine] = [128, 512].map(|places| circular(sine, sign, sig, exp, 1, places));
                     let shift = 512 - 128;
                     assert!(
                         &coarse.low << shift <= fine.low && fine.high <= &coarse.high << shift,

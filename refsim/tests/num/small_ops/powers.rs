@@ -18,7 +18,8 @@ impl Reference {
             Inf(false) => return self.infinity(false),
             Num(negative, q) => (negative, q),
         };
-        if let (FormatKind::Fixed { int_bits, .. }, Overflow::Wrap) = (self.f.kind, self.f.overflow)
+        if let (FormatKind::Fixed { int_bits, .. } | FormatKind::Normalized { int_bits, .. }, Overflow::Wrap) =
+            (self.f.kind, self.f.overflow)
             && signed(negative, q).floor() >= i128::from(int_bits)
         {
             return Outcome::new(self.f.max_finite(), Flags::OVERFLOW | Flags::INEXACT);

@@ -155,6 +155,6 @@ impl<'a> EncodedLinks<'a> {
 fn least_normal(format: Format) -> f64 {
     match format.kind {
         FormatKind::Float { exp_bits, .. } => power_of_two(2 - (1 << (exp_bits - 1))),
-        FormatKind::Fixed { .. } => 0.0,
+        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => 0.0,
     }
 }

@@ -181,6 +181,9 @@ impl Bounds {
             FormatKind::Fixed { int_bits, frac_bits } => {
                 self.fixed(&exact, power_of_two(int_bits.into()), power_of_two(-i32::from(frac_bits)))
             }
+            FormatKind::Normalized { int_bits, frac_bits } => {
+                self.fixed(&exact, power_of_two(int_bits.into()), 1.0 / f64::from((1 << frac_bits) - 1))
+            }
             FormatKind::Float { exp_bits, man_bits } => self.float(&exact, (o, corners), exp_bits, man_bits),
         };
         let passes = |sign: f64| {

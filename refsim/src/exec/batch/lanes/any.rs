@@ -4,6 +4,7 @@ use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, GENERAL, HOST, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
+use super::normalized::NormalizedLane;
 use super::round::{AWAY, DOWN, EVEN, ZERO};
 use crate::num::{Format, FormatKind, Overflow, Rounding};
 
@@ -34,6 +35,8 @@ any_lane! {
     Fixed16Wrap(FixedLane<false, true>),
     Fixed32(FixedLane<true, false>),
     Fixed32Wrap(FixedLane<true, true>),
+    Normalized(NormalizedLane<false>),
+    NormalizedWrap(NormalizedLane<true>),
     IeeeHost(IeeeLane<HOST>),
     IeeeSingle(IeeeLane<SINGLE>),
     IeeeDouble(IeeeLane<DOUBLE>),
@@ -67,6 +70,10 @@ impl AnyLane {
                     (true, true) => Self::Fixed32Wrap(FixedLane::new(f, i, b)),
                 }
             }
+            FormatKind::Normalized { int_bits: i, frac_bits: b } => match format.overflow {
+                Overflow::Wrap => Self::NormalizedWrap(NormalizedLane::new(f, i, b)),
+                _ => Self::Normalized(NormalizedLane::new(f, i, b)),
+            },
             FormatKind::Float { exp_bits: x, man_bits: m } => match (float::path(f, x, m), format.rounding) {
                 (HOST, _) if ieee::is_plain(f) => Self::IeeeHost(IeeeLane::new(f, x, m)),
                 (SINGLE, _) if ieee::is_plain(f) => Self::IeeeSingle(IeeeLane::new(f, x, m)),

@@ -39,7 +39,13 @@ impl Shift {
 }
 
 /// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
-const PIVOT: f64 = 6_755_399_441_055_744.0;
+pub(super) const PIVOT: f64 = 6_755_399_441_055_744.0;
+
+/// The nearest integer, ties to even, of a double below 2^51.
+#[inline(always)]
+pub(super) fn by_pivot(x: f64) -> f64 {
+    (x + PIVOT) - PIVOT
+}
 
 /// The same in a single, for numbers of up to 22 bits, and its bits.
 const SINGLE_PIVOT: f32 = 12_582_912.0;
@@ -48,16 +54,28 @@ const SINGLE_PIVOT_BITS: i32 = SINGLE_PIVOT.to_bits().cast_signed();
 /// Rounding of a double to an integer: the nearest integer (ties to even) of the number or of its magnitude, corrected
 /// by one depending on the distance of the number from it.
 #[derive(Clone, Copy, Debug)]
-struct IntegerRounding {
+pub(super) struct IntegerRounding {
     /// Mask of the bits that are kept: all, or all but the sign.
     sign: u64,
     /// Distances below which one is subtracted, and from which one is added.
-    lower: f64,
+    pub(super) lower: f64,
     upper: f64,
 }
 
 impl IntegerRounding {
-    const fn new(rounding: u8) -> IntegerRounding {
+    /// The number that is rounded: it, or its magnitude.
+    #[inline(always)]
+    pub(super) fn magnitude(&self, x: f64) -> f64 {
+        f64::from_bits(x.to_bits() & self.sign)
+    }
+
+    /// What has been rounded, with the sign of the number if that was taken off.
+    #[inline(always)]
+    pub(super) fn signed(&self, rounded: f64, x: f64) -> f64 {
+        f64::from_bits(rounded.to_bits() | x.to_bits() & !self.sign)
+    }
+
+    pub(super) const fn new(rounding: u8) -> IntegerRounding {
         const SIZE: u64 = u64::MAX >> 1;
         let never = f64::INFINITY;
         match rounding {
@@ -151,7 +169,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
     }
 
     #[inline(always)]
-    fn fit32(&self, v: i32) -> i32 {
+    pub(super) fn fit32(&self, v: i32) -> i32 {
         if WRAP { self.residue(v) } else { v.max(self.low).min(self.high) }
     }
 
@@ -164,13 +182,34 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if WRAP { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
     }
 
+    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; what is out of range stays so,
+    /// since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which wrap: still far
+    /// from where the order of integers would break.
+    #[inline(always)]
+    pub(super) fn fused_sum_of<const N: usize>(&self, unit: f32, a: [i32; N], b: [i32; N]) -> i32 {
+        let (low, high) = (SINGLE_PIVOT + self.low as f32, SINGLE_PIVOT + self.high as f32);
+        let (mut sum, mut offset) = (0i32, 0i32);
+        for k in 0..N {
+            #[expect(clippy::disallowed_methods, reason = "one rounding is meant, and the host has the instruction")]
+            let product = (a[k] as f32 * unit).mul_add(b[k] as f32, SINGLE_PIVOT);
+            let above = if product > low { product } else { low };
+            let fitted = if above < high { above } else { high };
+            sum = sum.wrapping_add(fitted.to_bits().cast_signed());
+            offset = offset.wrapping_add(SINGLE_PIVOT_BITS);
+            if k > 0 {
+                sum = sum.max(self.low.wrapping_add(offset)).min(self.high.wrapping_add(offset));
+            }
+        }
+        sum.wrapping_sub(offset)
+    }
+
     fn extreme(&self, negative: bool) -> i32 {
         if negative { self.low } else { self.high }
     }
 
     /// Returns `a / 0`.
     #[inline(always)]
-    fn by_zero(&self, a: i32) -> i32 {
+    pub(super) fn by_zero(&self, a: i32) -> i32 {
         let extreme = self.extreme(a < 0);
         if a == 0 { 0 } else { extreme }
     }
@@ -181,7 +220,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
     /// the double errs by one in `2^22` at most: it rounds as the quotient does. What saturates is clamped first; what
     /// wraps is an integer of at most 31 bits.
     #[inline(always)]
-    fn quotient(&self, n: i32, d: i32) -> i32 {
+    pub(super) fn quotient(&self, n: i32, d: i32) -> i32 {
         let exact = f64::from(n) / f64::from(d);
         let (low, high) = (f64::from(self.low) - 1.0, f64::from(self.high) + 1.0);
         let above = if exact > low { exact } else { low };
@@ -199,7 +238,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
     }
 
     /// `magnitude / 2^guard` units, and a bit more if `sticky`, rounded and fitted; `guard` at least 2 with `sticky`.
-    fn finish(&self, negative: bool, magnitude: u128, guard: u32, sticky: bool) -> i32 {
+    pub(super) fn finish(&self, negative: bool, magnitude: u128, guard: u32, sticky: bool) -> i32 {
         // Two guard bits and the sticky bit beneath them say all; the rest folds into the last.
         let (kept, guard, sticky) = if guard > 3 {
             let drop = (guard - 3).min(127);
@@ -235,13 +274,12 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     fn round_f64(&self, x: f64) -> i32 {
         // In units; scaling by a power of two, the nearest integer and the rest are exact.
         let units = x * (1u64 << self.frac) as f64;
-        let value = f64::from_bits(units.to_bits() & self.whole.sign);
+        let value = self.whole.magnitude(units);
         let near = value.round_ties_even();
         let rest = value - near;
         let less = if rest < self.whole.lower { 1.0 } else { 0.0 };
         let more = if rest >= self.whole.upper { 1.0 } else { 0.0 };
-        let size = near - less + more;
-        let rounded = f64::from_bits(size.to_bits() | units.to_bits() & !self.whole.sign);
+        let rounded = self.whole.signed(near - less + more, units);
         let (low, high) = (f64::from(self.low), f64::from(self.high));
         let above_low = if rounded > low { rounded } else { low };
         let clamped = if above_low < high { above_low } else { high };
@@ -280,26 +318,10 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         Self::FUSED && self.rounding == EVEN
     }
 
-    /// The exact product plus the pivot, rounded once, is the product rounded to nearest even, in the low bits of a
-    /// single; what is out of range stays so, since rounding is monotonic. Sums of `k` products are kept with `k` times
-    /// the pivot's bits, which wrap: still far from where the order of integers would break.
+    /// The exact product plus the pivot, rounded once, is the product rounded to nearest even.
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
-        let unit = 1.0 / (1u64 << self.frac) as f32;
-        let (low, high) = (SINGLE_PIVOT + self.low as f32, SINGLE_PIVOT + self.high as f32);
-        let (mut sum, mut offset) = (0i32, 0i32);
-        for k in 0..N {
-            #[expect(clippy::disallowed_methods, reason = "one rounding is meant, and the host has the instruction")]
-            let product = (a[k] as f32 * unit).mul_add(b[k] as f32, SINGLE_PIVOT);
-            let above = if product > low { product } else { low };
-            let fitted = if above < high { above } else { high };
-            sum = sum.wrapping_add(fitted.to_bits().cast_signed());
-            offset = offset.wrapping_add(SINGLE_PIVOT_BITS);
-            if k > 0 {
-                sum = sum.max(self.low.wrapping_add(offset)).min(self.high.wrapping_add(offset));
-            }
-        }
-        sum.wrapping_sub(offset)
+        self.fused_sum_of(1.0 / (1u64 << self.frac) as f32, a, b)
     }
 
     /// The double rounds to nearest even as the quotient does ([`Self::quotient`]); there is nothing to correct.

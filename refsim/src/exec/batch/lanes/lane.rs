@@ -72,14 +72,24 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn store(x: Self::T) -> u32 {
         x.to_bits()
     }
-    /// The number as a double, always exact.
+    /// The number as a double: exact, or of a normalized format the nearest one.
     fn to_f64(&self, x: Self::T) -> f64;
-    /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]).
+    /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]), or what
+    /// [`Lane::to_f64`] gives.
     fn round_f64(&self, x: f64) -> Self::T;
     /// Rounds a single into the format.
     #[inline(always)]
     fn round_single(&self, x: f32) -> Self::T {
         self.round_f64(f64::from(x))
+    }
+
+    /// The number clamped to [0, 1] (NaN gives 0), times `scale` plus `half`, truncated: exact for 24 bits times 24.
+    #[inline(always)]
+    fn steps(&self, x: Self::T, scale: f64, half: f64) -> u32 {
+        let x = self.to_f64(x);
+        let low = if x > 0.0 { x } else { 0.0 };
+        let clamped = if low < 1.0 { low } else { 1.0 };
+        (clamped * scale + half) as u32
     }
 
     /// True if [`Lane::is_guarded`] can say yes.

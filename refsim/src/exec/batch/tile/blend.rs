@@ -80,7 +80,6 @@ impl Blender {
         formats: &LaneFormats,
     ) -> [u32; 4] {
         let main = formats.lane(Arith::Main);
-        let source = color.map(|raw| with_any_lane!(main, |lane| { double(lane, raw) }));
         let mut new = [0; 4];
         let mut put = |channel: ChannelPlace, bits: u32| new[channel.word] |= bits << channel.shift;
         let stored = |zero: u32, one: u32| {
@@ -93,7 +92,8 @@ impl Blender {
         match &self.values {
             BlendValues::Steps(one, nearest) => {
                 let half = if *nearest { 0.5 } else { 0.0 };
-                let source = source.map(|x| (clamped(x) * *one as f64 + half) as i64);
+                let source =
+                    color.map(|raw| with_any_lane!(main, |lane| { code(lane, raw, *one as f64, half) }).into());
                 let destination = stored(0, *one as u32).map(i64::from);
                 for channel in channels {
                     let code = self.steps((*one, *nearest), source, destination, channel.component);
@@ -101,7 +101,7 @@ impl Blender {
                 }
             }
             BlendValues::Floats(lane) => {
-                let source = source.map(|x| x as f32);
+                let source = color.map(|raw| with_any_lane!(main, |lane| { double(lane, raw) }) as f32);
                 // The pattern of 0 is 0 in every format; that of 1 depends on the format.
                 let one = with_any_lane!(&**lane, |lane| { lane.encode(lane.round_f64(1.0)) });
                 let destination = stored(0, one)
@@ -197,8 +197,6 @@ fn double<L: Lane>(lane: &L, raw: u32) -> f64 {
     lane.to_f64(L::load(raw))
 }
 
-/// Clamps a value to [0, 1]; NaN gives 0.
-fn clamped(x: f64) -> f64 {
-    let low = if x > 0.0 { x } else { 0.0 };
-    if low < 1.0 { low } else { 1.0 }
+fn code<L: Lane>(lane: &L, raw: u32, scale: f64, half: f64) -> u32 {
+    lane.steps(L::load(raw), scale, half)
 }

@@ -92,7 +92,7 @@ fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut 
     match channel.coding {
         Coding::Steps(scale, half) => {
             for i in 0..LANES {
-                texels[i] |= steps(lane, row[i], scale, half) << channel.place.shift;
+                texels[i] |= lane.steps(L::load(row[i]), scale, half) << channel.place.shift;
             }
         }
         Coding::Single => {
@@ -107,15 +107,10 @@ fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut 
 /// Encodes a value for a channel.
 fn code<L: Lane>(lane: &L, raw: u32, coding: Coding) -> u32 {
     match coding {
-        Coding::Steps(scale, half) => steps(lane, raw, scale, half),
+        Coding::Steps(scale, half) => lane.steps(L::load(raw), scale, half),
         Coding::Single => single(lane, raw),
         Coding::Blended => 0,
     }
-}
-
-#[inline(always)]
-fn steps<L: Lane>(lane: &L, raw: u32, scale: f64, half: f64) -> u32 {
-    (clamped(lane.to_f64(L::load(raw))) * scale + half) as u32
 }
 
 #[inline(always)]
@@ -156,6 +151,15 @@ pub(crate) fn quantise(
                 #[inline(always)]
                 || fixed_to_steps(row, frac_bits.into(), bits, nearest, to),
             );
+        }
+        FormatKind::Normalized { .. } if bits > 0 => {
+            let (scale, half) = (f64::from((1u32 << bits) - 1), if nearest { 0.5 } else { 0.0 });
+            return with_any_lane!(lane, |l| {
+                simd.run(
+                    #[inline(always)]
+                    || normalized_to_steps(l, row, scale, half, to),
+                )
+            });
         }
         FormatKind::Float { .. } if bits > 0 => {
             let (scale, half) = (f64::from((1u32 << bits) - 1), if nearest { 0.5 } else { 0.0 });
@@ -201,6 +205,13 @@ fn fixed_to_single(row: &LaneRow, frac: u32, out: &mut LaneRow) {
     let one = 1i32 << frac;
     for i in 0..LANES {
         out[i] = (row[i].cast_signed().clamp(0, one) as f32 / one as f32).to_bits();
+    }
+}
+
+#[inline(always)]
+fn normalized_to_steps<L: Lane>(lane: &L, row: &LaneRow, scale: f64, half: f64, out: &mut LaneRow) {
+    for i in 0..LANES {
+        out[i] = lane.steps(L::load(row[i]), scale, half);
     }
 }
 

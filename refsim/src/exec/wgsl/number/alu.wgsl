@@ -1,7 +1,22 @@
 // Every operation of the lane arithmetic behind one switch. Arguments of one operand ignore the others.
 
-// The integer next to x: downwards, or the nearest (ties to even).
-fn n_integral(x: Number, nearest: bool) -> Number {
+// A number of units of 1 / over: its integer part, and the rest in units.
+fn n_parted(x: Number, over: u32) -> vec2<u32> {
+    let size = n_shift(x.sig, x.exp);
+    return vec2<u32>(size / over, size % over);
+}
+
+// The integer next to x / over: downwards, or the nearest (ties to even).
+fn n_integral(x: Number, over: u32, nearest: bool) -> Number {
+    if (HAS_NORMALIZED) {
+        if over != 1u {
+            let parts = n_parted(x, over);
+            let up = select(x.sign == 1u && parts.y != 0u, 2u * parts.y > over, nearest);
+            var n = n_whole(parts.x + select(0u, 1u, up));
+            n.sign = x.sign;
+            return n;
+        }
+    }
     if x.kind != 0u || x.exp >= 0 || x.sig == 0u {
         return x;
     }
@@ -18,8 +33,15 @@ fn n_integral(x: Number, nearest: bool) -> Number {
     return n;
 }
 
-// x without what stands before the point; +0 of an integer.
-fn n_rest(x: Number) -> Number {
+// x / over without what stands before the point, in units of 1 / over; +0 of an integer.
+fn n_rest(x: Number, over: u32) -> Number {
+    if (HAS_NORMALIZED) {
+        if over != 1u {
+            var n = n_whole(n_parted(x, over).y);
+            n.sign = select(x.sign, 0u, n.sig == 0u);
+            return n;
+        }
+    }
     if x.kind != 0u || (x.exp <= -32 && x.sig != 0u) {
         return x;
     }
@@ -64,14 +86,29 @@ fn n_is_nan(f: Format, a: u32) -> bool {
     return n_is_float(f) && (a & 0x7fffffffu) > N_INFINITY;
 }
 
+// A number over that of a product.
+fn n_addend(z: Number, over: u32) -> Number {
+    if (HAS_NORMALIZED) {
+        if over != 1u {
+            return n_multiple(z, over);
+        }
+    }
+    return z;
+}
+
 // What is a product and a sum, before its rounding. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits
-// of the fixed format it is of. N_SCALE: b the power as an i32.
+// of the fixed format it is of; above them, in the second byte, what a normalized one divides by. N_SCALE: b the power as
+// an i32.
 fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     var kind = f.kind;
     var frac = f.frac;
+    // What numbers of the format, and what the result in units of the format, are divided by.
+    let over = n_over(f);
+    var divisor = 1u;
     if op == N_CONVERT {
         kind = select(N_FIXED, N_FLOAT, b == 0u);
-        frac = b - 1u;
+        frac = (b & 0xffu) - 1u;
+        divisor = max(b >> 8u, 1u);
     }
     var x = n_unpack(kind, frac, a);
     var y = n_unpack(f.kind, f.frac, b);
@@ -87,6 +124,11 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         case N_MUL: {
             z = nothing;
             z.sign ^= y.sign;
+            divisor = over;
+        }
+        case N_FUSED_MAD: {
+            z = n_addend(z, over);
+            divisor = over;
         }
         case N_SCALE: {
             y = N_ONE;
@@ -94,28 +136,34 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
             z = nothing;
         }
         case N_CONVERT: {
-            y = N_ONE;
+            y = n_whole(over);
             z = nothing;
         }
         case N_FLOOR, N_ADDRESS_FLOOR, N_ADDRESS_NEAREST: {
-            x = n_integral(x, op == N_ADDRESS_NEAREST);
-            y = N_ONE;
+            x = n_integral(x, over, op == N_ADDRESS_NEAREST);
+            y = n_whole(over);
             z = nothing;
         }
         case N_FRC: {
-            let rest = n_rest(x);
+            let rest = n_rest(x, over);
             let below = x.sign == 1u && rest.sig != 0u;
             // An infinity less itself; zero less zero; the rest, plus one if negative.
             z = Number(select(0u, 1u, x.kind == 1u), select(1u - x.sign, 1u, rest.sig == 0u), -N_FAR, 0u);
             if below && x.kind == 0u {
-                z = N_ONE;
+                z = n_whole(over);
             }
             x = rest;
             y = N_ONE;
         }
         default: {}
     }
-    return n_sum(f, x, y, z);
+    var w = n_sum(f, x, y, z);
+    if (HAS_NORMALIZED) {
+        if divisor != 1u {
+            w.m = n_divided(w.m, divisor);
+        }
+    }
+    return w;
 }
 
 // What is found digit by digit, before its rounding. N_STEPS: a in single precision, b steps. N_SPLIT_...: a a word, b
@@ -123,25 +171,27 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
 fn n_long(op: u32, f: Format, a: u32, b: u32) -> Real {
     var x = n_unpack(select(f.kind, N_FLOAT, op == N_STEPS), f.frac, a);
     var y = n_unpack(f.kind, f.frac, b);
+    let over = n_over(f);
     switch op {
         case N_RCP: {
             y = x;
-            x = N_ONE;
+            x = n_whole(over * over);
         }
+        case N_DIV, N_SQRT: { x = n_addend(x, over); }
         case N_STEPS: {
-            x = n_whole(n_step(x, b));
+            x = n_whole(n_step(x, b) * over);
             y = n_whole(b);
         }
         case N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
-            x = n_taken(op, a, b);
+            x = n_addend(n_taken(op, a, b), over);
             y = n_whole(select(select(127u, 255u, op == N_SPLIT_BYTE), 65535u, op == N_SPLIT_SHORT));
         }
         default: {}
     }
     var w: Real;
     switch op {
-        case N_EXP2, N_LOG2: { w = n_power(op, f, x); }
-        case N_SIN, N_COS: { w = n_circle(op, f, x); }
+        case N_EXP2, N_LOG2: { w = n_in_units(f, n_power(op, f, x)); }
+        case N_SIN, N_COS: { w = n_in_units(f, n_circle(op, f, x)); }
         default: { w = n_quotient(op, f, x, y); }
     }
     return w;
@@ -181,7 +231,7 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         case N_SATURATE: {
             var one = 0x3f800000u;
             if !float {
-                one = select(1u << f.frac, n_extreme(f, 0u), f.upper == 0u);
+                one = max(select(1u << f.frac, n_extreme(f, 0u), f.upper == 0u), f.over);
             }
             let clamped = select(select(a, one, first >= i32(one)), 0u, first <= 0);
             raw = select(clamped, select(0u, N_NAN, f.special == 1u), n_is_nan(f, a));
@@ -193,7 +243,7 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         }
         case N_SELECT_NON_NEGATIVE: { raw = n_select(first >= 0 && !n_is_nan(f, a), b, c); }
         case N_SELECT_ABOVE_HALF: {
-            let half = select((1u << (f.frac & 31u)) >> 1u, 0x3f000000u, float);
+            let half = select(max(1u << (f.frac & 31u), f.over) >> 1u, 0x3f000000u, float);
             raw = n_select(first > i32(half) && !n_is_nan(f, a), b, c);
         }
         case N_LESS: { raw = n_mask(first < second && !unordered); }
@@ -223,7 +273,12 @@ fn n_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
 fn n_result(op: u32, f: Format, exact: Real) -> u32 {
     var result = n_finish(f, exact);
     switch op {
-        case N_ADDRESS_FLOOR, N_ADDRESS_NEAREST: { result = n_integer(n_unpack(f.kind, f.frac, result)); }
+        case N_ADDRESS_FLOOR, N_ADDRESS_NEAREST: {
+            result = n_integer(n_unpack(f.kind, f.frac, result));
+            if (HAS_NORMALIZED) {
+                result = u32(i32(result) / i32(n_over(f)));
+            }
+        }
         default: {}
     }
     return result;

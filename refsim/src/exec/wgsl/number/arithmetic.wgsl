@@ -2,6 +2,22 @@
 
 const N_ONE: Number = Number(0u, 0u, -31, 0x80000000u);
 
+// x k, for x of 24 digits at most and k below 256.
+fn n_multiple(x: Number, k: u32) -> Number {
+    var n = n_whole((x.sig >> 8u) * k);
+    n.kind = x.kind;
+    n.sign = x.sign;
+    n.exp += x.exp + 8;
+    return n;
+}
+
+// m / k for k below 2^16, jammed.
+fn n_divided(m: vec3<u32>, k: u32) -> vec3<u32> {
+    var q = n_div96(m, k);
+    q.z |= select(0u, 1u, m.z != q.z * k);
+    return q;
+}
+
 // x y + z
 fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     let sign = x.sign ^ y.sign;
@@ -66,10 +82,12 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     var steps = select(34u, 28u, n_is_float(f));
     var exp = x.exp + 32;
     if inverse {
+        // In units of 1 / n, 1 / sqrt(x / n) is sqrt(n^3 / x).
+        let cube = n_whole(n_over(f) * n_over(f) * n_over(f));
         steps = select(50u, 28u, n_is_float(f));
-        rest = 0x40000000u;
+        rest = cube.sig >> 1u;
         divisor = x.sig;
-        exp = -x.exp - 30;
+        exp = cube.exp + 1 - x.exp;
     }
     // Of an odd power, or after the digit before the point, the first pair has one digit only.
     var skip = u32(exp & 1);
@@ -138,7 +156,7 @@ fn n_div96(p: vec3<u32>, k: u32) -> vec3<u32> {
     return to;
 }
 
-// 2^x and log2 x, good to 2^-90 and 2^-84. Both are irrational where they aren't exact, and no format has an operand
+// 2^x and log2 x, good to 2^-90 and 2^-84, to 2^-80 of normalized numbers. Both are irrational where they aren't exact, and no format has an operand
 // whose result is expected nearer than 2^-64 to a place where rounding turns.
 fn n_power(op: u32, f: Format, x: Number) -> Real {
     let exponential = op == N_EXP2;
@@ -153,16 +171,24 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
             return n_known(select(n_infinite(f, 0u), n_zero(f, 0u), x.sign == 1u));
         }
         let far = whole >= 20;
-        let integral = far || empty || i32(countTrailingZeros(x.sig)) >= -x.exp;
+        var integral = far || empty || i32(countTrailingZeros(x.sig)) >= -x.exp;
         whole = select(i32(n_shift(x.sig, x.exp)), N_FAR, far);
         // The fraction in units of 2^-96; of a negative number, what is missing to the next integer.
         let s = x.exp + 96;
         u = vec3<u32>(n_shift(x.sig, s - 64), n_shift(x.sig, s - 32), n_shift(x.sig, s));
+        if (HAS_NORMALIZED) {
+            if f.over != 0u {
+                let part = u32(whole) % f.over;
+                whole = whole / i32(f.over);
+                integral = part == 0u;
+                u = n_times(n_div96(vec3<u32>(part << 24u, 0u, 0u), f.over), 256u);
+            }
+        }
         if x.sign == 1u {
             whole = select(-whole - 1, -whole, integral);
             u = n_add96(~u, vec3<u32>(), select(1u, 0u, s < 0));
         }
-        if !n_is_float(f) && f.overflow == 1u && whole >= i32(f.upper) {
+        if !n_is_float(f) && f.overflow == 1u && whole >= i32(f.upper - 32u + countLeadingZeros(f.over)) {
             return n_known(n_extreme(f, 0u));
         }
         if integral {
@@ -178,7 +204,16 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
         if x.kind == 1u {
             return n_known(n_infinite(f, 0u));
         }
-        if x.sig == 0x80000000u {
+        var power = x.sig == 0x80000000u;
+        if (HAS_NORMALIZED) {
+            // The quotient, its leading bit in place.
+            power = x.sig == n_whole(n_over(f)).sig;
+            u = n_div96(u, n_over(f));
+            let zeros = countLeadingZeros(u.x) & 31u;
+            u = n_times(u, 1u << zeros);
+            whole -= i32(zeros);
+        }
+        if power {
             return Real(false, 0u, select(0u, 1u, whole < 0), 0, vec3<u32>(0u, 0u, u32(abs(whole))));
         }
     }

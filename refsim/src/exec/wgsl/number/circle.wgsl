@@ -24,7 +24,8 @@ fn n_circle(op: u32, f: Format, x: Number) -> Real {
         var digits = array<u32, 10>(
             0u, 0u, 0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u, 0x3c439041u, 0xfe5163abu, 0xdebbc561u,
         );
-        let start = u32(clamp(x.exp + 62, 0, 159));
+        // What is divided later must not lose whole turns before: it has two bytes for them.
+        let start = u32(clamp(x.exp + 62 - select(16, 0, n_over(f) == 1u), 0, 159));
         let first = start >> 5u;
         let bits = start & 31u;
         var part: array<u32, 6>;
@@ -35,6 +36,24 @@ fn n_circle(op: u32, f: Format, x: Number) -> Real {
             let low = product.y + carry;
             carry = product.x + select(0u, 1u, low < carry);
             part[i - 1u] = low;
+        }
+        if (HAS_NORMALIZED) {
+            if f.over != 0u {
+                var rest = 0u;
+                var digit = 0u;
+                for (var i = 0u; i < 10u; i++) {
+                    let next = (part[i >> 1u] >> (16u - 16u * (i & 1u))) & 0xffffu;
+                    let dividend = (rest << 16u) | next;
+                    let before = digit;
+                    digit = dividend / f.over;
+                    rest = dividend - digit * f.over;
+                    // A word is made of two digits: the first, two bytes wide, goes.
+                    if (i & 1u) == 0u && i > 0u {
+                        part[(i >> 1u) - 1u] = (before << 16u) | digit;
+                    }
+                }
+                part[4] = digit << 16u;
+            }
         }
         // Two digits before the point, then the fraction of a quarter turn: that to the nearest whole one.
         quarters = part[0] >> 30u;

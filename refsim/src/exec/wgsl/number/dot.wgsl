@@ -67,6 +67,11 @@ fn n_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> Real {
         }
     }
     m.z |= select(0u, 1u, rest != 0u);
+    if (HAS_NORMALIZED) {
+        if f.over != 0u {
+            m = n_divided(m, f.over);
+        }
+    }
     // An exact zero has the sign of the products, or the one of the rounding if theirs differ.
     var sign = negative;
     if (m.x | m.y | m.z) == 0u {

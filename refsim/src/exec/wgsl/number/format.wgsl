@@ -12,7 +12,7 @@ struct Format {
     overflow: u32,   // 0 saturate, 1 wrap, 2 infinity, 3 as NV_fragment_program
     denormals: u32,  // 0 keep, 1 flush
     special: u32,    // 0 Direct3D, 1 NV_fragment_program
-    spare: u32,
+    over: u32,       // what numbers of a normalized format (of kind 0, without fraction bits) are divided by, else 0
 }
 
 const N_FIXED: u32 = 0u;
@@ -32,7 +32,8 @@ struct Number {
     sig: u32,
 }
 
-// What an operation leaves to be rounded: (-1)^sign m 2^exp; or a result known already.
+// What an operation leaves to be rounded: (-1)^sign m 2^exp, divided by what numbers of the format are; or a result known
+// already.
 struct Real {
     known: bool,
     raw: u32,
@@ -139,6 +140,34 @@ fn n_mul32(a: u32, b: u32) -> vec2<u32> {
     return vec2<u32>(a1 * b1 + (middle >> 16u) + (other >> 16u), (other << 16u) | (low & 0xffffu));
 }
 
+// What numbers of the format are divided by.
+fn n_over(f: Format) -> u32 {
+    if (HAS_NORMALIZED) {
+        return max(f.over, 1u);
+    }
+    return 1u;
+}
+
+// m k modulo 2^96.
+fn n_times(m: vec3<u32>, k: u32) -> vec3<u32> {
+    let middle = n_mul32(m.y, k);
+    let low = n_mul32(m.z, k);
+    return n_add96(vec3<u32>(m.x * k, middle.y, low.y), vec3<u32>(middle.x, low.x, 0u), 0u);
+}
+
+// m 2^exp to be rounded as it is, not divided by what numbers of the format are.
+fn n_in_units(f: Format, x: Real) -> Real {
+    var y = x;
+    if (HAS_NORMALIZED) {
+        if f.over != 0u {
+            let high = (x.m.x >> 24u) != 0u;
+            y.m = n_times(select(x.m, n_right(x.m, 8u), high), f.over);
+            y.exp += select(0, 8, high);
+        }
+    }
+    return y;
+}
+
 // A whole number.
 fn n_whole(x: u32) -> Number {
     let zeros = countLeadingZeros(x);
@@ -229,7 +258,8 @@ fn n_finish(f: Format, x: Real) -> u32 {
 // between that and (sig + 1) 2^exponent.
 fn n_round(f: Format, negative: bool, sig: vec2<u32>, exponent: i32, sticky: bool) -> u32 {
     let m = vec3<u32>(sig.y, sig.x, select(0u, 1u, sticky));
-    return n_round_real(f, select(0u, 1u, negative), exponent - 32, m);
+    let x = n_in_units(f, Real(false, 0u, select(0u, 1u, negative), exponent - 32, m));
+    return n_round_real(f, x.sign, x.exp, x.m);
 }
 
 // The raw value of a bit pattern of the format.

@@ -11,13 +11,14 @@ fn s_alu(op: u32, a: u32, b: u32) -> u32 {
     var w: Real;
     switch op {
         case S_DIVIDE: { w = n_quotient(op, N_FP32, n_unpack(N_FLOAT, 0u, a), n_unpack(N_FLOAT, 0u, b)); }
-        default: { w = n_term(op, N_FP32, N_FLOAT, 0u, a, b); }
+        default: { w = n_term(op, N_FP32, N_FLOAT, 0u, 0u, a, b); }
     }
     return n_finish(N_FP32, w);
 }
 
-// N_ADD, N_SUB or N_MUL of a number of this kind and a single precision one; any other operation converts the first.
-fn n_term(op: u32, f: Format, kind: u32, fraction: u32, a: u32, b: u32) -> Real {
+// N_ADD, N_SUB or N_MUL of a number of this kind and a single precision one; any other operation converts the first, and
+// divides by `over` if it is normalized.
+fn n_term(op: u32, f: Format, kind: u32, fraction: u32, over: u32, a: u32, b: u32) -> Real {
     let x = n_unpack(kind, fraction, a);
     let second = n_unpack(N_FLOAT, 0u, b);
     let product = op == N_MUL;
@@ -31,7 +32,13 @@ fn n_term(op: u32, f: Format, kind: u32, fraction: u32, a: u32, b: u32) -> Real 
         y = second;
         z.sign ^= y.sign;
     }
-    return n_sum(f, x, y, z);
+    var w = n_in_units(f, n_sum(f, x, y, z));
+    if (HAS_NORMALIZED) {
+        if over != 0u {
+            w.m = n_divided(w.m, over);
+        }
+    }
+    return w;
 }
 
 fn s_key(a: u32) -> i32 {

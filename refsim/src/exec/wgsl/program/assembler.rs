@@ -91,7 +91,7 @@ impl Assembler<'_> {
     pub(super) fn format(&mut self, k: Arith) -> u32 {
         let format = self.formats.format(k);
         self.parts.add_if(format != Format::FP32, "HAS_FORMATS");
-        self.parts.add_if(format.is_fixed(), "HAS_FIXED");
+        self.parts.add_format(&format);
         k.number()
     }
 
@@ -224,7 +224,7 @@ impl Assembler<'_> {
             }
             NodeKind::Convert(from, into, a) => {
                 let format = self.formats.format(from);
-                self.parts.add_if(format.is_fixed(), "HAS_FIXED");
+                self.parts.add_format(&format);
                 let source = self.constant(source_word(&format));
                 self.alu(node, into, NumberOperation::Convert, [places.of(a), source, source], places);
             }

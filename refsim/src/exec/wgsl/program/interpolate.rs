@@ -44,7 +44,7 @@ impl Assembler<'_> {
         let single = interpolation.iterator == Format::FP32;
         let iterator = if single { SINGLE } else { ITERATOR };
         self.parts.add_if(!single, "HAS_FORMATS");
-        self.parts.add_if(interpolation.iterator.is_fixed(), "HAS_FIXED");
+        self.parts.add_format(&interpolation.iterator);
         let linear = self.registers();
         let perspective = self.registers();
         let weights = if single { perspective } else { self.registers() };

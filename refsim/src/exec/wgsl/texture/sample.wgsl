@@ -210,7 +210,7 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
         for (var c = 0u; c < 4u; c++) {
             var parts: TexelParts;
             if (HAS_FLOAT_TEXELS) {
-                parts = texel_parts_of_single(out[c]);
+                parts = texel_parts_of_single(out[c], n_over(f));
             }
             if (HAS_RATIO_TEXELS) {
                 if (!floats) {
@@ -223,7 +223,7 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
                             shift = 3u * filter_bits + lod_bits;
                         }
                     }
-                    parts = texel_parts_of_ratio(sum, texel_denominator(components[c]), shift);
+                    parts = texel_parts_of_ratio(sum, texel_denominator(components[c]), shift, n_over(f));
                 }
             }
             out[c] = texel_rounded(f, parts);

@@ -94,7 +94,8 @@ fn texel_single(component: u32, bits: u32) -> u32 {
     return select(single, 0x3f800000u, kind == TEXEL_ONE);
 }
 
-// What one rounding makes a number of: (-1)^negative * significand * 2^exponent, a little more with `sticky`.
+// What one rounding makes a number of: (-1)^negative * significand * 2^exponent, a little more with `sticky`, divided by
+// what numbers of the format are.
 struct TexelParts {
     significand: vec2<u32>,
     exponent: i32,
@@ -105,25 +106,27 @@ struct TexelParts {
 }
 
 // The parts of an FP32 pattern.
-fn texel_parts_of_single(bits: u32) -> TexelParts {
+fn texel_parts_of_single(bits: u32, over: u32) -> TexelParts {
     let field = (bits >> 23u) & 0xffu;
     let fraction = bits & 0x7fffffu;
     let significand = fraction | select(0u, 0x800000u, field != 0u);
     let special = field == 255u;
     return TexelParts(
-        vec2<u32>(significand, 0u), i32(max(field, 1u)) - 150, (bits >> 31u) == 1u, false,
+        texture_wide(significand, over), i32(max(field, 1u)) - 150, (bits >> 31u) == 1u, false,
         special && fraction == 0u, special && fraction != 0u,
     );
 }
 
-// The parts of numerator / (denominator * 2^shift); the numerator in two's complement, the denominator of at most 16
-// bits.
-fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32) -> TexelParts {
+// The parts of numerator / (denominator * 2^shift); the numerator in two's complement, of at most 54 bits, the denominator
+// of at most 16 bits.
+fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32, over: u32) -> TexelParts {
     let negative = (numerator.y >> 31u) == 1u;
     var magnitude = numerator;
     if (negative) { magnitude = texture_negated(numerator); }
     var left = countLeadingZeros(magnitude.y);
     if (magnitude.y == 0u) { left = 32u + countLeadingZeros(magnitude.x); }
+    // Room for the product with `over`.
+    left -= select(8u, 0u, over == 1u);
     magnitude = texture_left(magnitude, left);
     // Sixteen bits at a time: at least 48 bits of quotient, more than any format rounds at.
     var quotient = vec2<u32>(0u);
@@ -134,6 +137,11 @@ fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32) -> T
         rest = dividend - part * denominator;
         magnitude = vec2<u32>(magnitude.x << 16u, (magnitude.y << 16u) | (magnitude.x >> 16u));
         quotient = vec2<u32>((quotient.x << 16u) | part, (quotient.y << 16u) | (quotient.x >> 16u));
+    }
+    if (HAS_NORMALIZED) {
+        let part = rest * over;
+        rest = part % denominator;
+        quotient = texture_add(texture_wide(quotient.x, over), vec2<u32>(part / denominator, quotient.y * over));
     }
     return TexelParts(quotient, -i32(left + shift), negative, rest != 0u, false, false);
 }
@@ -152,11 +160,11 @@ fn texel_decode(f: Format, component: u32, words: vec4<u32>) -> u32 {
     let bits = texel_bits(component, words);
     var parts: TexelParts;
     if (texel_is_float(component)) {
-        parts = texel_parts_of_single(texel_single(component, bits));
+        parts = texel_parts_of_single(texel_single(component, bits), n_over(f));
     } else {
         let numerator = texel_numerator(component, texel_code(component, bits));
         let wide = vec2<u32>(bitcast<u32>(numerator), bitcast<u32>(numerator >> 31u));
-        parts = texel_parts_of_ratio(wide, texel_denominator(component), 0u);
+        parts = texel_parts_of_ratio(wide, texel_denominator(component), 0u, n_over(f));
     }
     return texel_rounded(f, parts);
 }
