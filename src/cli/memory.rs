@@ -17,7 +17,7 @@ static ASKED: OnceLock<u64> = OnceLock::new();
 
 /// Memory of the program itself: code, tables, buffers of files, and work so small that nobody asks whether it fits
 /// ([`SMALL`]), of which a scene with its tree and a picture may be several pieces at a time.
-const PROGRAM: u64 = 56 << 20;
+const PROGRAM: u64 = 72 << 20;
 /// Address space of a thread, which `ulimit -v` counts whether it is used or not: its stack, and the arena that glibc
 /// reserves for each thread that allocates.
 const THREAD: u64 = if cfg!(target_env = "gnu") { 66 << 20 } else { 2 << 20 };

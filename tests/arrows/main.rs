@@ -132,6 +132,7 @@ const CROSSBAR: Law = (
                 "sphere",
                 "atlas",
                 "renderer",
+                "case",
                 "report",
                 "picture",
                 "card",

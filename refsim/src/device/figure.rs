@@ -44,7 +44,7 @@ pub struct FigureRow {
     pub source: String,
     /// Confidence in the value.
     pub confidence: Confidence,
-    /// What was counted, if the value was chosen among hypotheses.
+    /// Counts, if the value was chosen among hypotheses.
     pub counts: Option<MeasuredCounts>,
 }
 

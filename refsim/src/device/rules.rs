@@ -122,7 +122,7 @@ named_choice! {
         /// A texel of the image's format.
         Texel = "texel",
         /// Four bytes, red to alpha, for all components of unsigned formats that are bytes or not stored.
-        Bytes = "8888",
+        Bytes = "bytes",
     }
 }
 

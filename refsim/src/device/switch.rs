@@ -64,7 +64,7 @@ pub(super) const RULES: [&str; 29] = [
 /// Names of optional rules: they modify `format` (and `partial`).
 pub(super) const FORMAT_RULES: [&str; 4] = ["registers", "rounding", "overflow", "denormals"];
 
-/// What fixed-point registers count in: a power of two, or one less.
+/// The unit of fixed-point registers: a power of two, or one less.
 pub(super) fn registers_name(format: Format) -> &'static str {
     if format.denominator() == 1 { "256ths" } else { "255ths" }
 }

@@ -1,4 +1,5 @@
-//! The sampling rules of a device, and components as a sampler takes them from texels and borders: bytes, or exact values, by the device's rules.
+//! The sampling rules of a device, and components as a sampler takes them from texels and borders: bytes, or exact
+//! values, by the device's rules.
 
 use super::format::{Channel, ChannelClass, ComponentSource};
 use super::texel::channel_bits;

@@ -83,8 +83,9 @@ pub(crate) fn rules() -> Vec<Rule> {
         ]),
         redraw: alpha_test,
         unexplained: 0,
-        settled: true,
-        open: "",
+        settled: false,
+        open: "These are codes of one parity beside a reference of the other, which 7 bits tell apart as well; pictures \
+               with all codes were read too, in which \"equal\" draws one step of 8 bits.",
     };
     let dither = Rule {
         name: "Nothing is dithered: pixels of a row with the same exact color have the same code",

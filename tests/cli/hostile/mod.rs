@@ -62,6 +62,7 @@ const COMMANDS: &[&str] = &[
     "leaky-teapot --device nowhere",
     "man nowhere",
     "materials nowhere",
+    "measure nowhere.csv --device r200",
     "radiosity nowhere.obj",
     "render nowhere.obj",
     "reproduce nowhere",

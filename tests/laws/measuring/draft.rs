@@ -14,6 +14,8 @@ pub(super) struct Dice {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Draft {
     pub(super) version: &'static str,
+    /// Vertex program after its declarations, in which c0 and c1 are constants; empty if there is none.
+    pub(super) vertex: Vec<String>,
     /// Instructions, without version and definitions.
     pub(super) lines: Vec<String>,
     pub(super) constants: Vec<[String; 4]>,
@@ -57,11 +59,35 @@ impl Dice {
     }
 }
 
+impl Texture {
+    /// Simpler textures: without a line of state, with fewer texels, with a texel of zeros.
+    fn simpler(&self) -> Vec<Self> {
+        let mut all = Vec::new();
+        for at in 0..self.state.len() {
+            let mut texture = self.clone();
+            texture.state.remove(at);
+            all.push(texture);
+        }
+        if self.side > 1 {
+            let side = self.side / 2;
+            let texels = self.texels[..(side * side) as usize].to_vec();
+            all.push(Self { side, texels, ..self.clone() });
+        }
+        for at in 0..self.texels.len() {
+            let mut texture = self.clone();
+            texture.texels[at] = [0; 4];
+            all.push(texture);
+        }
+        all
+    }
+}
+
 impl Draft {
     fn new(version: &'static str, dice: &mut Dice) -> Self {
         let constants = (0..4).map(|_| std::array::from_fn(|_| dice.small())).collect();
         Self {
             version,
+            vertex: Vec::new(),
             lines: Vec::new(),
             constants,
             texture: None,
@@ -118,7 +144,7 @@ impl Draft {
         draft
     }
 
-    /// What ps_2_0 needs besides: a declared color, the output.
+    /// Adds what ps_2_0 needs besides: a declared color, the output.
     fn version_ends(&mut self) {
         if self.version.starts_with("ps_2") {
             self.lines.insert(0, "dcl v0".to_owned());
@@ -142,7 +168,13 @@ impl Draft {
             state.push(format!("lod_bias = {}", dice.below(1024) as f64 / 256.0 - 1.0));
         }
         let texels = (0..side * side).map(|_| std::array::from_fn(|_| dice.below(256) as u8)).collect();
-        draft.texture = Some(Texture { format: dice.pick(&["bgra8", "rgba8", "rgba8s"]), side, texels, state });
+        if dice.below(2) == 0 {
+            state.push(format!("address = \"border\"\nborder = [{}, 0.3, 0.7, 0.4]", dice.below(256) as f64 / 255.0));
+            draft.vertices =
+                [[-1, -1], [3, -1], [-1, 3]].map(|[x, y]| format!("position = [{x}, {y}], t0 = [{x}, {y}]")).to_vec();
+        }
+        let format = dice.pick(&["bgra8", "bgr565", "rgba8", "rgba8s"]);
+        draft.texture = Some(Texture { format, side, texels, state });
         draft.size = [1 + dice.below(8) as u32, 1 + dice.below(8) as u32];
         draft
     }
@@ -165,6 +197,17 @@ impl Draft {
             let (r, g, b, a) = (color(dice), color(dice), color(dice), color(dice));
             draft.vertices.push(format!("position = [{x}, {y}, {z}], v0 = [{r}, {g}, {b}, {a}]"));
         }
+        draft
+    }
+
+    /// A vertex program that makes the color.
+    pub(super) fn transformed(version: &'static str, dice: &mut Dice) -> Self {
+        let mut draft = Self::triangle(version, dice);
+        draft.depth = false;
+        let special = ["0", "1", "inf", "nan", "1e-40", "1e38", "0.5", "-0.3"];
+        draft.constants = (0..4).map(|_| std::array::from_fn(|_| dice.pick(&special).to_owned())).collect();
+        let operation = dice.pick(&["mul oD0, c0, c1", "mov oD0, c0", "mad oD0, c0, c1, v1", "add oD0, c0, v1"]);
+        draft.vertex = vec!["mov oPos, v0".to_owned(), operation.to_owned()];
         draft
     }
 
@@ -195,14 +238,27 @@ impl Draft {
     /// The case file on a device.
     pub(super) fn text(&self, device: &str) -> String {
         let mut text = format!("device = \"{device}\"\n\n[pixel]\nsource = \"\"\"\n{}\n", self.version);
-        for (at, constant) in self.constants.iter().enumerate() {
+        for (at, constant) in self.constants.iter().enumerate().filter(|_| self.vertex.is_empty()) {
             if self.lines.iter().any(|line| line.contains(&format!("c{at}"))) {
                 let _ = writeln!(text, "def c{at}, {}", constant.join(", "));
             }
         }
         let _ = writeln!(text, "{}\n\"\"\"", self.lines.join("\n"));
+        if !self.vertex.is_empty() {
+            let program = self.vertex.join("\n");
+            let _ = writeln!(
+                text,
+                "\n[vertex]\nsource = \"\"\"\nvs_1_1\ndcl_position v0\ndcl_color0 v1\n{program}\n\"\"\""
+            );
+            let [c0, c1] = [0, 1].map(|at| self.constants[at].join(", "));
+            let _ = writeln!(text, "\n[vertex_constants]\nc0 = [{c0}]\nc1 = [{c1}]");
+        }
         if let Some(texture) = &self.texture {
-            let texels: Vec<String> = texture.texels.iter().map(|texel| format!("{texel:?}")).collect();
+            // As many codes as the format has channels.
+            let count = if texture.format == "bgr565" { 3 } else { 4 };
+            let mask = if count == 3 { 31 } else { 255 };
+            let code = |texel: &[u8; 4]| format!("{:?}", &texel.map(|code| code & mask)[..count]);
+            let texels: Vec<String> = texture.texels.iter().map(code).collect();
             let _ = writeln!(
                 text,
                 "\n[[texture]]\nslot = 0\nformat = \"{}\"\nsize = [{side}, {side}]\nraw = true\ntexels = [{}]\n{}",
@@ -253,21 +309,8 @@ impl Draft {
             };
             with(&plain);
         }
-        if let Some(texture) = &self.texture {
-            for at in 0..texture.state.len() {
-                with(&|draft| drop(draft.texture.as_mut().map(|texture| texture.state.remove(at))));
-            }
-            if texture.side > 1 {
-                with(&|draft| {
-                    if let Some(texture) = &mut draft.texture {
-                        texture.side /= 2;
-                        texture.texels.truncate((texture.side * texture.side) as usize);
-                    }
-                });
-            }
-            for at in 0..texture.texels.len() {
-                with(&|draft| drop(draft.texture.as_mut().map(|texture| texture.texels[at] = [0; 4])));
-            }
+        for simpler in self.texture.iter().flat_map(Texture::simpler) {
+            with(&|draft| draft.texture = Some(simpler.clone()));
         }
         for (at, constant) in self.constants.iter().enumerate() {
             for (component, value) in constant.iter().enumerate() {

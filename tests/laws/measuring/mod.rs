@@ -1,4 +1,4 @@
-//! fixtures/probes/open: for each open switch of a card the smallest case that tells its values apart, for whoever has
+//! fixtures/probes/open: for each open switch of a card a small case that tells its values apart, for whoever has
 //! the card. docs/measuring.md lists them.
 
 mod draft;
@@ -34,8 +34,8 @@ fn is_blessed() -> bool {
     env::var_os("CROSSBAR_BLESS").is_some()
 }
 
-/// Values of a switch draw other codes, and the batch executor has the bits of the reference. `CROSSBAR_BLESS=1`
-/// searches cases that are missing.
+/// A value of each switch draws other codes than another one, and the batch executor has the bits of the reference.
+/// `CROSSBAR_BLESS=1` searches cases that are missing.
 #[test]
 fn each_open_switch_has_a_probe() {
     let mut missing = Vec::new();
@@ -43,7 +43,8 @@ fn each_open_switch_has_a_probe() {
         let profile = Profile::named(device).expect("a card");
         for switch in drawn(&profile) {
             let path = place(device, &switch.name);
-            let there = fs::read_to_string(file(&path)).ok().filter(|text| search::tells_apart(text, switch));
+            let tells = |text: &String| search::groups(text, switch).is_some_and(|groups| groups.len() > 1);
+            let there = fs::read_to_string(file(&path)).ok().filter(tells);
             let text = match there {
                 None if is_blessed() => search::smallest(&profile, switch).map(|draft| draft.text(device)),
                 there => there,
@@ -92,19 +93,21 @@ fn the_page_lists_the_probes() {
     for device in CARDS {
         let profile = Profile::named(device).expect("a card");
         for switch in search::open(&profile) {
-            let others = switch.values.iter().filter(|value| **value != switch.default);
-            let values: Vec<&str> = [&switch.default].into_iter().chain(others).map(String::as_str).collect();
-            let probe = match UNDRAWN.iter().find(|(name, _)| *name == switch.name) {
-                Some((_, why)) => format!("none: {why} | "),
+            let row = match UNDRAWN.iter().find(|(name, _)| *name == switch.name) {
+                Some((_, why)) => format!("{} | none: {why} | ", switch.values.join(", ")),
                 None => {
                     let path = place(device, &switch.name);
                     let setup = Setup::read(&file(&path)).expect("a case");
+                    let text = fs::read_to_string(file(&path)).expect("a case");
+                    let groups = search::groups(&text, switch).expect("it can be drawn");
+                    let told: Vec<String> = groups.iter().map(|values| values.join(", ")).collect();
                     let depth = if setup.depth.is_some() { ", depth" } else { "" };
                     let [width, height] = setup.size;
-                    format!("[{device}/{}.toml](../{path}) | {width} x {height} pixels{depth}", switch.name)
+                    let told = told.join(" / ");
+                    format!("{told} | [{device}/{}.toml](../{path}) | {width} x {height} pixels{depth}", switch.name)
                 }
             };
-            table += &format!("| `{device}` | `{}` | {} | {probe} |\n", switch.name, values.join(", "));
+            table += &format!("| `{device}` | `{}` | {} | {row} |\n", switch.name, switch.default);
         }
     }
     let page = fs::read_to_string(file("docs/measuring.md")).expect("the page");

@@ -1,4 +1,4 @@
-//! Search for the smallest case that tells the values of a switch apart.
+//! Search for small cases that tell the values of a switch apart.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use refsim::machine::ExecutorKind;
 use super::draft::{Dice, Draft};
 
 /// Random cases that are tried.
-const TRIES: u64 = 20_000;
+const TRIES: u64 = 800;
 
 /// Codes of a case's first target, and of its depth buffer, under a value of a switch; `None` if it cannot be drawn.
 pub(super) fn codes(text: &str, switch: (&str, &str), kind: ExecutorKind) -> Option<Vec<u64>> {
@@ -27,15 +27,17 @@ pub(super) fn codes(text: &str, switch: (&str, &str), kind: ExecutorKind) -> Opt
     Some(codes)
 }
 
-/// Returns `true` if each value of the switch draws other codes.
-pub(super) fn tells_apart(text: &str, switch: &Switch) -> bool {
-    let mut seen: Vec<Vec<u64>> = Vec::new();
-    switch.values.iter().all(|value| {
-        let Some(codes) = codes(text, (&switch.name, value), ExecutorKind::Scalar) else { return false };
-        let is_new = !seen.contains(&codes);
-        seen.push(codes);
-        is_new
-    })
+/// Values of the switch in groups that draw the same codes; `None` if a value cannot draw the case.
+pub(super) fn groups(text: &str, switch: &Switch) -> Option<Vec<Vec<String>>> {
+    let mut groups: Vec<(Vec<u64>, Vec<String>)> = Vec::new();
+    for value in &switch.values {
+        let codes = codes(text, (&switch.name, value), ExecutorKind::Scalar)?;
+        match groups.iter_mut().find(|(others, _)| *others == codes) {
+            Some((_, values)) => values.push(value.clone()),
+            None => groups.push((codes, vec![value.clone()])),
+        }
+    }
+    Some(groups.into_iter().map(|(_, values)| values).collect())
 }
 
 /// The open switches of a device: those whose default is a guess.
@@ -43,35 +45,35 @@ pub(super) fn open(profile: &Profile) -> impl Iterator<Item = &Switch> {
     profile.switches().iter().filter(|switch| switch.confidence == Confidence::Guess)
 }
 
-/// A case that tells the values apart, made as small as this search can.
+/// A case that tells as many values apart as any that was tried, made as small as this search can.
 pub(super) fn smallest(profile: &Profile, switch: &Switch) -> Option<Draft> {
     let mut dice = Dice::new(&format!("{} {}", profile.name, switch.name), 1);
-    let runs = |version: Version| profile.supports(version);
     let mut versions = vec!["ps_1_1"];
-    versions.extend(runs(Version::Ps1_4).then_some("ps_1_4"));
-    versions.extend(runs(Version::Ps2_0).then_some("ps_2_0"));
+    versions.extend(profile.supports(Version::Ps1_4).then_some("ps_1_4"));
+    versions.extend(profile.supports(Version::Ps2_0).then_some("ps_2_0"));
+    let count = |draft: &Draft| groups(&draft.text(&profile.name), switch).map_or(1, |groups| groups.len());
+    let mut best: Option<(usize, Draft)> = None;
     for _ in 0..TRIES {
         let version = versions[dice.below(versions.len())];
-        let draft = match dice.below(4) {
+        let draft = match dice.below(5) {
             0 => Draft::arithmetic(version, &mut dice),
             1 => Draft::textured(version, &mut dice),
             2 => Draft::triangle(version, &mut dice),
+            3 => Draft::transformed(version, &mut dice),
             _ if version != "ps_1_1" => Draft::coordinates(version, &mut dice),
             _ => continue,
         };
-        if tells_apart(&draft.text(&profile.name), switch) {
-            return Some(shrunk(draft, profile, switch));
+        let told = count(&draft);
+        if told > best.as_ref().map_or(1, |(told, _)| *told) {
+            best = Some((told, draft));
+        }
+        if told == switch.values.len() {
+            break;
         }
     }
-    None
-}
-
-fn shrunk(mut draft: Draft, profile: &Profile, switch: &Switch) -> Draft {
-    loop {
-        let simpler = draft.simpler().into_iter();
-        match simpler.into_iter().find(|draft| tells_apart(&draft.text(&profile.name), switch)) {
-            Some(simpler) => draft = simpler,
-            None => return draft,
-        }
+    let (told, mut draft) = best?;
+    while let Some(simpler) = draft.simpler().into_iter().find(|draft| count(draft) == told) {
+        draft = simpler;
     }
+    Some(draft)
 }

@@ -1,4 +1,4 @@
-//! What the book says of the figures: `docs/papers` and `docs/status.md` are the program's own text.
+//! The book's text on the figures: `docs/papers` and `docs/status.md` are the program's own text.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! What a row's verdict rests on: its source, its bound, its class, its explanation.
+//! Ground of a row's verdict: its source, its bound, its class, its explanation.
 
 use crossbar::report::{Cell, Table};
 use crossbar::study::reproduce::report::{held, notes, tables, tally_line};

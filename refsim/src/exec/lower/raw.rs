@@ -1,7 +1,7 @@
 //! Raw values: representation of numbers of any format in 32 bits in `batch` and `wgsl`.
 //!
-//! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32 pattern of the same
-//! number, which exists for every format; NaN is always `0x7fc0_0000`.
+//! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32
+//! pattern of the same number, which exists for every format; NaN is always `0x7fc0_0000`.
 
 use crate::num::{Denormals, Format, FormatKind};
 

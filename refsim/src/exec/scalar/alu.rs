@@ -105,8 +105,8 @@ impl<'r> Alu<'r> {
         cnd(condition, a, b) = ops::cnd;
     }
 
-    /// Operands of a product. With the legacy rule that zero times anything is zero, a zero together with an infinity or NaN
-    /// replaces both by +0, so that the product is +0.
+    /// Operands of a product. With the legacy rule that zero times anything is zero, a zero together with an infinity
+    /// or NaN replaces both by +0, so that the product is +0.
     fn factors(&self, a: u32, b: u32) -> (u32, u32) {
         let f = &self.format;
         let zero = f.is_zero(a) || f.is_zero(b);

@@ -14,8 +14,8 @@ pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     add(env, product.bits, c).also(product.flags)
 }
 
-/// `a * b + c` rounded once: over a common denominator, that of the product. `0 * inf + c` is `INVALID` even for a quiet NaN `c`: IEEE 754 leaves it open, and
-/// SoftFloat and RISC-V decide the same.
+/// `a * b + c` rounded once: over a common denominator, that of the product. `0 * inf + c` is `INVALID` even for a
+/// quiet NaN `c`: IEEE 754 leaves it open, and SoftFloat and RISC-V decide the same.
 pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     let env = env.into();

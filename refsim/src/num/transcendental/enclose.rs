@@ -6,8 +6,8 @@
 use num_bigint::{BigInt, BigUint};
 use num_traits::One;
 
-/// A value strictly between `low * 2^exp` and `high * 2^exp`, with `high - low` at least 2; or exactly `low * 2^exp`, where
-/// both are equal.
+/// A value strictly between `low * 2^exp` and `high * 2^exp`, with `high - low` at least 2; or exactly `low * 2^exp`,
+/// where both are equal.
 #[derive(Clone, Debug)]
 pub(super) struct Enclosure<T> {
     pub(super) low: T,
@@ -24,7 +24,8 @@ fn high_half(a: u64, b: u64) -> u64 {
     ((u128::from(a) * u128::from(b)) >> 64) as u64
 }
 
-/// Encloses `2^(x - floor x)` for `x = (-1)^sign * sig * 2^exp / den`, no integer, `exp` 0 where `den` is not 1, in units of `2^-62`.
+/// Encloses `2^(x - floor x)` for `x = (-1)^sign * sig * 2^exp / den`, no integer, `exp` 0 where `den` is not 1, in
+/// units of `2^-62`.
 ///
 /// Truncation error: one unit of `2^-64` in `f`, two more in `t = f ln 2`, and at most two of `2^-62` in each Horner
 /// step, which later steps shrink by `t/k`: below 8 units in all. The series' tail from `t^23/23!` on is below `2^-80`.

@@ -1,8 +1,9 @@
 //! Files of measured pixels: comma-separated tables.
 //!
 //! The header names the columns, in any order: `case`, `column` and `row` are required, `red`, `green`, `blue`, `alpha`
-//! and `depth` can be left out, as can be single values. A case is a path relative to the folder of the table. Codes are
-//! the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's `raw`.
+//! and `depth` can be left out, as can be single values. A case is a path relative to the folder of the table. Codes
+//! are the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's
+//! `raw`.
 
 use std::path::{Path, PathBuf};
 
@@ -78,18 +79,25 @@ pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>,
     let wrong = |line: u64, found: String| {
         StudyError::new("crossbar::measure::table", format!("{}:{line}: {found}", name.display())).with_help(HELP)
     };
-    let broken = |error: &csv::Error| {
+    let broken = |error: csv::Error| {
         let line = error.position().map_or(1, csv::Position::line);
-        wrong(line, format!("expected a line of measured pixels: {error}"))
+        let found = match error.into_kind() {
+            csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+                format!("expected {expected_len} fields, found {len}")
+            }
+            csv::ErrorKind::Deserialize { err, .. } => format!("expected a line of measured pixels: {err}"),
+            other => format!("expected a table: {other:?}"),
+        };
+        wrong(line, found)
     };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes);
-    let headers = reader.headers().map_err(|error| broken(&error))?.clone();
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    let headers = reader.headers().map_err(broken)?.clone();
     let folder = name.parent().unwrap_or_else(|| Path::new(""));
     let mut cases: Vec<MeasuredCase> = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| broken(&error))?;
+        let record = record.map_err(broken)?;
         let line = record.position().map_or(0, csv::Position::line);
-        let row: Row = record.deserialize(Some(&headers)).map_err(|error| broken(&error))?;
+        let row: Row = record.deserialize(Some(&headers)).map_err(broken)?;
         let codes = [row.red, row.green, row.blue, row.alpha];
         if codes.iter().chain([&row.depth]).all(Option::is_none) {
             return Err(wrong(line, "expected a measured code, found none".to_owned()));
@@ -117,11 +125,11 @@ mod tests {
 
     #[test]
     fn pixels_are_sorted_by_case() {
-        let text = "case,row,column,red,alpha\na.toml,1,2,255,\nb.toml,0,0,,3\n# text\na.toml, 0, 0, 7, 8\n";
+        let text = "case,row,column,red,alpha\na.toml,1,2,255,\nb.toml,0,0,,3\na.toml, 0, 0, 7, 8\n";
         let cases = parse(text).expect("a table");
         let pixel =
             |line, place, red, alpha| MeasuredPixel { line, place, codes: [red, None, None, alpha], depth: None };
-        let a = vec![pixel(2, [2, 1], Some(255), None), pixel(5, [0, 0], Some(7), Some(8))];
+        let a = vec![pixel(2, [2, 1], Some(255), None), pixel(4, [0, 0], Some(7), Some(8))];
         let b = vec![pixel(3, [0, 0], None, Some(3))];
         let expected = [("cards/a.toml", a), ("cards/b.toml", b)];
         assert_eq!(cases, expected.map(|(path, pixels)| MeasuredCase { path: path.into(), pixels }));

@@ -3,10 +3,9 @@
 //! docs/measuring.md describes how to measure.
 
 mod file;
+mod parameters;
 mod report;
 mod settings;
-
-use refsim::device::Profile;
 
 use self::settings::Survey;
 use super::error::library_errors;
@@ -15,25 +14,10 @@ use crate::case::CaseError;
 use crate::report::{Findings, Provenance};
 
 pub use file::{MeasuredCase, MeasuredPixel, load_measurement, parse_measurement};
+pub use parameters::Measure;
 
 library_errors! {
     CaseError;
-}
-
-/// Columns of codes.
-const CODES: [&str; 5] = ["red", "green", "blue", "alpha", "depth"];
-
-/// Measured pixels, held against a device.
-#[derive(Clone, Debug)]
-pub struct Measure {
-    /// Name of the table.
-    pub name: String,
-    /// What the card drew.
-    pub cases: Vec<MeasuredCase>,
-    /// Device, with the known switches set.
-    pub profile: Profile,
-    /// Switches that are known, by name, with their values in `profile`.
-    pub known: Vec<(String, String)>,
 }
 
 impl Study for Measure {

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use refsim::device::{Profile, Switch};
 use refsim::machine::ExecutorKind;
 
-use super::Measure;
 use super::file::{MeasuredCase, MeasuredPixel};
+use super::parameters::{CODES, Measure};
 use crate::case::{CaseError, Loaded, Overrides, Setup};
 use crate::study::{ProgressFn, StudyError};
 
@@ -58,7 +58,8 @@ impl Survey {
     /// Draws every case under all settings of the switches that its measured pixels depend on.
     ///
     /// # Errors
-    /// If a case cannot be drawn on the device as it is, a pixel lies outside its target, or there are too many settings.
+    /// If a case cannot be drawn on the device as it is, a pixel lies outside its target, or there are too many
+    /// settings.
     pub(super) fn new(measure: &Measure, progress: &mut ProgressFn<'_>) -> Result<Self, StudyError> {
         let Measure { profile, cases, .. } = measure;
         let questions = questions(measure);
@@ -204,7 +205,7 @@ impl MeasuredDraws<'_> {
                 Some(format!("a pixel of the {width}x{height} target, found column {x}, row {y}"))
             } else {
                 let at = measured(pixel).find(|&code| missing(code))?.0;
-                Some(format!("a code that the case stores, found one for {}", super::CODES[at]))
+                Some(format!("a code that the case stores, found one for {}", CODES[at]))
             }
         };
         match self.case.pixels.iter().find_map(|pixel| Some((pixel.line, found(pixel)?))) {

@@ -69,7 +69,7 @@ impl IntegerRounding {
         f64::from_bits(x.to_bits() & self.sign)
     }
 
-    /// What has been rounded, with the sign of the number if that was taken off.
+    /// The rounded magnitude, with the sign of the number if that was taken off.
     #[inline(always)]
     pub(super) fn signed(&self, rounded: f64, x: f64) -> f64 {
         f64::from_bits(rounded.to_bits() | x.to_bits() & !self.sign)
@@ -182,9 +182,9 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if WRAP { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
     }
 
-    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; what is out of range stays so,
-    /// since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which wrap: still far
-    /// from where the order of integers would break.
+    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; what is out of range
+    /// stays so, since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which
+    /// wrap: still far from where the order of integers would break.
     #[inline(always)]
     pub(super) fn fused_sum_of<const N: usize>(&self, unit: f32, a: [i32; N], b: [i32; N]) -> i32 {
         let (low, high) = (SINGLE_PIVOT + self.low as f32, SINGLE_PIVOT + self.high as f32);

@@ -6,8 +6,8 @@ use super::power;
 use super::round::{AWAY, EVEN, rounding_index};
 use crate::num::Format;
 
-/// The arithmetic of one normalized format: `WRAP` whether it wraps. What does not look at the unit is that of the codes
-/// as whole numbers.
+/// The arithmetic of one normalized format: `WRAP` whether it wraps. What does not look at the unit is that of the
+/// codes as whole numbers.
 ///
 /// Codes have 16 bits and the denominator `D` 8 at most: products of two codes fit an `i32`, and sums of four a double.
 #[derive(Clone, Copy, Debug)]
@@ -45,8 +45,8 @@ impl<const WRAP: bool> NormalizedLane<WRAP> {
 
     /// `v / D`, rounded and fitted, for integers of at most 33 bits.
     ///
-    /// The nearest integer: quotients lie at least `1 / 2D` from the middle between two, and the double errs by less than
-    /// `2^-20`. The remainder is exact and says on which side of the quotient it lies.
+    /// The nearest integer: quotients lie at least `1 / 2D` from the middle between two, and the double errs by less
+    /// than `2^-20`. The remainder is exact and says on which side of the quotient it lies.
     #[inline(always)]
     fn over(&self, v: f64) -> i32 {
         let value = self.product.magnitude(v);
@@ -84,11 +84,11 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
         f64::from(x) / self.denominator
     }
 
-    /// Twice the number of units is exact for doubles of up to 44 bits. Of a longer one (a quotient, rounded to odd or to
-    /// nearest) it errs by less than one part in `2^51`, and what is that near to an integer is one. In 255ths, fractions
-    /// of texels lie at least one part in `2^49` from the next, whatever four weights of 8 bits they were multiplied by;
-    /// in other units that holds of channels of up to 8 bits, and 16-bit ones come nearer only if chance is unkind by a
-    /// factor of a billion.
+    /// Twice the number of units is exact for doubles of up to 44 bits. Of a longer one (a quotient, rounded to odd or
+    /// to nearest) it errs by less than one part in `2^51`, and what is that near to an integer is one. In 255ths,
+    /// fractions of texels lie at least one part in `2^49` from the next, whatever four weights of 8 bits they were
+    /// multiplied by; in other units that holds of channels of up to 8 bits, and 16-bit ones come nearer only if
+    /// chance is unkind by a factor of a billion.
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
         const NEAR: f64 = 1.0 / (1u64 << 50) as f64;
@@ -127,8 +127,8 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// The unit is rounded, and so is its product with a factor: together an error of one part in `2^23`, less than
-    /// `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product avoids the middle
-    /// between two codes, so that the sum with the pivot is rounded to the right one.
+    /// `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product avoids the
+    /// middle between two codes, so that the sum with the pivot is rounded to the right one.
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
         self.codes.fused_sum_of(self.reciprocal as f32, a, b)

@@ -34,7 +34,16 @@ macro_rules! records {
 }
 
 /// Recorded entries with their files.
-pub(super) const RECORDS: &[(&str, &str)] = records!["cpca-figure-6", "bi-scale-figure-8"];
+pub(super) const RECORDS: &[(&str, &str)] = records![
+    "cpca-figure-2",
+    "cpca-figures-3-4",
+    "cpca-figure-6",
+    "cpca-figure-8",
+    "cpca-figure-9",
+    "cpca-figure-10",
+    "cpca-coherence",
+    "bi-scale-figure-8",
+];
 
 /// Returns the record of an entry that the program contains.
 ///
