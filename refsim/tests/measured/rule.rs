@@ -131,13 +131,11 @@ impl Measured {
             }
         }
         let right = counts.iter().map(|(hypothesis, count)| (hypothesis.clone(), count.right)).collect();
-        let measured = Self { own: counts[0].0.clone(), right, all: own.all, rule };
-        measured.stands_in_the_profiles();
-        measured
+        Self { own: counts[0].0.clone(), right, all: own.all, rule }
     }
 
     /// Panics if the figure of a settled switch does not have the counts.
-    fn stands_in_the_profiles(&self) {
+    pub(crate) fn stands_in_the_profiles(&self) {
         let Hypotheses::Switch(name) = self.rule.hypotheses else { return };
         if !self.rule.settled {
             return;

@@ -17,6 +17,20 @@ const CARDS: [&str; 6] = ["nv20", "nv25", "r200", "r300", "nv30", "nv35"];
 const UNDRAWN: [(&str, &str); 1] =
     [("ray-textures", "chooses the texel format of a system's textures: the card has it, or refuses it")];
 
+/// Switches that no case was found for, by card: random cases of [`draft`] tell none of their values apart.
+const UNFOUND: [(&str, &[&str]); 6] = [
+    ("nv20", &["constants", "mad", "texcrd-overflow"]),
+    ("nv25", &["constants", "mad", "texcrd-overflow"]),
+    ("r200", &["mad"]),
+    ("r300", &["denormals", "dot", "mad", "texcrd-overflow", "texdepth-denominator"]),
+    ("nv30", &["dot", "lrp", "mad", "texcrd-overflow", "vertex-zero-times-anything"]),
+    ("nv35", &["dot", "lrp", "mad", "texcrd-overflow", "vertex-zero-times-anything"]),
+];
+
+fn is_unfound(device: &str, switch: &str) -> bool {
+    UNFOUND.iter().any(|(name, switches)| *name == device && switches.contains(&switch))
+}
+
 fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
@@ -50,9 +64,10 @@ fn each_open_switch_has_a_probe() {
                 there => there,
             };
             let Some(text) = text else {
-                missing.push(path);
+                missing.extend((!is_unfound(device, &switch.name)).then_some(path));
                 continue;
             };
+            assert!(!is_unfound(device, &switch.name), "{path} is a case: it is unfound no more");
             if is_blessed() {
                 fs::create_dir_all(file(&path).parent().expect("a folder")).expect("it can be made");
                 fs::write(file(&path), &text).expect("it can be written");
@@ -95,6 +110,9 @@ fn the_page_lists_the_probes() {
         for switch in search::open(&profile) {
             let row = match UNDRAWN.iter().find(|(name, _)| *name == switch.name) {
                 Some((_, why)) => format!("{} | none: {why} | ", switch.values.join(", ")),
+                None if is_unfound(device, &switch.name) => {
+                    format!("{} | no random case told them apart | ", switch.values.join(", "))
+                }
                 None => {
                     let path = place(device, &switch.name);
                     let setup = Setup::read(&file(&path)).expect("a case");
