@@ -124,7 +124,7 @@ impl RawFigure {
             _ => return Err("the value must predict more than another hypothesis, and no more than all"),
         }
         let named = |value: &String| self.right.contains_key(value);
-        if !self.values.is_empty() && !(self.values.len() == right.len() && self.values.iter().all(named)) {
+        if !(self.values.is_empty() || self.values.len() == right.len() && self.values.iter().all(named)) {
             return Err("`right` must have every value of the switch");
         }
         Ok(Some(MeasuredCounts { of, all, right }))

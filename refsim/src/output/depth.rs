@@ -61,7 +61,7 @@ impl DepthFormat {
         // Of a quotient, 32 bits and one that stands for the rest: more than the floats round at.
         let (significand, exponent) = match u64::from(denominator) {
             1 => (significand, exponent),
-            d => ((significand << 32) / d | u64::from(!(significand << 32).is_multiple_of(d)), exponent - 32),
+            d => (((significand << 32) / d) | u64::from(!(significand << 32).is_multiple_of(d)), exponent - 32),
         };
         match self {
             Self::Unorm16 => unorm(0xffff),

@@ -33,13 +33,16 @@ impl Rule {
     }
 }
 
+/// An answer of a rule by its name, and what sets it.
+pub(crate) type RuleOption = (&'static str, fn(&mut Rules));
+
 /// The answers to a rule. The cards' own answer is what their profile says.
 #[derive(Clone, Copy)]
 pub(crate) enum Hypotheses {
     /// The values of a switch of the cards.
     Switch(&'static str),
     /// Names of answers, the cards' own first, and what each one changes.
-    Options(&'static [(&'static str, fn(&mut Rules))]),
+    Options(&'static [RuleOption]),
 }
 
 /// Number of values compared and of those that were right.

@@ -1,12 +1,12 @@
 //! Tables of measured values: CSV without quotes, the first line with the names of the columns.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::str::FromStr;
 
 /// A row, by column.
 pub(crate) struct Row {
-    columns: HashMap<String, String>,
+    columns: BTreeMap<String, String>,
     place: String,
 }
 

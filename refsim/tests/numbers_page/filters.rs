@@ -148,7 +148,7 @@ fn bytes_are_filtered_as_the_page_says() {
         };
         let (at, level) = ([r.between(-1.5, 1.5), r.between(-1.5, 1.5)], r.below(257));
         let [fine, coarse] = [0, 1].map(|level| case.level(&image, level, &state, at));
-        let expected = lerp(fine, coarse, level as i64, 8).map(|byte| case.value(byte));
+        let expected = lerp(fine, coarse, level.cast_signed() as i64, 8).map(|byte| case.value(byte));
         let lod = Lod::Level((level as f32 / 256.0).to_bits());
         let coordinates = [at[0].to_bits(), at[1].to_bits(), 0, 0];
         let found = sample(Some(&image), &state, &rules, coordinates, lod).map(f32::from_bits);
