@@ -104,7 +104,7 @@ fn there_are_no_other_probes() {
 #[test]
 fn the_page_lists_the_probes() {
     let mut table =
-        "| card | switch | values, the default first | probe | measured |\n|---|---|---|---|---|\n".to_owned();
+        "| card | switch | default | told apart | probe | measured |\n|---|---|---|---|---|---|\n".to_owned();
     for device in CARDS {
         let profile = Profile::named(device).expect("a card");
         for switch in search::open(&profile) {
