@@ -1,7 +1,7 @@
 //! Generation of mip levels from the previous level: the box filter of automatic mipmaps.
 
 use super::format::{Channel, ChannelClass};
-use super::texel::{channel_bits, denominator, encode_ratio};
+use super::texel::{denominator, encode_ratio};
 use super::{ChannelValue, Image, SignedTexelMinimum, TargetRounding, decode_channel, value};
 use crate::device::Rules;
 use crate::num::{self, Format};
@@ -80,7 +80,7 @@ fn mean(channel: Channel, taps: &[u128], rules: MipmapRules) -> u32 {
         return float_mean(format, channel, taps);
     }
     let sum = taps.iter().fold(0, |sum, &raw| {
-        let decoded = decode_channel(channel, channel_bits(channel, raw), rules.signed_texel_minimum);
+        let decoded = decode_channel(channel, channel.code(raw), rules.signed_texel_minimum);
         match decoded {
             ChannelValue::Ratio { numerator, .. } => sum + numerator,
             ChannelValue::Float { .. } => sum,
@@ -92,7 +92,7 @@ fn mean(channel: Channel, taps: &[u128], rules: MipmapRules) -> u32 {
 /// Combines pairs along x, then y, then z: the order of the taps.
 fn float_mean(format: Format, channel: Channel, taps: &[u128]) -> u32 {
     let mut values: Vec<u32> =
-        taps.iter().map(|&raw| num::ops::convert(&format, Format::FP32, channel_bits(channel, raw)).bits).collect();
+        taps.iter().map(|&raw| num::ops::convert(&format, Format::FP32, channel.code(raw)).bits).collect();
     while let [_, _, ..] = values[..] {
         let middle = |a, b| value::add(a, value::mul(value::HALF, value::sub(b, a)));
         values = values.chunks_exact(2).map(|pair| middle(pair[0], pair[1])).collect();

@@ -2,7 +2,6 @@
 //! values, by the device's rules.
 
 use super::format::{Channel, ChannelClass, ComponentSource};
-use super::texel::channel_bits;
 use super::{
     BorderStorage, ChannelValue, FilterArithmetic, MissingChannels, SignedTexelMinimum, TargetRounding, TexelFormat,
     TexelValues, WeightRounding, decode_channel, encode,
@@ -132,7 +131,7 @@ impl SampleRules {
 
     /// Red, green, blue and alpha of a texel, given as a little-endian integer.
     pub(crate) fn texel(&self, format: TexelFormat, raw: u128) -> [SampledComponent; 4] {
-        self.sources(format).map(|source| source.read(self, |channel| channel_bits(channel, raw)))
+        self.sources(format).map(|source| source.read(self, |channel| channel.code(raw)))
     }
 
     /// Red, green, blue and alpha outside an image, for a border color in FP32 bits.

@@ -51,9 +51,11 @@ impl Texel {
     }
 }
 
-/// Extracts the bits of a channel from a texel given as a little-endian integer.
-pub(crate) fn channel_bits(channel: Channel, raw: u128) -> u32 {
-    (raw >> channel.shift) as u32 & mask(channel.bits)
+impl Channel {
+    /// The channel's stored code in a texel that is read as a little-endian integer.
+    pub fn code(self, raw: u128) -> u32 {
+        (raw >> self.shift) as u32 & mask(self.bits)
+    }
 }
 
 fn mask(bits: u8) -> u32 {
@@ -97,7 +99,7 @@ pub fn decode(format: TexelFormat, raw: u128, minimum: SignedTexelMinimum) -> Te
         ComponentSource::One => ChannelValue::ONE,
         ComponentSource::Channel(i) => {
             let channel = record.channels[usize::from(i)];
-            decode_channel(channel, channel_bits(channel, raw), minimum)
+            decode_channel(channel, channel.code(raw), minimum)
         }
     }))
 }

@@ -53,8 +53,7 @@ pub(super) fn differing_channels(
     right: u128,
 ) -> impl Iterator<Item = (&'static str, Channel, u32, u32)> {
     channels.iter().filter_map(move |&channel| {
-        let mask = u32::MAX >> (32 - u32::from(channel.bits.clamp(1, 32)));
-        let [left, right] = [left, right].map(|raw| (raw >> channel.shift) as u32 & mask);
+        let [left, right] = [left, right].map(|raw| channel.code(raw));
         let name = CHANNELS[usize::from(channel.stored_from & 3)];
         (left != right).then_some((name, channel, left, right))
     })

@@ -107,7 +107,7 @@ impl Traced<'_> {
             let shown = |raw: Option<u128>| {
                 let raw = raw.unwrap_or_default();
                 let channels = format.record().stored().iter().map(|channel| {
-                    let bits = (raw >> channel.shift) as u32 & (u32::MAX >> (32 - u32::from(channel.bits)));
+                    let bits = channel.code(raw);
                     match channel.class {
                         ChannelClass::Float(format) => Number { format, bits }.decimal(),
                         _ => bits.to_string(),

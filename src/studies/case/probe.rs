@@ -73,9 +73,7 @@ pub(super) fn answer(
         }
         Expected::Raw(expected) => {
             let raw = target.raw(0, 0, y, x);
-            let channels = target.format().record().stored().iter();
-            let mask = |bits: u8| u32::MAX >> (32 - u32::from(bits.clamp(1, 32)));
-            let found: Vec<u32> = channels.map(|c| (raw >> c.shift) as u32 & mask(c.bits)).collect();
+            let found: Vec<u32> = target.format().record().stored().iter().map(|channel| channel.code(raw)).collect();
             let passed = expected.len() <= found.len() && found.starts_with(expected);
             (Found::Raw(found), passed)
         }

@@ -240,10 +240,7 @@ fn codes(setup: &Setup, pixels: &[MeasuredPixel]) -> Result<Vec<u32>, CaseError>
     let (targets, depth) = (loaded.targets()?, loaded.depth()?);
     let channels = targets[0].format().record().stored();
     let code = |[x, y]: [u32; 2], at: usize| match channels.get(at) {
-        Some(channel) if at < 4 => {
-            (targets[0].raw(0, 0, y, x) >> channel.shift) as u32
-                & (u32::MAX >> (32 - u32::from(channel.bits.clamp(1, 32))))
-        }
+        Some(channel) => channel.code(targets[0].raw(0, 0, y, x)),
         _ => depth.and_then(|surface| surface.get(x, y)).unwrap_or_default(),
     };
     Ok(pixels.iter().flat_map(|pixel| measured(pixel).map(|(at, _)| code(pixel.place, at))).collect())
