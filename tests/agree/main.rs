@@ -69,6 +69,11 @@ mod programs {
     versions! { { arithmetic together } vs_1_1 vs_2_0 }
 }
 
+/// Random programs whose instructions have formats of their own.
+mod mixed {
+    suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b fp_1_0 arbfp_1_0 vs_1_1 vs_2_0 }
+}
+
 /// Random programs on the cards, every switch at random.
 #[rustfmt::skip]
 mod cards {

@@ -167,6 +167,10 @@ const PARTS: [fn(&mut Scene); 28] = [
 pub(crate) fn describe(scene: &Scene) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "device {}, {:?}", scene.profile.name, scene.profile.rules);
+    for (digest, formats) in scene.profile.instruction_formats().iter() {
+        let formats: Vec<String> = formats.iter().map(|(index, format)| format!("{index} {format}")).collect();
+        let _ = writeln!(text, "instructions of program {digest:016x}: {}", formats.join(", "));
+    }
     let _ = writeln!(text, "constants {:x?}", scene.pixel_constants);
     for (slot, image, state) in &scene.textures {
         let sizes: Vec<String> =

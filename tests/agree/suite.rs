@@ -18,6 +18,8 @@ use refsim::texture::{AddressMode, TexelFormat, TextureKind};
 pub(crate) enum Kind {
     /// Random programs of a version, in a family of formats, with random rules of a group.
     Program(Version, Family, Group),
+    /// Random programs of a version whose instructions have random formats of their own.
+    Mixed(Version),
     /// Random programs of a version on a card, with random switches.
     Card(&'static str, Version),
     /// Textures of a format.
@@ -82,6 +84,12 @@ impl Suite {
                 let sampling = group == Group::Sampling && r.one_in(2);
                 let options = Options { sampling, ..options(version) };
                 pixel_case(rules::ideal(family, group, seed, r), &options, 4, r)
+            }
+            Kind::Mixed(version) if version.stage() == Stage::Vertex => {
+                mixed(version, vertex_case(rules::vertex_ideal(family, together, any, r), version, r), r)
+            }
+            Kind::Mixed(version) => {
+                mixed(version, pixel_case(rules::ideal(family, together, any, r), &options(version), 4, r), r)
             }
             Kind::Card(card, version) if version.stage() == Stage::Vertex => {
                 vertex_case(rules::card(card, r), version, r)
@@ -187,6 +195,22 @@ fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
     Case { scene, pixel, vertex: Some(vertex) }
 }
 
+/// The case with formats of their own for two in three instructions of the program of this version.
+fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
+    let lines = case.vertex.as_ref().filter(|_| version.stage() == Stage::Vertex).unwrap_or(&case.pixel);
+    let program = refsim::asm::assemble(&lines.join("\n")).expect("a program that was built before");
+    for index in 0..program.instructions.len() {
+        if r.one_in(3) {
+            continue;
+        }
+        let formats = r.choose(&Family::ALL).formats();
+        let format = r.pick(formats).parse().expect("a format");
+        // Some instructions take none.
+        case.scene.profile.set_instruction_format(&program, index, Some(format));
+    }
+    case
+}
+
 /// A pixel program whose result depends on every coordinate set and colour.
 pub(crate) fn shows_all(profile: &Profile, targets: usize) -> Vec<String> {
     let mut lines;
@@ -230,6 +254,9 @@ pub(crate) fn all() -> Vec<Suite> {
                 out.push(Suite::new(name, Kind::Program(version, family, group), seeds));
             }
         }
+    }
+    for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
+        out.push(Suite::new(format!("mixed::{}", version_name(version)), Kind::Mixed(version), 42));
     }
     for card in Profile::card_names() {
         for version in &rules::profile(card).limits.versions {

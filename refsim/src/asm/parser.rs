@@ -253,6 +253,7 @@ impl<'a> Parser<'a> {
             coissue: prefix.coissue,
             predicate: prefix.predicate,
             fragment: FragmentPart::default(),
+            format: None,
             span,
         });
     }

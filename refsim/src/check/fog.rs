@@ -114,6 +114,7 @@ impl Writer {
             coissue: false,
             predicate: None,
             fragment: FragmentPart::default(),
+            format: None,
             span,
         }
     }

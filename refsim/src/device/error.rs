@@ -30,4 +30,11 @@ pub enum DeviceError {
     #[error("profile `{device}`: {problem}")]
     #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]
     Profile { device: String, problem: String },
+    /// A device file is malformed.
+    #[error("device file: {problem}")]
+    #[diagnostic(
+        code(device::file),
+        help("a device file names a `device`, and may have `format`, `[switches]` and `[programs.DIGEST]`")
+    )]
+    File { problem: String },
 }

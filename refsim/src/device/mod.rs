@@ -9,8 +9,10 @@
 //!
 //! In addition there is `ideal-<format>` for any number format: without limits or timing, and with the rules of r300.
 
+mod device_file;
 mod error;
 mod figure;
+mod instruction_formats;
 mod limits;
 mod profile;
 mod rules;
@@ -18,6 +20,7 @@ mod switch;
 
 pub use error::DeviceError;
 pub use figure::{Confidence, FigureRow, MeasuredCounts};
+pub use instruction_formats::{InstructionFormats, MAX_INSTRUCTION_FORMATS, takes_format};
 pub use limits::{Bus, DEFAULT_STEP_BUDGET, Limits, Rates};
 pub use profile::Profile;
 pub use rules::{

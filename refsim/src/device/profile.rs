@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use super::DeviceError;
 use super::figure::{FigureRow, RawFigure, Section};
+use super::instruction_formats::InstructionFormats;
 use super::limits::{Bus, Limits, Rates};
 use super::rules::{
     BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
@@ -99,6 +100,7 @@ pub struct Profile {
     pub bus: Bus,
     switches: Vec<Switch>,
     figures: Vec<FigureRow>,
+    pub(super) instruction_formats: InstructionFormats,
 }
 
 impl Profile {
@@ -290,7 +292,17 @@ impl Profile {
         bus.kind = part.text("kind").unwrap_or_default();
         part.finish()?;
 
-        let mut profile = Self { name: raw.name, title: raw.title, rules, limits, rates, bus, switches, figures };
+        let mut profile = Self {
+            name: raw.name,
+            title: raw.title,
+            rules,
+            limits,
+            rates,
+            bus,
+            switches,
+            figures,
+            instruction_formats: InstructionFormats::default(),
+        };
         // Applies the defaults of all switches, because some change limits.
         for (name, value) in profile.switches.iter().map(|s| (s.name.clone(), s.current.clone())).collect::<Vec<_>>() {
             profile.set_switch(&name, &value)?;

@@ -4,6 +4,7 @@ use super::{
     Comparison, Destination, FogOption, FragmentPart, Opcode, Precision, Predicate, ProgramText, Register,
     RegisterFile, Source, Span, StateBinding, Version,
 };
+use crate::num::Format;
 
 /// The value of a `def`, `defi` or `defb`.
 #[non_exhaustive]
@@ -105,6 +106,11 @@ pub struct Instruction {
     pub predicate: Option<Predicate>,
     /// Parts that only OpenGL fragment programs have; default in Direct3D's versions.
     pub fragment: FragmentPart,
+    /// Number format of its own, in place of the registers' and of `_pp` or a precision suffix: operands are converted
+    /// to it, the operation is done in it, and the result is converted to the format of its register. The result of a
+    /// texture instruction is rounded to it. Text has none: devices assign formats
+    /// ([`crate::device::InstructionFormats`]).
+    pub format: Option<Format>,
     /// The whole instruction in the program text.
     pub span: Span,
 }
@@ -154,6 +160,27 @@ pub enum ParameterSource {
 }
 
 impl Program {
+    /// Identifies the program by its instructions: 64 bits (FNV-1a) of the version and of the text of each instruction,
+    /// without comments, layout, declarations and constants.
+    pub fn digest(&self) -> u64 {
+        let lines = self.instructions.iter().enumerate().map(|(index, instruction)| {
+            // Programs that tests build have no text.
+            let Instruction { opcode, comparison, destination, sources, .. } = instruction;
+            self.instruction_text(index).unwrap_or_else(|| format!("{:?}", (opcode, comparison, destination, sources)))
+        });
+        std::iter::once(self.version.token().to_owned())
+            .chain(lines)
+            .flat_map(|line| (line + "\n").into_bytes())
+            .fold(0xcbf2_9ce4_8422_2325, |digest, byte| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+    }
+
+    /// The text of an instruction on one line; `None` if the program was not assembled from a text.
+    pub fn instruction_text(&self, index: usize) -> Option<String> {
+        let Span { start, end } = self.instructions.get(index)?.span;
+        let text = self.text.as_str().get(start as usize..end as usize).filter(|text| !text.is_empty())?;
+        Some(text.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+
     /// The index of the `phase` instruction, if there is one.
     pub fn phase_marker(&self) -> Option<usize> {
         self.instructions.iter().position(|i| i.opcode == Opcode::Phase)

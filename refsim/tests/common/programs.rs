@@ -96,6 +96,7 @@ pub(crate) fn instruction(version: Version) -> impl Strategy<Value = Instruction
                 coissue,
                 predicate,
                 fragment: FragmentPart::default(),
+                format: None,
                 span: nowhere(),
             }
         })

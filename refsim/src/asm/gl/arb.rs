@@ -187,6 +187,7 @@ impl<'a> Parser<'a> {
             coissue: false,
             predicate: None,
             fragment,
+            format: None,
             span: Span::new(token.span.start, self.cursor.last_end()),
         })
     }

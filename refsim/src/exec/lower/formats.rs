@@ -1,39 +1,58 @@
 //! Number formats of a program, and the executors' raw representation of numbers.
 
-use super::graph::Arith;
+use super::graph::{Arith, NAMED_FORMATS};
 use super::raw;
 use crate::device::Rules;
 use crate::exec::FragmentFormats;
+use crate::isa::Program;
 use crate::num::{Format, NumberOperation as Op, Overflow};
 
 /// The format of each [`Arith`].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Formats([Format; 6]);
+#[derive(Clone, Debug)]
+pub(crate) struct Formats(Vec<Format>);
 
 impl Formats {
     /// Formats of a pixel program.
-    pub(crate) fn pixel(rules: &Rules) -> Self {
-        Self::new(rules.format, rules.partial)
+    pub(crate) fn pixel(program: &Program, rules: &Rules) -> Self {
+        Self::new(program, rules.format, rules.partial)
     }
 
     /// Formats of a vertex program.
-    pub(crate) fn vertex(format: Format) -> Self {
-        Self::new(format, None)
+    pub(crate) fn vertex(program: &Program, rules: &Rules) -> Self {
+        Self::new(program, rules.vertex_format, None)
     }
 
     /// Formats with registers in `main` and `_pp` arithmetic in `partial`.
-    fn new(main: Format, partial: Option<Format>) -> Self {
+    fn new(program: &Program, main: Format, partial: Option<Format>) -> Self {
         let FragmentFormats { half, fixed, .. } = FragmentFormats::of_registers(main, partial);
-        Self([main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap), half, fixed])
+        let named: [Format; NAMED_FORMATS] =
+            [main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap), half, fixed];
+        let mut formats = Self(named.to_vec());
+        for own in program.instructions.iter().filter_map(|i| i.format) {
+            if own != main && !formats.own().contains(&own) {
+                formats.0.push(own);
+            }
+        }
+        formats
+    }
+
+    /// Formats of single instructions that are not the registers', each once.
+    pub(crate) fn own(&self) -> &[Format] {
+        &self.0[NAMED_FORMATS..]
+    }
+
+    /// The arithmetic of an instruction with this format of its own.
+    pub(crate) fn arith_of(&self, own: Format) -> Arith {
+        self.own().iter().position(|&f| f == own).map_or(Arith::Main, |index| Arith::Own(index as u8))
     }
 
     pub(crate) fn format(&self, arith: Arith) -> Format {
-        self.0[arith as usize]
+        self.0[arith.index()]
     }
 
-    /// All formats, in the order of [`Arith`].
-    pub(crate) fn all(&self) -> [Format; 6] {
-        self.0
+    /// All formats, by [`Arith::index`].
+    pub(crate) fn all(&self) -> &[Format] {
+        &self.0
     }
 
     /// Converts a bit pattern to a raw value.

@@ -90,7 +90,7 @@ impl Translator<'_> {
         }
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         match instruction.opcode {
-            Opcode::Mov if plain && instruction.precision() == Precision::Full => {
+            Opcode::Mov if plain && instruction.precision() == Precision::Full && instruction.format.is_none() => {
                 Some(source.swizzle.0.map(|c| self.held(&source.register, usize::from(c & 3))))
             }
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
@@ -169,7 +169,10 @@ impl Translator<'_> {
     /// The result in the format of the destination.
     fn fragment_arithmetic(&mut self, instruction: &Instruction) -> NodeVector {
         let Some(destination) = instruction.destination else { return [self.make.zero(); 4] };
-        let k = arith(instruction.precision());
+        let k = match instruction.format {
+            Some(own) => self.make.formats.arith_of(own),
+            None => arith(instruction.precision()),
+        };
         let raw = self.fragment_raw(instruction, k);
         let to = of_file(destination.register.file);
         raw.map(|x| {
@@ -229,7 +232,11 @@ impl Translator<'_> {
             (Opcode::TexLdD, [x, y]) => Detail::Gradients(self.place(x), self.place(y)),
             _ => Detail::Implicit,
         };
-        let texel = self.fetch(usize::from(sampler.register.index), coordinates, detail);
+        let mut texel = self.fetch(usize::from(sampler.register.index), coordinates, detail);
+        if instruction.format.is_some() {
+            let k = self.arith(instruction);
+            texel = self.through(k, texel);
+        }
         let to = of_file(destination.register.file);
         texel.map(|x| {
             let clamped = if destination.saturate { self.make.unary(Arith::Main, Op::Saturate, x) } else { x };

@@ -31,9 +31,24 @@ pub(crate) enum Arith {
     Half,
     /// X in OpenGL's fragment programs.
     Fixed,
+    /// A format of single instructions: its index in [`super::Formats::own`].
+    Own(u8),
 }
 
 impl Arith {
+    /// Index in [`super::Formats`].
+    pub(crate) const fn index(self) -> usize {
+        match self {
+            Self::Main => 0,
+            Self::Partial => 1,
+            Self::Single => 2,
+            Self::Wrapped => 3,
+            Self::Half => 4,
+            Self::Fixed => 5,
+            Self::Own(index) => NAMED_FORMATS + index as usize,
+        }
+    }
+
     /// Index in the shaders' tables of formats, which also contain those of targets and textures.
     pub(crate) const fn number(self) -> u32 {
         match self {
@@ -43,9 +58,13 @@ impl Arith {
             Self::Wrapped => 3,
             Self::Half => 9,
             Self::Fixed => 10,
+            Self::Own(index) => 11 + index as u32,
         }
     }
 }
+
+/// Number of formats that every program has.
+pub(crate) const NAMED_FORMATS: usize = 6;
 
 /// Source of a read's level of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

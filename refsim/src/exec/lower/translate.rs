@@ -184,9 +184,22 @@ impl<'a> Translator<'a> {
         self.make.graph.node(NodeKind::Relative(i32::from(register.index), component as u8, address))
     }
 
-    /// Format in which an instruction computes.
-    pub(crate) fn arith(&self, partial: bool) -> Arith {
-        if partial && self.is_pixel() && self.make.rules.partial.is_some() { Arith::Partial } else { Arith::Main }
+    /// Arithmetic in which an instruction computes: its own format, that of `_pp`, or the registers'.
+    pub(crate) fn arith(&self, instruction: &Instruction) -> Arith {
+        let partial = instruction.destination.is_some_and(|d| d.partial_precision);
+        match instruction.format {
+            Some(own) => self.make.formats.arith_of(own),
+            None if partial && self.is_pixel() && self.make.rules.partial.is_some() => Arith::Partial,
+            None => Arith::Main,
+        }
+    }
+
+    /// Rounds a result in the register format to another, and returns it in the register format.
+    pub(crate) fn through(&mut self, k: Arith, value: NodeVector) -> NodeVector {
+        value.map(|x| {
+            let narrowed = self.make.convert(Arith::Main, k, x);
+            self.make.convert(k, Arith::Main, narrowed)
+        })
     }
 
     /// All components of an operand in format `k`, after swizzle and modifier.
@@ -254,7 +267,7 @@ impl<'a> Translator<'a> {
     /// Translates an arithmetic instruction.
     pub(crate) fn arithmetic(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
-        let k = self.arith(destination.partial_precision);
+        let k = self.arith(instruction);
         let zero = self.make.zero();
         let mut s = [[zero; 4]; 3];
         for (slot, source) in s.iter_mut().zip(&instruction.sources) {

@@ -28,7 +28,11 @@ impl Translator<'_> {
                 }
             }
             Opcode::TexCoord | Opcode::TexCrd | Opcode::TexDp3 | Opcode::TexM3x3 => {
-                let value = self.without_texel(instruction, destination);
+                let mut value = self.without_texel(instruction, destination);
+                if instruction.format.is_some() {
+                    let k = self.arith(instruction);
+                    value = self.through(k, value);
+                }
                 self.writes(instruction, value, effects);
             }
             _ => {
@@ -184,13 +188,8 @@ impl Translator<'_> {
         if let (Opcode::TexBemL, Some(source)) = (instruction.opcode, instruction.sources.first()) {
             texel = self.brightened(source, destination.register.index, texel);
         }
-        if self.arith(destination.partial_precision) == Arith::Partial {
-            texel = texel.map(|x| {
-                let narrowed = self.make.convert(Arith::Main, Arith::Partial, x);
-                self.make.convert(Arith::Partial, Arith::Main, narrowed)
-            });
-        }
-        texel
+        let k = self.arith(instruction);
+        self.through(k, texel)
     }
 
     pub(super) fn fetch(&mut self, stage: usize, coordinates: NodeVector, detail: Detail) -> NodeVector {

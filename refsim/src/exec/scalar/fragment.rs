@@ -8,9 +8,8 @@
 //! A packed word is stored in `R#` as bits. Full-precision `MOV` without modifiers copies bits; everything else,
 //! including the end of the program, interprets them as a number of the register format.
 
-use super::alu::Alu;
 use super::fragment_state::{ConditionCode, FragmentState};
-use super::interpreter::Interpreter;
+use super::interpreter::{Interpreter, Unit};
 use super::operation::{self, Context};
 use super::pack;
 use super::registers::{Components, LANES};
@@ -41,15 +40,6 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         FragmentFormats::new(self.prepared.rules)
     }
 
-    /// Arithmetic of a precision.
-    pub(super) fn unit(&mut self, precision: Precision) -> &mut Alu<'a> {
-        match (&mut self.fragment, precision) {
-            (Some(fragment), Precision::Half) => &mut fragment.half,
-            (Some(fragment), Precision::Fixed) => &mut fragment.fixed,
-            _ => &mut self.full,
-        }
-    }
-
     /// Contents of a register, in the format of its file.
     fn fragment_value(&self, lane: usize, source: &Source) -> Components {
         let register = &source.register;
@@ -71,7 +61,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     pub(super) fn loaded(&mut self, lane: usize, source: &Source, wanted: Mask, negate: u8) -> Components {
         let value = self.fragment_value(lane, source);
         let half = source.register.file.is_half();
-        let unit = self.unit(if half { Precision::Half } else { Precision::Full });
+        let unit = self.alu(if half { Unit::Half } else { Unit::Full });
         let format = unit.format;
         let mut out = [0; 4];
         for i in wanted.components() {
@@ -87,17 +77,10 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// Loads an operand in the format of the operation.
-    fn fragment_operand(
-        &mut self,
-        lane: usize,
-        source: &Source,
-        to: Precision,
-        wanted: Mask,
-        negate: u8,
-    ) -> Components {
+    fn fragment_operand(&mut self, lane: usize, source: &Source, to: Unit, wanted: Mask, negate: u8) -> Components {
         let mut out = self.loaded(lane, source, wanted, negate);
         let from = self.fragment_formats().of_file(source.register.file);
-        let unit = self.unit(to);
+        let unit = self.alu(to);
         for i in wanted.components() {
             out[i] = unit.enter(from, out[i]);
         }
@@ -111,9 +94,14 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         if let Some(word) = self.moved_bits(lane, instruction) {
             return word;
         }
-        let precision = instruction.precision();
-        let raw = self.fragment_raw(lane, instruction, precision, destination.mask);
-        let unit = self.unit(precision);
+        let precision = match instruction.precision() {
+            Precision::Full => Unit::Full,
+            Precision::Half => Unit::Half,
+            Precision::Fixed => Unit::Fixed,
+        };
+        let k = self.unit_of(instruction, precision);
+        let raw = self.fragment_raw(lane, instruction, k, destination.mask);
+        let unit = self.alu(k);
         let mut out = [0; 4];
         for i in destination.mask.components() {
             let x = if destination.saturate { unit.saturate(raw[i]) } else { raw[i] };
@@ -133,7 +121,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         }
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         match instruction.opcode {
-            Opcode::Mov if plain && instruction.precision() == Precision::Full => {
+            Opcode::Mov if plain && instruction.precision() == Precision::Full && instruction.format.is_none() => {
                 Some([0, 1, 2, 3].map(|i| self.bits(lane, source, i)))
             }
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
@@ -146,12 +134,12 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
 
     fn packed(&mut self, lane: usize, instruction: &Instruction, source: &Source) -> u32 {
         let formats = self.fragment_formats();
-        let value = self.fragment_operand(lane, source, Precision::Full, Mask::ALL, 0);
+        let value = self.fragment_operand(lane, source, Unit::Full, Mask::ALL, 0);
         pack::pack(&formats, instruction.opcode, &value)
     }
 
     /// Computes the result in the format of the operation, before saturation.
-    fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Components {
+    fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: Unit, mask: Mask) -> Components {
         let opcode = instruction.opcode;
         match opcode {
             Opcode::Dsx | Opcode::Dsy => return self.fragment_difference(lane, instruction, k, mask),
@@ -161,12 +149,12 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
                 let word = self.packed(lane, instruction, source);
                 let full = self.full.format;
                 let number = ops::convert(&full, full, pack::stored_word(full, word)).bits;
-                return [self.unit(k).enter(full, number); 4];
+                return [self.alu(k).enter(full, number); 4];
             }
             Opcode::Up2h | Opcode::Up2us | Opcode::Up4b | Opcode::Up4ub => {
                 let value = self.unpacked(lane, instruction);
                 let full = self.full.format;
-                return value.map(|x| self.unit(k).enter(full, x));
+                return value.map(|x| self.alu(k).enter(full, x));
             }
             _ => {}
         }
@@ -176,7 +164,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             *slot = self.fragment_operand(lane, source, k, wanted, instruction.fragment.negate);
         }
         let arb = self.prepared.program.version == Version::ArbFp1_0;
-        let unit = self.unit(k);
+        let unit = self.alu(k);
         if arb && opcode == Opcode::Rsq {
             // ARB takes the magnitude, unlike NV's instruction.
             s[0] = s[0].map(|x| unit.abs(x));
@@ -193,13 +181,13 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         let word = match plain {
             true => self.bits(lane, source, 0),
-            false => self.fragment_operand(lane, source, Precision::Full, Mask(1), 0)[0],
+            false => self.fragment_operand(lane, source, Unit::Full, Mask(1), 0)[0],
         };
         pack::unpack(&self.fragment_formats(), instruction.opcode, word)
     }
 
     /// `DDX`, `DDY`: the difference across the quad's row or column; both of its lanes get the same value.
-    fn fragment_difference(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Components {
+    fn fragment_difference(&mut self, lane: usize, instruction: &Instruction, k: Unit, mask: Mask) -> Components {
         let Some(source) = instruction.sources.first() else { return [0; 4] };
         let (low, high) = match instruction.opcode {
             Opcode::Dsx => (lane & 2, lane | 1),
@@ -207,7 +195,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         };
         let from = self.fragment_operand(low, source, k, mask, 0);
         let to = self.fragment_operand(high, source, k, mask, 0);
-        let unit = self.unit(k);
+        let unit = self.alu(k);
         operation::each(mask, |i| unit.sub(to[i], from[i]))
     }
 

@@ -36,6 +36,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         let to = self.fragment_formats().of_file(destination.register.file);
         for lane in 0..LANES {
             let texel = self.fetch(stage, lane, &coordinates, &detail);
+            let texel = self.through(instruction.format, texel);
             let value = texel.map(|x| {
                 let clamped = if destination.saturate { self.full.saturate(x) } else { x };
                 self.full.leave(to, clamped)

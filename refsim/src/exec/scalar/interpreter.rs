@@ -13,6 +13,21 @@ use crate::exec::{Observer, Step};
 use crate::isa::{Comparison, Destination, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
 use crate::num::{Flags, Format};
 
+/// Arithmetic unit of an interpreter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unit {
+    /// The register format.
+    Full,
+    /// The format of `_pp` instructions, or the register format if the device has none.
+    Partial,
+    /// H in OpenGL's fragment programs.
+    Half,
+    /// X in OpenGL's fragment programs.
+    Fixed,
+    /// The current instruction's own format.
+    Own,
+}
+
 /// State of an open block.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum OpenBlock {
@@ -59,6 +74,8 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) full: Alu<'a>,
     /// Arithmetic of `_pp` instructions, if the device has one.
     partial: Option<Alu<'a>>,
+    /// Arithmetic of the instruction that is executed, if it has a format of its own.
+    pub(super) own: Option<Alu<'a>>,
     /// Single precision arithmetic of texture addresses.
     pub(super) address: Alu<'a>,
     /// Lanes enabled by flow control, one bit each.
@@ -86,8 +103,7 @@ pub(super) struct Interpreter<'p, 'a, O> {
 impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     pub(super) fn new(prepared: &'p Prepared<'a>, active: u8, observer: &'p mut O) -> Self {
         let rules = prepared.rules;
-        let pixel = prepared.is_pixel();
-        let unit = |format| if pixel { Alu::new(rules, format) } else { Alu::vertex(rules, format) };
+        let unit = |format| prepared.alu(format);
         Self {
             prepared,
             lanes: [const { Registers::new() }; LANES],
@@ -95,7 +111,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             padded: [[0; 2]; LANES],
             pads: 0,
             full: unit(prepared.format),
-            partial: rules.partial.filter(|_| pixel).map(unit),
+            partial: rules.partial.filter(|_| prepared.is_pixel()).map(unit),
+            own: None,
             address: Alu::plain(rules, Format::FP32),
             active,
             covered: active,
@@ -111,6 +128,25 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             fragment: prepared.program.version.is_fragment_program().then(|| Box::new(FragmentState::new(rules))),
             observer,
         }
+    }
+
+    /// The unit in which an arithmetic instruction computes, with precision `otherwise` if it has no format of its own.
+    pub(super) fn unit_of(&mut self, instruction: &Instruction, otherwise: Unit) -> Unit {
+        let Some(format) = instruction.format else { return otherwise };
+        self.own = Some(self.prepared.alu(format));
+        Unit::Own
+    }
+
+    /// Arithmetic of a unit.
+    pub(super) fn alu(&mut self, unit: Unit) -> &mut Alu<'a> {
+        let chosen = match unit {
+            Unit::Full => None,
+            Unit::Partial => self.partial.as_mut(),
+            Unit::Half => self.fragment.as_mut().map(|f| &mut f.half),
+            Unit::Fixed => self.fragment.as_mut().map(|f| &mut f.fixed),
+            Unit::Own => self.own.as_mut(),
+        };
+        chosen.unwrap_or(&mut self.full)
     }
 
     /// Executes the program to its end.
@@ -221,10 +257,12 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             _ => [0; 4],
         };
         let registers = self.prepared.format;
+        let hint = if destination.partial_precision { Unit::Partial } else { Unit::Full };
+        let unit = self.unit_of(instruction, hint);
         let mut s = [[0; 4]; 3];
         for (index, (slot, source)) in s.iter_mut().zip(&instruction.sources).enumerate() {
             let wanted = opcode.lanes_read(index, destination.mask);
-            *slot = self.source(lane, source, wanted, destination.partial_precision);
+            *slot = self.source(lane, source, wanted, unit);
         }
         let rows = opcode.matrix();
         let mut matrix = [[0; 4]; 4];
@@ -232,14 +270,10 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             for (row, slot) in (0..count).zip(&mut matrix) {
                 let mut source = *source;
                 source.register.index = source.register.index.saturating_add(row);
-                *slot =
-                    self.source(lane, &source, opcode.lanes_read(1, destination.mask), destination.partial_precision);
+                *slot = self.source(lane, &source, opcode.lanes_read(1, destination.mask), unit);
             }
         }
-        let alu = match &mut self.partial {
-            Some(partial) if destination.partial_precision => partial,
-            _ => &mut self.full,
-        };
+        let alu = self.alu(unit);
         let raw = match rows {
             Some((_, terms)) => {
                 let mut product = [0; 4];
@@ -272,14 +306,10 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// Loads an operand of one lane in the format of the operation.
-    pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, partial: bool) -> Components {
+    pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, unit: Unit) -> Components {
         let prepared = self.prepared;
         let value = self.lanes[lane].value(&source.register, &prepared.constants, self.loop_counter);
-        let alu = match &mut self.partial {
-            Some(unit) if partial => unit,
-            _ => &mut self.full,
-        };
-        operand(alu, prepared.format, source, value, wanted)
+        operand(self.alu(unit), prepared.format, source, value, wanted)
     }
 
     /// `dsx`, `dsy`: the difference across the quad's row or column; both of its lanes get the same value. Inactive
@@ -292,18 +322,17 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             Opcode::Dsx => (lane & 2, lane | 1),
             _ => (lane & 1, lane | 2),
         };
-        let pp = destination.partial_precision;
-        let from = self.source(low, source, destination.mask, pp);
-        let to = self.source(high, source, destination.mask, pp);
-        let alu = match &mut self.partial {
-            Some(partial) if pp => partial,
-            _ => &mut self.full,
-        };
+        let hint = if destination.partial_precision { Unit::Partial } else { Unit::Full };
+        let unit = self.unit_of(instruction, hint);
+        let from = self.source(low, source, destination.mask, unit);
+        let to = self.source(high, source, destination.mask, unit);
+        let registers = self.prepared.format;
+        let alu = self.alu(unit);
         let mut out = [0; 4];
         for i in destination.mask.components() {
             out[i] = alu.sub(to[i], from[i]);
         }
-        let done = finished(alu, self.prepared.format, destination, out);
+        let done = finished(alu, registers, destination, out);
         self.flags[lane] = alu.take_flags();
         done
     }
@@ -357,8 +386,9 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     /// Assigns the flags raised since the last call to a lane; discards them if the lane is inactive.
     pub(super) fn assign_flags(&mut self, lane: usize) {
         let partial = self.partial.as_mut().map(Alu::take_flags).unwrap_or_default();
-        let own = self.fragment.as_mut().map(|f| f.take_flags()).unwrap_or_default();
-        let raised = self.full.take_flags() | self.address.take_flags() | partial | own;
+        let own = self.own.as_mut().map(Alu::take_flags).unwrap_or_default();
+        let fragment = self.fragment.as_mut().map(|f| f.take_flags()).unwrap_or_default();
+        let raised = self.full.take_flags() | self.address.take_flags() | partial | own | fragment;
         if self.active >> lane & 1 == 1 {
             self.flags[lane] |= raised;
         }
@@ -370,8 +400,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         let (Some(a), Some(b)) = (a, b) else {
             return false;
         };
-        let x = self.source(lane, a, Mask(1), false)[0];
-        let y = self.source(lane, b, Mask(1), false)[0];
+        let x = self.source(lane, a, Mask(1), Unit::Full)[0];
+        let y = self.source(lane, b, Mask(1), Unit::Full)[0];
         // A branch writes nothing and so reports no flags.
         self.full.take_flags();
         compare(&self.full, instruction.comparison.unwrap_or(Comparison::Eq), x, y)

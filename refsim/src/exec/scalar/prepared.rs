@@ -1,5 +1,6 @@
 //! Per-draw preparation: constants, jump targets, bindings, and inputs read.
 
+use super::alu::Alu;
 use crate::device::Rules;
 use crate::exec::budget::enforced;
 use crate::exec::{
@@ -59,6 +60,11 @@ impl<'a> Prepared<'a> {
     /// Enforces a step budget.
     pub(crate) fn set_budget(&mut self, budget: u32) {
         self.budget = enforced(self.program, &self.flow, &self.constants, budget);
+    }
+
+    /// Arithmetic of the program's stage in `format`.
+    pub(crate) fn alu(&self, format: Format) -> Alu<'a> {
+        if self.is_pixel() { Alu::new(self.rules, format) } else { Alu::vertex(self.rules, format) }
     }
 
     pub(crate) fn is_pixel(&self) -> bool {

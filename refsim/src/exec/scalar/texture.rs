@@ -2,7 +2,7 @@
 //! unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is single
 //! precision with one rounding per step and dot products in the device's order.
 
-use super::interpreter::Interpreter;
+use super::interpreter::{Interpreter, Unit};
 use super::registers::{Components, LANES};
 use crate::device::TexcrdOverflow;
 use crate::exec::{Observer, Projection, TextureRead};
@@ -70,7 +70,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             if instruction.opcode == Opcode::TexBemL {
                 texel = self.brightened(lane, instruction, stage, texel);
             }
-            let value = self.through_partial(destination, texel);
+            let hint = self.prepared.rules.partial.filter(|_| destination.partial_precision);
+            let value = self.through(instruction.format.or(hint), texel);
             self.store(at, lane, instruction, value);
         }
     }
@@ -147,7 +148,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     /// A register after its source modifier, converted to single precision.
     fn in_single(&mut self, lane: usize, source: &Source) -> Components {
         let format = self.prepared.format;
-        self.source(lane, source, Mask::ALL, false).map(|x| ops::convert(&format, Format::FP32, x).bits)
+        self.source(lane, source, Mask::ALL, Unit::Full).map(|x| ops::convert(&format, Format::FP32, x).bits)
     }
 
     /// A coordinate operand: `t#` as interpolated, other registers converted to single precision.
@@ -278,15 +279,15 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         [0, 1, 2, 3].map(|i: usize| self.address.sub(b[i], a[i]))
     }
 
-    /// `_pp` on a texture read: rounds the texel to the partial format.
-    fn through_partial(&mut self, destination: &Destination, texel: Components) -> Components {
+    /// Rounds a result to the instruction's own format, or to that of `_pp`, and returns it in the register format.
+    pub(super) fn through(&self, own: Option<Format>, value: Components) -> Components {
         let format = self.prepared.format;
-        match self.prepared.rules.partial {
-            Some(partial) if destination.partial_precision => texel.map(|x| {
-                let narrowed = ops::convert(&format, partial, x).bits;
-                ops::convert(&partial, format, narrowed).bits
+        match own {
+            Some(own) => value.map(|x| {
+                let narrowed = ops::convert(&format, own, x).bits;
+                ops::convert(&own, format, narrowed).bits
             }),
-            _ => texel,
+            None => value,
         }
     }
 
@@ -313,6 +314,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
                     [x, y, z, self.full.one()]
                 }
             };
+            let value = self.through(instruction.format, value);
             self.store(at, lane, instruction, value);
         }
         if instruction.opcode == Opcode::TexM3x3 {

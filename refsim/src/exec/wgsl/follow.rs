@@ -136,7 +136,7 @@ impl<'w> Record<'w> {
     }
 
     fn output(&self, checked: &CheckedProgram, rules: &Rules) -> FragmentResult {
-        let formats = Formats::pixel(rules);
+        let formats = Formats::pixel(program(checked), rules);
         let main = |raw| formats.encode(Arith::Main, raw);
         let words = &self.words[RESULTS..HEAD];
         let (killed, depth, is_main) = (words[16] != 0, words[17], words[18] != 0);

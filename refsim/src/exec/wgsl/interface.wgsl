@@ -20,7 +20,7 @@ const WRAPPED: u32 = 3u;
 const ITERATOR: u32 = 4u;
 
 // The format of an index above; from 5 on those of targets' channels, 9 and 10 the half and fixed precision of OpenGL's
-// programs.
+// programs, from 11 on those of single instructions.
 fn format_of_draw(k: u32) -> Format {
     let at = 8u * k;
     return Format(

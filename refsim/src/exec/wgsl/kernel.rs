@@ -4,8 +4,10 @@ use super::number::{format_words, library};
 use super::parts::Parts;
 use super::program::{IN_OUT_ROWS, Interpolation, Microcode, PLANES};
 use super::{INTERFACE, target};
-use crate::device::Rules;
+use crate::device::{MAX_INSTRUCTION_FORMATS, Rules};
 use crate::exec::FragmentFormats;
+use crate::exec::lower::Formats;
+use crate::isa::Program;
 use crate::num::{Format, FormatKind, Overflow, ops};
 use crate::output::{BlendEquation, BlendFactor, BlendOp, CompareFunction, DepthFormat, OutputRules, OutputState};
 use crate::raster::{COMPONENTS, ComponentMask, TriangleSetup};
@@ -41,7 +43,7 @@ const SAVED_ROWS: usize = 4;
 
 /// Fields of `draw`, in order, and their sizes in words.
 const FIELDS: [(&str, usize); 22] = [
-    ("D_FORMATS", 8 * 11),
+    ("D_FORMATS", 8 * (11 + MAX_INSTRUCTION_FORMATS)),
     ("D_STRIDE", 1),
     ("D_SETUP_WORDS", 1),
     ("D_GROUPS", 1),
@@ -140,6 +142,8 @@ pub struct DepthPlace {
 /// State that is constant over a draw.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawState<'a> {
+    /// The pixel program.
+    pub program: &'a Program,
     /// Arithmetic rules of the device.
     pub rules: &'a Rules,
     /// Tests, blending, masks.
@@ -207,7 +211,8 @@ impl DrawWords {
             fragment.half,
             fragment.fixed,
         ];
-        for (k, format) in formats.iter().enumerate() {
+        let own = Formats::pixel(state.program, rules);
+        for (k, format) in formats.iter().chain(own.own()).enumerate() {
             words.put(8 * k, &format_words(format));
         }
         words.set("D_STEP_BUDGET", &[state.step_budget.unwrap_or(u32::MAX)]);

@@ -14,7 +14,6 @@ pub(super) mod operations;
 mod trace;
 
 use crate::device::Rules;
-use crate::exec::lower::Formats;
 use crate::exec::{CheckedProgram, PixelBindings, program};
 pub(crate) use assembler::IN_OUT_ROWS;
 pub use interpolate::Interpolation;
@@ -43,7 +42,7 @@ impl PixelShader {
     /// Prepares a pixel program to run under `rules` with `bindings`. If `traced`, the results of every instruction are
     /// recorded ([`trace_steps`]).
     pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, traced: bool) -> Self {
-        Self { lowered: Lowered::pixel(program(checked), rules, Formats::pixel(rules), bindings, traced) }
+        Self { lowered: Lowered::pixel(program(checked), rules, bindings, traced) }
     }
 
     /// Encodes the program for [`machine`], preceded by interpolation if given.

@@ -205,6 +205,7 @@ impl Card {
         }
         let source = program(call.pixel_program);
         Ok(DrawWords::new(&DrawState {
+            program: source,
             rules: &profile.rules,
             output: &call.output_state(),
             output_rules: &output_rules(&profile.rules),

@@ -93,6 +93,7 @@ impl<'a> GpuTracer<'a> {
             false => source.instructions.len() + INPUTS,
         };
         let mut words = DrawWords::new(&DrawState {
+            program: source,
             rules: &profile.rules,
             output: &call.output_state(),
             output_rules: &output_rules(&profile.rules),

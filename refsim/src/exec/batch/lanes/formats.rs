@@ -9,19 +9,20 @@ use crate::num::Format;
 #[derive(Clone, Debug)]
 pub(crate) struct LaneFormats {
     table: Formats,
-    lanes: [AnyLane; 6],
+    lanes: Vec<AnyLane>,
     simd: SimdLevel,
 }
 
 impl LaneFormats {
     /// Those of a program with these formats.
     pub(crate) fn new(table: Formats, simd: SimdLevel) -> Self {
-        Self { table, lanes: table.all().map(AnyLane::new), simd }
+        let lanes = table.all().iter().copied().map(AnyLane::new).collect();
+        Self { table, lanes, simd }
     }
 
     /// The formats without arithmetic.
-    pub(crate) fn table(&self) -> Formats {
-        self.table
+    pub(crate) fn table(&self) -> &Formats {
+        &self.table
     }
 
     pub(crate) fn format(&self, arith: Arith) -> Format {
@@ -29,7 +30,7 @@ impl LaneFormats {
     }
 
     pub(crate) fn lane(&self, arith: Arith) -> &AnyLane {
-        &self.lanes[arith as usize]
+        &self.lanes[arith.index()]
     }
 
     /// The vector instructions to use.

@@ -65,7 +65,7 @@ pub(crate) fn decoded(
             && key.rules == *rules
     };
     programs.get(matches, || {
-        let (program, constants, formats) = (program.clone(), constants.clone(), Formats::pixel(rules));
+        let (program, constants, formats) = (program.clone(), constants.clone(), Formats::pixel(program, rules));
         let code = if has_flow(&program) {
             PixelCode::Flow(FlowPlan::pixel(&program, rules, formats, &constants, bindings, draw.step_budget))
         } else {

@@ -44,7 +44,7 @@ impl<'a> BatchTiles<'a> {
         if !has_flow(program) && straight_exceeds(program, draw.step_budget) {
             return None;
         }
-        let formats = LaneFormats::new(Formats::pixel(draw.rules), simd);
+        let formats = LaneFormats::new(Formats::pixel(program, draw.rules), simd);
         let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
         let rules = sample_rules(draw.rules);
         let code = decoded(programs, program, draw, &constants);

@@ -66,17 +66,18 @@ impl<'a> BatchTracer<'a> {
     /// Prepares traces of a draw, for which `tiles` was prepared.
     pub(crate) fn new(draw: &TileDraw<'a>, tiles: BatchTiles<'a>, tables: &TextureTables) -> Self {
         let program = crate::exec::program(draw.program);
-        let formats = LaneFormats::new(Formats::pixel(draw.rules), tiles.simd());
+        let formats = LaneFormats::new(Formats::pixel(program, draw.rules), tiles.simd());
         let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
         let rules = sample_rules(draw.rules);
         let reads = inputs_read(program);
-        let translator = || Translator::new(program, draw.rules, formats.table(), &constants, Some(&draw.bindings));
+        let translator =
+            || Translator::new(program, draw.rules, formats.table().clone(), &constants, Some(&draw.bindings));
         let delivered = delivered(&mut translator(), program);
         let code = if has_flow(program) {
             TracedProgram::Flow(FlowPlan::pixel(
                 program,
                 draw.rules,
-                formats.table(),
+                formats.table().clone(),
                 &constants,
                 &draw.bindings,
                 draw.step_budget,

@@ -94,7 +94,7 @@ fn decoded(
             VertexCode::Flow(Box::new(FlowPlan::vertex(
                 program,
                 rules,
-                Formats::vertex(rules.vertex_format),
+                Formats::vertex(program, rules),
                 constants,
                 budget,
             )))
@@ -121,7 +121,7 @@ impl BatchVertices {
         if !has_flow(program) && straight_exceeds(program, step_budget) {
             return None;
         }
-        let formats = LaneFormats::new(Formats::vertex(rules.vertex_format), simd);
+        let formats = LaneFormats::new(Formats::vertex(program, rules), simd);
         let constants = ResolvedConstants::vertex(program, rules, constants);
         let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
         let code = decoded(programs, program, rules, &constants, (needed, &components), step_budget);
@@ -287,7 +287,7 @@ fn straight(
     constants: &ResolvedConstants,
     (open, components): (bool, &[usize]),
 ) -> VertexCode {
-    let mut t = Translator::new(program, rules, Formats::vertex(rules.vertex_format), constants, None);
+    let mut t = Translator::new(program, rules, Formats::vertex(program, rules), constants, None);
     t.open_constants = open;
     translate_straight_vertex(&mut t, program);
     let slots = |i: &Instruction| u64::from(i.opcode.info().slot_cost(program.version).total());

@@ -210,7 +210,7 @@ impl Assembler<'_> {
                 let format = self.format(k);
                 let to = self.result(node, places);
                 let [o0, o1, o2, o3, o4, o5, o6, o7] = operands;
-                self.push_costly(op::DOT, format << 8 | u32::from(terms) << 16, 600);
+                self.push_costly(op::DOT, format << 24 | u32::from(terms) << 16, 600);
                 self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
             }
             NodeKind::Difference(k, down, a) => {
@@ -220,7 +220,7 @@ impl Assembler<'_> {
                 self.release_operands(node, places);
                 self.parts.add_operation(NumberOperation::Sub);
                 let format = self.format(k);
-                self.emit(op::ALU, format << 8 | other << 12 | NumberOperation::Sub.word() << 16, to, [a; 3]);
+                self.emit(op::ALU, format << 24 | other << 12 | NumberOperation::Sub.word() << 16, to, [a; 3]);
             }
             NodeKind::Convert(from, into, a) => {
                 let format = self.formats.format(from);
@@ -255,7 +255,7 @@ impl Assembler<'_> {
     fn operation(&mut self, k: Arith, operation: NumberOperation, to: u16, args: [u16; 3]) {
         self.parts.add_operation(operation);
         let format = self.format(k);
-        self.emit(op::ALU, format << 8 | operation.word() << 16, to, args);
+        self.emit(op::ALU, format << 24 | operation.word() << 16, to, args);
     }
 
     fn compute(&mut self, node: NodeId, k: Arith, code: NumberOperation, args: [u16; 3], places: &mut Places) {

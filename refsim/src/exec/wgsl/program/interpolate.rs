@@ -120,7 +120,7 @@ impl Assembler<'_> {
 
     fn number(&mut self, operation: NumberOperation, format: u32, to: u16, [a, b]: [u16; 2]) {
         self.parts.add_operation(operation);
-        self.emit(op::ALU, format << 8 | operation.word() << 16, to, [a, b, a]);
+        self.emit(op::ALU, format << 24 | operation.word() << 16, to, [a, b, a]);
     }
 
     fn copy(&mut self, to: u16, from: u16) {

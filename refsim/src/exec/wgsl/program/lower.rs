@@ -79,14 +79,9 @@ pub(super) struct Lowered {
 
 impl Lowered {
     /// Lowers a pixel program; if `traced`, the results of every instruction are recorded.
-    pub(super) fn pixel(
-        program: &Program,
-        rules: &Rules,
-        formats: Formats,
-        bindings: &PixelBindings<'_>,
-        traced: bool,
-    ) -> Self {
+    pub(super) fn pixel(program: &Program, rules: &Rules, bindings: &PixelBindings<'_>, traced: bool) -> Self {
         let constants = ResolvedConstants::pixel(program, rules, bindings.constants);
+        let formats = Formats::pixel(program, rules);
         let mut t = Translator::new(program, rules, formats, &constants, Some(bindings));
         let body = match has_flow(program) {
             false => straight(&mut t, program, traced),
@@ -96,11 +91,11 @@ impl Lowered {
                 flow(&mut t, program, parts, end, traced)
             }
         };
-        Self::finish(t, body, &constants, formats)
+        Self::finish(t, body, &constants)
     }
 
-    fn finish(t: Translator<'_>, body: Body, constants: &ResolvedConstants, formats: Formats) -> Self {
-        let graph = t.make.graph;
+    fn finish(t: Translator<'_>, body: Body, constants: &ResolvedConstants) -> Self {
+        let (graph, formats) = (t.make.graph, t.make.formats);
         let relative = (0..graph.len() as u32).any(|i| matches!(graph.kind(NodeId(i)), NodeKind::Relative(..)));
         let table = constants
             .float

@@ -16,7 +16,7 @@ pub const TRACE_WORDS: usize = 6;
 /// ([`super::PixelShader::new`]), in the form of [`crate::exec::Shading`].
 pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Vec<Step> {
     let source = program(checked);
-    let formats = Formats::pixel(rules);
+    let formats = Formats::pixel(source, rules);
     let fragment = source.version.is_fragment_program();
     let step = |words: &[u32]| {
         let (instruction, mask) = (words[0] as usize, Mask((words[1] & 15) as u8));
@@ -39,7 +39,7 @@ pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane:
 /// Decodes the input registers, as read by instructions, from the same words.
 pub fn trace_delivered(words: &[u32], checked: &CheckedProgram, rules: &Rules) -> Vec<(Register, [u32; 4])> {
     let source = program(checked);
-    let formats = Formats::pixel(rules);
+    let formats = Formats::pixel(source, rules);
     let first = source.instructions.len();
     let told = |at: usize| words.chunks_exact(TRACE_WORDS).find(|words| words[0] as usize == at);
     let registers = (first..).zip(registers_delivered(source));

@@ -320,8 +320,8 @@ fn vm_relative(word: u32, base: i32, address: i32) -> u32 {
 
 // What a long operation comes to before its rounding: of two operands, or the sum of up to four products.
 fn vm_prepare(op: u32, word: u32, at: u32) {
-    let f = format((word >> 8u) & 15u);
-    let operation = word >> 16u;
+    let f = format(word >> 24u);
+    let operation = (word >> 16u) & 255u;
     var terms = 1u;
     if (HAS_DOTS) {
         terms = select(1u, operation, op == VM_DOT);
@@ -347,8 +347,8 @@ fn vm_prepare(op: u32, word: u32, at: u32) {
 
 // What is computed lane by lane: result, up to three operands.
 fn vm_compute(op: u32, word: u32, at: u32) {
-    let f = format((word >> 8u) & 15u);
-    let operation = word >> 16u;
+    let f = format(word >> 24u);
+    let operation = (word >> 16u) & 255u;
     // Differences within the quad: bit 1 right neighbour less left one, bit 2 lower less upper.
     let other = (word >> 12u) & 3u;
     // One call in a loop, not three: compilers take half of the time. An array would cost them more than moving the

@@ -1,0 +1,130 @@
+//! Device files: devices with switches, a register format and formats of single instructions.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use serde::Deserialize;
+
+use super::instruction_formats::{InstructionFormats, MAX_INSTRUCTION_FORMATS};
+use super::switch::FORMAT_RULES;
+use super::{DeviceError, Profile};
+use crate::isa::Program;
+use crate::num::Format;
+
+/// A device file: a device with switches, a register format, and formats of instructions.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DeviceFile {
+    device: String,
+    /// Format of pixel registers and pixel arithmetic, in place of the device's.
+    format: Option<Format>,
+    #[serde(default)]
+    switches: BTreeMap<String, String>,
+    /// By digest in hexadecimal, then by index in decimal.
+    #[serde(default)]
+    programs: BTreeMap<String, BTreeMap<String, Format>>,
+}
+
+impl Profile {
+    /// Reads a device file, a TOML text:
+    ///
+    /// ```toml
+    /// device = "ideal-fp32"     # any device
+    /// format = "e8m20"          # registers and arithmetic, if not the device's
+    /// [switches]
+    /// mad = "fused"
+    /// [programs.b1946ac92492d234]
+    /// 3 = "s3.12"               # the fourth instruction of that program
+    /// ```
+    ///
+    /// ```
+    /// use refsim::{asm, device::Profile};
+    ///
+    /// let program = asm::assemble("ps_2_0\ndcl t0\nmul r0, t0, t0\nmov oC0, r0")?;
+    /// let mut profile = Profile::named("ideal-fp32")?;
+    /// assert!(profile.set_instruction_format(&program, 0, Some("e5m2".parse()?)));
+    /// let text = profile.to_device_file(&[&program]);
+    /// assert_eq!(Profile::from_device_file(&text)?, profile);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`DeviceError::File`] with the reason; those of [`Profile::named`] and [`Profile::set_switch`].
+    pub fn from_device_file(text: &str) -> Result<Self, DeviceError> {
+        let problem = |problem: String| DeviceError::File { problem };
+        let file: DeviceFile = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
+        let mut profile = Self::named(&file.device)?;
+        if let Some(format) = file.format {
+            profile.set_format(format);
+        }
+        for (name, value) in &file.switches {
+            profile.set_switch(name, value)?;
+        }
+        for (digest, formats) in file.programs {
+            let expected = "expected the 16 hexadecimal digits of a program's digest";
+            let number = Some(&digest).filter(|d| d.len() == 16).and_then(|d| u64::from_str_radix(d, 16).ok());
+            let number = number.ok_or_else(|| problem(format!("programs.{}: {expected}", cut(&digest))))?;
+            let index = |text: String| match text.parse::<usize>() {
+                Ok(index) => Ok(index),
+                Err(_) => Err(problem(format!("programs.{digest}.{}: expected an instruction's index", cut(&text)))),
+            };
+            let formats = formats.into_iter().map(|(text, format)| Ok((index(text)?, format)));
+            let formats = formats.collect::<Result<BTreeMap<_, _>, DeviceError>>()?;
+            if !profile.instruction_formats.insert(number, formats) {
+                let most = MAX_INSTRUCTION_FORMATS;
+                return Err(problem(format!("programs.{digest}: expected at most {most} different formats")));
+            }
+        }
+        Ok(profile)
+    }
+
+    /// Writes the device as a text that [`Profile::from_device_file`] reads: its name, register format, the switches
+    /// that differ from their defaults, and the formats of instructions. A comment behind each shows the instruction,
+    /// if its program is among `programs`.
+    pub fn to_device_file(&self, programs: &[&Program]) -> String {
+        let mut text = format!("device = \"{}\"\n", self.name);
+        let mut switched: Vec<_> = self.switches().iter().filter(|s| s.current != s.default).collect();
+        let mut same = Self::named(&self.name).ok();
+        for switch in &switched {
+            same = same.and_then(|mut p| p.set_switch(&switch.name, &switch.current).ok().map(|()| p));
+        }
+        // Where the switches do not say all about the registers, the format does.
+        if same.is_none_or(|same| same.rules != self.rules) {
+            let _ = writeln!(text, "format = \"{}\"", self.rules.format);
+            switched.retain(|switch| !FORMAT_RULES.contains(&switch.name.as_str()) && switch.name != "format");
+        }
+        if !switched.is_empty() {
+            text.push_str("\n[switches]\n");
+        }
+        for switch in switched {
+            let _ = writeln!(text, "{} = \"{}\"", switch.name, switch.current);
+        }
+        for (digest, formats) in self.instruction_formats.iter() {
+            let program = programs.iter().find(|program| program.digest() == digest);
+            let _ = writeln!(text, "\n[programs.{digest:016x}]");
+            for (index, format) in formats {
+                let _ = write!(text, "{index} = \"{format}\"");
+                let line = program.and_then(|program| program.instruction_text(*index));
+                let _ = writeln!(text, "{}", line.map(|line| format!("  # {line}")).unwrap_or_default());
+            }
+        }
+        text
+    }
+
+    /// Formats of single instructions.
+    pub fn instruction_formats(&self) -> &InstructionFormats {
+        &self.instruction_formats
+    }
+
+    /// Gives instruction `index` of a program a number format of its own ([`Instruction::format`]), or takes it away.
+    /// Returns `false`, without effect, if there is no such instruction, if it takes none ([`takes_format`]), or if its
+    /// program would have more than [`MAX_INSTRUCTION_FORMATS`] different ones.
+    pub fn set_instruction_format(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
+        self.instruction_formats.set(program, index, format)
+    }
+}
+
+/// The beginning of a text from outside.
+fn cut(text: &str) -> String {
+    text.chars().take(40).collect()
+}

@@ -1,0 +1,96 @@
+//! Number formats of single instructions: a device of mixed precision.
+
+use std::collections::BTreeMap;
+
+use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
+use crate::num::Format;
+
+/// Largest number of different formats that instructions of one program may have.
+pub const MAX_INSTRUCTION_FORMATS: usize = 32;
+
+/// Number formats of instructions, by [`Program::digest`] and the instruction's index in the program.
+///
+/// [`crate::check`] gives them to the instructions of a program; executors find them there.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct InstructionFormats(BTreeMap<u64, BTreeMap<usize, Format>>);
+
+/// Returns `true` if an instruction can have a format of its own: if it writes numbers to a register. Kills, flow
+/// control, matrix rows for a later texture read, depth from texture coordinates, packing, and writes of addresses do
+/// not.
+pub fn takes_format(instruction: &Instruction) -> bool {
+    use Opcode::{
+        Pk2h, Pk2us, Pk4b, Pk4ub, TexDepth, TexKill, TexM3x2Depth, TexM3x2Pad, TexM3x3Pad, Up2h, Up2us, Up4b, Up4ub,
+    };
+    let Some(destination) = instruction.destination else { return false };
+    let class = instruction.opcode.info().class;
+    let without =
+        [Pk2h, Pk2us, Pk4b, Pk4ub, Up2h, Up2us, Up4b, Up4ub, TexDepth, TexKill, TexM3x2Depth, TexM3x2Pad, TexM3x3Pad];
+    matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
+        && !without.contains(&instruction.opcode)
+        && destination.register.file != RegisterFile::Address
+}
+
+impl InstructionFormats {
+    /// Returns `true` if no instruction has a format of its own.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Returns `true` if instructions of this program have formats of their own.
+    pub fn covers(&self, program: &Program) -> bool {
+        self.0.contains_key(&program.digest())
+    }
+
+    /// The format of an instruction, if it has one of its own.
+    pub fn get(&self, program: &Program, index: usize) -> Option<Format> {
+        self.0.get(&program.digest())?.get(&index).copied()
+    }
+
+    /// Gives an instruction a format, or takes it away. `false`, without effect, if there is no such instruction, if it
+    /// takes none ([`takes_format`]), or if its program would have more than [`MAX_INSTRUCTION_FORMATS`].
+    pub(super) fn set(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
+        if !program.instructions.get(index).is_some_and(takes_format) {
+            return false;
+        }
+        let digest = program.digest();
+        let mut formats = self.0.get(&digest).cloned().unwrap_or_default();
+        match format {
+            Some(format) => formats.insert(index, format),
+            None => formats.remove(&index),
+        };
+        self.insert(digest, formats)
+    }
+
+    /// Replaces the formats of the program with this digest. `false`, without effect, if they are too many.
+    pub(super) fn insert(&mut self, digest: u64, formats: BTreeMap<usize, Format>) -> bool {
+        let mut different: Vec<Format> = Vec::new();
+        for &format in formats.values() {
+            if !different.contains(&format) {
+                different.push(format);
+            }
+        }
+        if different.len() > MAX_INSTRUCTION_FORMATS {
+            return false;
+        }
+        match formats.is_empty() {
+            true => self.0.remove(&digest),
+            false => self.0.insert(digest, formats),
+        };
+        true
+    }
+
+    /// Digests of programs, and the formats of their instructions by index.
+    pub fn iter(&self) -> impl Iterator<Item = (u64, &BTreeMap<usize, Format>)> {
+        self.0.iter().map(|(digest, formats)| (*digest, formats))
+    }
+
+    /// Sets the formats of a program's instructions; others are removed.
+    pub(crate) fn assign(&self, program: &mut Program) {
+        // Digests are not computed for the many devices without such formats.
+        let formats = if self.0.is_empty() { None } else { self.0.get(&program.digest()) };
+        for (index, instruction) in program.instructions.iter_mut().enumerate() {
+            let format = formats.and_then(|f| f.get(&index).copied());
+            instruction.format = format.filter(|_| takes_format(instruction));
+        }
+    }
+}
