@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::executor::{Decider, DeviceExecutor, GpuArgs};
 use super::{Problem, view};
+use crate::case::device_named;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
@@ -53,7 +54,7 @@ impl CasterArg {
             // Batch refuses options for GPUs.
             return DeviceExecutor::Batch.open(gpu).map(|_| CasterChoice::Host);
         }
-        let profile = Box::new(Profile::named(device.unwrap_or(view::DEFAULT_DEVICE))?);
+        let profile = Box::new(device_named(device.unwrap_or(view::DEFAULT_DEVICE))?);
         let Some(executor) = executor.unwrap_or(Decider::Batch).open(gpu)? else {
             let help = "name `--executor scalar`, `batch` or `wgpu`";
             return Err(Problem::usage("the Ray Engine does not run in exact arithmetic", help).into());

@@ -86,7 +86,7 @@ fn without_visible_aliases(command: clap::Command) -> clap::Command {
 /// Completions of a value of the option or argument `id` of a command.
 fn completer(command: &str, id: &str) -> Option<ArgValueCompleter> {
     match (command, id) {
-        (_, "device" | "left_device" | "right_device") | ("devices", "name") => Some(named(devices)),
+        (_, "device" | "left_device" | "right_device") | ("devices", "name") => Some(named_or_file(devices)),
         (_, "format" | "left_format" | "right_format") => Some(named(formats)),
         (_, "switch" | "left_switch" | "right_switch") => Some(named(switches)),
         ("subsurface" | "cpca precompute", "material") | ("materials", "name") => Some(named(media)),

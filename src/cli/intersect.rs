@@ -13,6 +13,7 @@ use super::caster::{self, CasterArg, CasterChoice};
 use super::executor::{Decider, GpuArgs};
 use super::words::counted;
 use super::{Out, Problem, Verdict, model_file, study, view};
+use crate::case::device_named;
 use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
@@ -119,7 +120,7 @@ fn choose(args: &Args) -> miette::Result<HitSource> {
     if let Some(caster) = args.caster {
         return caster.choose(device, args.executor, &args.gpu).map(HitSource::Caster);
     }
-    let profile = Box::new(Profile::named(device.unwrap_or(view::DEFAULT_DEVICE))?);
+    let profile = Box::new(device_named(device.unwrap_or(view::DEFAULT_DEVICE))?);
     let executor = Decider::choose(args.executor, device).open(&args.gpu)?;
     Ok(executor.map_or(HitSource::Exact, |executor| HitSource::Card(profile, executor)))
 }

@@ -5,7 +5,7 @@ mod show;
 use std::path::PathBuf;
 
 use miette::WrapErr as _;
-use refsim::{device::Profile, machine::Executor, num::Format};
+use refsim::{machine::Executor, num::Format};
 
 use super::{
     Out, Problem, Verdict,
@@ -14,7 +14,7 @@ use super::{
     run::setup_memory,
     view::bad_format,
 };
-use crate::case::{self, Overrides, Scope, Setup, Side};
+use crate::case::{self, Overrides, Scope, Setup, Side, device_named};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -146,7 +146,7 @@ fn request(
     let (device, format, switches) = settings;
     let overrides = || -> miette::Result<Overrides> {
         Ok(Overrides {
-            device: device.map(Profile::named).transpose()?,
+            device: device.map(device_named).transpose()?,
             format: format.map(|text| text.parse::<Format>().map_err(bad_format)).transpose()?,
             switches: switches.to_vec(),
             step_budget,

@@ -13,7 +13,8 @@ mod adapters;
 pub(super) use adapters::missing as no_adapters;
 
 use super::{Out, Verdict, study};
-use crate::report::{Cell, Findings, Table};
+use crate::case::device_named;
+use crate::report::{Cell, Findings, FoundTable, Table};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,7 +52,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         return Ok(Verdict::Done);
     }
     match &args.name {
-        Some(name) => study::show(&one(&Profile::named(name)?), out),
+        Some(name) => study::show(&one(&device_named(name)?), out),
         None => all(out).map(|()| Verdict::Done),
     }
 }
@@ -109,6 +110,17 @@ fn summary(profile: &Profile) -> Value {
     })
 }
 
+/// The formats of single instructions of a device file.
+fn instructions(profile: &Profile) -> FoundTable {
+    let mut table = Table::new("Formats of single instructions", &["program", "instruction", "format"]);
+    for (digest, formats) in profile.instruction_formats().iter() {
+        for (index, format) in formats {
+            table.push([format!("{digest:016x}").into(), (*index).into(), format.to_string().into()]);
+        }
+    }
+    table.into()
+}
+
 /// Everything about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
@@ -126,6 +138,7 @@ fn one(profile: &Profile) -> Findings {
         figures.push([row.key.into(), value, row.unit.into(), confidence.into(), row.source.into()]);
     }
     found.table(figures);
+    found.table(instructions(profile).field("instructions"));
     let title = "Switches: open questions of the hardware. Set one in a case file under [switches].";
     let mut switches = Table::new(title, &["switch", "now", "values", "confidence", "decides", "source"]);
     for switch in profile.switches() {

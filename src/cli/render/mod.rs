@@ -6,12 +6,12 @@ mod page;
 mod scene;
 
 use miette::IntoDiagnostic as _;
-use refsim::device::Profile;
 use serde_json::json;
 
 use super::executor::Decider;
 use super::size::Size;
 use super::{Out, Problem, memory, model_file, scene_name, study, view};
+use crate::case::device_named;
 use crate::geom::Mesh;
 use crate::geom::exact::Tracer;
 use crate::io::atomic::FileSet;
@@ -33,7 +33,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         return light::run(args, &asked, command_line, out);
     }
     args.light.refuse_others(None)?;
-    let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
+    let profile = device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let mesh = model_file::mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;
     let Size { width, height } = args.size;

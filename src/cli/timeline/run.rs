@@ -12,7 +12,7 @@ use refsim::timing::{Level, Model, TimingError};
 
 use super::args::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
-use crate::case::{self, Overrides, Setup};
+use crate::case::{self, Overrides, Setup, device_named};
 use crate::cli::run::setup_memory;
 use crate::cli::size::Size;
 use crate::cli::{Problem, memory, model_file, view};
@@ -40,7 +40,7 @@ pub(super) enum Input {
 
 impl Input {
     pub(super) fn read(args: &Args) -> miette::Result<Self> {
-        let device = args.device.as_deref().map(Profile::named).transpose()?;
+        let device = args.device.as_deref().map(device_named).transpose()?;
         match (&args.case, args.rays) {
             (Some(case), None) => {
                 let overrides = Overrides { device, ..Overrides::default() };
@@ -49,7 +49,7 @@ impl Input {
                 Ok(Self::Case(Box::new(setup)))
             }
             (None, Some(size)) => {
-                let profile = device.map_or_else(|| Profile::named(DEFAULT_DEVICE), Ok)?;
+                let profile = device.map_or_else(|| device_named(DEFAULT_DEVICE), Ok)?;
                 let need = memory::of_pixels(size.width, size.height, PER_RAY, 0);
                 memory::require(format_args!("a timeline of {size} rays"), need, "ask for fewer `--rays`")?;
                 let (mesh, camera, name) = scene(args.mesh.as_deref(), size)?;

@@ -7,7 +7,10 @@ use refsim::{
 };
 use toml::Spanned;
 
+use std::path::Path;
+
 use super::{CaseError, binder::Binder, schema::Case};
+use crate::io::read_limited;
 use crate::names::did_you_mean;
 
 impl Binder<'_> {
@@ -77,7 +80,9 @@ impl Binder<'_> {
     }
 
     fn named(&self, device: &Spanned<String>) -> Result<Profile, CaseError> {
-        Profile::named(device.get_ref()).map_err(|error| {
+        let name = device.get_ref();
+        let found = if is_file(name) { read(&self.path(Path::new(name)), name) } else { Profile::named(name) };
+        found.map_err(|error| {
             let help = format!("{}`crossbar devices` lists the devices", meant(&error));
             self.place.wrong(device.span(), error.to_string(), help)
         })
@@ -88,6 +93,33 @@ impl Binder<'_> {
             self.place.wrong(format.span(), error.to_string(), "for example `s3.12`, `fp24` or `e5m10:rtz`")
         })
     }
+}
+
+/// Maximum length of a device file, in bytes.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// The device of a name: one of [`Profile::named`], or a device file ([`Profile::from_device_file`]), whose name ends
+/// in `.toml`.
+///
+/// # Errors
+/// If there is no such device; [`DeviceError::File`] if the file cannot be read.
+pub fn device_named(name: &str) -> Result<Profile, DeviceError> {
+    if is_file(name) { read(Path::new(name), name) } else { Profile::named(name) }
+}
+
+fn is_file(name: &str) -> bool {
+    name.ends_with(".toml")
+}
+
+fn read(path: &Path, name: &str) -> Result<Profile, DeviceError> {
+    let wrong = |problem: String| DeviceError::File { problem: format!("{name}: {problem}") };
+    let bytes = read_limited(path, MAX_BYTES).map_err(|error| wrong(error.to_string()))?;
+    let bytes = bytes.ok_or_else(|| wrong(format!("expected at most {MAX_BYTES} bytes, found more")))?;
+    let text = String::from_utf8(bytes).map_err(|error| wrong(error.to_string()))?;
+    Profile::from_device_file(&text).map_err(|error| match error {
+        DeviceError::File { problem } => wrong(problem),
+        other => other,
+    })
 }
 
 /// Help text with the known name nearest to the one in a device error; often empty.

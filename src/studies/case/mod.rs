@@ -25,7 +25,7 @@ mod value;
 mod vertices;
 
 pub use binder::Overrides;
-pub use device::meant;
+pub use device::{device_named, meant};
 pub use error::{CaseError, CaseWarning};
 pub use fixed_function::StateTable;
 pub use loaded::Loaded;

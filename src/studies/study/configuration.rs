@@ -3,6 +3,8 @@
 use refsim::device::{DeviceError, Profile};
 use refsim::num::Format;
 
+use crate::case::device_named;
+
 /// Switches that only affect generated mip levels. Studies whose cards generate none omit them.
 const MIPMAP_SWITCHES: [&str; 1] = ["mipmap-rounding"];
 
@@ -23,7 +25,7 @@ impl Configuration {
     /// # Errors
     /// If there is no such device.
     pub fn device(name: &str) -> Result<Self, DeviceError> {
-        Ok(Self { label: file_name(name), ..Self::of(&Profile::named(name)?) })
+        Ok(Self { label: file_name(name), ..Self::of(&device_named(name)?) })
     }
 
     /// Creates the configuration of a device without limits that computes in `format`.

@@ -206,8 +206,9 @@ impl Draft {
         draft.depth = false;
         let special = ["0", "1", "inf", "nan", "1e-40", "1e38", "0.5", "-0.3"];
         draft.constants = (0..4).map(|_| std::array::from_fn(|_| dice.pick(&special).to_owned())).collect();
-        let operation = dice.pick(&["mul oD0, c0, c1", "mov oD0, c0", "mad oD0, c0, c1, v1", "add oD0, c0, v1"]);
-        draft.vertex = vec!["mov oPos, v0".to_owned(), operation.to_owned()];
+        // An instruction of vs_1_1 reads one constant.
+        let operation = dice.pick(&["mul oD0, r0, c1", "mov oD0, c0", "mad oD0, r0, c1, v1", "add oD0, c0, v1"]);
+        draft.vertex = ["mov oPos, v0", "mov r0, c0", operation].map(str::to_owned).to_vec();
         draft
     }
 

@@ -13,22 +13,30 @@ use refsim::machine::ExecutorKind;
 
 /// The cards, without those that are one of these at another clock.
 const CARDS: [&str; 6] = ["nv20", "nv25", "r200", "r300", "nv30", "nv35"];
-/// Switches that no drawing decides, and why.
-const UNDRAWN: [(&str, &str); 1] =
-    [("ray-textures", "chooses the texel format of a system's textures: the card has it, or refuses it")];
+const FORMAT: &str = "registers are floats, which hold every coordinate that wrapping would preserve";
+const COORDINATES: &str = "no program of this card has `texcrd`";
+const CONSTANTS: &str = "constants are clamped to [-1, 1], where both count in 255ths, and round alike";
+const PRODUCTS: &str = "the only product out of range is -3 times -3, and with any third operand both results exceed 1, \
+                        where registers end; else rounding commutes with the addition of multiples of the unit";
+const TEXELS: &str = "chooses the texel format of a system's textures: the card has it, or refuses it";
 
-/// Switches that no case was found for, by card: random cases of [`draft`] tell none of their values apart.
-const UNFOUND: [(&str, &[&str]); 6] = [
-    ("nv20", &["constants", "mad", "texcrd-overflow"]),
-    ("nv25", &["constants", "mad", "texcrd-overflow"]),
-    ("r200", &["mad"]),
-    ("r300", &["denormals", "dot", "mad", "texcrd-overflow", "texdepth-denominator"]),
-    ("nv30", &["dot", "lrp", "mad", "texcrd-overflow", "vertex-zero-times-anything"]),
-    ("nv35", &["dot", "lrp", "mad", "texcrd-overflow", "vertex-zero-times-anything"]),
+/// Switches whose values draw the same by every program of the card, with the reason.
+const UNDRAWN: [(&str, &str, &str); 10] = [
+    ("nv20", "constants", CONSTANTS),
+    ("nv20", "mad", PRODUCTS),
+    ("nv20", "texcrd-overflow", COORDINATES),
+    ("nv25", "constants", CONSTANTS),
+    ("nv25", "mad", PRODUCTS),
+    ("nv25", "texcrd-overflow", COORDINATES),
+    ("r200", "ray-textures", TEXELS),
+    ("r300", "texcrd-overflow", FORMAT),
+    ("nv30", "texcrd-overflow", FORMAT),
+    ("nv35", "texcrd-overflow", FORMAT),
 ];
 
-fn is_unfound(device: &str, switch: &str) -> bool {
-    UNFOUND.iter().any(|(name, switches)| *name == device && switches.contains(&switch))
+/// The reason why no drawing decides a switch of a card.
+fn undrawn(device: &str, switch: &str) -> Option<&'static str> {
+    UNDRAWN.iter().find(|(name, of, _)| *name == device && *of == switch).map(|(_, _, why)| *why)
 }
 
 fn file(path: &str) -> PathBuf {
@@ -41,7 +49,7 @@ fn place(device: &str, switch: &str) -> String {
 
 /// Open switches that a drawing decides.
 fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
-    search::open(profile).filter(|switch| UNDRAWN.iter().all(|(name, _)| *name != switch.name))
+    search::open(profile).filter(|switch| undrawn(&profile.name, &switch.name).is_none())
 }
 
 fn is_blessed() -> bool {
@@ -64,10 +72,9 @@ fn each_open_switch_has_a_probe() {
                 there => there,
             };
             let Some(text) = text else {
-                missing.extend((!is_unfound(device, &switch.name)).then_some(path));
+                missing.push(path);
                 continue;
             };
-            assert!(!is_unfound(device, &switch.name), "{path} is a case: it is unfound no more");
             if is_blessed() {
                 fs::create_dir_all(file(&path).parent().expect("a folder")).expect("it can be made");
                 fs::write(file(&path), &text).expect("it can be written");
@@ -108,11 +115,8 @@ fn the_page_lists_the_probes() {
     for device in CARDS {
         let profile = Profile::named(device).expect("a card");
         for switch in search::open(&profile) {
-            let row = match UNDRAWN.iter().find(|(name, _)| *name == switch.name) {
-                Some((_, why)) => format!("{} | none: {why} | ", switch.values.join(", ")),
-                None if is_unfound(device, &switch.name) => {
-                    format!("{} | no random case told them apart | ", switch.values.join(", "))
-                }
+            let row = match undrawn(device, &switch.name) {
+                Some(why) => format!("{} | none: {why} | ", switch.values.join(", ")),
                 None => {
                     let path = place(device, &switch.name);
                     let setup = Setup::read(&file(&path)).expect("a case");

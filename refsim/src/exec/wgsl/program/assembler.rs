@@ -191,7 +191,7 @@ impl Assembler<'_> {
     }
 
     pub(super) fn emit(&mut self, operation: u32, rest: u32, to: u16, [a, b, c]: [u16; 3]) {
-        let (operation, passes) = match (operation, passes(rest >> 16)) {
+        let (operation, passes) = match (operation, passes(rest >> 16 & 255)) {
             (op::ALU, passes) if passes > PASSES[0] => (op::LONG, passes),
             _ => (operation, PASSES[0]),
         };
