@@ -57,6 +57,9 @@ use context::Context;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, CheckReport> {
+    if let Some(log) = &profile.log {
+        log.add(&program);
+    }
     let mut program = program;
     profile.instruction_formats().assign(&mut program);
     let program = fog::expand(program);
