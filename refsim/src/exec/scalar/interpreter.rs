@@ -283,6 +283,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 product
             }
             None => {
+                let bump = bump.map(|element| alu.enter(registers, element));
                 let context = Context { bump, mask: destination.mask };
                 operation::compute(alu, opcode, &s, &context)
             }

@@ -9,7 +9,7 @@ use crate::isa::{Mask, Opcode};
 /// Inputs of an operation besides its operands.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Context {
-    /// Bump matrix `M00 M01 M10 M11` of the destination's stage, in the register format (`bem`).
+    /// Bump matrix `M00 M01 M10 M11` of the destination's stage, in the format of the operation (`bem`).
     pub(crate) bump: [u32; 4],
     /// The components needed. Component-wise operations leave the others zero and raise no flags for them.
     pub(crate) mask: Mask,
