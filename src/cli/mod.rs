@@ -34,6 +34,7 @@ mod one_of;
 mod out;
 mod outputs;
 mod pixel;
+mod precision;
 mod progress;
 mod radiosity;
 mod render;
@@ -141,6 +142,7 @@ enum Command {
     Man(man::Args),
     Materials(materials::Args),
     Measure(measure::Args),
+    Precision(precision::Args),
     Radiosity(radiosity::Args),
     Render(render::Args),
     Reproduce(reproduce::Args),
@@ -244,6 +246,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Man(args) => man::run(&args, program(), out),
         Command::Materials(args) => materials::run(&args, out),
         Command::Measure(args) => study::run(&args, command_line, out),
+        Command::Precision(args) => study::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Subsurface(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, command_line, out),

@@ -133,6 +133,7 @@ const CROSSBAR: Law = (
                 "atlas",
                 "renderer",
                 "case",
+                "shader",
                 "report",
                 "picture",
                 "card",

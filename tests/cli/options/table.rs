@@ -386,4 +386,9 @@ pub(super) const TABLE: &[Tried] = &[
         bases: &["measure docs/examples/measured.csv --device nv25"],
         options: "--device=nv20 --switch=rounding=rtz",
     },
+    Tried {
+        bases: &["precision docs/examples/lerp.toml --out OUT"],
+        options: "--goal=mean_relative<=0.01 --device=r300 --switch=mad=fused --family=fixed --budget=7 \
+                  --costs=docs/examples/multiplier_area.csv --out=other",
+    },
 ];

@@ -6,7 +6,7 @@ use refsim::machine::{Executor, ExecutorKind, FragmentTrace};
 use refsim::num::to_f64;
 use refsim::texture::{Channel, ChannelClass, Image};
 
-use super::goal::Goal;
+use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
 use super::subject::{InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 use crate::case::{CaseError, Loaded, Setup};
@@ -224,7 +224,7 @@ impl PrecisionSubject for CaseSubject {
     fn default_goal(&self) -> Goal {
         let first = self.measures[0];
         let bound = if first == LARGEST_CODES { 1.0 } else { 0.01 };
-        Goal { measure: first.name.to_owned(), relation: super::GoalRelation::AtMost, bound }
+        Goal { measure: first.name.to_owned(), relation: GoalRelation::AtMost, bound }
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
@@ -264,7 +264,8 @@ impl PrecisionSubject for CaseSubject {
         let all = || self.exact.targets.iter().flat_map(|target| &target.values);
         let not_finite = all().filter(|value| !value.is_finite()).count();
         let note = || format!("Of {} channels of the exact run {not_finite} are infinite or NaN.", all().count());
-        (not_finite > 0).then(note).into_iter().collect()
+        let warnings = self.setup.warnings.iter().map(|warning| format!("Warning: {warning}."));
+        (not_finite > 0).then(note).into_iter().chain(warnings).collect()
     }
 }
 

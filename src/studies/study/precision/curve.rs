@@ -23,8 +23,8 @@ pub(super) struct BitScan {
 }
 
 impl BitScan {
-    /// Searches by bisection between the points `first` and the ends. Where more bits are worse than fewer, computes all
-    /// points.
+    /// Searches by bisection between the points `first` and the ends. Where more bits are worse than fewer, computes
+    /// all points.
     fn run(
         &mut self,
         range: RangeInclusive<u8>,
@@ -101,6 +101,8 @@ pub(super) struct Curve {
     pub(super) scan: BitScan,
     /// Smallest uniform format: the fewest bits of precision, then the fewest of range.
     pub(super) minimum: Option<FormatBits>,
+    /// `true` if all points were computed that the search needs.
+    pub(super) is_complete: bool,
 }
 
 /// Integer bits beyond the fewest that meet the goal: at the end of its range a wide format saturates by less than
@@ -110,7 +112,7 @@ const SPARE: u8 = 2;
 impl Curve {
     /// Curve without points.
     pub(super) fn empty(family: FormatFamily) -> Self {
-        Self { family, range: *family.range_bits().end(), scan: BitScan::default(), minimum: None }
+        Self { family, range: *family.range_bits().end(), scan: BitScan::default(), minimum: None, is_complete: false }
     }
 
     /// Computes the points, as far as the budget allows.
@@ -123,16 +125,16 @@ impl Curve {
         let range = self.range;
         let value = |digits| runs.value(&runs.uniform(FormatBits { family, range, digits }));
         self.scan.run(family.digit_bits(range), &FIRST, goal, value)?;
+        self.is_complete = true;
         let Some(digits) = self.scan.smallest else { return Ok(()) };
-        let mut minimum = FormatBits { family, range, digits };
-        let fewer = |bits: FormatBits| bits.narrower().find(|less| less.digits == digits);
-        while let Some(less) = fewer(minimum) {
-            if !runs.meets(&runs.uniform(less))? {
+        let mut next = Some(FormatBits { family, range, digits });
+        while let Some(bits) = next {
+            if !runs.meets(&runs.uniform(bits))? {
                 break;
             }
-            minimum = less;
+            self.minimum = Some(bits);
+            next = bits.narrower().find(|less| less.digits == digits);
         }
-        self.minimum = Some(minimum);
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-//! What each instruction needs, loses and is to blame for.
+//! Per instruction: the fewest bits, the error of its results, and its share of the loss.
 
 use super::bits::FormatBits;
 use super::curve::BitScan;

@@ -16,6 +16,11 @@ use crate::names::did_you_mean;
 use crate::report::words::listed;
 use crate::study::{ProgressFn, StudyError};
 
+/// Runs that a curve takes, about.
+const RUNS_PER_CURVE: u64 = 30;
+/// Runs that an instruction takes in one family of formats, about.
+const RUNS_PER_INSTRUCTION: u64 = 55;
+
 /// Parameters of the study.
 pub struct Precision {
     /// Programs with their input.
@@ -97,13 +102,16 @@ impl Precision {
                 StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
             );
         }
-        let runs = Runs::new(&*self.subject, goal, self.budget, progress);
+        let mut runs = Runs::new(&*self.subject, goal, self.budget, progress);
         if runs.count() == 0 {
             let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
             let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));
             return Err(StudyError::new("crossbar::precision::program", found)
                 .with_help("a study of precision needs an instruction whose result is a number"));
         }
+        let values = self.subject.profile().switches().iter().map(|switch| switch.values.len() as u64);
+        let per_family = RUNS_PER_CURVE + RUNS_PER_INSTRUCTION * runs.count() as u64;
+        runs.expected = self.families.len() as u64 * per_family + 4 * values.sum::<u64>();
         Ok(runs)
     }
 

@@ -3,7 +3,7 @@
 use refsim::machine::ExecutorKind;
 use serde_json::json;
 
-use super::bits::FormatBits;
+use super::bits::{FormatBits, FormatFamily};
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
 use super::tables;
@@ -30,17 +30,7 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     for family in &outcome.families {
         per_instruction(&mut found, study, family, outcome, runs);
     }
-    if !outcome.switches.is_empty() {
-        found.heading("Open switches");
-        let (table, first, names) = tables::switches(outcome);
-        let rows = (["value", "values"], "the same");
-        let table = FoundTable::from(table).folded(&first, |row| names[row].clone(), rows);
-        found.explained_table(
-            table.csv("switches").field("switches"),
-            "Each value of each switch with several, one at a time. The minimum has the exponent or integer bits of the \
-             curve; the reference is the exact run of the device as given.",
-        );
-    }
+    open_switches(&mut found, outcome);
     found.heading("Measures");
     found.keep_table(FoundTable::from(tables::measures(runs)).field("measures"));
     found.table(FoundTable::from(tables::measures(runs)).unprinted());
@@ -57,6 +47,21 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     Ok(found)
 }
 
+/// Adds the table of switches.
+fn open_switches(found: &mut Findings, outcome: &PrecisionOutcome) {
+    if outcome.switches.is_empty() {
+        return;
+    }
+    found.heading("Open switches");
+    let (table, first, names) = tables::switches(outcome);
+    let table = FoundTable::from(table).folded(&first, |row| names[row].clone(), (["value", "values"], "the same"));
+    found.explained_table(
+        table.csv("switches").field("switches"),
+        "Each value of each switch with several, one at a time. The minimum has the exponent or integer bits of the \
+         curve; the reference is the exact run of the device as given.",
+    );
+}
+
 /// Adds the sentences at the top.
 fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
     let (goal, measure) = (runs.goal, &runs.goal.measure);
@@ -65,9 +70,9 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
     for family in &outcome.families {
         let name = family.curve.family.name();
         let Some(minimum) = family.curve.minimum else {
-            found.conclusion(match outcome.budget_spent && family.curve.scan.counterexample.is_none() {
-                true => format!("The budget ended before a smallest {name} format was found."),
-                false => format!("No {name} format meets the goal for all instructions."),
+            found.conclusion(match family.curve.is_complete {
+                false => format!("The budget ended before a smallest {name} format was found."),
+                true => format!("No {name} format meets the goal for all instructions."),
             });
             continue;
         };
@@ -116,7 +121,8 @@ fn number(value: f64) -> String {
 fn most_blamed(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<(String, String, f64)> {
     let blames = |family: &FamilyOutcome| -> Vec<f64> { family.needs.iter().filter_map(|needs| needs.blame).collect() };
     let shares = outcome.families.iter().map(blames).find(|shares| shares.iter().any(|share| *share > 0.0))?;
-    let (place, share) = shares.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    // The first of equals.
+    let (place, share) = shares.into_iter().enumerate().min_by(|a, b| b.1.total_cmp(&a.1))?;
     let line = tables::line(place, runs);
     Some((line.file, format!("{}: `{}`", line.line, line.text), share))
 }
@@ -201,8 +207,8 @@ fn per_instruction(
 ) {
     let (Some(minimum), name) = (family.curve.minimum, family.curve.family.name()) else { return };
     let (csv, mixed_csv, refuted_csv) = match family.curve.family {
-        super::FormatFamily::Float => ("instructions_float", "mixed_float", "refuted_float"),
-        super::FormatFamily::Fixed => ("instructions_fixed", "mixed_fixed", "refuted_fixed"),
+        FormatFamily::Float => ("instructions_float", "mixed_float", "refuted_float"),
+        FormatFamily::Fixed => ("instructions_fixed", "mixed_fixed", "refuted_fixed"),
     };
     found.heading(format!("Instructions in {name} formats"));
     found.table(FoundTable::from(tables::instructions(family, minimum, outcome, runs)).csv(csv).field(csv));

@@ -42,6 +42,8 @@ pub(super) struct Runs<'a> {
     pub(super) made: u64,
     /// Values of the goal's measure, and the place of the largest error.
     values: BTreeMap<Assignment, (f64, Option<String>)>,
+    /// Number of runs that the study is likely to make, for progress.
+    pub(super) expected: u64,
     /// Name of the current step, for progress.
     step: String,
     progress: &'a mut ProgressFn<'a>,
@@ -63,6 +65,7 @@ impl<'a> Runs<'a> {
             places,
             budget,
             made: 0,
+            expected: budget,
             values: BTreeMap::new(),
             step: String::new(),
             progress,
@@ -155,7 +158,7 @@ impl<'a> Runs<'a> {
         if self.made >= self.budget {
             return Err(RunError::Budget);
         }
-        (self.progress)(&self.step, self.made, self.budget.max(self.made + 1));
+        (self.progress)(&self.step, self.made, self.expected.min(self.budget).max(self.made + 1));
         self.made += 1;
         Ok(())
     }

@@ -20,8 +20,7 @@ pub(super) struct MixedFormats {
     pub(super) cost: f64,
     /// `true` if one bit less in any one instruction misses the goal.
     pub(super) is_minimal: bool,
-    /// Each format with one bit less: the instruction, the format, the value of the goal's measure, and the place of the
-    /// largest error. Complete if the assignment is minimal.
+    /// Each format with one bit less. Complete if the assignment is minimal.
     pub(super) refuted: Vec<RefutedFormat>,
 }
 
@@ -31,7 +30,9 @@ pub(super) struct RefutedFormat {
     /// Index of the instruction.
     pub(super) place: usize,
     pub(super) bits: FormatBits,
+    /// Value of the goal's measure.
     pub(super) value: f64,
+    /// Place of the largest error.
     pub(super) worst: Option<String>,
 }
 
@@ -128,10 +129,10 @@ fn remove_one(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) 
 }
 
 /// Formats with one bit less whose runs were made.
-fn refuted(formats: &[FormatBits], runs: &mut Runs<'_>) -> Vec<RefutedFormat> {
+fn refuted(formats: &[FormatBits], runs: &Runs<'_>) -> Vec<RefutedFormat> {
     let mut found = Vec::new();
-    for place in 0..formats.len() {
-        for bits in formats[place].narrower() {
+    for (place, now) in formats.iter().enumerate() {
+        for bits in now.narrower() {
             let mut less = assignment(formats);
             less[place] = Some(bits);
             if let Some((value, worst)) = runs.made_before(&less) {

@@ -1,0 +1,111 @@
+//! `crossbar precision`: how many bits a goal needs, and which instruction decides.
+
+use std::path::{Path, PathBuf};
+
+use super::memory::MemoryNeed;
+use super::one_of::{OneOf, one_of};
+use super::study::StudyArgs;
+use super::{run, switch};
+use crate::case::{Overrides, Setup};
+use crate::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, Precision};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar precision docs/examples/highlight.toml
+      the fewest bits, of floats and of fixed point, that draw every code to within one; which squaring decides
+  crossbar precision docs/examples/highlight.toml --goal \"flip<=0.01\" --family fixed --out out/flip
+      a goal of your own, in fixed point alone
+  crossbar precision docs/examples/highlight.toml --costs docs/examples/multiplier_area.csv --out out/area
+      costs of formats of your own, for the format per instruction
+
+Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. Costs have the header `bits,cost`. \
+Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
+tables. docs/precision.md describes what is measured.
+
+Exit codes: 0 some format meets the goal, 1 none does, 2 the case or the goal cannot be used.";
+
+/// Find the fewest bits that meet a goal: for all instructions of a case's pixel program, and for each
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// The case, a TOML file
+    #[arg(value_name = "CASE.toml")]
+    case: PathBuf,
+
+    /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 where no target has integer
+    /// codes]
+    #[arg(long, value_name = "GOAL")]
+    goal: Option<Goal>,
+
+    /// A device in place of the case's
+    #[arg(long, value_name = "D")]
+    device: Option<String>,
+
+    /// A switch of the device; may be given several times
+    #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
+    switch: Vec<(String, String)>,
+
+    /// Which formats are tried
+    #[arg(long, default_value = "both", value_parser = families())]
+    family: Families,
+
+    /// Runs of the program after which the best so far is taken
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
+    budget: u64,
+
+    /// Cost of a format by its bits, a CSV file [default: the bits]
+    #[arg(long, value_name = "FILE.csv")]
+    costs: Option<PathBuf>,
+
+    /// Where to write the page, the tables and the device
+    #[arg(long, value_name = "DIR", default_value = "out/precision")]
+    out: PathBuf,
+}
+
+/// Families of formats.
+#[derive(Clone, Debug)]
+struct Families(Vec<FormatFamily>);
+
+fn families() -> OneOf<Families> {
+    let both = vec![FormatFamily::Float, FormatFamily::Fixed];
+    one_of([
+        ("float", "Floats", Families(vec![FormatFamily::Float])),
+        ("fixed", "Fixed point", Families(vec![FormatFamily::Fixed])),
+        ("both", "Both", Families(both)),
+    ])
+}
+
+impl StudyArgs for Args {
+    type Study = Precision;
+    const COMMAND: &'static str = "precision";
+    const QUICKER: &'static str = "`--family`, a smaller `--budget` or smaller targets";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        [&self.case].into_iter().chain(&self.costs).map(PathBuf::as_path).collect()
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        // What a case takes is known when it is read.
+        Ok(None)
+    }
+
+    fn study(&self) -> miette::Result<Precision> {
+        let costs = self.costs.as_deref().map(FormatCosts::load).transpose()?.unwrap_or_default();
+        let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
+        let overrides = Overrides { device, switches: self.switch.clone(), ..Overrides::default() };
+        let setup = Setup::read_with(&self.case, &overrides)?;
+        run::setup_memory(&setup)?;
+        let name = self.case.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Precision {
+            subject: Box::new(CaseSubject::new(setup, &name)?),
+            goal: self.goal.clone(),
+            families: self.family.0.clone(),
+            budget: self.budget,
+            costs,
+        })
+    }
+}

@@ -1,0 +1,47 @@
+//! `crossbar precision`: its device of mixed formats is one that other commands take, and messages.
+
+use std::fs;
+
+use crate::commands::copy_of_the_repository;
+use crate::crossbar_in;
+
+#[test]
+fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
+    let root = copy_of_the_repository();
+    let run = |arguments: &[&str]| crossbar_in(root.path(), arguments, "");
+    let found = run(&["precision", "docs/examples/lerp.toml", "--goal", "largest_codes<=0", "--out", "out", "--json"]);
+    assert_eq!(found.code, Some(0), "{}", found.transcript());
+    let document: serde_json::Value = serde_json::from_str(&found.stdout).expect("JSON");
+    assert_eq!(document["families"][0]["one_minimal"], true, "{document}");
+    let device = fs::read_to_string(root.path().join("out/mixed.toml")).expect("a device");
+    assert!(device.starts_with("device = \"nv25\"") && device.contains("# lrp r0, t0, c0, c1"), "{device}");
+    let compared = run(&[
+        "compare",
+        "docs/examples/lerp.toml",
+        "--left-device",
+        "out/mixed.toml",
+        "--right-device",
+        "nv25",
+        "--right-format",
+        "fp32",
+    ]);
+    assert_eq!(compared.code, Some(0), "{}", compared.transcript());
+}
+
+#[test]
+fn goals_and_costs_that_cannot_be_used_are_explained() {
+    let root = copy_of_the_repository();
+    fs::write(root.path().join("short.csv"), "bits,cost\n8,1\n").expect("a file");
+    let run = |options: &[&str]| {
+        let arguments = [&["precision", "docs/examples/lerp.toml"], options].concat();
+        crossbar_in(root.path(), &arguments, "").transcript()
+    };
+    let messages = [
+        run(&["--goal", "sim>=0.9"]),
+        run(&["--goal", "leaks"]),
+        run(&["--goal", "largest_codes<0"]),
+        run(&["--budget", "0"]),
+        run(&["--costs", "short.csv"]),
+    ];
+    insta::assert_snapshot!(messages.join("\n"));
+}
