@@ -105,6 +105,19 @@ impl Setup {
         Self::bound(&path.display().to_string(), &bytes, folder, overrides)
     }
 
+    /// The same case on another device, for which its programs are checked again.
+    ///
+    /// # Errors
+    /// If a program breaks rules of the device.
+    pub fn on_device(&self, profile: Profile) -> Result<Self, CaseError> {
+        let pixel = self.pixel_text.check((*self.pixel).clone(), &profile)?;
+        let vertex = match (&self.vertex, &self.vertex_text) {
+            (Some(program), Some(text)) => Some(text.check((**program).clone(), &profile)?),
+            _ => None,
+        };
+        Ok(Self { profile, pixel, vertex, ..self.clone() })
+    }
+
     /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`.
     ///
     /// # Errors

@@ -33,12 +33,14 @@ pub struct Figure {
     pub quantity: Quantity,
     /// Mark behind the number, `*` for example; usually empty.
     pub mark: &'static str,
+    /// Strength of the color behind the number on a page, in [0, 1]; usually 0.
+    pub heat: f64,
 }
 
 impl Cell {
     /// Creates a number of this kind.
     pub const fn real(value: f64, quantity: Quantity) -> Self {
-        Self::Real(Figure { value, quantity, mark: "" })
+        Self::Real(Figure { value, quantity, mark: "", heat: 0.0 })
     }
 
     /// [`Quantity::Decimals`]
@@ -75,13 +77,22 @@ impl Cell {
         }
     }
 
+    /// Colors a number on a page by a share, clamped to [0, 1]; other cells are unchanged.
+    #[must_use]
+    pub fn heated(self, share: f64) -> Self {
+        match self {
+            Self::Real(figure) => Self::Real(Figure { heat: share.clamp(0.0, 1.0), ..figure }),
+            other => other,
+        }
+    }
+
     /// Formats the cell for people; empty for [`Cell::Empty`].
     pub fn text(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
             Self::Count(count) => digits::count(*count),
             Self::Int(int) => digits::grouped(&int.to_string()),
-            Self::Real(Figure { value, quantity, mark }) => behind(digits::shown(*value, *quantity), mark),
+            Self::Real(Figure { value, quantity, mark, .. }) => behind(digits::shown(*value, *quantity), mark),
             Self::Flag(true) => "yes".to_owned(),
             Self::Flag(false) => "no".to_owned(),
             Self::Folded(folded) => folded.text(),

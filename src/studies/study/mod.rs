@@ -9,6 +9,7 @@ pub mod framing;
 pub mod leaky_teapot;
 pub mod measure;
 pub mod picture_difference;
+pub mod precision;
 pub mod prt;
 pub mod radiosity;
 pub mod reproduce;

@@ -2,8 +2,9 @@
 
 use maud::{Markup, html};
 
+use super::super::palette::okabe_ito;
 use super::super::summary::TallyEntry;
-use super::super::{Cell, Table};
+use super::super::{Cell, Figure, Table};
 
 /// Name of the column that stands second on the page, wherever it stands in the files.
 const VERDICT: &str = "verdict";
@@ -40,7 +41,7 @@ pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Ma
                             @for &column in columns.iter().take(row.len()) {
                                 @let text = row[column].text();
                                 @if column > 0 {
-                                    td class=[class(column, &row[column])] { (text) }
+                                    td class=[class(column, &row[column])] style=[heat(&row[column])] { (text) }
                                 } @else if let Some(name) = name {
                                     th scope="row" { (text) " " a.anchor href=(format!("#{name}")) title="Link to this row" { "#" } }
                                 } @else {
@@ -58,6 +59,13 @@ pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Ma
 /// Columns after the first, without the verdicts'.
 fn others(count: usize, verdict: Option<usize>) -> impl Iterator<Item = usize> {
     (1..count).filter(move |column| Some(*column) != verdict)
+}
+
+/// Color behind a number, translucent so that text can be read on light and dark pages.
+fn heat(cell: &Cell) -> Option<String> {
+    let Cell::Real(Figure { heat, .. }) = cell else { return None };
+    let [red, green, blue] = okabe_ito::VERMILION;
+    (*heat > 0.0).then(|| format!("background:rgb({red} {green} {blue} / {:.0}%)", 60.0 * heat))
 }
 
 /// CSS class of a number.
@@ -84,6 +92,14 @@ mod tests {
         let row = "<tr id=\"figure-7.1\" class=\"bad\"><th scope=\"row\">rate <a class=\"anchor\" href=\"#figure-7.1\"";
         assert!(after(row) < after("<td class=\"said\">missed</td><td class=\"number\">1</td>"));
         assert!(html.contains("<tr><th scope=\"row\">other</th>"), "a row without name or known verdict: {html}");
+    }
+
+    #[test]
+    fn shares_are_colored() {
+        let mut table = Table::of("Rows", "what share other");
+        table.push(["a".into(), Cell::percent(50.0).heated(0.5), Cell::percent(1.0)]);
+        let html = scrolling(&table, 0, &[]).into_string();
+        assert!(html.contains("style=\"background:rgb(213 94 0 / 30%)\">50.0</td><td class=\"number\">1.0<"), "{html}");
     }
 
     #[test]

@@ -24,7 +24,7 @@ pub(super) fn coded(cell: &Cell) -> String {
         Cell::Count(count) => format!("count {count}"),
         Cell::Int(int) => format!("int {int}"),
         Cell::Flag(flag) => format!("flag {flag}"),
-        Cell::Real(Figure { value, quantity, mark }) => {
+        Cell::Real(Figure { value, quantity, mark, .. }) => {
             let kind = QUANTITIES.iter().find(|(_, known)| known == quantity).map(|(name, _)| (*name).to_owned());
             let decimals = || match quantity {
                 Quantity::Decimals(decimals) => format!("decimals{decimals}"),
@@ -52,7 +52,7 @@ pub(super) fn decoded(text: &str) -> Option<Cell> {
             let decimals = || Some(Quantity::Decimals(kind.strip_prefix("decimals")?.parse().ok()?));
             let quantity = known().or_else(decimals)?;
             let mark = MARKS.into_iter().find(|known| *known == mark)?;
-            Cell::Real(Figure { value: value.parse().ok()?, quantity, mark })
+            Cell::Real(Figure { value: value.parse().ok()?, quantity, mark, heat: 0.0 })
         }
     })
 }

@@ -1,0 +1,160 @@
+//! Formats by their bits: two families, the cost of a format, and the formats of cards.
+
+use std::ops::RangeInclusive;
+
+use refsim::num::{Denormals, Format, FormatKind, Overflow};
+
+/// Formats of cards, and of later ones.
+const NAMED: [(&str, FormatBits); 8] = [
+    ("s3.12", FormatBits::fixed(3, 12)),
+    ("s0.15", FormatBits::fixed(0, 15)),
+    ("e4m3", FormatBits::float(4, 3)),
+    ("e5m2", FormatBits::float(5, 2)),
+    ("bf16", FormatBits::float(8, 7)),
+    ("fp16", FormatBits::float(5, 10)),
+    ("fp24", FormatBits::float(7, 16)),
+    ("fp32", FormatBits::float(8, 23)),
+];
+
+/// Family of formats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FormatFamily {
+    /// Floats, `eXmY`.
+    Float,
+    /// Fixed point, `sI.F`.
+    Fixed,
+}
+
+impl FormatFamily {
+    /// Name, as on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Float => "float",
+            Self::Fixed => "fixed",
+        }
+    }
+
+    /// Bits that decide the range: those of the exponent, or of the integer part.
+    pub(super) fn range_bits(self) -> RangeInclusive<u8> {
+        match self {
+            Self::Float => 2..=8,
+            Self::Fixed => 0..=31,
+        }
+    }
+
+    /// Bits that decide the precision, where `range` bits decide the range: those of the mantissa, or of the fraction.
+    pub(super) fn digit_bits(self, range: u8) -> RangeInclusive<u8> {
+        match self {
+            Self::Float => 1..=23,
+            Self::Fixed => u8::from(range == 0)..=31 - range.min(31),
+        }
+    }
+
+    /// Noun for the bits that decide the precision.
+    pub(super) fn digits(self) -> &'static str {
+        match self {
+            Self::Float => "mantissa bits",
+            Self::Fixed => "fraction bits",
+        }
+    }
+}
+
+/// Layout of a format of one of the families.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct FormatBits {
+    pub(super) family: FormatFamily,
+    /// Exponent bits, or integer bits without the sign.
+    pub(super) range: u8,
+    /// Mantissa bits, or fraction bits.
+    pub(super) digits: u8,
+}
+
+impl FormatBits {
+    pub(super) const fn float(range: u8, digits: u8) -> Self {
+        Self { family: FormatFamily::Float, range, digits }
+    }
+
+    pub(super) const fn fixed(range: u8, digits: u8) -> Self {
+        Self { family: FormatFamily::Fixed, range, digits }
+    }
+
+    /// Formats of cards with their names.
+    pub(super) fn named() -> impl Iterator<Item = (&'static str, Self)> {
+        NAMED.into_iter()
+    }
+
+    /// Width in bits, with the sign.
+    pub(super) fn width(self) -> u32 {
+        1 + u32::from(self.range) + u32::from(self.digits)
+    }
+
+    /// Formats with one bit less: of precision, then of range.
+    pub(super) fn narrower(self) -> impl Iterator<Item = Self> {
+        let legal = |bits: &Self| {
+            bits.family.range_bits().contains(&bits.range) && bits.family.digit_bits(bits.range).contains(&bits.digits)
+        };
+        let fewer = |bits: u8| bits.checked_sub(1);
+        let digits = fewer(self.digits).map(|digits| Self { digits, ..self });
+        let range = fewer(self.range).map(|range| Self { range, ..self });
+        digits.into_iter().chain(range).filter(legal)
+    }
+
+    /// Narrowest format of the family.
+    pub(super) fn narrowest(family: FormatFamily) -> Self {
+        let range = *family.range_bits().start();
+        Self { family, range, digits: *family.digit_bits(range).start() }
+    }
+
+    /// Format of this layout with the rounding of `rules`, and its other rules where they belong to the same family.
+    pub(super) fn format(self, rules: Format) -> Format {
+        let Self { range, digits, .. } = self;
+        let alike = rules.is_fixed() == (self.family == FormatFamily::Fixed);
+        let own = |kind, overflow| Format {
+            kind,
+            overflow: if alike { rules.overflow } else { overflow },
+            denormals: if alike { rules.denormals } else { Denormals::Keep },
+            ..rules
+        };
+        match self.family {
+            FormatFamily::Float => own(FormatKind::Float { exp_bits: range, man_bits: digits }, Overflow::Infinity),
+            FormatFamily::Fixed => own(FormatKind::Fixed { int_bits: range, frac_bits: digits }, Overflow::Saturate),
+        }
+    }
+}
+
+impl std::fmt::Display for FormatBits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.family {
+            FormatFamily::Float => write!(f, "e{}m{}", self.range, self.digits),
+            FormatFamily::Fixed => write!(f, "s{}.{}", self.range, self.digits),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every layout is one that `refsim` reads by the same text.
+    #[test]
+    fn layouts_are_formats() {
+        for family in [FormatFamily::Float, FormatFamily::Fixed] {
+            for range in family.range_bits() {
+                for digits in family.digit_bits(range) {
+                    let bits = FormatBits { family, range, digits };
+                    let format: Format = bits.to_string().parse().expect("a format");
+                    assert_eq!((bits.format(format), bits.width()), (format, format.width()));
+                    assert!(bits.narrower().all(|less| less.width() + 1 == bits.width()));
+                }
+            }
+            assert_eq!(FormatBits::narrowest(family).narrower().count(), 0);
+        }
+    }
+
+    #[test]
+    fn rules_of_a_card_are_kept_within_its_family() {
+        let rules: Format = "e5m10:rtz:ftz:nvovf".parse().expect("a format");
+        assert_eq!(FormatBits::float(4, 3).format(rules).to_string(), "e4m3:rtz:nvovf:ftz");
+        assert_eq!(FormatBits::fixed(4, 3).format(rules).to_string(), "s4.3:rtz");
+    }
+}

@@ -1,0 +1,202 @@
+//! Smallest format of a family, and the goal's value against bits.
+
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+
+use super::bits::{FormatBits, FormatFamily};
+use super::goal::Goal;
+use super::runs::{RunError, Runs};
+use crate::report::words::counted;
+
+/// Bits that a curve is computed at first, as far as they are in its range; its ends are added.
+const FIRST: [u8; 9] = [2, 3, 5, 7, 10, 12, 15, 16, 20];
+
+/// Search for the fewest bits that meet a goal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct BitScan {
+    /// Values of the goal's measure, by bits.
+    pub(super) points: BTreeMap<u8, f64>,
+    /// Fewest bits from which on every number of bits meets the goal, as far as it was computed.
+    pub(super) smallest: Option<u8>,
+    /// Bits, and more bits that are worse; all numbers of bits were computed then.
+    pub(super) counterexample: Option<[u8; 2]>,
+}
+
+impl BitScan {
+    /// Searches by bisection between the points `first` and the ends. Where more bits are worse than fewer, computes all
+    /// points.
+    fn run(
+        &mut self,
+        range: RangeInclusive<u8>,
+        first: &[u8],
+        goal: &Goal,
+        mut value: impl FnMut(u8) -> Result<f64, RunError>,
+    ) -> Result<(), RunError> {
+        for bits in first.iter().copied().filter(|bits| range.contains(bits)) {
+            self.add(bits, &mut value)?;
+        }
+        self.bisect(range.clone(), goal, &mut value)?;
+        self.counterexample = self.worsening(goal);
+        if self.counterexample.is_some() {
+            range.clone().try_for_each(|bits| self.add(bits, &mut value))?;
+        }
+        self.conclude(&range, goal);
+        Ok(())
+    }
+
+    /// Searches by bisection, as if more bits were never worse.
+    pub(super) fn bisect(
+        &mut self,
+        range: RangeInclusive<u8>,
+        goal: &Goal,
+        mut value: impl FnMut(u8) -> Result<f64, RunError>,
+    ) -> Result<(), RunError> {
+        for end in [*range.end(), *range.start()] {
+            self.add(end, &mut value)?;
+        }
+        while let Some(next) = self.between(goal) {
+            self.add(next, &mut value)?;
+        }
+        self.conclude(&range, goal);
+        Ok(())
+    }
+
+    fn conclude(&mut self, range: &RangeInclusive<u8>, goal: &Goal) {
+        let misses = self.points.iter().filter(|(_, value)| !goal.met(**value)).map(|(bits, _)| *bits);
+        self.smallest = match misses.max() {
+            None => Some(*range.start()),
+            Some(bits) => bits.checked_add(1).filter(|bits| range.contains(bits)),
+        };
+    }
+
+    fn add(&mut self, bits: u8, value: &mut impl FnMut(u8) -> Result<f64, RunError>) -> Result<(), RunError> {
+        if !self.points.contains_key(&bits) {
+            let value = value(bits)?;
+            self.points.insert(bits, value);
+        }
+        Ok(())
+    }
+
+    /// Fewer bits and more bits that are worse, of neighboring points.
+    fn worsening(&self, goal: &Goal) -> Option<[u8; 2]> {
+        let worse = |(a, b): &((&u8, &f64), (&u8, &f64))| goal.badness(*b.1) > goal.badness(*a.1);
+        self.points.iter().zip(self.points.iter().skip(1)).find(worse).map(|((a, _), (b, _))| [*a, *b])
+    }
+
+    /// Middle between the widest point that misses the goal and the next, which meets it; `None` if they are neighbors.
+    fn between(&self, goal: &Goal) -> Option<u8> {
+        let missed = *self.points.iter().rfind(|(_, value)| !goal.met(**value))?.0;
+        let met = *self.points.range(missed + 1..).next()?.0;
+        (met - missed > 1).then(|| missed + (met - missed) / 2)
+    }
+}
+
+/// Formats of one family, all instructions alike.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Curve {
+    pub(super) family: FormatFamily,
+    /// Bits of the range of all points: enough of them.
+    pub(super) range: u8,
+    /// Values by bits of precision.
+    pub(super) scan: BitScan,
+    /// Smallest uniform format: the fewest bits of precision, then the fewest of range.
+    pub(super) minimum: Option<FormatBits>,
+}
+
+/// Integer bits beyond the fewest that meet the goal: at the end of its range a wide format saturates by less than
+/// single precision shows, and a narrower one by more.
+const SPARE: u8 = 2;
+
+impl Curve {
+    /// Curve without points.
+    pub(super) fn empty(family: FormatFamily) -> Self {
+        Self { family, range: *family.range_bits().end(), scan: BitScan::default(), minimum: None }
+    }
+
+    /// Computes the points, as far as the budget allows.
+    pub(super) fn compute(&mut self, runs: &mut Runs<'_>) -> Result<(), RunError> {
+        let (family, goal) = (self.family, runs.goal);
+        runs.step(format!("{} formats", family.name()));
+        if family == FormatFamily::Fixed {
+            self.range = enough_integer_bits(runs)?;
+        }
+        let range = self.range;
+        let value = |digits| runs.value(&runs.uniform(FormatBits { family, range, digits }));
+        self.scan.run(family.digit_bits(range), &FIRST, goal, value)?;
+        let Some(digits) = self.scan.smallest else { return Ok(()) };
+        let mut minimum = FormatBits { family, range, digits };
+        let fewer = |bits: FormatBits| bits.narrower().find(|less| less.digits == digits);
+        while let Some(less) = fewer(minimum) {
+            if !runs.meets(&runs.uniform(less))? {
+                break;
+            }
+            minimum = less;
+        }
+        self.minimum = Some(minimum);
+        Ok(())
+    }
+
+    /// Bits of the range in words.
+    pub(super) fn range_text(&self) -> String {
+        let what = match self.family {
+            FormatFamily::Float => "exponent",
+            FormatFamily::Fixed => "integer",
+        };
+        counted(self.range.into(), &format!("{what} bit"), &format!("{what} bits"))
+    }
+}
+
+/// Fewest integer bits with which 31 bits meet the goal, and [`SPARE`] more; without any, those with the best value.
+fn enough_integer_bits(runs: &mut Runs<'_>) -> Result<u8, RunError> {
+    let family = FormatFamily::Fixed;
+    let mut best = (0, f64::INFINITY);
+    for range in family.range_bits() {
+        let digits = *family.digit_bits(range).end();
+        let value = runs.value(&runs.uniform(FormatBits { family, range, digits }))?;
+        if runs.goal.met(value) {
+            return Ok((range + SPARE).min(*family.range_bits().end()));
+        }
+        if runs.goal.badness(value) < best.1 {
+            best = (range, runs.goal.badness(value));
+        }
+    }
+    Ok(best.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use refsim::num::power_of_two;
+
+    fn scan(values: &[f64], first: &[u8]) -> (BitScan, usize) {
+        let (mut scan, mut runs) = (BitScan::default(), 0);
+        let goal: Goal = "error<=1".parse().expect("a goal");
+        let value = |bits: u8| {
+            runs += 1;
+            Ok(values[usize::from(bits) - 1])
+        };
+        scan.run(1..=values.len() as u8, first, &goal, value).expect("no budget");
+        (scan, runs)
+    }
+
+    #[test]
+    fn a_falling_error_is_bisected() {
+        for smallest in 1..=23_u8 {
+            let step = |bits: u8| power_of_two(i32::from(smallest) - i32::from(bits) - 1);
+            let values: Vec<f64> = (1..=23).map(|bits| 1.5 * step(bits)).collect();
+            let (found, runs) = scan(&values, &[]);
+            assert_eq!((found.smallest, found.counterexample), (Some(smallest), None));
+            assert!(runs <= 7, "{runs} runs");
+        }
+        assert_eq!(scan(&[4.0, 3.0, 2.0], &[]).0.smallest, None);
+    }
+
+    #[test]
+    fn a_rising_error_is_scanned_and_named() {
+        let (found, runs) = scan(&[9.0, 0.5, 3.0, 0.5, 0.25, 0.0], &[2, 3]);
+        assert_eq!((found.smallest, found.counterexample, runs), (Some(4), Some([2, 3]), 6));
+        // All bits from 2 on meet the goal, although one is worse.
+        assert_eq!(scan(&[9.0, 0.5, 0.75, 0.5], &[2, 3]).0.smallest, Some(2));
+        assert_eq!(scan(&[0.0, 0.0, 0.0, 9.0], &[]).0.smallest, None);
+    }
+}

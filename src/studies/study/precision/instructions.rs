@@ -1,0 +1,118 @@
+//! What each instruction needs, loses and is to blame for.
+
+use super::bits::FormatBits;
+use super::curve::BitScan;
+use super::runs::{Assignment, RunError, Runs};
+use super::subject::{InstructionPlace, InstructionResults};
+use super::ulps::{LocalError, local_error};
+
+/// Findings on one instruction, in one family of formats.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct InstructionNeeds {
+    /// Fewest bits of precision with all other instructions exact.
+    pub(super) alone: Option<u8>,
+    /// Fewest bits of precision with all other instructions in the smallest uniform format.
+    pub(super) in_company: Option<u8>,
+    /// Error of its results in the smallest uniform format, against the exact results of the same operands.
+    pub(super) local: Option<LocalError>,
+    /// Share of the loss when only this instruction is rounded.
+    pub(super) blame: Option<f64>,
+    /// Share of the loss that is regained when only this instruction is exact.
+    pub(super) regained: Option<f64>,
+}
+
+/// Format that is too small, whose loss is shared out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct BlamedFormat {
+    pub(super) bits: FormatBits,
+    /// Loss of the goal with all instructions in it.
+    pub(super) loss: f64,
+}
+
+/// Loss of the goal when all instructions have a bit less than the smallest uniform format.
+pub(super) fn blamed_format(minimum: FormatBits, runs: &mut Runs<'_>) -> Result<BlamedFormat, RunError> {
+    runs.step("blame");
+    // The narrowest format has no bit less.
+    let bits = minimum.narrower().next().unwrap_or(minimum);
+    Ok(BlamedFormat { bits, loss: loss(runs, &runs.uniform(bits))? })
+}
+
+fn loss(runs: &mut Runs<'_>, assignment: &Assignment) -> Result<f64, RunError> {
+    let exact = runs.value(&vec![None; runs.count()])?;
+    let value = runs.value(assignment)?;
+    Ok(runs.goal.loss(value, exact))
+}
+
+/// Finds what one instruction is to blame for.
+pub(super) fn blame(
+    needs: &mut InstructionNeeds,
+    place: usize,
+    all: BlamedFormat,
+    runs: &mut Runs<'_>,
+) -> Result<(), RunError> {
+    let mut others = runs.uniform(all.bits);
+    others[place] = None;
+    // Without a loss nobody is to blame.
+    let share = |loss: f64| match (loss == 0.0, loss.is_finite() && all.loss.is_finite()) {
+        (true, _) => Some(0.0),
+        (_, true) if all.loss > 0.0 => Some(loss / all.loss),
+        (_, false) if !loss.is_finite() => Some(1.0),
+        _ => None,
+    };
+    needs.blame = share(loss(runs, &runs.alone(place, all.bits))?);
+    let left = loss(runs, &others)?;
+    needs.regained = match (all.loss.is_finite(), left.is_finite()) {
+        (true, true) => share(all.loss - left),
+        (false, true) => Some(1.0),
+        _ => Some(0.0),
+    };
+    Ok(())
+}
+
+/// Finds the fewest bits of precision of one instruction, which has as many bits of range as the points of the curve.
+pub(super) fn fewest_bits(
+    needs: &mut InstructionNeeds,
+    place: usize,
+    minimum: FormatBits,
+    range: u8,
+    runs: &mut Runs<'_>,
+) -> Result<(), RunError> {
+    let FormatBits { family, digits, .. } = minimum;
+    let mut scan = |most: u8, others: Option<FormatBits>| {
+        let (mut scan, goal) = (BitScan::default(), runs.goal);
+        let mut tried: Assignment = vec![others; runs.count()];
+        scan.bisect(*family.digit_bits(range).start()..=most, goal, |digits| {
+            tried[place] = Some(FormatBits { family, range, digits });
+            runs.value(&tried)
+        })?;
+        Ok::<_, RunError>(scan.smallest)
+    };
+    needs.alone = scan(*family.digit_bits(range).end(), None)?;
+    needs.in_company = scan(digits, Some(minimum))?;
+    Ok(())
+}
+
+/// Results of the exact run by program; `None` if the subject has no traces.
+pub(super) fn exact_results(runs: &mut Runs<'_>) -> Result<Option<Vec<InstructionResults>>, RunError> {
+    runs.step("ranges");
+    let device = runs.uniform_device(runs.subject.profile(), None);
+    runs.results(&device)
+}
+
+/// Finds the error of one instruction's results against the exact ones of the same operands.
+pub(super) fn local(
+    needs: &mut InstructionNeeds,
+    place: usize,
+    minimum: FormatBits,
+    exact: &[InstructionResults],
+    runs: &mut Runs<'_>,
+) -> Result<(), RunError> {
+    let InstructionPlace { program, at } = runs.places[place];
+    let Some(device) = runs.device(runs.subject.profile(), &runs.alone(place, minimum)) else { return Ok(()) };
+    let rounded = runs.results(&device)?;
+    let of = |all: &[InstructionResults]| all.get(program)?.get(&at).cloned();
+    if let (Some(rounded), Some(exact)) = (rounded.as_deref().and_then(of), of(exact)) {
+        needs.local = local_error(minimum, &exact, &rounded);
+    }
+    Ok(())
+}

@@ -1,0 +1,48 @@
+//! Study of precision: how many bits a goal needs, and which instruction decides.
+//!
+//! A [`PrecisionSubject`] is run again and again with a number format per instruction. The exact run has registers of
+//! single precision; a uniform run has all instructions in one format. docs/precision.md describes what is measured.
+
+mod bits;
+mod case;
+mod costs;
+mod curve;
+mod goal;
+mod instructions;
+mod outcome;
+mod report;
+mod runs;
+mod search;
+mod subject;
+mod switches;
+mod tables;
+#[cfg(test)]
+mod tests;
+mod ulps;
+
+use super::{ProgressFn, Study, StudyError};
+use crate::report::{Findings, Provenance};
+
+pub use bits::FormatFamily;
+pub use case::CaseSubject;
+pub use costs::FormatCosts;
+pub use goal::{Goal, GoalError, GoalRelation};
+pub use outcome::Precision;
+pub use subject::{InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+
+impl Study for Precision {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let goal = self.goal()?;
+        let mut runs = self.runs(&goal, progress)?;
+        let outcome = self.outcome(&mut runs)?;
+        report::findings(self, &outcome, &runs)
+    }
+
+    fn provenance(&self, mut provenance: Provenance) -> Provenance {
+        let profile = self.subject.profile();
+        provenance.profiles.push(profile.name.clone());
+        let set = profile.switches().iter().filter(|switch| switch.current != switch.default);
+        provenance.switches.extend(set.map(|switch| (switch.name.clone(), switch.current.clone())));
+        provenance
+    }
+}

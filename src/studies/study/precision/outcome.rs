@@ -1,0 +1,201 @@
+//! Parameters and course of the study.
+
+use refsim::machine::ExecutorKind;
+
+use super::bits::{FormatBits, FormatFamily};
+use super::costs::FormatCosts;
+use super::curve::Curve;
+use super::goal::Goal;
+use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, exact_results, fewest_bits, local};
+use super::runs::{RunError, Runs};
+use super::search::{MixedFormats, search};
+use super::subject::{InstructionResults, PrecisionSubject};
+use super::switches::{SwitchRow, sensitivity};
+use super::ulps::{ResultRange, range_of};
+use crate::names::did_you_mean;
+use crate::report::words::listed;
+use crate::study::{ProgressFn, StudyError};
+
+/// Parameters of the study.
+pub struct Precision {
+    /// Programs with their input.
+    pub subject: Box<dyn PrecisionSubject>,
+    /// Goal; `None` for the subject's own.
+    pub goal: Option<Goal>,
+    /// Families of formats, each once; at least one.
+    pub families: Vec<FormatFamily>,
+    /// Largest number of runs.
+    pub budget: u64,
+    /// Costs of formats.
+    pub costs: FormatCosts,
+}
+
+/// Findings in one family of formats.
+#[derive(Debug)]
+pub(super) struct FamilyOutcome {
+    pub(super) curve: Curve,
+    /// Format with a bit less than the smallest uniform one.
+    pub(super) blamed: Option<BlamedFormat>,
+    /// Findings by instruction.
+    pub(super) needs: Vec<InstructionNeeds>,
+    /// Cheapest assignment found.
+    pub(super) mixed: Option<MixedFormats>,
+    /// Value of the goal's measure with this assignment on the scalar executor.
+    pub(super) checked: Option<f64>,
+}
+
+/// Everything that was found.
+#[derive(Debug, Default)]
+pub(super) struct PrecisionOutcome {
+    /// Value of the exact run.
+    pub(super) exact: f64,
+    /// Value of the device as given.
+    pub(super) given: Option<f64>,
+    /// Values of formats of cards.
+    pub(super) named: Vec<(&'static str, FormatBits, f64)>,
+    pub(super) families: Vec<FamilyOutcome>,
+    /// Ranges of results by instruction; empty if the subject has no traces.
+    pub(super) ranges: Vec<Option<ResultRange>>,
+    pub(super) switches: Vec<SwitchRow>,
+    /// `true` if the budget ended before the study.
+    pub(super) budget_spent: bool,
+}
+
+impl PrecisionOutcome {
+    /// Cheapest of the families' assignments.
+    pub(super) fn cheapest(&self) -> Option<&FamilyOutcome> {
+        let cost = |family: &&FamilyOutcome| family.mixed.as_ref().map_or(f64::INFINITY, |mixed| mixed.cost);
+        self.families.iter().filter(|family| family.mixed.is_some()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    }
+}
+
+impl Precision {
+    /// Goal of the study.
+    ///
+    /// # Errors
+    /// If the subject does not have its measure.
+    pub(super) fn goal(&self) -> Result<Goal, StudyError> {
+        let Some(goal) = &self.goal else { return Ok(self.subject.default_goal()) };
+        let names: Vec<&str> = self.subject.measures().iter().map(|measure| measure.name).collect();
+        if names.contains(&goal.measure.as_str()) {
+            return Ok(goal.clone());
+        }
+        let shown: String = goal.measure.chars().take(60).collect();
+        let found = format!("expected a goal for {}, found `{shown}`", listed(&names));
+        let help = format!("{}for example `--goal \"{}\"`", did_you_mean(&shown, names), self.subject.default_goal());
+        Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
+    }
+
+    /// Runs of the subject.
+    ///
+    /// # Errors
+    /// If no runs are allowed, or no instruction has a format.
+    pub(super) fn runs<'a>(&'a self, goal: &'a Goal, progress: &'a mut ProgressFn<'a>) -> Result<Runs<'a>, StudyError> {
+        if self.budget == 0 {
+            let found = "expected a budget of 1 run or more, found 0";
+            return Err(
+                StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
+            );
+        }
+        let runs = Runs::new(&*self.subject, goal, self.budget, progress);
+        if runs.count() == 0 {
+            let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
+            let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));
+            return Err(StudyError::new("crossbar::precision::program", found)
+                .with_help("a study of precision needs an instruction whose result is a number"));
+        }
+        Ok(runs)
+    }
+
+    /// Runs the study until its end or that of the budget.
+    ///
+    /// # Errors
+    /// If the exact run misses the goal, or the subject cannot be run.
+    pub(super) fn outcome(&self, runs: &mut Runs<'_>) -> Result<PrecisionOutcome, StudyError> {
+        let mut outcome = PrecisionOutcome::default();
+        match self.run(runs, &mut outcome) {
+            Ok(()) => {}
+            Err(RunError::Budget) => outcome.budget_spent = true,
+            Err(RunError::Study(error)) => return Err(error),
+        }
+        for family in &mut outcome.families {
+            if let Some(mixed) = &family.mixed {
+                let formats: Vec<_> = mixed.formats.iter().copied().map(Some).collect();
+                let device = runs.device(runs.subject.profile(), &formats);
+                let measured = device.map(|device| runs.shown(&device, ExecutorKind::Scalar)).transpose()?;
+                family.checked = measured.map(|measured| measured.value(&runs.goal.measure));
+            }
+        }
+        Ok(outcome)
+    }
+
+    fn run(&self, runs: &mut Runs<'_>, outcome: &mut PrecisionOutcome) -> Result<(), RunError> {
+        runs.step("the exact run");
+        outcome.exact = runs.value(&vec![None; runs.count()])?;
+        if !runs.goal.met(outcome.exact) {
+            return Err(missed_by_exact(runs.goal, outcome.exact).into());
+        }
+        runs.step("the device as given");
+        outcome.given = Some(runs.measure(runs.subject.profile())?.value(&runs.goal.measure));
+        for &family in &self.families {
+            let mut curve = Curve::empty(family);
+            let end = curve.compute(runs);
+            let needs = vec![InstructionNeeds::default(); runs.count()];
+            outcome.families.push(FamilyOutcome { curve, blamed: None, needs, mixed: None, checked: None });
+            end?;
+        }
+        runs.step("formats of cards");
+        for (name, bits) in FormatBits::named() {
+            let value = runs.value(&runs.uniform(bits))?;
+            outcome.named.push((name, bits, value));
+        }
+        let exact = exact_results(runs)?;
+        let range =
+            |results: &[InstructionResults], program: usize, at: usize| Some(range_of(results.get(program)?.get(&at)?));
+        if let Some(exact) = &exact {
+            outcome.ranges = runs.places.iter().map(|place| range(exact, place.program, place.at)).collect();
+        }
+        for family in &mut outcome.families {
+            family.run(exact.as_deref(), &self.costs, runs)?;
+        }
+        runs.step("open switches");
+        let at_curve = |curve: &Curve| curve.minimum.map(|minimum| FormatBits { range: curve.range, ..minimum });
+        let minimum = outcome.families.iter().find_map(|family| at_curve(&family.curve));
+        sensitivity(minimum, runs, &mut outcome.switches)
+    }
+}
+
+fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
+    let found = format!("expected a goal that the exact run meets, found {goal}, and {} {value} there", goal.measure);
+    StudyError::new("crossbar::precision::goal", found)
+        .with_help("no number format can be better than registers of single precision: state a wider bound")
+}
+
+impl FamilyOutcome {
+    /// Finds what each instruction needs, and the mixed formats.
+    fn run(
+        &mut self,
+        exact: Option<&[InstructionResults]>,
+        costs: &FormatCosts,
+        runs: &mut Runs<'_>,
+    ) -> Result<(), RunError> {
+        let Some(minimum) = self.curve.minimum else { return Ok(()) };
+        let blamed = blamed_format(minimum, runs)?;
+        self.blamed = Some(blamed);
+        for (place, needs) in self.needs.iter_mut().enumerate() {
+            blame(needs, place, blamed, runs)?;
+        }
+        let blame = |place: &usize| self.needs[*place].blame.unwrap_or(0.0);
+        let mut order: Vec<usize> = (0..self.needs.len()).collect();
+        order.sort_by(|a, b| blame(a).total_cmp(&blame(b)));
+        search(minimum, &order, costs, runs, &mut self.mixed)?;
+        runs.step("bits per instruction");
+        for (place, needs) in self.needs.iter_mut().enumerate() {
+            fewest_bits(needs, place, minimum, self.curve.range, runs)?;
+            if let Some(exact) = exact {
+                local(needs, place, minimum, exact, runs)?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,256 @@
+//! Page and tables of the study.
+
+use refsim::machine::ExecutorKind;
+use serde_json::json;
+
+use super::bits::FormatBits;
+use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
+use super::runs::Runs;
+use super::tables;
+use crate::report::digits::{Quantity, shown};
+use crate::report::words::{counted, percent};
+use crate::report::{Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Verdict};
+use crate::study::StudyError;
+
+/// Builds the findings; draws the pictures.
+pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<Findings, StudyError> {
+    let profile = runs.subject.profile();
+    let mut found = Findings::new(format!("Precision of {}", runs.subject.title()));
+    let count = counted(runs.count() as u64, "instruction", "instructions");
+    found.introduce(format!("{}: {count} on {}, goal {}", runs.subject.title(), profile.name, runs.goal));
+    conclude(&mut found, study, outcome, runs);
+    if let Some(chart) = chart(outcome, runs) {
+        found.chart(chart);
+    }
+    pictures(&mut found, outcome, runs)?;
+    runs.subject.notes().into_iter().for_each(|note| found.paragraph(note));
+    found.heading("Formats for all instructions");
+    found.table(FoundTable::from(tables::named(outcome, runs)).csv("formats").field("formats"));
+    found.table(FoundTable::from(tables::curves(outcome, runs)).csv("curve").field("curve").unprinted());
+    for family in &outcome.families {
+        per_instruction(&mut found, study, family, outcome, runs);
+    }
+    if !outcome.switches.is_empty() {
+        found.heading("Open switches");
+        let (table, first, names) = tables::switches(outcome);
+        let rows = (["value", "values"], "the same");
+        let table = FoundTable::from(table).folded(&first, |row| names[row].clone(), rows);
+        found.explained_table(
+            table.csv("switches").field("switches"),
+            "Each value of each switch with several, one at a time. The minimum has the exponent or integer bits of the \
+             curve; the reference is the exact run of the device as given.",
+        );
+    }
+    found.heading("Measures");
+    found.keep_table(FoundTable::from(tables::measures(runs)).field("measures"));
+    found.table(FoundTable::from(tables::measures(runs)).unprinted());
+    fields(&mut found, outcome, runs);
+    if let Some(family) = outcome.cheapest() {
+        let programs: Vec<_> = runs.programs.iter().map(|studied| studied.program).collect();
+        let formats: Vec<_> = family.mixed.iter().flat_map(|mixed| &mixed.formats).copied().map(Some).collect();
+        if let Some(device) = runs.device(profile, &formats) {
+            found.keep_file("mixed.toml", device.to_device_file(&programs).into_bytes());
+        }
+    }
+    let has_minimum = outcome.families.iter().any(|family| family.curve.minimum.is_some());
+    found.conclude(Verdict::held(has_minimum));
+    Ok(found)
+}
+
+/// Adds the sentences at the top.
+fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
+    let (goal, measure) = (runs.goal, &runs.goal.measure);
+    let given = outcome.given.map_or(String::new(), |value| format!(", and {} on the device as given", number(value)));
+    found.conclusion(format!("Goal: {goal}; {measure} is {} in the exact run{given}.", number(outcome.exact)));
+    for family in &outcome.families {
+        let name = family.curve.family.name();
+        let Some(minimum) = family.curve.minimum else {
+            found.conclusion(match outcome.budget_spent && family.curve.scan.counterexample.is_none() {
+                true => format!("The budget ended before a smallest {name} format was found."),
+                false => format!("No {name} format meets the goal for all instructions."),
+            });
+            continue;
+        };
+        if minimum == FormatBits::narrowest(family.curve.family) {
+            found.conclusion(format!("Every {name} format meets the goal, down to {minimum}: it tells nothing."));
+            continue;
+        }
+        found.conclusion(format!("Smallest {name} format of all instructions: {minimum}, {} bits.", minimum.width()));
+        if let Some([fewer, more]) = family.curve.scan.counterexample {
+            let points = &family.curve.scan.points;
+            found.conclusion(format!(
+                "More {} can be worse: {measure} is {} with {fewer}, and {} with {more}. All were tried; from {} on \
+                 every number meets the goal.",
+                family.curve.family.digits(),
+                number(points[&fewer]),
+                number(points[&more]),
+                minimum.digits,
+            ));
+        }
+    }
+    if let Some((family, mixed)) = outcome.cheapest().and_then(|family| Some((family, family.mixed.as_ref()?))) {
+        let of = family.curve.minimum.map_or(0.0, |minimum| study.costs.sum(&vec![minimum; mixed.formats.len()]));
+        let unit = if study.costs.is_table() { "cost" } else { "bits" };
+        found.conclusion(format!(
+            "With a format per instruction: {} {unit} in place of {}{}.",
+            number(mixed.cost),
+            number(of),
+            if mixed.is_minimal { "; one bit less anywhere misses the goal" } else { ", the best so far" },
+        ));
+    }
+    if let Some((program, line, share)) = most_blamed(outcome, runs) {
+        found.conclusion(format!("Most to blame: {program}:{line}, {} of the loss alone.", percent(share)));
+    }
+    if outcome.budget_spent {
+        let made = counted(runs.made, "run", "runs");
+        found.conclusion(format!("The budget ended the study after {made}: what is found is the best so far."));
+    }
+}
+
+/// Formats a value for sentences.
+fn number(value: f64) -> String {
+    shown(value, Quantity::Error)
+}
+
+/// Program, line and share of the instruction with the largest blame, in the first family that has some.
+fn most_blamed(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<(String, String, f64)> {
+    let blames = |family: &FamilyOutcome| -> Vec<f64> { family.needs.iter().filter_map(|needs| needs.blame).collect() };
+    let shares = outcome.families.iter().map(blames).find(|shares| shares.iter().any(|share| *share > 0.0))?;
+    let (place, share) = shares.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let line = tables::line(place, runs);
+    Some((line.file, format!("{}: `{}`", line.line, line.text), share))
+}
+
+/// Chart of the curves, if they span an axis.
+fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
+    let lines: Vec<Series> = outcome
+        .families
+        .iter()
+        .map(|family| Series {
+            label: format!("{}, {}", family.curve.family.name(), family.curve.range_text()),
+            points: finite(family.curve.scan.points.iter().map(|(bits, value)| (f64::from(*bits), *value))),
+        })
+        .collect();
+    let dots: Vec<Series> = outcome
+        .named
+        .iter()
+        .map(|(name, bits, value)| Series {
+            label: (*name).to_owned(),
+            points: finite([(f64::from(bits.digits), *value)]),
+        })
+        .collect();
+    let mut values: Vec<f64> =
+        lines.iter().chain(&dots).flat_map(|series| &series.points).map(|point| point.1).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    if values.len() < 2 {
+        return None;
+    }
+    let positive = values.iter().copied().filter(|value| *value > 0.0);
+    let y_scale = if positive.clone().count() < 2 { Scale::Linear } else { Scale::fitting(positive) };
+    let zero = if y_scale == Scale::Logarithmic { " Values of 0 have no place on the axis." } else { "" };
+    let chart = Chart {
+        title: format!("{} by bits of precision", runs.goal.measure),
+        x: "mantissa or fraction bits of all instructions".to_owned(),
+        y: runs.goal.measure.clone(),
+        y_scale,
+        lines,
+        dots,
+        ..Chart::default()
+    };
+    let caption = format!(
+        "{} with all instructions in one format, against its mantissa or fraction bits; goal: {}.{zero}",
+        runs.goal.measure, runs.goal
+    );
+    Some(NamedChart { name: "curve".to_owned(), chart, caption })
+}
+
+fn finite(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    points.into_iter().filter(|point| point.1.is_finite()).collect()
+}
+
+/// Adds the pictures: exact, in the smallest uniform format, with a bit less.
+fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<(), StudyError> {
+    let profile = runs.subject.profile();
+    let mut pictures = Vec::new();
+    let mut add = |name: String, caption: String, device| -> Result<(), StudyError> {
+        let measured = runs.shown(&device, ExecutorKind::Batch)?;
+        let value = number(measured.value(&runs.goal.measure));
+        let caption = format!("{caption}: {} {value}", runs.goal.measure);
+        pictures.extend(measured.picture.map(|picture| NamedPicture::new(name, picture, caption)));
+        Ok(())
+    };
+    add("exact".to_owned(), "exact run".to_owned(), runs.uniform_device(profile, None))?;
+    for minimum in outcome.families.iter().filter_map(|family| family.curve.minimum) {
+        let less = minimum.narrower().next();
+        for bits in [minimum].into_iter().chain(less) {
+            add(bits.to_string(), format!("all instructions in {bits}"), runs.uniform_device(profile, Some(bits)))?;
+        }
+    }
+    found.pictures(pictures);
+    Ok(())
+}
+
+/// Adds the tables of one family.
+fn per_instruction(
+    found: &mut Findings,
+    study: &Precision,
+    family: &FamilyOutcome,
+    outcome: &PrecisionOutcome,
+    runs: &Runs<'_>,
+) {
+    let (Some(minimum), name) = (family.curve.minimum, family.curve.family.name()) else { return };
+    let (csv, mixed_csv, refuted_csv) = match family.curve.family {
+        super::FormatFamily::Float => ("instructions_float", "mixed_float", "refuted_float"),
+        super::FormatFamily::Fixed => ("instructions_fixed", "mixed_fixed", "refuted_fixed"),
+    };
+    found.heading(format!("Instructions in {name} formats"));
+    found.table(FoundTable::from(tables::instructions(family, minimum, outcome, runs)).csv(csv).field(csv));
+    if let Some(blamed) = family.blamed {
+        let sum: f64 = family.needs.iter().filter_map(|needs| needs.blame).fold(0.0, |sum, share| sum + share);
+        found.paragraph(format!(
+            "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
+             Errors are in units in the last place of {minimum}, against the exact results of the same operands. Blame \
+             is the share of the loss with all instructions in {} that comes when only this one is; regained is the \
+             share that goes when only this one is exact. The shares of blame sum to {}: errors add up, cancel or hide \
+             each other.",
+            blamed.bits,
+            percent(sum),
+            digits = family.curve.family.digits(),
+        ));
+    }
+    let Some(mixed) = &family.mixed else { return };
+    let state = if mixed.is_minimal { "1-minimal" } else { "the best so far" };
+    found.heading(format!("Mixed {name} formats, {state}"));
+    found.table(FoundTable::from(tables::mixed(mixed, study, runs)).csv(mixed_csv).field(mixed_csv).unprinted());
+    let checked = family.checked.map_or(String::new(), |value| {
+        let met = if runs.goal.met(value) { "meets" } else { "misses" };
+        format!("On the scalar executor {} is {}: it {met} the goal.", runs.goal.measure, number(value))
+    });
+    found.paragraph(checked);
+    found.table(FoundTable::from(tables::refuted(mixed, runs)).csv(refuted_csv).field(refuted_csv).unprinted());
+}
+
+/// Adds the fields of the document.
+fn fields(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
+    let family = |family: &FamilyOutcome| {
+        json!({
+            "family": family.curve.family.name(),
+            "minimum": family.curve.minimum.map(|bits| bits.to_string()),
+            "counterexample": family.curve.scan.counterexample,
+            "mixed_cost": family.mixed.as_ref().map(|mixed| mixed.cost),
+            "one_minimal": family.mixed.as_ref().map(|mixed| mixed.is_minimal),
+            "scalar": family.checked,
+        })
+    };
+    found.fields(json!({
+        "title": runs.subject.title(),
+        "device": runs.subject.profile().name,
+        "goal": runs.goal.to_string(),
+        "exact": outcome.exact,
+        "given": outcome.given,
+        "families": outcome.families.iter().map(family).collect::<Vec<_>>(),
+        "runs": runs.made,
+        "budget_spent": outcome.budget_spent,
+    }));
+}

@@ -1,0 +1,175 @@
+//! Runs of a subject with a format per instruction, each made once and counted against the budget.
+
+use std::collections::BTreeMap;
+
+use refsim::device::Profile;
+use refsim::isa::Program;
+use refsim::machine::ExecutorKind;
+use refsim::num::Format;
+
+use super::bits::FormatBits;
+use super::goal::Goal;
+use super::subject::{InstructionPlace, InstructionResults, Measured, PrecisionSubject, StudiedProgram, places};
+use crate::study::{ProgressFn, StudyError};
+
+/// Formats of all instructions, in the order of [`places`]; `None` computes in the registers' format.
+pub(super) type Assignment = Vec<Option<FormatBits>>;
+
+/// End of a search.
+#[derive(Debug)]
+pub(super) enum RunError {
+    /// No runs are left.
+    Budget,
+    /// The subject failed.
+    Study(StudyError),
+}
+
+impl From<StudyError> for RunError {
+    fn from(error: StudyError) -> Self {
+        Self::Study(error)
+    }
+}
+
+/// Runs of a subject.
+pub(super) struct Runs<'a> {
+    pub(super) subject: &'a dyn PrecisionSubject,
+    pub(super) goal: &'a Goal,
+    pub(super) programs: Vec<StudiedProgram<'a>>,
+    pub(super) places: Vec<InstructionPlace>,
+    /// Largest number of runs.
+    budget: u64,
+    /// Number of runs made.
+    pub(super) made: u64,
+    /// Values of the goal's measure, and the place of the largest error.
+    values: BTreeMap<Assignment, (f64, Option<String>)>,
+    /// Name of the current step, for progress.
+    step: String,
+    progress: &'a mut ProgressFn<'a>,
+}
+
+impl<'a> Runs<'a> {
+    pub(super) fn new(
+        subject: &'a dyn PrecisionSubject,
+        goal: &'a Goal,
+        budget: u64,
+        progress: &'a mut ProgressFn<'a>,
+    ) -> Self {
+        let programs = subject.programs();
+        let places = places(&programs);
+        Self {
+            subject,
+            goal,
+            programs,
+            places,
+            budget,
+            made: 0,
+            values: BTreeMap::new(),
+            step: String::new(),
+            progress,
+        }
+    }
+
+    /// Names the current step.
+    pub(super) fn step(&mut self, step: impl Into<String>) {
+        self.step = step.into();
+    }
+
+    /// Number of instructions that have a format.
+    pub(super) fn count(&self) -> usize {
+        self.places.len()
+    }
+
+    /// All instructions in one format.
+    pub(super) fn uniform(&self, bits: FormatBits) -> Assignment {
+        vec![Some(bits); self.count()]
+    }
+
+    /// One instruction in a format, all others exact.
+    pub(super) fn alone(&self, place: usize, bits: FormatBits) -> Assignment {
+        (0..self.count()).map(|other| (other == place).then_some(bits)).collect()
+    }
+
+    /// Device of a run; `None` if the instructions of a program would have more different formats than a device can
+    /// hold.
+    pub(super) fn device(&self, given: &Profile, assignment: &[Option<FormatBits>]) -> Option<Profile> {
+        let mut device = exact(given, self.programs.iter().map(|studied| studied.program));
+        for (place, bits) in self.places.iter().zip(assignment) {
+            if let Some(bits) = bits {
+                let format = Some(bits.format(given.rules.format));
+                let program = self.programs[place.program].program;
+                device.set_instruction_format(program, place.at, format).then_some(())?;
+            }
+        }
+        Some(device)
+    }
+
+    /// Device with all instructions in one format, or exact.
+    pub(super) fn uniform_device(&self, given: &Profile, bits: Option<FormatBits>) -> Profile {
+        // One format is never too many.
+        self.device(given, &vec![bits; self.count()]).unwrap_or_else(|| given.clone())
+    }
+
+    /// Value of the goal's measure.
+    pub(super) fn value(&mut self, assignment: &Assignment) -> Result<f64, RunError> {
+        if let Some((value, _)) = self.values.get(assignment) {
+            return Ok(*value);
+        }
+        let measured = match self.device(self.subject.profile(), assignment) {
+            Some(device) => self.measure(&device)?,
+            // Without values, which meets no goal.
+            None => Measured::default(),
+        };
+        let value = measured.value(&self.goal.measure);
+        self.values.insert(assignment.clone(), (value, measured.worst));
+        Ok(value)
+    }
+
+    /// Value of a run that was made, and the place of its largest error.
+    pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<String>)> {
+        self.values.get(assignment).cloned()
+    }
+
+    /// Returns `true` if a run meets the goal.
+    pub(super) fn meets(&mut self, assignment: &Assignment) -> Result<bool, RunError> {
+        Ok(self.goal.met(self.value(assignment)?))
+    }
+
+    /// Measures the goal's measure on any device.
+    pub(super) fn measure(&mut self, device: &Profile) -> Result<Measured, RunError> {
+        self.spend()?;
+        Ok(self.subject.measure(device, ExecutorKind::Batch, Some(&self.goal.measure))?)
+    }
+
+    /// Measures everything, outside of the budget: a few runs for the report.
+    pub(super) fn shown(&self, device: &Profile, executor: ExecutorKind) -> Result<Measured, StudyError> {
+        self.subject.measure(device, executor, None)
+    }
+
+    /// Results of instructions.
+    pub(super) fn results(&mut self, device: &Profile) -> Result<Option<Vec<InstructionResults>>, RunError> {
+        self.spend()?;
+        Ok(self.subject.results(device)?)
+    }
+
+    fn spend(&mut self) -> Result<(), RunError> {
+        if self.made >= self.budget {
+            return Err(RunError::Budget);
+        }
+        (self.progress)(&self.step, self.made, self.budget.max(self.made + 1));
+        self.made += 1;
+        Ok(())
+    }
+}
+
+/// Device with registers of single precision, which rounds to the nearest, and without formats of the programs'
+/// instructions.
+pub(super) fn exact<'p>(given: &Profile, programs: impl IntoIterator<Item = &'p Program>) -> Profile {
+    let mut device = given.clone();
+    device.set_format(Format::FP32.with_specials(given.rules.format.specials));
+    for program in programs {
+        for at in 0..program.instructions.len() {
+            device.set_instruction_format(program, at, None);
+        }
+    }
+    device
+}

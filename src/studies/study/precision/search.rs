@@ -1,0 +1,143 @@
+//! A format per instruction that together meet the goal with few bits.
+
+use std::ops::RangeInclusive;
+
+use super::bits::FormatBits;
+use super::costs::FormatCosts;
+use super::curve::BitScan;
+use super::runs::{Assignment, RunError, Runs};
+
+/// Bits of precision beyond those of the smallest uniform format from which a search starts: what a few instructions
+/// then leave to spare, others can do without.
+const STARTS: [u8; 3] = [0, 1, 2];
+
+/// Formats of all instructions that meet the goal.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MixedFormats {
+    /// Format of each instruction.
+    pub(super) formats: Vec<FormatBits>,
+    /// Sum of their costs.
+    pub(super) cost: f64,
+    /// `true` if one bit less in any one instruction misses the goal.
+    pub(super) is_minimal: bool,
+    /// Each format with one bit less: the instruction, the format, the value of the goal's measure, and the place of the
+    /// largest error. Complete if the assignment is minimal.
+    pub(super) refuted: Vec<RefutedFormat>,
+}
+
+/// Format with one bit less that misses the goal.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RefutedFormat {
+    /// Index of the instruction.
+    pub(super) place: usize,
+    pub(super) bits: FormatBits,
+    pub(super) value: f64,
+    pub(super) worst: Option<String>,
+}
+
+fn assignment(formats: &[FormatBits]) -> Assignment {
+    formats.iter().copied().map(Some).collect()
+}
+
+/// Searches from the smallest uniform format and from slightly wider ones, and keeps the cheapest in `best`.
+///
+/// From each start the instructions are narrowed one after the other, the least blamed first: `order`. Then single
+/// bits are removed until none can be.
+pub(super) fn search(
+    minimum: FormatBits,
+    order: &[usize],
+    costs: &FormatCosts,
+    runs: &mut Runs<'_>,
+    best: &mut Option<MixedFormats>,
+) -> Result<(), RunError> {
+    let digits = minimum.family.digit_bits(minimum.range);
+    for more in STARTS {
+        let start = FormatBits { digits: minimum.digits.saturating_add(more), ..minimum };
+        if !digits.contains(&start.digits) {
+            continue;
+        }
+        runs.step(format!("mixed formats from {start}"));
+        let mut formats = vec![start; runs.count()];
+        if !runs.meets(&assignment(&formats))? {
+            continue;
+        }
+        let result = descend(&mut formats, order, runs);
+        // Every step of the descent meets the goal, and so does what the budget leaves unfinished.
+        let cost = costs.sum(&formats);
+        if best.as_ref().is_none_or(|best| cost < best.cost) {
+            *best = Some(MixedFormats { cost, is_minimal: result.is_ok(), refuted: refuted(&formats, runs), formats });
+        }
+        result?;
+    }
+    Ok(())
+}
+
+/// Narrows formats until one bit less anywhere misses the goal. Meets it after every step.
+fn descend(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> Result<(), RunError> {
+    for &place in order {
+        let FormatBits { family, range, digits } = formats[place];
+        let fewest = *family.digit_bits(range).start();
+        narrow(formats, place, fewest..=digits, runs, |digits| FormatBits { family, range, digits })?;
+        let digits = formats[place].digits;
+        // A fixed-point format has a bit beside its sign.
+        let fewest = if digits == 0 { range.min(1) } else { *family.range_bits().start() };
+        narrow(formats, place, fewest..=range, runs, |range| FormatBits { family, range, digits })?;
+    }
+    while remove_one(formats, order, runs)? {}
+    Ok(())
+}
+
+/// Narrows one instruction by bisection of one field, of which it has the most bits of `field`.
+fn narrow(
+    formats: &mut [FormatBits],
+    place: usize,
+    field: RangeInclusive<u8>,
+    runs: &mut Runs<'_>,
+    with: impl Fn(u8) -> FormatBits,
+) -> Result<(), RunError> {
+    let (goal, mut fewest) = (runs.goal, *field.end());
+    let mut tried = assignment(formats);
+    let found = BitScan::default().bisect(field, goal, |bits| {
+        tried[place] = Some(with(bits));
+        let value = runs.value(&tried)?;
+        if goal.met(value) {
+            fewest = fewest.min(bits);
+        }
+        Ok(value)
+    });
+    formats[place] = with(fewest);
+    found
+}
+
+/// Removes one bit where that meets the goal; returns `false` if it does nowhere.
+fn remove_one(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> Result<bool, RunError> {
+    for &place in order {
+        let now = formats[place];
+        for less in now.narrower() {
+            formats[place] = less;
+            match runs.meets(&assignment(formats)) {
+                Ok(true) => return Ok(true),
+                found => {
+                    formats[place] = now;
+                    found?;
+                }
+            }
+        }
+    }
+    Ok(false)
+}
+
+/// Formats with one bit less whose runs were made.
+fn refuted(formats: &[FormatBits], runs: &mut Runs<'_>) -> Vec<RefutedFormat> {
+    let mut found = Vec::new();
+    for place in 0..formats.len() {
+        for bits in formats[place].narrower() {
+            let mut less = assignment(formats);
+            less[place] = Some(bits);
+            if let Some((value, worst)) = runs.made_before(&less) {
+                found.push(RefutedFormat { place, bits, value, worst });
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,111 @@
+//! Interface to that whose precision is studied.
+
+use std::collections::BTreeMap;
+
+use refsim::device::{Profile, takes_format};
+use refsim::isa::Program;
+use refsim::machine::ExecutorKind;
+
+use super::goal::Goal;
+use crate::picture::RgbImage;
+use crate::shader::ShaderText;
+use crate::study::StudyError;
+
+/// Pixel program whose instructions get formats of their own.
+#[derive(Clone, Copy, Debug)]
+pub struct StudiedProgram<'a> {
+    /// The program, as the device checked it.
+    pub program: &'a Program,
+    /// Its text.
+    pub text: &'a ShaderText,
+}
+
+/// Measure of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PrecisionMeasure {
+    /// Name in goals.
+    pub name: &'static str,
+    /// Meaning, with the unit.
+    pub meaning: &'static str,
+}
+
+/// Measured values of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// Values by the names of their measures.
+    pub values: Vec<(&'static str, f64)>,
+    /// Place of the largest error, with what is there and what should be; `None` if nothing differs.
+    pub worst: Option<String>,
+    /// Picture of the result.
+    pub picture: Option<RgbImage>,
+}
+
+impl Measured {
+    /// Value of a measure; NaN, which meets no goal, if it was not measured.
+    pub fn value(&self, measure: &str) -> f64 {
+        self.values.iter().find(|(name, _)| *name == measure).map_or(f64::NAN, |(_, value)| *value)
+    }
+}
+
+/// Results of the instructions of one program: by the index of the instruction, the first result of each traced
+/// fragment and component. Both numbers are the same in every run of a subject.
+pub type InstructionResults = BTreeMap<usize, BTreeMap<(u32, u8), f64>>;
+
+/// Pixel programs with their input, run on a device again and again in other number formats.
+///
+/// Every run is compared with the same reference, which does not depend on the device of the run. The same device gives
+/// the same values.
+pub trait PrecisionSubject {
+    /// Title.
+    fn title(&self) -> String;
+
+    /// Device as given. The exact run is on this device with registers of single precision.
+    fn profile(&self) -> &Profile;
+
+    /// Pixel programs, each once.
+    fn programs(&self) -> Vec<StudiedProgram<'_>>;
+
+    /// Measures, in the order of tables.
+    fn measures(&self) -> &[PrecisionMeasure];
+
+    /// Goal if none is given.
+    fn default_goal(&self) -> Goal;
+
+    /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`.
+    ///
+    /// # Errors
+    /// If the device cannot run the programs.
+    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
+
+    /// Results of the instructions of each program on a device, of a sample of fragments that is the same on every
+    /// device; `None` if the subject has no traces.
+    ///
+    /// # Errors
+    /// If the device cannot run the programs.
+    fn results(&self, profile: &Profile) -> Result<Option<Vec<InstructionResults>>, StudyError> {
+        let _ = profile;
+        Ok(None)
+    }
+
+    /// Sentences on the subject for the page.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// Instruction of a subject, by the indices of program and instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct InstructionPlace {
+    pub(super) program: usize,
+    pub(super) at: usize,
+}
+
+/// Instructions that can have a format of their own, in the order of the texts.
+pub(super) fn places(programs: &[StudiedProgram<'_>]) -> Vec<InstructionPlace> {
+    let of = |(program, studied): (usize, &StudiedProgram<'_>)| -> Vec<InstructionPlace> {
+        let all = 0..studied.program.instructions.len();
+        let takes = |at: &usize| takes_format(&studied.program.instructions[*at]);
+        all.filter(takes).map(|at| InstructionPlace { program, at }).collect()
+    };
+    programs.iter().enumerate().flat_map(of).collect()
+}

@@ -1,0 +1,94 @@
+//! Sensitivity to the open switches of a device.
+
+use super::bits::FormatBits;
+use super::curve::BitScan;
+use super::runs::{RunError, Runs};
+
+/// Value of a switch with what it changes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SwitchRow {
+    pub(super) switch: String,
+    pub(super) value: String,
+    /// `true` if the device has this value.
+    pub(super) is_current: bool,
+    /// Findings, or why the device cannot run the subject with this value.
+    pub(super) found: Result<SwitchFindings, String>,
+}
+
+/// Findings under a value of a switch.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SwitchFindings {
+    /// Value of the goal's measure on the device as given but for the switch.
+    pub(super) given: f64,
+    /// Value of the exact run.
+    pub(super) exact: f64,
+    /// Smallest uniform format with as many bits of range as the points of the curve; `None` if none meets the goal.
+    pub(super) minimum: Option<FormatBits>,
+}
+
+impl SwitchRow {
+    /// Returns `true` if both rows found the same.
+    pub(super) fn same_as(&self, other: &Self) -> bool {
+        match (&self.found, &other.found) {
+            (Ok(a), Ok(b)) => {
+                let bits = |found: &SwitchFindings| [found.given, found.exact].map(f64::to_bits);
+                bits(a) == bits(b) && a.minimum == b.minimum
+            }
+            (a, b) => a == b,
+        }
+    }
+}
+
+/// Runs under each value of each switch that has several. `minimum` is the smallest uniform
+/// format of the curve's range.
+pub(super) fn sensitivity(
+    minimum: Option<FormatBits>,
+    runs: &mut Runs<'_>,
+    rows: &mut Vec<SwitchRow>,
+) -> Result<(), RunError> {
+    let given = runs.subject.profile();
+    for switch in given.switches().iter().filter(|switch| switch.values.len() > 1) {
+        for value in &switch.values {
+            let found = match under(&switch.name, value, minimum, runs) {
+                Ok(found) => Ok(found),
+                Err(RunError::Study(error)) => Err(error.to_string()),
+                Err(RunError::Budget) => return Err(RunError::Budget),
+            };
+            rows.push(SwitchRow {
+                switch: switch.name.clone(),
+                value: value.clone(),
+                is_current: *value == switch.current,
+                found,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn under(
+    switch: &str,
+    value: &str,
+    minimum: Option<FormatBits>,
+    runs: &mut Runs<'_>,
+) -> Result<SwitchFindings, RunError> {
+    let mut given = runs.subject.profile().clone();
+    given.set_switch(switch, value).map_err(crate::study::StudyError::from)?;
+    let goal = runs.goal;
+    let as_given = runs.measure(&given)?.value(&goal.measure);
+    let mut uniform = |bits: Option<FormatBits>| {
+        let device = runs.uniform_device(&given, bits);
+        Ok::<_, RunError>(runs.measure(&device)?.value(&goal.measure))
+    };
+    let mut found = SwitchFindings { given: as_given, exact: uniform(None)?, minimum };
+    let Some(FormatBits { family, range, digits }) = minimum else { return Ok(found) };
+    let mut value = |digits| uniform(Some(FormatBits { family, range, digits }));
+    let all = family.digit_bits(range);
+    // Most switches change nothing: then the smallest format meets the goal, and one bit less does not.
+    let is_same = goal.met(value(digits)?) && (digits == *all.start() || !goal.met(value(digits - 1)?));
+    if !is_same {
+        let mut scan = BitScan::default();
+        scan.bisect(all, goal, value)?;
+        found.minimum = scan.smallest.map(|digits| FormatBits { family, range, digits });
+    }
+    Ok(found)
+}

@@ -1,0 +1,152 @@
+//! Tables of the study.
+
+use super::bits::FormatBits;
+use super::instructions::InstructionNeeds;
+use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
+use super::runs::Runs;
+use super::search::MixedFormats;
+use crate::report::{Cell, Table};
+use crate::shader::SourceLine;
+
+/// Source line of an instruction.
+pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
+    let place = runs.places[place];
+    let studied = &runs.programs[place.program];
+    studied.text.line(studied.program.instructions[place.at].span)
+}
+
+/// Line number and text; with the program's name if there are several.
+fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
+    let SourceLine { file, line, text, .. } = line(place, runs);
+    let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
+    [number.into(), text.into()]
+}
+
+/// Uniform runs in formats of cards.
+pub(super) fn named(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
+    let measure = runs.goal.measure.as_str();
+    let mut table = Table::new("All instructions in formats of cards", &["format", "layout", "bits", measure, "met"]);
+    for (name, bits, value) in &outcome.named {
+        let cells = [bits.to_string().into(), bits.width().into(), Cell::error(*value), runs.goal.met(*value).into()];
+        table.push([Cell::from(*name)].into_iter().chain(cells));
+    }
+    table
+}
+
+/// Points of the curves.
+pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
+    let measure = runs.goal.measure.as_str();
+    let mut table = Table::new("Points of the curves", &["family", "format", "bits", "precision_bits", measure, "met"]);
+    for family in &outcome.families {
+        for (&digits, &value) in &family.curve.scan.points {
+            let bits = FormatBits { family: family.curve.family, range: family.curve.range, digits };
+            table.push([
+                family.curve.family.name().into(),
+                bits.to_string().into(),
+                bits.width().into(),
+                digits.into(),
+                Cell::error(value),
+                runs.goal.met(value).into(),
+            ]);
+        }
+    }
+    table
+}
+
+/// A row per instruction.
+pub(super) fn instructions(
+    family: &FamilyOutcome,
+    minimum: FormatBits,
+    outcome: &PrecisionOutcome,
+    runs: &Runs<'_>,
+) -> Table {
+    let mut table = Table::of(
+        format!("Instructions, {}", family.curve.family.digits()),
+        "line instruction alone others_at_minimum mixed exponents median_ulp largest_ulp blame_% regained_% note",
+    );
+    for (place, needs) in family.needs.iter().enumerate() {
+        let mixed = family.mixed.as_ref().map(|mixed| mixed.formats[place].to_string());
+        let range = outcome.ranges.get(place).copied().flatten();
+        let exponents = range.and_then(|range| range.exponents).map(|[low, high]| format!("{low} to {high}"));
+        let share = |share: Option<f64>| share.map(|share| Cell::percent(100.0 * share).heated(share));
+        let cells: [Cell; 9] = [
+            needs.alone.into(),
+            needs.in_company.into(),
+            mixed.into(),
+            exponents.into(),
+            needs.local.map(|local| Cell::error(local.median)).into(),
+            needs.local.map(|local| Cell::error(local.largest)).into(),
+            share(needs.blame).into(),
+            share(needs.regained).into(),
+            note(needs, minimum, range.is_some_and(|range| range.not_finite)).into(),
+        ];
+        table.push(named_line(place, runs).into_iter().chain(cells));
+    }
+    table
+}
+
+fn note(needs: &InstructionNeeds, minimum: FormatBits, not_finite: bool) -> Option<&'static str> {
+    let fewest = *minimum.family.digit_bits(minimum.range).start();
+    let no_effect = needs.blame == Some(0.0) && needs.alone == Some(fewest);
+    match (no_effect, not_finite) {
+        (true, _) => Some("no effect"),
+        (_, true) => Some("infinite or NaN"),
+        _ => None,
+    }
+}
+
+/// The mixed assignment.
+pub(super) fn mixed(mixed: &MixedFormats, study: &Precision, runs: &Runs<'_>) -> Table {
+    let mut table = Table::of("A format per instruction", "line instruction format bits cost");
+    for (place, &bits) in mixed.formats.iter().enumerate() {
+        let cells: [Cell; 3] = [bits.to_string().into(), bits.width().into(), study.costs.of(bits).into()];
+        table.push(named_line(place, runs).into_iter().chain(cells));
+    }
+    table
+}
+
+/// Each format with one bit less.
+pub(super) fn refuted(mixed: &MixedFormats, runs: &Runs<'_>) -> Table {
+    let measure = runs.goal.measure.as_str();
+    let mut table =
+        Table::new("One bit less", &["line", "instruction", "format", measure, "met", "largest error at column, row"]);
+    for refuted in &mixed.refuted {
+        let cells: [Cell; 4] = [
+            refuted.bits.to_string().into(),
+            Cell::error(refuted.value),
+            runs.goal.met(refuted.value).into(),
+            refuted.worst.clone().into(),
+        ];
+        table.push(named_line(refuted.place, runs).into_iter().chain(cells));
+    }
+    table
+}
+
+/// The values of switches, with the first row that found the same as each, and the names of the rows.
+pub(super) fn switches(outcome: &PrecisionOutcome) -> (Table, Vec<usize>, Vec<String>) {
+    let mut table = Table::of("Values of open switches", "switch value current as_given exact minimum note");
+    let rows = &outcome.switches;
+    for row in rows {
+        let head = [Cell::from(row.switch.as_str()), row.value.as_str().into(), row.is_current.into()];
+        let cells: [Cell; 4] = match &row.found {
+            Ok(found) => {
+                let minimum = found.minimum.map(|bits| bits.to_string());
+                [Cell::error(found.given), Cell::error(found.exact), minimum.into(), Cell::Empty]
+            }
+            Err(error) => [Cell::Empty, Cell::Empty, Cell::Empty, error.as_str().into()],
+        };
+        table.push(head.into_iter().chain(cells));
+    }
+    let first = |row: usize| rows[..row].iter().position(|other| other.same_as(&rows[row])).unwrap_or(row);
+    let names = rows.iter().map(|row| format!("{}={}", row.switch, row.value)).collect();
+    (table, (0..rows.len()).map(first).collect(), names)
+}
+
+/// Meanings of the measures.
+pub(super) fn measures(runs: &Runs<'_>) -> Table {
+    let mut table = Table::of("Measures, against the exact run", "measure meaning");
+    for measure in runs.subject.measures() {
+        table.push([Cell::from(measure.name), measure.meaning.into()]);
+    }
+    table
+}
