@@ -87,11 +87,12 @@ named_choice! {
 }
 
 named_choice! {
-    /// Values of a sampled texel's channels of at most 8 bits. Wider channels are fractions on every device.
+    /// Values of a sampled texel's channels. Channels of 9 to 15 bits are fractions on every device.
     TexelValues {
         /// The fractions of Direct3D: `k / (2^n - 1)`, signed ones `k / (2^(n-1) - 1)`.
         Fractions = "fractions",
-        /// The bits are repeated until they fill a byte. An unsigned byte k is `k / 255`, a signed one `2k / 255`.
+        /// The bits are repeated until they fill a byte; of 16 bits the upper byte counts. An unsigned byte k is
+        /// `k / 255`, a signed one `2k / 255`.
         Bytes = "bytes",
     }
 }

@@ -147,11 +147,16 @@ impl SampleRules {
 
     /// A component from the bits of its channel.
     fn component(&self, channel: Channel, bits: u32) -> SampledComponent {
-        let narrow = channel.bits < 8 && self.texel_values == TexelValues::Bytes;
-        if matches!(channel.class, ChannelClass::Float(_)) || !(channel.bits == 8 || narrow) {
+        let byte = match (channel.bits, self.texel_values) {
+            _ if matches!(channel.class, ChannelClass::Float(_)) => None,
+            (8, _) => Some(bits as u8),
+            (width @ 1..8, TexelValues::Bytes) => Some(repeated(bits, width)),
+            (16, TexelValues::Bytes) => Some((bits >> 8) as u8),
+            _ => None,
+        };
+        let Some(byte) = byte else {
             return SampledComponent::Value(decode_channel(channel, bits, self.signed_texel_minimum));
-        }
-        let byte = repeated(bits, channel.bits);
+        };
         match channel.class {
             ChannelClass::Unorm => SampledComponent::Byte { byte: byte.into(), signed: false },
             _ => SampledComponent::Byte { byte: byte.cast_signed().into(), signed: true },

@@ -19,7 +19,8 @@ pub(crate) fn rules() -> Vec<Rule> {
         redraw: narrow_channels,
         unexplained: 0,
         settled: true,
-        open: "Channels of 10 bits and more, of which the registers see 8 bits at least.",
+        open: "Channels of 10 and 11 bits, of which the registers see 8 bits at least. That of 16 bits they see the upper byte \
+               was read from pictures that are not in these files.",
     };
     let signed = Rule {
         name: "Signed bytes k: 2k / 255",

@@ -22,7 +22,7 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Byte of a stored channel: bits repeated from the highest.
+    /// Byte of a stored channel: bits repeated from the highest; of 16 the upper ones.
     fn channel(&self, channel: &Channel, raw: u128) -> Byte {
         let (code, bits) = (channel.code(raw), i64::from(channel.bits));
         let bit = |place: i64| code >> (bits - 1 - place % bits) & 1;
@@ -36,6 +36,7 @@ impl Case<'_> {
         let letters: String = self.channels.iter().map(|c| c.letter).collect();
         match (self.rules.missing_channels, letters.as_str()) {
             (MissingChannels::Xbox, "a") if number < 3 => Err(1),
+            (MissingChannels::Xbox, "rg") if self.channels[0].bits == 16 => Ok(&self.channels[[0, 1, 1, 0][number]]),
             (MissingChannels::Xbox, "rg") => Ok(&self.channels[number % 2]),
             _ => component(self.channels, number),
         }
@@ -126,8 +127,8 @@ fn bytes_are_filtered_as_the_page_says() {
     for _ in 0..probes(3_000) {
         let rules = rules(&mut r);
         let is_byte = |c: &Channel| {
-            let narrow = rules.texel_values == TexelValues::Bytes && c.bits < 8;
-            !matches!(c.class, Class::Float(..)) && (narrow || c.bits == 8)
+            let others = rules.texel_values == TexelValues::Bytes && (c.bits < 8 || c.bits == 16);
+            !matches!(c.class, Class::Float(..)) && (others || c.bits == 8)
         };
         let usable: Vec<_> = formats.iter().filter(|row| row.2.iter().all(is_byte)).collect();
         let (format, bytes, channels) = usable[r.below(usable.len())];

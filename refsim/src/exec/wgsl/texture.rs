@@ -285,8 +285,15 @@ pub fn component_words(format: TexelFormat, rules: &SampleRules) -> [u32; 4] {
 
 /// Encodes a stored channel: class, shift and width. Fixed-point channels have at most 16 bits, and no channel crosses
 /// a word.
-fn channel_word(channel: Channel, rules: &SampleRules) -> u32 {
-    let bytes = channel.bits <= 8 && rules.texel_values == TexelValues::Bytes;
+fn channel_word(mut channel: Channel, rules: &SampleRules) -> u32 {
+    let mut bytes = channel.bits <= 8 && rules.texel_values == TexelValues::Bytes;
+    if channel.bits == 16
+        && !matches!(channel.class, ChannelClass::Float(_))
+        && rules.texel_values == TexelValues::Bytes
+    {
+        // The upper byte is read as a channel of its own.
+        (channel.shift, channel.bits, bytes) = (channel.shift + 8, 8, true);
+    }
     let clamped = rules.signed_texel_minimum == SignedTexelMinimum::Clamp;
     let class = match channel.class {
         ChannelClass::Unorm if bytes => TEXEL_BYTE,

@@ -35,19 +35,19 @@ library_errors! {
 }
 
 /// Rays with their exact hits.
-struct JudgedRays {
+pub(super) struct JudgedRays {
     rays: Vec<Ray>,
     nearest: Vec<Option<NearestHit>>,
 }
 
 impl JudgedRays {
-    fn new(tracer: &Tracer<'_>, rays: Vec<Ray>, sides: Sides) -> Self {
+    pub(super) fn new(tracer: &Tracer<'_>, rays: Vec<Ray>, sides: Sides) -> Self {
         let nearest = tracer.nearest_all(&rays, sides);
         Self { rays, nearest }
     }
 
     /// Judges each ray's hit, and counts the verdicts.
-    fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<HitVerdict>, Tally) {
+    pub(super) fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<HitVerdict>, Tally) {
         let judge = |(hit, nearest): (&Option<Hit>, &Option<NearestHit>)| {
             let none = Candidate { triangle: None, t: 0.0 };
             let candidate = hit.map_or(none, |h| Candidate { triangle: Some(h.triangle), t: h.t });
@@ -60,6 +60,11 @@ impl JudgedRays {
             tally.add(judgement.verdict, nearest.is_some(), hit.is_some(), error);
         }
         (judgements.into_iter().map(|j| j.verdict).collect(), tally)
+    }
+
+    /// Verdicts of the leak map.
+    pub(super) fn pixels<'a>(&'a self, verdicts: &'a [HitVerdict]) -> impl Iterator<Item = PixelVerdict> + Clone + 'a {
+        verdicts.iter().zip(&self.nearest).map(|(verdict, nearest)| PixelVerdict::of(*verdict, nearest.is_some()))
     }
 }
 

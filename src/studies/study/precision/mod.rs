@@ -15,6 +15,7 @@ mod runs;
 mod search;
 mod subject;
 mod switches;
+mod systems;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -29,6 +30,7 @@ pub use costs::FormatCosts;
 pub use goal::{Goal, GoalError, GoalRelation};
 pub use outcome::Precision;
 pub use subject::{InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+pub use systems::PaperSystem;
 
 impl Study for Precision {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

@@ -1,0 +1,76 @@
+//! All-frequency transfer: products with view maps per pixel.
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::texture::TexelFormat;
+
+use super::{SystemRun, at_most, bunny, camera};
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crate::all_frequency::on_card::{FactoredCard, ProductOptions, ProductPlace, TransferredMesh};
+use crate::all_frequency::shade::TransferredRadiance;
+use crate::card::MeshView;
+use crate::scene::Camera;
+use crate::study::StudyError;
+use crate::study::precision::goal::Goal;
+use crate::transfer::synthetic::signal_at;
+use crate::transfer::{Tangents, Vertices};
+
+/// Terms of the reflectance: those of the paper.
+const TERMS: usize = 10;
+/// Directions along a side of its table.
+const TABLE: usize = 16;
+/// Pixels along a side of the picture.
+const PICTURE: u32 = 64;
+
+/// Bunny with a reflectance in terms, and transferred radiance made of waves with edges.
+#[derive(Debug)]
+pub(super) struct FactoredBunny {
+    vertices: Vertices,
+    reflectance: Reflectance,
+    transferred: TransferredRadiance,
+    camera: Camera,
+}
+
+impl FactoredBunny {
+    pub(super) fn new() -> Result<Self, StudyError> {
+        let sampling = FactorSampling { side: TABLE, supersamples: Supersamples::NONE, ..FactorSampling::default() };
+        let table = sampling.table(&Lobe::schlick(0.3, 0.5, 0.8), &mut |_, _| ())?;
+        let reflectance = Reflectance::Factored(Factorization::new(&table, TERMS)?.factors(TERMS));
+        let mesh = bunny();
+        let vertices = Vertices::new(&mesh, Tangents::Any)?;
+        let place = |at: usize| vertices.positions()[at].map(f64::from);
+        let signal = signal_at(vertices.len(), 3 * reflectance.terms(), 5, place);
+        let transferred = TransferredRadiance::new(reflectance.terms(), signal.values().as_chunks().0.to_vec());
+        let camera = camera(&mesh, PICTURE);
+        Ok(Self { vertices, reflectance, transferred, camera })
+    }
+}
+
+impl SystemRun for FactoredBunny {
+    fn title(&self) -> &'static str {
+        "All-frequency transfer: products of ten terms"
+    }
+
+    fn unit(&self) -> &'static str {
+        "pixel"
+    }
+
+    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
+        let Self { vertices, reflectance, transferred, .. } = self;
+        let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
+        let place = ProductPlace::Pixels(ProductOptions::default());
+        let mut card = FactoredCard::new(profile.clone(), executor.clone(), mesh, place)?;
+        let view = MeshView { camera: self.camera, exposure: 0.8, format: TexelFormat::Rgba32f };
+        let texels = card.view_texels(&view)?.texels;
+        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
+    }
+
+    fn size(&self) -> Option<[u32; 2]> {
+        Some([PICTURE; 2])
+    }
+
+    fn default_goal(&self) -> Goal {
+        at_most("largest_255ths", 1.0)
+    }
+}

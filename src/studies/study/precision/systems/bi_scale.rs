@@ -1,0 +1,91 @@
+//! Bi-scale transfer: light times biclusters, then the display of a bidirectional texture.
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::texture::TexelFormat;
+
+use super::{SystemRun, at_most, bunny, camera};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::on_card::{BiScaleCard, DisplayOptions, TexturedMesh};
+use crate::bi_scale::texture::BidirectionalTexture;
+use crate::card::MeshView;
+use crate::geom::random::CounterRng;
+use crate::scene::Camera;
+use crate::study::StudyError;
+use crate::study::precision::goal::Goal;
+use crate::transfer::synthetic::signal_at;
+use crate::transfer::{Tangents, Vertices};
+
+/// Texels, and directions of view and of light, along a side.
+const TEXELS: usize = 8;
+const VIEWS: usize = 4;
+const LIGHTS: usize = 4;
+/// Pixels along a side of the picture.
+const PICTURE: u32 = 64;
+
+/// Bunny with a texture of random responses, and local light made of waves.
+#[derive(Debug)]
+pub(super) struct TexturedBunny {
+    vertices: Vertices,
+    coordinates: Vec<[[f32; 2]; 3]>,
+    textures: [BidirectionalTexture; 1],
+    local: Vec<[f32; 3]>,
+    camera: Camera,
+}
+
+impl TexturedBunny {
+    pub(super) fn new() -> Result<Self, StudyError> {
+        let mesh = bunny();
+        let vertices = Vertices::new(&mesh, Tangents::Any)?;
+        let random = CounterRng::new(5);
+        let at = |vertex: u32| {
+            let [x, y, _] = vertices.positions()[vertex as usize];
+            [1.7 * x, 0.9 * y + 0.3]
+        };
+        let coordinates = vertices.triangles().iter().map(|corners| corners.map(at)).collect();
+        let count = (TEXELS * TEXELS * VIEWS * VIEWS * LIGHTS * LIGHTS) as u64;
+        let samples = (0..count).map(|at| [0, 1, 2].map(|channel| random.unit(at, channel, 0) as f32)).collect();
+        let directions = |side| LocalDirections::new(side).expect("a side above 0");
+        let texture = BidirectionalTexture::new(TEXELS, directions(VIEWS), directions(LIGHTS), samples);
+        let texture = texture.expect("as many samples as texels and directions");
+        let lights = LIGHTS * LIGHTS;
+        let place = |at: usize| vertices.positions()[at].map(f64::from);
+        let signal = signal_at(vertices.len(), 3 * lights, 5, place);
+        let scale = 1.0 / lights as f32;
+        let local = signal.values().as_chunks().0.iter().map(|rgb: &[f32; 3]| rgb.map(|x| scale * (1.0 + x))).collect();
+        let camera = camera(&mesh, PICTURE);
+        Ok(Self { vertices, coordinates, textures: [texture], local, camera })
+    }
+}
+
+impl SystemRun for TexturedBunny {
+    fn title(&self) -> &'static str {
+        "Bi-scale transfer: a bidirectional texture on the bunny"
+    }
+
+    fn unit(&self) -> &'static str {
+        "pixel"
+    }
+
+    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
+        let texture_of = vec![0; self.coordinates.len()];
+        let mesh = TexturedMesh {
+            vertices: &self.vertices,
+            coordinates: &self.coordinates,
+            textures: &self.textures,
+            texture_of: &texture_of,
+        };
+        let mut card = BiScaleCard::new(profile.clone(), executor.clone(), mesh, DisplayOptions::default())?;
+        let view = MeshView { camera: self.camera, exposure: 0.8, format: TexelFormat::Rgba32f };
+        let texels = card.view_texels(&self.local, &view)?.texels;
+        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
+    }
+
+    fn size(&self) -> Option<[u32; 2]> {
+        Some([PICTURE; 2])
+    }
+
+    fn default_goal(&self) -> Goal {
+        at_most("largest_255ths", 1.0)
+    }
+}

@@ -1,0 +1,103 @@
+//! The Ray Engine: eye rays on the teapot, judged by exact arithmetic.
+
+use refsim::device::Profile;
+use refsim::isa::Version;
+use refsim::machine::{Executor, ExecutorKind};
+
+use super::{PixelPrograms, at_most};
+use crate::geom::Mesh;
+use crate::geom::exact::{Sides, Tracer};
+use crate::geom::teapot::teapot;
+use crate::picture::rgb8;
+use crate::ray_engine::{Crossbar, RayBatch};
+use crate::scene::Camera;
+use crate::study::StudyError;
+use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
+use crate::study::precision::goal::Goal;
+use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+
+/// Quads along a side of a patch.
+const TESSELLATION: u32 = 4;
+/// Pixels along a side of the view.
+const SIDE: u32 = 64;
+
+const MEASURES: [PrecisionMeasure; 5] = [
+    PrecisionMeasure { name: "leaks", meaning: "rays that miss a surface which they hit exactly" },
+    PrecisionMeasure { name: "wrong_triangles", meaning: "rays that hit another triangle than the first" },
+    PrecisionMeasure { name: "false_hits", meaning: "rays that hit where there is no surface" },
+    PrecisionMeasure { name: "wrong", meaning: "rays that leak, hit by mistake or hit a wrong triangle" },
+    PrecisionMeasure {
+        name: "largest_t",
+        meaning: "largest error of t where both hit, in lengths of the ray's direction",
+    },
+];
+
+/// Eye rays on the teapot.
+pub(super) struct RayEngineSubject {
+    profile: Profile,
+    executors: [Executor; 2],
+    mesh: Mesh,
+    view: RayBatch,
+    judged: JudgedRays,
+    programs: PixelPrograms,
+}
+
+impl RayEngineSubject {
+    /// Traces the rays exactly.
+    pub(super) fn new(mut profile: Profile) -> Result<Self, StudyError> {
+        // Devices that have both versions choose between them by the format of their registers.
+        if profile.supports(Version::Ps2_0) {
+            profile.limits.versions.retain(|version| *version != Version::Ps1_4);
+        }
+        let mesh = teapot(TESSELLATION).expect("a tessellation above 0");
+        let camera = Camera::teapot(SIDE, SIDE).expect("a picture of some pixels");
+        let view = RayBatch::new(SIDE, SIDE, camera.rays()).expect("a ray for each pixel");
+        let judged = JudgedRays::new(&Tracer::new(&mesh), view.rays().to_vec(), Sides::Front);
+        let executors = [ExecutorKind::Batch, ExecutorKind::Scalar].map(Executor::from);
+        let (programs, _) = PixelPrograms::of(&profile, |device| {
+            Ok(Crossbar::new(device.clone(), executors[0].clone()).intersect(&mesh, &view, Sides::Front)?)
+        })?;
+        Ok(Self { profile, executors, mesh, view, judged, programs })
+    }
+}
+
+impl PrecisionSubject for RayEngineSubject {
+    fn title(&self) -> String {
+        "The Ray Engine on the teapot".to_owned()
+    }
+
+    fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    fn programs(&self) -> Vec<StudiedProgram<'_>> {
+        self.programs.list()
+    }
+
+    fn measures(&self) -> &[PrecisionMeasure] {
+        &MEASURES
+    }
+
+    fn default_goal(&self) -> Goal {
+        at_most("leaks", 0.0)
+    }
+
+    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        let executor = self.executors[usize::from(executor == ExecutorKind::Scalar)].clone();
+        let hits = Crossbar::new(profile.clone(), executor).intersect(&self.mesh, &self.view, Sides::Front)?.hits;
+        let (verdicts, tally) = self.judged.judge(&self.mesh, &hits);
+        let wrong = tally.leaks + tally.false_hits + tally.wrong_triangle;
+        let values = vec![
+            ("leaks", tally.leaks as f64),
+            ("wrong_triangles", tally.wrong_triangle as f64),
+            ("false_hits", tally.false_hits as f64),
+            ("wrong", wrong as f64),
+            ("largest_t", tally.largest_t_error),
+        ];
+        let mut pixels = self.judged.pixels(&verdicts);
+        let picture = wanted.is_none().then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
+        let worst = pixels.position(|verdict| verdict.rank() > 0);
+        let worst = worst.map(|at| format!("ray at pixel {}, {}", at as u32 % SIDE, at as u32 / SIDE));
+        Ok(Measured { values, worst, picture })
+    }
+}
