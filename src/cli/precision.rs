@@ -7,7 +7,7 @@ use super::one_of::{OneOf, one_of};
 use super::study::StudyArgs;
 use super::{run, switch};
 use crate::case::{Overrides, Setup};
-use crate::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, Precision};
+use crate::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, PaperSystem, Precision, PrecisionSubject};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -15,6 +15,8 @@ Examples:
       the fewest bits, of floats and of fixed point, that draw every code to within one; which squaring decides
   crossbar precision docs/examples/highlight.toml --goal \"flip<=0.01\" --family fixed --out out/flip
       a goal of your own, in fixed point alone
+  crossbar precision radiosity --family float --out out/radiosity_bits
+      one of the six systems, on a small input of its own and the card of its paper
   crossbar precision docs/examples/highlight.toml --costs docs/examples/multiplier_area.csv --out out/area
       costs of formats of your own, for the format per instruction
 
@@ -24,20 +26,20 @@ tables. docs/precision.md describes what is measured.
 
 Exit codes: 0 some format meets the goal, 1 none does, 2 the case or the goal cannot be used.";
 
-/// Find the fewest bits that meet a goal: for all instructions of a case's pixel program, and for each
+/// Find the fewest bits that meet a goal: for all instructions of a case's or a system's pixel programs, and for each
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// The case, a TOML file
-    #[arg(value_name = "CASE.toml")]
+    /// The case, a TOML file; or ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
+    #[arg(value_name = "CASE.toml|SYSTEM")]
     case: PathBuf,
 
     /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 where no target has integer
-    /// codes]
+    /// codes; of systems leaks<=0, largest_relative<=0.01 for radiosity, largest_255ths<=1]
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 
-    /// A device in place of the case's
+    /// A device in place of the case's, or of the card of the system's paper
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
@@ -85,7 +87,8 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        [&self.case].into_iter().chain(&self.costs).map(PathBuf::as_path).collect()
+        let case = Some(&self.case).filter(|_| self.system().is_none());
+        case.into_iter().chain(&self.costs).map(PathBuf::as_path).collect()
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
@@ -95,17 +98,26 @@ impl StudyArgs for Args {
 
     fn study(&self) -> miette::Result<Precision> {
         let costs = self.costs.as_deref().map(FormatCosts::load).transpose()?.unwrap_or_default();
+        if let Some(system) = self.system() {
+            let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
+            return Ok(self.of(system.subject(profile)?, costs));
+        }
         let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
         let overrides = Overrides { device, switches: self.switch.clone(), ..Overrides::default() };
         let setup = Setup::read_with(&self.case, &overrides)?;
         run::setup_memory(&setup)?;
         let name = self.case.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Precision {
-            subject: Box::new(CaseSubject::new(setup, &name)?),
-            goal: self.goal.clone(),
-            families: self.family.0.clone(),
-            budget: self.budget,
-            costs,
-        })
+        Ok(self.of(Box::new(CaseSubject::new(setup, &name)?), costs))
+    }
+}
+
+impl Args {
+    /// The system that is named in place of a case.
+    fn system(&self) -> Option<PaperSystem> {
+        self.case.to_str()?.parse().ok()
+    }
+
+    fn of(&self, subject: Box<dyn PrecisionSubject>, costs: FormatCosts) -> Precision {
+        Precision { subject, goal: self.goal.clone(), families: self.family.0.clone(), budget: self.budget, costs }
     }
 }

@@ -107,7 +107,7 @@ pub(super) fn local(
     exact: &[InstructionResults],
     runs: &mut Runs<'_>,
 ) -> Result<(), RunError> {
-    let InstructionPlace { program, at } = runs.places[place];
+    let InstructionPlace { program, at, .. } = runs.places[place];
     let Some(device) = runs.device(runs.subject.profile(), &runs.alone(place, minimum)) else { return Ok(()) };
     let rounded = runs.results(&device)?;
     let of = |all: &[InstructionResults]| all.get(program)?.get(&at).cloned();

@@ -100,7 +100,9 @@ impl<'a> Runs<'a> {
             if let Some(bits) = bits {
                 let format = Some(bits.format(given.rules.format));
                 let program = self.programs[place.program].program;
-                device.set_instruction_format(program, place.at, format).then_some(())?;
+                for at in place.instructions() {
+                    device.set_instruction_format(program, at, format).then_some(())?;
+                }
             }
         }
         Some(device)

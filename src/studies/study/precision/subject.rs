@@ -93,19 +93,42 @@ pub trait PrecisionSubject {
     }
 }
 
-/// Instruction of a subject, by the indices of program and instruction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// Number of instructions above which a program counts as unrolled, so that those with the same text share a format.
+const UNROLLED: usize = 64;
+
+/// Instruction of a subject, by the indices of program and instruction; in an unrolled program all instructions with
+/// the same text.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct InstructionPlace {
     pub(super) program: usize,
+    /// The first of them.
     pub(super) at: usize,
+    /// The others.
+    pub(super) alike: Vec<usize>,
+}
+
+impl InstructionPlace {
+    /// All its instructions.
+    pub(super) fn instructions(&self) -> impl Iterator<Item = usize> + '_ {
+        std::iter::once(self.at).chain(self.alike.iter().copied())
+    }
 }
 
 /// Instructions that can have a format of their own, in the order of the texts.
 pub(super) fn places(programs: &[StudiedProgram<'_>]) -> Vec<InstructionPlace> {
-    let of = |(program, studied): (usize, &StudiedProgram<'_>)| -> Vec<InstructionPlace> {
-        let all = 0..studied.program.instructions.len();
-        let takes = |at: &usize| takes_format(&studied.program.instructions[*at]);
-        all.filter(takes).map(|at| InstructionPlace { program, at }).collect()
-    };
-    programs.iter().enumerate().flat_map(of).collect()
+    programs.iter().enumerate().flat_map(|(program, studied)| places_of(program, studied.program)).collect()
+}
+
+fn places_of(program: usize, studied: &Program) -> Vec<InstructionPlace> {
+    let mut places: Vec<InstructionPlace> = Vec::new();
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    for at in (0..studied.instructions.len()).filter(|&at| takes_format(&studied.instructions[at])) {
+        let text = studied.instruction_text(at).filter(|_| studied.instructions.len() > UNROLLED);
+        let first = text.map(|text| *known.entry(text).or_insert(places.len()));
+        match first.and_then(|first| places.get_mut(first)) {
+            Some(place) => place.alike.push(at),
+            None => places.push(InstructionPlace { program, at, alike: Vec::new() }),
+        }
+    }
+    places
 }

@@ -10,7 +10,7 @@ use crate::shader::SourceLine;
 
 /// Source line of an instruction.
 pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
-    let place = runs.places[place];
+    let place = &runs.places[place];
     let studied = &runs.programs[place.program];
     studied.text.line(studied.program.instructions[place.at].span)
 }
