@@ -35,7 +35,7 @@ pub(super) struct Args {
     case: PathBuf,
 
     /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 where no target has integer
-    /// codes; of systems leaks<=0, largest_relative<=0.01 for radiosity, largest_255ths<=1]
+    /// codes; of systems wrong<=0.001 for the Ray Engine, largest_relative<=0.01 for radiosity, largest_255ths<=1]
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 

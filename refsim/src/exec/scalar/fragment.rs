@@ -9,7 +9,7 @@
 //! including the end of the program, interprets them as a number of the register format.
 
 use super::fragment_state::{ConditionCode, FragmentState};
-use super::interpreter::{Interpreter, Unit};
+use super::interpreter::{ArithmeticUnit, Interpreter};
 use super::operation::{self, Context};
 use super::pack;
 use super::registers::{Components, LANES};
@@ -61,7 +61,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     pub(super) fn loaded(&mut self, lane: usize, source: &Source, wanted: Mask, negate: u8) -> Components {
         let value = self.fragment_value(lane, source);
         let half = source.register.file.is_half();
-        let unit = self.alu(if half { Unit::Half } else { Unit::Full });
+        let unit = self.alu(if half { ArithmeticUnit::Half } else { ArithmeticUnit::Full });
         let format = unit.format;
         let mut out = [0; 4];
         for i in wanted.components() {
@@ -77,7 +77,14 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// Loads an operand in the format of the operation.
-    fn fragment_operand(&mut self, lane: usize, source: &Source, to: Unit, wanted: Mask, negate: u8) -> Components {
+    fn fragment_operand(
+        &mut self,
+        lane: usize,
+        source: &Source,
+        to: ArithmeticUnit,
+        wanted: Mask,
+        negate: u8,
+    ) -> Components {
         let mut out = self.loaded(lane, source, wanted, negate);
         let from = self.fragment_formats().of_file(source.register.file);
         let unit = self.alu(to);
@@ -95,9 +102,9 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             return word;
         }
         let precision = match instruction.precision() {
-            Precision::Full => Unit::Full,
-            Precision::Half => Unit::Half,
-            Precision::Fixed => Unit::Fixed,
+            Precision::Full => ArithmeticUnit::Full,
+            Precision::Half => ArithmeticUnit::Half,
+            Precision::Fixed => ArithmeticUnit::Fixed,
         };
         let k = self.unit_of(instruction, precision);
         let raw = self.fragment_raw(lane, instruction, k, destination.mask);
@@ -134,12 +141,12 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
 
     fn packed(&mut self, lane: usize, instruction: &Instruction, source: &Source) -> u32 {
         let formats = self.fragment_formats();
-        let value = self.fragment_operand(lane, source, Unit::Full, Mask::ALL, 0);
+        let value = self.fragment_operand(lane, source, ArithmeticUnit::Full, Mask::ALL, 0);
         pack::pack(&formats, instruction.opcode, &value)
     }
 
     /// Computes the result in the format of the operation, before saturation.
-    fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: Unit, mask: Mask) -> Components {
+    fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: ArithmeticUnit, mask: Mask) -> Components {
         let opcode = instruction.opcode;
         match opcode {
             Opcode::Dsx | Opcode::Dsy => return self.fragment_difference(lane, instruction, k, mask),
@@ -181,13 +188,19 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         let word = match plain {
             true => self.bits(lane, source, 0),
-            false => self.fragment_operand(lane, source, Unit::Full, Mask(1), 0)[0],
+            false => self.fragment_operand(lane, source, ArithmeticUnit::Full, Mask(1), 0)[0],
         };
         pack::unpack(&self.fragment_formats(), instruction.opcode, word)
     }
 
     /// `DDX`, `DDY`: the difference across the quad's row or column; both of its lanes get the same value.
-    fn fragment_difference(&mut self, lane: usize, instruction: &Instruction, k: Unit, mask: Mask) -> Components {
+    fn fragment_difference(
+        &mut self,
+        lane: usize,
+        instruction: &Instruction,
+        k: ArithmeticUnit,
+        mask: Mask,
+    ) -> Components {
         let Some(source) = instruction.sources.first() else { return [0; 4] };
         let (low, high) = match instruction.opcode {
             Opcode::Dsx => (lane & 2, lane | 1),

@@ -15,7 +15,7 @@ use crate::num::{Flags, Format};
 
 /// Arithmetic unit of an interpreter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
+pub(super) enum ArithmeticUnit {
     /// The register format.
     Full,
     /// The format of `_pp` instructions, or the register format if the device has none.
@@ -131,20 +131,20 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// The unit in which an arithmetic instruction computes, with precision `otherwise` if it has no format of its own.
-    pub(super) fn unit_of(&mut self, instruction: &Instruction, otherwise: Unit) -> Unit {
+    pub(super) fn unit_of(&mut self, instruction: &Instruction, otherwise: ArithmeticUnit) -> ArithmeticUnit {
         let Some(format) = instruction.format else { return otherwise };
         self.own = Some(self.prepared.alu(format));
-        Unit::Own
+        ArithmeticUnit::Own
     }
 
     /// Arithmetic of a unit.
-    pub(super) fn alu(&mut self, unit: Unit) -> &mut Alu<'a> {
+    pub(super) fn alu(&mut self, unit: ArithmeticUnit) -> &mut Alu<'a> {
         let chosen = match unit {
-            Unit::Full => None,
-            Unit::Partial => self.partial.as_mut(),
-            Unit::Half => self.fragment.as_mut().map(|f| &mut f.half),
-            Unit::Fixed => self.fragment.as_mut().map(|f| &mut f.fixed),
-            Unit::Own => self.own.as_mut(),
+            ArithmeticUnit::Full => None,
+            ArithmeticUnit::Partial => self.partial.as_mut(),
+            ArithmeticUnit::Half => self.fragment.as_mut().map(|f| &mut f.half),
+            ArithmeticUnit::Fixed => self.fragment.as_mut().map(|f| &mut f.fixed),
+            ArithmeticUnit::Own => self.own.as_mut(),
         };
         chosen.unwrap_or(&mut self.full)
     }
@@ -257,7 +257,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             _ => [0; 4],
         };
         let registers = self.prepared.format;
-        let hint = if destination.partial_precision { Unit::Partial } else { Unit::Full };
+        let hint = if destination.partial_precision { ArithmeticUnit::Partial } else { ArithmeticUnit::Full };
         let unit = self.unit_of(instruction, hint);
         let mut s = [[0; 4]; 3];
         for (index, (slot, source)) in s.iter_mut().zip(&instruction.sources).enumerate() {
@@ -307,7 +307,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// Loads an operand of one lane in the format of the operation.
-    pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, unit: Unit) -> Components {
+    pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, unit: ArithmeticUnit) -> Components {
         let prepared = self.prepared;
         let value = self.lanes[lane].value(&source.register, &prepared.constants, self.loop_counter);
         operand(self.alu(unit), prepared.format, source, value, wanted)
@@ -323,7 +323,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             Opcode::Dsx => (lane & 2, lane | 1),
             _ => (lane & 1, lane | 2),
         };
-        let hint = if destination.partial_precision { Unit::Partial } else { Unit::Full };
+        let hint = if destination.partial_precision { ArithmeticUnit::Partial } else { ArithmeticUnit::Full };
         let unit = self.unit_of(instruction, hint);
         let from = self.source(low, source, destination.mask, unit);
         let to = self.source(high, source, destination.mask, unit);
@@ -401,8 +401,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         let (Some(a), Some(b)) = (a, b) else {
             return false;
         };
-        let x = self.source(lane, a, Mask(1), Unit::Full)[0];
-        let y = self.source(lane, b, Mask(1), Unit::Full)[0];
+        let x = self.source(lane, a, Mask(1), ArithmeticUnit::Full)[0];
+        let y = self.source(lane, b, Mask(1), ArithmeticUnit::Full)[0];
         // A branch writes nothing and so reports no flags.
         self.full.take_flags();
         compare(&self.full, instruction.comparison.unwrap_or(Comparison::Eq), x, y)

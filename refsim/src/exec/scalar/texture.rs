@@ -2,7 +2,7 @@
 //! unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is single
 //! precision with one rounding per step and dot products in the device's order.
 
-use super::interpreter::{Interpreter, Unit};
+use super::interpreter::{ArithmeticUnit, Interpreter};
 use super::registers::{Components, LANES};
 use crate::device::TexcrdOverflow;
 use crate::exec::{Observer, Projection, TextureRead};
@@ -148,7 +148,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     /// A register after its source modifier, converted to single precision.
     fn in_single(&mut self, lane: usize, source: &Source) -> Components {
         let format = self.prepared.format;
-        self.source(lane, source, Mask::ALL, Unit::Full).map(|x| ops::convert(&format, Format::FP32, x).bits)
+        self.source(lane, source, Mask::ALL, ArithmeticUnit::Full).map(|x| ops::convert(&format, Format::FP32, x).bits)
     }
 
     /// A coordinate operand: `t#` as interpolated, other registers converted to single precision.

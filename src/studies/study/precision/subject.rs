@@ -93,11 +93,10 @@ pub trait PrecisionSubject {
     }
 }
 
-/// Number of instructions above which a program counts as unrolled, so that those with the same text share a format.
-const UNROLLED: usize = 64;
+/// Number of instructions with the same text from which on they are an unrolled loop and share a format.
+const UNROLLED: usize = 8;
 
-/// Instruction of a subject, by the indices of program and instruction; in an unrolled program all instructions with
-/// the same text.
+/// Instruction of a subject, by the indices of program and instruction; of an unrolled loop all that have its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct InstructionPlace {
     pub(super) program: usize,
@@ -120,15 +119,20 @@ pub(super) fn places(programs: &[StudiedProgram<'_>]) -> Vec<InstructionPlace> {
 }
 
 fn places_of(program: usize, studied: &Program) -> Vec<InstructionPlace> {
-    let mut places: Vec<InstructionPlace> = Vec::new();
-    let mut known: BTreeMap<String, usize> = BTreeMap::new();
-    for at in (0..studied.instructions.len()).filter(|&at| takes_format(&studied.instructions[at])) {
-        let text = studied.instruction_text(at).filter(|_| studied.instructions.len() > UNROLLED);
-        let first = text.map(|text| *known.entry(text).or_insert(places.len()));
-        match first.and_then(|first| places.get_mut(first)) {
-            Some(place) => place.alike.push(at),
-            None => places.push(InstructionPlace { program, at, alike: Vec::new() }),
-        }
+    let takes = |at: &usize| takes_format(&studied.instructions[*at]);
+    let mut by_text: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for at in (0..studied.instructions.len()).filter(takes) {
+        by_text.entry(studied.instruction_text(at).unwrap_or_default()).or_default().push(at);
     }
+    let split = |same: Vec<usize>| -> Vec<InstructionPlace> {
+        match same.split_first() {
+            Some((&at, alike)) if same.len() >= UNROLLED => {
+                vec![InstructionPlace { program, at, alike: alike.to_vec() }]
+            }
+            _ => same.into_iter().map(|at| InstructionPlace { program, at, alike: Vec::new() }).collect(),
+        }
+    };
+    let mut places: Vec<InstructionPlace> = by_text.into_values().flat_map(split).collect();
+    places.sort_by_key(|place| place.at);
     places
 }

@@ -87,7 +87,8 @@ impl SystemRun for GlossyBunny {
         let transfer =
             CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: VECTORS, superclusters: None };
         let mut card = PrtCard::new(profile.clone(), executor.clone(), transfer, &PrtCardOptions::default())?;
-        let view = MeshView { camera: self.camera, exposure: 0.8, format: TexelFormat::Rgba32f };
+        // The paper's card adds clusters up by blending, which it cannot do with floats.
+        let view = MeshView { camera: self.camera, exposure: 0.8, format: TexelFormat::Bgra8 };
         let texels = card.view_texels(&self.light, &view)?.texels;
         Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
     }

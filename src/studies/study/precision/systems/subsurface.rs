@@ -19,13 +19,13 @@ use crate::subsurface::on_card::{
 };
 
 /// Texels along a side of the atlas.
-const SIDE: u32 = 64;
+const SIDE: u32 = 32;
 /// Clusters per texel.
 const LINKS: usize = 16;
 /// Millimeters of a unit of the model.
 const SCALE: f64 = 10.0;
 /// Largest relative error of factors.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 0.05;
 /// Pixels along a side of the picture.
 const PICTURE: u32 = 64;
 
