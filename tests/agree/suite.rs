@@ -250,7 +250,7 @@ pub(crate) fn all() -> Vec<Suite> {
                     continue;
                 }
                 let name = format!("programs::{}::{}::{}", version_name(version), family.name(), group.name());
-                let seeds = if vertex { 16 } else { 21 };
+                let seeds = if vertex { 11 } else { 14 };
                 out.push(Suite::new(name, Kind::Program(version, family, group), seeds));
             }
         }
@@ -275,16 +275,16 @@ pub(crate) fn all() -> Vec<Suite> {
         out.push(Suite::new(format!("targets::{}", format.name()), Kind::Target(format), 7));
     }
     for &format in DepthFormat::ALL {
-        out.push(Suite::new(format!("depth::{}", format.name()), Kind::Depth(format), 14));
+        out.push(Suite::new(format!("depth::{}", format.name()), Kind::Depth(format), 7));
     }
     for (compare, name) in COMPARES {
         out.push(Suite::new(format!("depth::{name}"), Kind::Compare(compare), 7));
     }
     for (blend, name) in BLENDS {
-        out.push(Suite::new(format!("blending::{name}"), Kind::Blend(blend), 14));
+        out.push(Suite::new(format!("blending::{name}"), Kind::Blend(blend), 7));
     }
     for shape in Shape::ALL {
-        out.push(Suite::new(format!("geometry::{}", shape.name()), Kind::Geometry(shape), 21));
+        out.push(Suite::new(format!("geometry::{}", shape.name()), Kind::Geometry(shape), 14));
     }
     out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.short()));
     out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.short()));

@@ -91,11 +91,13 @@ fn the_reference_and_the_factors_agree_texel_by_texel() {
     }
 }
 
-/// B = G(2R) on a sphere of any radius; the polyhedron comes nearer as its faces become smaller.
+/// B = G(2R) on a sphere of any radius; the polyhedron comes nearer as its faces become smaller. The short form has the
+/// smallest and the largest radius.
 #[test]
 fn a_sphere_under_uniform_light_has_its_closed_form() {
     let dipole = figure_7();
-    for radius in [1.0, 5.0, 20.0] {
+    let step = if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { 2 };
+    for radius in [1.0, 5.0, 20.0].into_iter().step_by(step) {
         let exact = uniform_sphere(&dipole, radius);
         let mut errors = Vec::new();
         for (n, side) in [(2, 16), (4, 32), (8, 64)] {

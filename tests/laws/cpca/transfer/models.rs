@@ -6,8 +6,12 @@ use crossbar::io::load_mesh;
 use crossbar::scene::built::meshes as models;
 use crossbar::transfer::{Tangents, Vertices};
 
+/// Larger models are built a second time with `CROSSBAR_FULL=1` alone.
+const SMALL: usize = 20_000;
+
 #[test]
 fn they_have_as_many_vertices_as_table_1_prints() {
+    let full = std::env::var_os("CROSSBAR_FULL").is_some();
     let printed = [
         ("all-frequency-buddha", 54_100, true),
         ("all-frequency-bunny", 11_556, true),
@@ -37,7 +41,9 @@ fn they_have_as_many_vertices_as_table_1_prints() {
         let welded = mesh.welded();
         assert_eq!(welded.boundary_edge_count() == 0, closed, "{name}");
         assert_eq!((welded.orientation_conflicts(), welded.degenerate_count()), (0, 0), "{name}");
-        assert_eq!(mesh, models::build(name).expect("the same"), "no chance in it");
+        if full || count <= SMALL {
+            assert_eq!(mesh, models::build(name).expect("the same"), "no chance in it");
+        }
     }
     let teapot = models::build("all-frequency-teapot").expect("a model");
     assert_eq!(Vertices::new(&teapot, Tangents::Any).expect("vertices").len(), 51_361);
