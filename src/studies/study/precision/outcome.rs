@@ -9,7 +9,7 @@ use super::goal::Goal;
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, exact_results, fewest_bits, local};
 use super::runs::{RunError, Runs};
 use super::search::{MixedFormats, search};
-use super::subject::{InstructionResults, PrecisionSubject};
+use super::subject::{InstructionResults, Measured, PrecisionSubject};
 use super::switches::{SwitchRow, sensitivity};
 use super::ulps::{ResultRange, range_of};
 use crate::names::did_you_mean;
@@ -47,6 +47,8 @@ pub(super) struct FamilyOutcome {
     pub(super) mixed: Option<MixedFormats>,
     /// Value of the goal's measure with this assignment on the scalar executor.
     pub(super) checked: Option<f64>,
+    /// Value on input that was held back from the search.
+    pub(super) held_back: Option<f64>,
 }
 
 /// Everything that was found.
@@ -130,8 +132,10 @@ impl Precision {
             if let Some(mixed) = &family.mixed {
                 let formats: Vec<_> = mixed.formats.iter().copied().map(Some).collect();
                 let device = runs.device(runs.subject.profile(), &formats);
-                let measured = device.map(|device| runs.shown(&device, ExecutorKind::Scalar)).transpose()?;
-                family.checked = measured.map(|measured| measured.value(&runs.goal.measure));
+                let Some(device) = device else { continue };
+                let value = |measured: Measured| measured.value(&runs.goal.measure);
+                family.checked = Some(value(runs.shown(&device, ExecutorKind::Scalar)?));
+                family.held_back = runs.subject.held_back(&device)?.map(value);
             }
         }
         Ok(outcome)
@@ -149,7 +153,14 @@ impl Precision {
             let mut curve = Curve::empty(family);
             let end = curve.compute(runs);
             let needs = vec![InstructionNeeds::default(); runs.count()];
-            outcome.families.push(FamilyOutcome { curve, blamed: None, needs, mixed: None, checked: None });
+            outcome.families.push(FamilyOutcome {
+                curve,
+                blamed: None,
+                needs,
+                mixed: None,
+                checked: None,
+                held_back: None,
+            });
             end?;
         }
         runs.step("formats of cards");

@@ -229,11 +229,13 @@ fn per_instruction(
     let state = if mixed.is_minimal { "1-minimal" } else { "the best so far" };
     found.heading(format!("Mixed {name} formats, {state}"));
     found.table(FoundTable::from(tables::mixed(mixed, study, runs)).csv(mixed_csv).field(mixed_csv).unprinted());
-    let checked = family.checked.map_or(String::new(), |value| {
+    for (where_from, value) in
+        [("On the scalar executor", family.checked), ("On input that was held back from the search", family.held_back)]
+    {
+        let Some(value) = value else { continue };
         let met = if runs.goal.met(value) { "meets" } else { "misses" };
-        format!("On the scalar executor {} is {}: it {met} the goal.", runs.goal.measure, number(value))
-    });
-    found.paragraph(checked);
+        found.paragraph(format!("{where_from} {} is {}: it {met} the goal.", runs.goal.measure, number(value)));
+    }
     found.table(FoundTable::from(tables::refuted(mixed, runs)).csv(refuted_csv).field(refuted_csv).unprinted());
 }
 
@@ -247,6 +249,7 @@ fn fields(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
             "mixed_cost": family.mixed.as_ref().map(|mixed| mixed.cost),
             "one_minimal": family.mixed.as_ref().map(|mixed| mixed.is_minimal),
             "scalar": family.checked,
+            "held_back": family.held_back,
         })
     };
     found.fields(json!({

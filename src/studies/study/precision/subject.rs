@@ -77,6 +77,15 @@ pub trait PrecisionSubject {
     /// If the device cannot run the programs.
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
+    /// Measures on input that no run of the search has seen; `None` if there is none.
+    ///
+    /// # Errors
+    /// If the device cannot run the programs.
+    fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
+        let _ = profile;
+        Ok(None)
+    }
+
     /// Results of the instructions of each program on a device, of a sample of fragments that is the same on every
     /// device; `None` if the subject has no traces.
     ///

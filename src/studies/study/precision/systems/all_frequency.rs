@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::{SystemRun, at_most, bunny, camera};
+use super::{SystemInput, SystemRun, at_most, bunny, camera};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crate::all_frequency::on_card::{FactoredCard, ProductOptions, ProductPlace, TransferredMesh};
@@ -29,7 +29,7 @@ pub(super) struct FactoredBunny {
     vertices: Vertices,
     reflectance: Reflectance,
     transferred: TransferredRadiance,
-    camera: Camera,
+    cameras: [Camera; 2],
 }
 
 impl FactoredBunny {
@@ -42,8 +42,8 @@ impl FactoredBunny {
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), 3 * reflectance.terms(), 5, place);
         let transferred = TransferredRadiance::new(reflectance.terms(), signal.values().as_chunks().0.to_vec());
-        let camera = camera(&mesh, PICTURE);
-        Ok(Self { vertices, reflectance, transferred, camera })
+        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
+        Ok(Self { vertices, reflectance, transferred, cameras })
     }
 }
 
@@ -56,12 +56,12 @@ impl SystemRun for FactoredBunny {
         "pixel"
     }
 
-    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
+    fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
         let Self { vertices, reflectance, transferred, .. } = self;
         let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
         let place = ProductPlace::Pixels(ProductOptions::default());
         let mut card = FactoredCard::new(profile.clone(), executor.clone(), mesh, place)?;
-        let view = MeshView { camera: self.camera, exposure: 0.8, format: TexelFormat::Rgba32f };
+        let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
         let texels = card.view_texels(&view)?.texels;
         Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
     }

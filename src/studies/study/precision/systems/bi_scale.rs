@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::{SystemRun, at_most, bunny, camera};
+use super::{SystemInput, SystemRun, at_most, bunny, camera};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayOptions, TexturedMesh};
 use crate::bi_scale::texture::BidirectionalTexture;
@@ -30,7 +30,7 @@ pub(super) struct TexturedBunny {
     coordinates: Vec<[[f32; 2]; 3]>,
     textures: [BidirectionalTexture; 1],
     local: Vec<[f32; 3]>,
-    camera: Camera,
+    cameras: [Camera; 2],
 }
 
 impl TexturedBunny {
@@ -53,8 +53,8 @@ impl TexturedBunny {
         let signal = signal_at(vertices.len(), 3 * lights, 5, place);
         let scale = 1.0 / lights as f32;
         let local = signal.values().as_chunks().0.iter().map(|rgb: &[f32; 3]| rgb.map(|x| scale * (1.0 + x))).collect();
-        let camera = camera(&mesh, PICTURE);
-        Ok(Self { vertices, coordinates, textures: [texture], local, camera })
+        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
+        Ok(Self { vertices, coordinates, textures: [texture], local, cameras })
     }
 }
 
@@ -67,7 +67,7 @@ impl SystemRun for TexturedBunny {
         "pixel"
     }
 
-    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
+    fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
         let texture_of = vec![0; self.coordinates.len()];
         let mesh = TexturedMesh {
             vertices: &self.vertices,
@@ -76,7 +76,7 @@ impl SystemRun for TexturedBunny {
             texture_of: &texture_of,
         };
         let mut card = BiScaleCard::new(profile.clone(), executor.clone(), mesh, DisplayOptions::default())?;
-        let view = MeshView { camera: self.camera, exposure: 0.8, format: TexelFormat::Rgba32f };
+        let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
         let texels = card.view_texels(&self.local, &view)?.texels;
         Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
     }

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::{SystemRun, at_most, bunny, camera};
+use super::{SystemInput, SystemRun, at_most, bunny, camera};
 use crate::card::MeshView;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::cpca::transfer::{Bounces, Incident};
@@ -36,7 +36,7 @@ pub(super) struct GlossyBunny {
     clustering: Clustering,
     basis: ExitBasis,
     light: HarmonicLight,
-    camera: Camera,
+    cameras: [Camera; 2],
 }
 
 impl GlossyBunny {
@@ -68,8 +68,8 @@ impl GlossyBunny {
             start: StartPoints::Seed(1),
         };
         let clustering = compress(&signal, &options, |_| ()).expect("fewer clusters than vertices").clustering;
-        let camera = camera(&mesh, PICTURE);
-        Ok(Self { vertices, clustering, basis, light: HarmonicLight::red_and_blue(ORDER), camera })
+        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
+        Ok(Self { vertices, clustering, basis, light: HarmonicLight::red_and_blue(ORDER), cameras })
     }
 }
 
@@ -82,13 +82,13 @@ impl SystemRun for GlossyBunny {
         "pixel"
     }
 
-    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
+    fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
         let Self { vertices, clustering, basis, .. } = self;
         let transfer =
             CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: VECTORS, superclusters: None };
         let mut card = PrtCard::new(profile.clone(), executor.clone(), transfer, &PrtCardOptions::default())?;
         // The paper's card adds clusters up by blending, which it cannot do with floats.
-        let view = MeshView { camera: self.camera, exposure: 0.8, format: TexelFormat::Bgra8 };
+        let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Bgra8 };
         let texels = card.view_texels(&self.light, &view)?.texels;
         Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
     }

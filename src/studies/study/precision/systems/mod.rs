@@ -80,6 +80,15 @@ impl PaperSystem {
     }
 }
 
+/// Input of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SystemInput {
+    /// That of the search.
+    Searched,
+    /// Another view or light.
+    HeldBack,
+}
+
 /// System with its input, run on a device.
 pub(super) trait SystemRun: fmt::Debug {
     /// Title of the study.
@@ -92,7 +101,7 @@ pub(super) trait SystemRun: fmt::Debug {
     ///
     /// # Errors
     /// If the device cannot run the programs.
-    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError>;
+    fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError>;
 
     /// Width and height of the picture, if the values are one.
     fn size(&self) -> Option<[u32; 2]> {
@@ -155,13 +164,17 @@ struct SystemSubject {
     executors: [Executor; 2],
     programs: PixelPrograms,
     exact: Vec<[f64; 3]>,
+    exact_held_back: Vec<[f64; 3]>,
 }
 
 impl SystemSubject {
     fn new(run: Box<dyn SystemRun>, profile: Profile) -> Result<Self, StudyError> {
         let executors = [ExecutorKind::Batch, ExecutorKind::Scalar].map(Executor::from);
-        let (programs, exact) = PixelPrograms::of(&profile, |device| run.values(device, &executors[0]))?;
-        Ok(Self { run, profile, executors, programs, exact })
+        let (programs, [exact, exact_held_back]) = PixelPrograms::of(&profile, |device| {
+            let values = |input| run.values(input, device, &executors[0]);
+            Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
+        })?;
+        Ok(Self { run, profile, executors, programs, exact, exact_held_back })
     }
 }
 
@@ -222,7 +235,8 @@ impl PrecisionSubject for SystemSubject {
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let found = self.run.values(profile, &self.executors[usize::from(executor == ExecutorKind::Scalar)])?;
+        let executor = &self.executors[usize::from(executor == ExecutorKind::Scalar)];
+        let found = self.run.values(SystemInput::Searched, profile, executor)?;
         let (values, worst) = errors(&found, &self.exact);
         let worst = worst.map(|at| {
             let place = match self.run.size() {
@@ -234,6 +248,12 @@ impl PrecisionSubject for SystemSubject {
         });
         let picture = self.run.size().filter(|_| wanted.is_none()).map(|size| picture(size, &found));
         Ok(Measured { values, worst, picture })
+    }
+
+    fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
+        let found = self.run.values(SystemInput::HeldBack, profile, &self.executors[0])?;
+        let (values, _) = errors(&found, &self.exact_held_back);
+        Ok(Some(Measured { values, ..Measured::default() }))
     }
 }
 
@@ -247,10 +267,14 @@ pub(super) fn bunny() -> Mesh {
     TransferModel::BiScaleBunny.mesh(3)
 }
 
-/// Camera that frames a mesh in a square picture.
-pub(super) fn camera(mesh: &Mesh, side: u32) -> Camera {
+/// Camera that frames a mesh in a square picture; from another side for the view that is held back.
+pub(super) fn camera(mesh: &Mesh, side: u32, input: SystemInput) -> Camera {
     let [low, high] = mesh.bounds().map_or([DVec3::ZERO; 2], |bounds| bounds.map(wide));
     let (middle, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
-    let eye = middle + 2.4 * radius * DVec3::new(0.35, -0.9, 0.3).normalize();
+    let towards = match input {
+        SystemInput::Searched => DVec3::new(0.35, -0.9, 0.3),
+        SystemInput::HeldBack => DVec3::new(-0.9, 0.2, 0.5),
+    };
+    let eye = middle + 2.4 * radius * towards.normalize();
     Camera::new(narrow(eye), narrow(middle), [0.0, 0.0, 1.0], 0.42, side, side).expect("an eye outside the mesh")
 }

@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
-use super::{SystemRun, at_most};
+use super::{SystemInput, SystemRun, at_most};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::{CardSolver, FormFactors, Patches, Storage, Subdivision, System, rooms};
 use crate::study::StudyError;
@@ -17,7 +17,8 @@ const ITERATIONS: usize = 12;
 /// Cornell box in few patches, a texel of three channels each.
 #[derive(Debug)]
 pub(super) struct CornellBox {
-    system: System,
+    /// With the light of the scene, and with a light of another color and half as bright.
+    systems: [System; 2],
 }
 
 impl CornellBox {
@@ -25,7 +26,10 @@ impl CornellBox {
         let patches = Patches::new(&rooms::cornell(rooms::CornellBox::default()), Subdivision::AtMost(PATCHES))?;
         let mut factors = FormFactors::unoccluded(&patches)?;
         factors.enforce_closure()?;
-        Ok(Self { system: System::new(factors, patches.reflectances(), patches.emittances())? })
+        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
+        let mut other = system.clone();
+        other.set_emittance(patches.emittances().into_iter().map(|[r, g, b]| [0.2 * r, 0.5 * g, 0.4 * b]).collect())?;
+        Ok(Self { systems: [system, other] })
     }
 }
 
@@ -38,8 +42,14 @@ impl SystemRun for CornellBox {
         "patch"
     }
 
-    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
-        let mut card = CardSolver::new(profile.clone(), executor.clone(), &self.system, Packing::Rgb, Storage::Fp32)?;
+    fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
+        let mut card = CardSolver::new(
+            profile.clone(),
+            executor.clone(),
+            &self.systems[input as usize],
+            Packing::Rgb,
+            Storage::Fp32,
+        )?;
         for _ in 0..ITERATIONS {
             card.iterate()?;
         }

@@ -1,5 +1,6 @@
 //! The Ray Engine: eye rays on the teapot, judged by exact arithmetic.
 
+use glam::{DMat3, DVec3};
 use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::machine::{Executor, ExecutorKind};
@@ -40,8 +41,8 @@ pub(super) struct RayEngineSubject {
     profile: Profile,
     executors: [Executor; 2],
     mesh: Mesh,
-    view: RayBatch,
-    judged: JudgedRays,
+    /// Views of the search, and the one that is held back.
+    views: [(RayBatch, JudgedRays); 2],
     programs: PixelPrograms,
 }
 
@@ -54,13 +55,43 @@ impl RayEngineSubject {
         }
         let mesh = teapot(TESSELLATION).expect("a tessellation above 0");
         let camera = Camera::teapot(SIDE, SIDE).expect("a picture of some pixels");
-        let view = RayBatch::new(SIDE, SIDE, camera.rays()).expect("a ray for each pixel");
-        let judged = JudgedRays::new(&Tracer::new(&mesh), view.rays().to_vec(), Sides::Front);
+        let turned = camera.carried(DVec3::ZERO, &DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z));
+        let tracer = Tracer::new(&mesh);
+        let views = [camera, turned].map(|camera| {
+            let view = RayBatch::new(SIDE, SIDE, camera.rays()).expect("a ray for each pixel");
+            let judged = JudgedRays::new(&tracer, view.rays().to_vec(), Sides::Front);
+            (view, judged)
+        });
         let executors = [ExecutorKind::Batch, ExecutorKind::Scalar].map(Executor::from);
         let (programs, _) = PixelPrograms::of(&profile, |device| {
-            Ok(Crossbar::new(device.clone(), executors[0].clone()).intersect(&mesh, &view, Sides::Front)?)
+            Ok(Crossbar::new(device.clone(), executors[0].clone()).intersect(&mesh, &views[0].0, Sides::Front)?)
         })?;
-        Ok(Self { profile, executors, mesh, view, judged, programs })
+        Ok(Self { profile, executors, mesh, views, programs })
+    }
+
+    /// Measures a view.
+    fn measured(
+        &self,
+        (view, judged): &(RayBatch, JudgedRays),
+        profile: &Profile,
+        executor: &Executor,
+        is_pictured: bool,
+    ) -> Result<Measured, StudyError> {
+        let hits = Crossbar::new(profile.clone(), executor.clone()).intersect(&self.mesh, view, Sides::Front)?.hits;
+        let (verdicts, tally) = judged.judge(&self.mesh, &hits);
+        let wrong = tally.leaks + tally.false_hits + tally.wrong_triangle;
+        let values = vec![
+            ("leaks", tally.leaks as f64),
+            ("wrong_triangles", tally.wrong_triangle as f64),
+            ("false_hits", tally.false_hits as f64),
+            ("wrong", wrong as f64 / tally.rays as f64),
+            ("largest_t", tally.largest_t_error),
+        ];
+        let mut pixels = judged.pixels(&verdicts);
+        let picture = is_pictured.then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
+        let worst = pixels.position(|verdict| verdict.rank() > 0);
+        let worst = worst.map(|at| format!("ray at pixel {}, {}", at as u32 % SIDE, at as u32 / SIDE));
+        Ok(Measured { values, worst, picture })
     }
 }
 
@@ -87,21 +118,11 @@ impl PrecisionSubject for RayEngineSubject {
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let executor = self.executors[usize::from(executor == ExecutorKind::Scalar)].clone();
-        let hits = Crossbar::new(profile.clone(), executor).intersect(&self.mesh, &self.view, Sides::Front)?.hits;
-        let (verdicts, tally) = self.judged.judge(&self.mesh, &hits);
-        let wrong = tally.leaks + tally.false_hits + tally.wrong_triangle;
-        let values = vec![
-            ("leaks", tally.leaks as f64),
-            ("wrong_triangles", tally.wrong_triangle as f64),
-            ("false_hits", tally.false_hits as f64),
-            ("wrong", wrong as f64 / tally.rays as f64),
-            ("largest_t", tally.largest_t_error),
-        ];
-        let mut pixels = self.judged.pixels(&verdicts);
-        let picture = wanted.is_none().then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
-        let worst = pixels.position(|verdict| verdict.rank() > 0);
-        let worst = worst.map(|at| format!("ray at pixel {}, {}", at as u32 % SIDE, at as u32 / SIDE));
-        Ok(Measured { values, worst, picture })
+        let executor = &self.executors[usize::from(executor == ExecutorKind::Scalar)];
+        self.measured(&self.views[0], profile, executor, wanted.is_none())
+    }
+
+    fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
+        self.measured(&self.views[1], profile, &self.executors[0], false).map(Some)
     }
 }

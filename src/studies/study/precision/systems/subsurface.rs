@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::{SystemRun, at_most, bunny, camera};
+use super::{SystemInput, SystemRun, at_most, bunny, camera};
 use crate::atlas::Atlas;
 use crate::card::MeshView;
 use crate::scene::Camera;
@@ -34,7 +34,7 @@ pub(super) struct Marble {
     model: CardModel,
     textures: LinkTextures,
     eta: f64,
-    camera: Camera,
+    cameras: [Camera; 2],
 }
 
 impl std::fmt::Debug for Marble {
@@ -55,8 +55,8 @@ impl Marble {
         let choice = LinkChoice::Adaptive { count: LINKS };
         let links = Links::new(&surface, &dipoles[SCALAR_CHANNEL..], choice, TOLERANCE, &|_, _| {})?;
         let textures = LinkTextures::new(&links, &surface, MeanWeighting::Area);
-        let camera = camera(&mesh, PICTURE);
-        Ok(Self { model: CardModel::new(&atlas), textures, eta: material.eta, camera })
+        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
+        Ok(Self { model: CardModel::new(&atlas), textures, eta: material.eta, cameras })
     }
 }
 
@@ -69,7 +69,7 @@ impl SystemRun for Marble {
         "pixel"
     }
 
-    fn values(&self, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
+    fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
         let options = SubsurfaceCardOptions {
             map: MapFormat::Fp32,
             links: FloatTexels::Fp32,
@@ -85,7 +85,7 @@ impl SystemRun for Marble {
             options,
         )?;
         card.light(&[Light::Directional { towards: [1.0, -1.0, 2.0], irradiance: [4.0, 3.8, 3.4] }])?;
-        let view = MeshView { camera: self.camera, exposure: 1.0, format: TexelFormat::Rgba32f };
+        let view = MeshView { camera: self.cameras[input as usize], exposure: 1.0, format: TexelFormat::Rgba32f };
         let texels = card.view_texels(&View::scattered(view))?.texels;
         Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
     }
