@@ -256,7 +256,7 @@ pub(crate) fn all() -> Vec<Suite> {
         }
     }
     for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
-        out.push(Suite::new(format!("mixed::{}", version_name(version)), Kind::Mixed(version), 42));
+        out.push(Suite::new(format!("mixed::{}", version_name(version)), Kind::Mixed(version), 28));
     }
     for card in Profile::card_names() {
         for version in &rules::profile(card).limits.versions {

@@ -17,7 +17,6 @@ mod figure_7;
 mod model_size;
 mod overview;
 mod paper;
-
 mod pipeline;
 mod prose;
 #[cfg(test)]
@@ -27,6 +26,7 @@ mod radiosity;
 mod record;
 pub mod report;
 mod row;
+mod schedule;
 mod shared;
 mod sky;
 mod subsurface;
@@ -50,27 +50,8 @@ pub use row::{
     Bound, Contradiction, Explanation, Judgement, Method, MissClass, Origin, PaperFigure, PaperRow, RowSource,
     RowVerdict, Setting, Standing, Sweep,
 };
-use shared::Shared;
+pub use schedule::reproduce;
 pub use summary::ReproducedPaper;
-
-/// Computes entries in order, with models of the given size where they have a choice. Renderings and runs needed by
-/// several entries are made once. With reduced models, rows that depend on the size are those of the record
-/// ([`recorded`]), if there is one. `progress` is called with the name of each.
-///
-/// # Errors
-/// Those of the entries, and of a record that is malformed or was changed by hand.
-pub fn reproduce(
-    entries: &[ReproduceEntry],
-    models: ModelSize,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Reproduced, StudyError> {
-    let shared = Shared::new(models);
-    let work = |(done, entry): (u64, &ReproduceEntry)| {
-        progress(entry.id, done, entries.len() as u64);
-        Ok((*entry, record::findings(entry, &shared)?))
-    };
-    (0..).zip(entries).map(work).collect()
-}
 
 /// Parameters of the study.
 #[derive(Clone, Debug)]

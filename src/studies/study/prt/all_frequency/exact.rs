@@ -25,30 +25,33 @@ pub(in crate::study) fn coefficients(
     light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area)
 }
 
-/// Per vertex m rows of three channels.
+/// Per light, and per vertex, m rows of three channels. Matrices, which take nearly all the time, are computed once for
+/// all lights.
 pub(in crate::study) fn transferred(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: BasisWidth,
     reflectance: &Reflectance,
-    light: &HaarLight,
-) -> Result<Vec<[f64; 3]>, TransferError> {
+    lights: &[&HaarLight],
+) -> Result<Vec<Vec<[f64; 3]>>, TransferError> {
     let (hats, rows) = (LinearBasis::new(hats), reflectance.terms());
     let transfer = transfer_of(vertices, maps, &hats, reflectance);
-    let mut radiance = vec![[0.0; 3]; vertices.len() * rows];
+    let mut radiances = vec![vec![[0.0; 3]; vertices.len() * rows]; lights.len()];
     for segment in transfer.segments() {
         let segment = segment?;
-        let light = [0, 1, 2].map(|channel| light.segment(channel, segment.segment));
-        let products = |point: usize| -> Vec<[f64; 3]> {
-            let numbers: Vec<f64> = segment.signal.point(point).iter().map(|&value| f64::from(value)).collect();
-            let row = |row: &[f64]| light.map(|light| dot(row, light));
-            numbers.chunks_exact(light[0].len()).map(row).collect()
-        };
-        let products: Vec<Vec<[f64; 3]>> = (0..segment.vertices.len()).into_par_iter().map(products).collect();
-        for (&vertex, products) in segment.vertices.iter().zip(products) {
-            for (into, product) in radiance[vertex as usize * rows..].iter_mut().zip(products) {
-                (0..3).for_each(|channel| into[channel] += product[channel]);
+        for (light, radiance) in lights.iter().zip(&mut radiances) {
+            let light = [0, 1, 2].map(|channel| light.segment(channel, segment.segment));
+            let products = |point: usize| -> Vec<[f64; 3]> {
+                let numbers: Vec<f64> = segment.signal.point(point).iter().map(|&value| f64::from(value)).collect();
+                let row = |row: &[f64]| light.map(|light| dot(row, light));
+                numbers.chunks_exact(light[0].len()).map(row).collect()
+            };
+            let products: Vec<Vec<[f64; 3]>> = (0..segment.vertices.len()).into_par_iter().map(products).collect();
+            for (&vertex, products) in segment.vertices.iter().zip(products) {
+                for (into, product) in radiance[vertex as usize * rows..].iter_mut().zip(products) {
+                    (0..3).for_each(|channel| into[channel] += product[channel]);
+                }
             }
         }
     }
-    Ok(radiance)
+    Ok(radiances)
 }

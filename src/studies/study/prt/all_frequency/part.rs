@@ -68,7 +68,7 @@ impl<'a> Part<'a> {
     pub(super) fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, TransferError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
-            Some(maps) => exact::transferred((self.vertices, maps), file.hats, &file.reflectance, light)?,
+            Some(maps) => exact::transferred((self.vertices, maps), file.hats, &file.reflectance, &[light])?.remove(0),
             None => vec![[0.0; 3]; rows * self.vertices.len()],
         };
         Ok(Transferred::Exact { rows, values })

@@ -81,7 +81,9 @@ impl AllFrequencyOnCard {
     pub(super) fn raw(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<TransferredRadiance, StudyError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
-            Some(maps) => exact::transferred((&self.lit.vertices, maps), file.hats, &file.reflectance, light)?,
+            Some(maps) => {
+                exact::transferred((&self.lit.vertices, maps), file.hats, &file.reflectance, &[light])?.remove(0)
+            }
             None => vec![[0.0; 3]; rows * self.lit.vertices.len()],
         };
         Ok(singles(rows, values))

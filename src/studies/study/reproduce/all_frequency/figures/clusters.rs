@@ -28,7 +28,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let surface =
         Surface { scene: &scene, maps: &scene.of_model, reflectance: &Reflectance::Diffuse, color: COLORS[0] };
     let dark = vec![[0.0; 3]; scene.of_ground.len()];
-    let raw = surface.raw(&light)?;
+    let raw = surface.raw(&[&light])?.remove(0);
     let exact = scene.joined(&surface.exit_of_rows((1, &raw)), &dark);
     let exposure = scene.exposure(&exact);
     let mut table = Table::of("Figure 5: representatives per cluster", "representatives squared_error rms_% flip");

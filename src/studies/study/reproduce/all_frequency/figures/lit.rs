@@ -41,11 +41,11 @@ impl Surface<'_> {
         Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
     }
 
-    /// Radiance of the vertices from raw matrices: per vertex of the mesh the rows of T_p.
-    pub(super) fn raw(&self, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
+    /// Radiance of the vertices from raw matrices: per light, and per vertex of the mesh, the rows of T_p.
+    pub(super) fn raw(&self, lights: &[&HaarLight]) -> Result<Vec<Vec<[f64; 3]>>, StudyError> {
         let scene = self.scene;
         let at = (&scene.vertices, self.maps);
-        raw_radiance(at, scene.hats.width(), self.reflectance, light).map_err(|e| failed(HOST)(&e))
+        raw_radiance(at, scene.hats.width(), self.reflectance, lights).map_err(|e| failed(HOST)(&e))
     }
 
     /// Step 4 with T_p of the mesh's vertices.

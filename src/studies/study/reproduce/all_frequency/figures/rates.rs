@@ -105,34 +105,46 @@ fn rate(model: &PrintedModel, ground: Option<f64>) -> Result<f64, StudyError> {
     Ok(frame_time(&profile, &log, &host).map_err(|e| failed(CARD)(&e))?.per_second())
 }
 
-/// Model of Figure 7 on its ground.
+/// Reflectance of a model of Figure 7 on its ground, with the name and caption of its picture under each light.
 struct GroundedModel {
-    name: String,
-    caption: String,
     lobe: Option<Lobe>,
-    light: HaarLight,
+    shown: Vec<(String, String)>,
 }
 
+impl GroundedModel {
+    /// A model with a lobe, or a diffuse one; `shown` has names and captions without the lobe's form.
+    fn new(lobe: Option<NamedLobe>, shown: &[(&str, &str)]) -> Self {
+        let (ending, form) =
+            lobe.map_or_else(Default::default, |(form, _)| (models::ending(form), format!("; {form}")));
+        let shown =
+            shown.iter().map(|(name, caption)| (format!("figure-7-{name}{ending}"), format!("{caption}{form}")));
+        Self { lobe: lobe.map(|(_, lobe)| lobe), shown: shown.collect() }
+    }
+}
+
+/// Pictures of all models, each under all lights.
 fn pictures(
     mesh: &Mesh,
     size: ModelSize,
+    lights: &[&HaarLight],
     all: &[GroundedModel],
 ) -> Result<(FigureScene, Vec<NamedPicture>), StudyError> {
     let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2), size)?;
+    let ground =
+        Surface { scene: &scene, maps: &scene.of_ground, reflectance: &Reflectance::Diffuse, color: COLORS[1] };
+    let of_ground = ground.raw(lights)?;
     let mut found = Vec::new();
-    for GroundedModel { name, caption, lobe, light } in all {
+    for GroundedModel { lobe, shown } in all {
         let reflectance = match lobe {
             Some(lobe) => Reflectance::Factored(models::factorization(lobe, TERMS)?.factors(TERMS)),
             None => Reflectance::Diffuse,
         };
         let model = Surface { scene: &scene, maps: &scene.of_model, reflectance: &reflectance, color: COLORS[0] };
-        let ground =
-            Surface { scene: &scene, maps: &scene.of_ground, reflectance: &Reflectance::Diffuse, color: COLORS[1] };
-        let (of_model, of_ground) = (model.raw(light)?, ground.raw(light)?);
         let rows = reflectance.terms();
-        let colors = scene.joined(&model.exit_of_rows((rows, &of_model)), &ground.exit_of_rows((1, &of_ground)));
-        let exposure = scene.exposure(&colors);
-        found.push(scene.picture(&colors, exposure, (name.clone(), caption.clone()))?);
+        for ((of_model, of_ground), shown) in model.raw(lights)?.iter().zip(&of_ground).zip(shown) {
+            let colors = scene.joined(&model.exit_of_rows((rows, of_model)), &ground.exit_of_rows((1, of_ground)));
+            found.push(scene.picture(&colors, scene.exposure(&colors), shown.clone())?);
+        }
     }
     Ok((scene, found))
 }
@@ -141,21 +153,13 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let sky = stand_in()?;
     let whole = HaarLight::new(&sky, Segmentation::Quarters);
     let smooth = HaarLight::new(&super::scene::of_low_frequency(&sky, ORDER)?, Segmentation::Quarters);
-    let drawn = |name: &str, caption: &str, lobe: Option<NamedLobe>, light: &HaarLight| GroundedModel {
-        name: format!("figure-7-{name}{}", lobe.map_or_else(String::new, |(form, _)| models::ending(form))),
-        caption: lobe.map_or_else(|| caption.to_owned(), |(form, _)| format!("{caption}; {form}")),
-        lobe: lobe.map(|(_, lobe)| lobe),
-        light: light.clone(),
-    };
-    let glossy = models::cook_torrance().map(|lobe| drawn("glossy", "glossy Buddha", Some(lobe), &whole));
+    let glossy = models::cook_torrance().map(|lobe| GroundedModel::new(Some(lobe), &[("glossy", "glossy Buddha")]));
     let buddhas: Vec<GroundedModel> =
-        [drawn("diffuse", "diffuse Buddha", None, &whole)].into_iter().chain(glossy).collect();
-    let (buddha, of_buddha) = pictures(&models::buddha(size), size, &buddhas)?;
-    let teapots = models::schlick().into_iter().flat_map(|lobe| {
-        let lights = [("low", "low frequency", &smooth), ("all", "all frequencies", &whole)];
-        lights.map(|(name, of, light)| drawn(name, &format!("teapot, light of {of}"), Some(lobe), light))
-    });
-    let (teapot, of_teapot) = pictures(&models::teapot_of(size)?, size, &teapots.collect::<Vec<_>>())?;
+        [GroundedModel::new(None, &[("diffuse", "diffuse Buddha")])].into_iter().chain(glossy).collect();
+    let (buddha, of_buddha) = pictures(&models::drawn_buddha(size), size, &[&whole], &buddhas)?;
+    let by_light = [("low", "teapot, light of low frequency"), ("all", "teapot, light of all frequencies")];
+    let teapots = models::schlick().map(|lobe| GroundedModel::new(Some(lobe), &by_light));
+    let (teapot, of_teapot) = pictures(&models::teapot_of(size)?, size, &[&smooth, &whole], &teapots)?;
     let [low, all, low_of_form, all_of_form] = [0, 1, 2, 3].map(|at| of_teapot.get(at).cloned());
     let [diffuse, glossy, glossy_of_form] = [0, 1, 2].map(|at| of_buddha.get(at).cloned());
     let columns = ["Buddha, diffuse", "Buddha, glossy", "teapot, low frequencies", "teapot, all frequencies"];

@@ -26,7 +26,7 @@ fn surface<'a>(scene: &'a FigureScene, reflectance: &'a Reflectance) -> Surface<
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
-    let scene = FigureScene::new(&models::teapot_of(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1), size)?;
+    let scene = FigureScene::new(&models::drawn_teapot(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1), size)?;
     let light = stand_in()?;
     let mut parts = FigureParts::default();
     let columns = std::iter::once("the reflectance itself".to_owned()).chain(TERMS.map(|terms| format!("m = {terms}")));
@@ -57,7 +57,7 @@ fn of_form(
     let factorization = models::factorization(&lobe, most)?;
     let of_most = Reflectance::Factored(factorization.factors(most));
     let dark = vec![[0.0; 3]; scene.of_ground.len()];
-    let raw = surface(scene, &of_most).raw(&HaarLight::new(light, Segmentation::Quarters))?;
+    let raw = surface(scene, &of_most).raw(&[&HaarLight::new(light, Segmentation::Quarters)])?.remove(0);
     let subject =
         BaselineSubject { vertices: &scene.vertices, maps: &scene.of_model, hats: &scene.hats, product: &lobe };
     let exact = FixedView(subject).radiance(scene.eye(), &[light.texels()]).remove(0);

@@ -47,11 +47,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         "Low frequency beside biclusters: off the picture by rays, and off that with the same textures",
         "figure biclusters_% low_frequency_% biclusters_with_textures_% low_frequency_with_textures_%",
     );
-    for (figure, place, model, side) in [
-        ("figure-1", "figure 1", models::bunny(size), SIDE),
-        ("figure-5", "figure 5", models::armor(size), ARMOR_SIDE),
-        ("figure-6", "figure 6", models::chair(size), SIDE),
-        ("figure-7", "figure 7", models::temple(size), SIDE),
+    let drawn_alone = FigureSize::of_pictures(shared.models);
+    for (figure, place, (model, size), side) in [
+        ("figure-1", "figure 1", (models::bunny(size), size), SIDE),
+        ("figure-5", "figure 5", (models::armor(size), size), ARMOR_SIDE),
+        ("figure-6", "figure 6", (models::chair(drawn_alone), drawn_alone), SIDE),
+        ("figure-7", "figure 7", (models::temple(drawn_alone), drawn_alone), SIDE),
     ] {
         let drawn = DrawnFigure::new(&model, side, size, true)?;
         found.pictures.push(drawn.grid(&format!("{}: {}", place.replacen('f', "F", 1), model.name), figure)?);
@@ -66,7 +67,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     found.tables.insert(0, smooth);
     found.pictures.insert(1, figure_3.pictures);
-    let (table, grid) = more_directions(&models::rough_bunny(size), size)?;
+    let (table, grid) = more_directions(&models::rough_bunny(drawn_alone), drawn_alone)?;
     found.tables.push(table);
     found.pictures.push(grid);
     let light = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);

@@ -49,6 +49,15 @@ impl FigureSize {
             }
         }
     }
+
+    /// Size for figures on which no row depends: reduced, a quarter of the pixels and coarser models.
+    pub(super) fn of_pictures(models: ModelSize) -> Self {
+        let size = Self::of(models);
+        match models {
+            ModelSize::Reduced => Self { coarser: 5, picture: [20, 15], ..size },
+            ModelSize::Printed => size,
+        }
+    }
 }
 
 /// Model to draw.
