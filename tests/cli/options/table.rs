@@ -386,4 +386,5 @@ pub(super) const TABLE: &[Tried] = &[
         bases: &["measure docs/examples/measured.csv --device nv25"],
         options: "--device=nv20 --switch=rounding=rtz",
     },
+    Tried { bases: &["page --out OUT"], options: "--out=other" },
 ];
