@@ -5,14 +5,14 @@
 mod browser;
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitCode};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use serde_json::{Value, json};
 
 use browser::Browser;
 
-fn main() {
+fn main() -> ExitCode {
     let folder = tempfile::tempdir().expect("a folder for the page");
     let file = folder.path().join("index.html");
     let name = browser::chromium();
@@ -37,7 +37,7 @@ fn main() {
     if name.is_none() {
         eprintln!("no Chromium: the page is not tested");
     }
-    libtest_mimic::run(&Arguments::from_args(), trials).exit();
+    libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
 
 fn write_page(folder: &Path) {
