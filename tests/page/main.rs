@@ -7,6 +7,8 @@ mod browser;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use libtest_mimic::{Arguments, Failed, Trial};
 use serde_json::{Value, json};
 
@@ -32,6 +34,7 @@ fn main() -> ExitCode {
     };
     let trials = vec![
         trial("every_bit_is_the_emulators_and_controls_work", every_bit_is_the_emulators_and_controls_work),
+        trial("a_wrong_bit_is_found_and_named", a_wrong_bit_is_found_and_named),
         trial("without_webgpu_there_are_pictures", without_webgpu_there_are_pictures),
     ];
     if name.is_none() {
@@ -91,12 +94,58 @@ fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     let (before, after) = redrawn(&mut browser, |browser| browser.press("view", "ArrowLeft", 37));
     assert_ne!(before, after, "the camera moves");
     let told = browser.value("document.getElementById('told').textContent").to_string();
-    assert!(told.contains("leaks") && told.contains("double precision"), "{told}");
+    assert!(told.contains("leak") && told.contains("double precision"), "{told}");
 
     assert!(browser.errors().is_empty(), "{:?}", browser.errors());
     let others: Vec<&str> =
         browser.requests().into_iter().filter(|url| !url.starts_with("file:") && !url.starts_with("data:")).collect();
     assert!(others.is_empty(), "{others:?}");
+}
+
+/// Flips the lowest bit of a byte of encoded data.
+fn flip(data: &mut Value, byte: usize) {
+    let mut bytes = STANDARD.decode(data.as_str().expect("text")).expect("base64");
+    bytes[byte] ^= 1;
+    *data = json!(STANDARD.encode(bytes));
+}
+
+/// A page that carries one wrong result and one wrong hit shows both: the comparison can fail.
+fn a_wrong_bit_is_found_and_named(name: &str, file: &Path) {
+    const START: &str = "type=\"application/json\">";
+    const PIXEL: usize = 39 * 128 + 8;
+    let page = std::fs::read_to_string(file).expect("the page");
+    let (before, rest) = page.split_once(START).expect("data");
+    let (data, after) = rest.split_once("</script>").expect("an end");
+    let mut data: Value = serde_json::from_str(data).expect("JSON");
+    // The first result of `add` in s3.12, of two bytes; t of a pixel of the first picture, which stays alone.
+    flip(&mut data["arithmetic"]["expected"][0][0], 0);
+    let views = data["teapot"]["views"].as_array_mut().expect("views");
+    views.truncate(1);
+    let pictures = views[0]["pictures"].as_array_mut().expect("pictures");
+    pictures.truncate(1);
+    pictures[0]["digest"] = json!("0000000000000000");
+    flip(&mut pictures[0]["hits"], 4 * (128 * 128 + PIXEL));
+    let changed = file.with_file_name("changed.html");
+    std::fs::write(&changed, format!("{before}{START}{data}</script>{after}")).expect("a file");
+
+    let mut browser = Browser::start(name, true);
+    browser.open(&changed);
+    browser.wait("document.body.dataset.state !== 'loading'");
+    assert_eq!(browser.value("document.body.dataset.state"), json!("different"));
+    let found = found(&mut browser);
+    let wrong: Vec<&Value> =
+        found["operations"].as_array().into_iter().flatten().filter(|cell| cell["wrong"] != 0).collect();
+    assert_eq!(wrong.len(), 1, "{wrong:#?}");
+    assert_eq!(
+        (&wrong[0]["operation"], &wrong[0]["format"], &wrong[0]["wrong"]),
+        (&json!("add"), &json!("s3.12"), &json!(1))
+    );
+    assert_eq!(wrong[0]["first"]["operands"].as_array().map(Vec::len), Some(2));
+    // The cell leads to the sentence that names the operands.
+    let said = "document.querySelector(document.querySelector('#at-0-0 > a').getAttribute('href')).textContent";
+    assert!(browser.value(said).to_string().contains("add in s3.12: wrong results: 1."), "{}", browser.value(said));
+    let picture = browser.value("document.querySelector('#fixed-0-0.wrong .found').textContent").to_string();
+    assert!(picture.contains("pixel (8, 39)"), "{picture}");
 }
 
 fn without_webgpu_there_are_pictures(name: &str, file: &Path) {

@@ -5,6 +5,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::page_data::PageData;
 use super::teapot::{FixedView, VerdictColor};
 use crate::report::page_style;
+use crate::report::words::counted;
 
 /// Script of the page, in the order in which its parts need each other.
 const SCRIPT: [&str; 7] = [
@@ -117,10 +118,10 @@ fn fixed_views(views: &[FixedView]) -> Markup {
                 div.figures {
                     @for (p, picture) in view.pictures.iter().enumerate() {
                         figure.fixed id=(format!("fixed-{v}-{p}")) {
-                            img width="192" height="192" alt=(format!("The teapot in {}, seen {}: {} leaks", picture.format, view.name, picture.leaks))
+                            img width="192" height="192" alt=(format!("The teapot in {}, seen {}: {}", picture.format, view.name, counted(picture.leaks as u64, "leak", "leaks")))
                                 src=(format!("data:image/png;base64,{}", picture.png));
                             figcaption {
-                                b { (picture.format) } ", " (picture.leaks) " leaks" br;
+                                b { (picture.format) } ", " (counted(picture.leaks as u64, "leak", "leaks")) br;
                                 "emulator " code { (picture.digest) } br;
                                 span.found { "stored picture" }
                             }

@@ -65,9 +65,9 @@ const runCells = async (device, pipeline, cells) => {
   return found;
 };
 
-const sayDifference = ({ operation, format, wrong, first }) => {
-  const item = add(at("differences"), "p", { id: `cell-${operation}-${format}`, className: "failed" });
-  item.append(`${operation} in ${format}: ${count(wrong)} results differ. First: operands ${first.operands.join(" ")}, `);
+const sayDifference = (row, column, { operation, format, wrong, first }) => {
+  const item = add(at("differences"), "p", { id: `cell-${row}-${column}`, className: "failed" });
+  item.append(`${operation} in ${format}: wrong results: ${count(wrong)}. First: operands ${first.operands.join(" ")}, `);
   item.append(`expected ${first.expected}, found ${first.found}.`);
   return item.id;
 };
@@ -97,7 +97,7 @@ const judgeCell = (row, column, found) => {
   if (cell.wrong === 0) {
     place.textContent = "0";
   } else {
-    add(place, "a", { href: `#${sayDifference(cell)}` }, count(cell.wrong));
+    add(place, "a", { href: `#${sayDifference(row, column, cell)}` }, count(cell.wrong));
   }
   return cell.wrong;
 };

@@ -18,6 +18,7 @@ const wordsOf = (text) => new Uint32Array(bytesOf(text).buffer);
 const floatsOf = (text) => new Float32Array(bytesOf(text).buffer);
 const hex = (bits, digits) => bits.toString(16).toUpperCase().padStart(digits, "0");
 const count = (n) => n.toLocaleString("en-US");
+const counted = (n, noun) => `${count(n)} ${noun}${n === 1 ? "" : "s"}`;
 const said = (text) => { at("status").textContent = text; };
 
 // What was found; shown as JSON.

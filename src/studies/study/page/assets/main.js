@@ -80,8 +80,11 @@ const liveView = (gpu) => {
       paint(canvas, now, hits, verdicts);
       const number = (verdict) => verdicts.filter((other) => other === verdict).length;
       const judged = now.ties ? "exact arithmetic" : "a ray caster in double precision";
-      at("told").textContent = `${formatName(words)}: ${count(number(VERDICT_LEAK))} leaks, ${count(number(VERDICT_FALSE))} false hits, `
-        + `${count(number(VERDICT_NEIGHBOUR) + number(VERDICT_TRIANGLE))} wrong triangles in ${count(verdicts.length)} pixels, `
+      const told = [
+        counted(number(VERDICT_LEAK), "leak"), counted(number(VERDICT_FALSE), "false hit"),
+        counted(number(VERDICT_NEIGHBOUR) + number(VERDICT_TRIANGLE), "wrong triangle"),
+      ];
+      at("told").textContent = `${formatName(words)}: ${told.join(", ")} in ${count(verdicts.length)} pixels, `
         + `judged by ${judged}; ${Math.round(performance.now() - begun)} ms.`;
       canvas.dataset.drawn = `${formatName(words)} ${digestOf(hits)}`;
     } while (state === "again");
