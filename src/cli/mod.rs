@@ -33,6 +33,7 @@ mod number;
 mod one_of;
 mod out;
 mod outputs;
+mod page;
 mod pixel;
 mod precision;
 mod progress;
@@ -142,6 +143,7 @@ enum Command {
     Man(man::Args),
     Materials(materials::Args),
     Measure(measure::Args),
+    Page(page::Args),
     Precision(precision::Args),
     Radiosity(radiosity::Args),
     Render(render::Args),
@@ -246,6 +248,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Man(args) => man::run(&args, program(), out),
         Command::Materials(args) => materials::run(&args, out),
         Command::Measure(args) => study::run(&args, command_line, out),
+        Command::Page(args) => page::run(&args, out),
         Command::Precision(args) => study::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Subsurface(args) => study::run(&args, command_line, out),

@@ -25,6 +25,7 @@ mod memory;
 mod models;
 mod moved;
 mod options;
+mod page;
 mod precision;
 mod program;
 mod radiosity;

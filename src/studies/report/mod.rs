@@ -31,6 +31,7 @@ pub use self::excerpt::{Excerpt, quoted_line};
 pub use self::findings::{Findings, FoundTable, Legend, NamedChart, NamedFile, Verdict};
 pub use self::fold::Folded;
 pub use named_picture::{NamedPicture, PictureGrid, PictureRow};
+pub(crate) use page::sheet as page_style;
 pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;
 pub use summary::{SummaryLine, TallyEntry, Tone};

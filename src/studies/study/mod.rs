@@ -8,6 +8,7 @@ mod error;
 pub mod framing;
 pub mod leaky_teapot;
 pub mod measure;
+pub mod page;
 pub mod picture_difference;
 pub mod precision;
 pub mod prt;

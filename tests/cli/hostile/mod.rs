@@ -71,6 +71,7 @@ const COMMANDS: &[&str] = &[
     "scene nowhere",
     "subsurface nowhere.obj --mm-per-unit 1 --material marble",
     "timeline nowhere.toml",
+    "page nowhere",
 ];
 
 /// Commands without options that take values.

@@ -391,4 +391,5 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--goal=mean_relative<=0.01 --device=r300 --switch=mad=fused --family=fixed --budget=7 \
                   --costs=docs/examples/multiplier_area.csv --out=other",
     },
+    Tried { bases: &["page --out OUT"], options: "--out=other" },
 ];

@@ -9,6 +9,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use self::figure::{drawing, grid, pictures};
 use self::overview::{contents, section, small_counts, summary, summary_lines};
+pub(crate) use self::style::sheet;
 use self::table::scrolling;
 use super::findings::{Findings, Legend, Passage};
 use super::visible::visible;
@@ -49,7 +50,7 @@ pub(super) fn html(
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (findings.title) }
-                style { (PreEscaped(style::sheet())) }
+                style { (PreEscaped(sheet())) }
             }
             body {
                 main {

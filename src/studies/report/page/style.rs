@@ -20,7 +20,7 @@ const ON_DARK: Accents = [
 ];
 
 /// Returns the style sheet, which follows the reader's choice of a light or dark page.
-pub(super) fn sheet() -> String {
+pub(crate) fn sheet() -> String {
     format!(
         "\n:root {{ color-scheme: light dark; {} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n{}",
         variables(&LIGHT, ON_LIGHT),

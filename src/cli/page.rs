@@ -1,0 +1,45 @@
+//! `crossbar page`: a page that compares a visitor's GPU with the emulator.
+
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use super::{Out, Problem, ProgressBar, Verdict, view};
+use crate::io::atomic::FileSet;
+use crate::study::page::page;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar page --out out/page
+      out/page/index.html: open it in a browser with WebGPU
+
+The file stands alone: it loads nothing and sends nothing. It runs operations in eight number formats, and the teapot
+under the Ray Engine's intersection program, on the visitor's GPU in whole numbers, and compares all bits with the emulator's, \
+which it carries; beside them the GPU's own floats. docs/page.md describes it.";
+
+/// Write a page on which a visitor's GPU is compared with the emulated cards, bit for bit
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Where to write index.html
+    #[arg(long, value_name = "DIR", default_value = "out/page")]
+    out: PathBuf,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    // Before the work, so that a folder that cannot be written is found out at once.
+    let folder = FileSet::by("page", &args.out).map_err(Problem::from)?;
+    let bar = ProgressBar::new("", 1);
+    let text = page(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    drop(bar);
+    let bytes = text.len();
+    let written = view::write_folder(folder, &[("index.html".to_owned(), text.into_bytes())])?;
+    if out.json() {
+        out.document(&json!({ "files": written, "bytes": bytes }))?;
+        return Ok(Verdict::Done);
+    }
+    for path in written {
+        out.line(format_args!("wrote {} ({bytes} bytes)", path.display()))?;
+    }
+    Ok(Verdict::Done)
+}

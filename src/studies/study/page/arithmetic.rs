@@ -1,0 +1,251 @@
+//! Operations on operands of many formats: shaders, and the results that the emulator's arithmetic gives.
+
+use rayon::prelude::*;
+use refsim::exec::wgsl::accuracy::{Allowed, SingleOperation, allowed};
+use refsim::exec::wgsl::number::{format_words, library};
+use refsim::exec::wgsl::parts::Parts;
+use refsim::num::{Format, NumberOperation as Op};
+use serde::Serialize;
+
+use super::encode::{base64, base64_words};
+use super::operands::PatternBits;
+
+/// Operand sets per operation and format.
+const SETS: u32 = 2048;
+
+/// Entry points of `arithmetic.wgsl`, with what each compiles beside the cheap operations.
+const SHADERS: [(&str, &[Op]); 3] =
+    [("alu_main", &[Op::Floor, Op::Sqrt]), ("power_main", &[Op::Exp2]), ("circle_main", &[Op::Sin])];
+
+/// Operations, with their names in assembly and the shader that runs them.
+const OPERATIONS: [(Op, &str, usize); 17] = [
+    (Op::Add, "add", 0),
+    (Op::Sub, "sub", 0),
+    (Op::Mul, "mul", 0),
+    (Op::Mad, "mad", 0),
+    (Op::FusedMad, "fused mad", 0),
+    (Op::Div, "div", 0),
+    (Op::Rcp, "rcp", 0),
+    (Op::Rsq, "rsq", 0),
+    (Op::Sqrt, "sqrt", 0),
+    (Op::Min, "min", 0),
+    (Op::Max, "max", 0),
+    (Op::Floor, "floor", 0),
+    (Op::Frc, "frc", 0),
+    (Op::Exp2, "exp2", 1),
+    (Op::Log2, "log2", 1),
+    (Op::Sin, "sin", 2),
+    (Op::Cos, "cos", 2),
+];
+
+/// Formats, with what had them.
+const FORMATS: [(&str, &str); 8] = [
+    ("s3.12", "Radeon 8500"),
+    ("s1.10", "GeForce FX fixed point"),
+    ("n3.8", "multiples of 1/255"),
+    ("e5m10", "fp16"),
+    ("e7m16", "fp24"),
+    ("e7m16:rtz:ftz", "fp24, truncated and flushed"),
+    ("e8m7", "bfloat16"),
+    ("e8m23", "fp32"),
+];
+
+/// The format whose operands the adapter's own `f32` gets, and that of its `f16`.
+const NATIVE: [&str; 2] = ["e8m23", "e5m10"];
+
+/// All that the page needs for its table of operations.
+#[derive(Debug, Serialize)]
+pub(super) struct Arithmetic {
+    sets: u32,
+    shaders: Vec<ArithmeticShader>,
+    pub(super) operations: Vec<OperationColumn>,
+    pub(super) formats: Vec<FormatColumn>,
+    /// Results by operation, then format: little-endian patterns of the fewest bytes that hold the format's width.
+    expected: Vec<Vec<String>>,
+    native: NativeShader,
+    /// What WGSL allows the adapter's `f32`, by operation ([`limits`]); empty where it is not judged.
+    limits: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct ArithmeticShader {
+    entry: &'static str,
+    text: String,
+}
+
+/// An operation of the table.
+#[derive(Debug, Serialize)]
+pub(super) struct OperationColumn {
+    pub(super) name: &'static str,
+    word: u32,
+    operands: usize,
+    shader: usize,
+    /// Accuracy that WGSL requires of `f32`, in words.
+    accuracy: &'static str,
+}
+
+/// A format of the table.
+#[derive(Debug, Serialize)]
+pub(super) struct FormatColumn {
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    words: [u32; 8],
+    width: u32,
+    bits: PatternBits,
+    /// The adapter's own type of this format.
+    native: Option<&'static str>,
+}
+
+#[derive(Debug, Serialize)]
+struct NativeShader {
+    text: &'static str,
+    /// Constants that name the operations.
+    constants: String,
+}
+
+impl Arithmetic {
+    /// Computes all results by [`refsim::num`].
+    pub(super) fn compute() -> Self {
+        let formats = FORMATS.map(|(name, title)| (name, title, format(name)));
+        let expected = (0..OPERATIONS.len())
+            .into_par_iter()
+            .map(|row| (0..FORMATS.len()).map(|column| base64(results(row, column, &formats[column].2))).collect())
+            .collect();
+        let operations = OPERATIONS.map(|(operation, name, shader)| OperationColumn {
+            name,
+            word: operation.word(),
+            operands: operation.operands(),
+            shader,
+            accuracy: accuracy(operation),
+        });
+        let single = formats.iter().position(|(name, ..)| *name == NATIVE[0]).unwrap_or_default();
+        Self {
+            sets: SETS,
+            shaders: SHADERS.map(|(entry, operations)| shader(entry, operations, &formats)).into(),
+            operations: operations.into(),
+            formats: formats.map(|(name, title, format)| column(name, title, &format)).into(),
+            expected,
+            native: NativeShader {
+                text: include_str!("assets/native.wgsl"),
+                constants: OPERATIONS
+                    .map(|(operation, ..)| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()))
+                    .concat(),
+            },
+            limits: (0..OPERATIONS.len()).map(|row| limits(row, single, &formats[single].2)).collect(),
+        }
+    }
+}
+
+fn format(name: &str) -> Format {
+    name.parse().unwrap_or(Format::FP32)
+}
+
+fn column(name: &'static str, title: &'static str, format: &Format) -> FormatColumn {
+    let native = NATIVE.iter().position(|native| *native == name).map(|at| ["f32", "f16"][at]);
+    let bits = PatternBits::new(format);
+    FormatColumn { name, title, words: format_words(format), width: format.width(), bits, native }
+}
+
+/// Counter of a set, from which its operands follow.
+const fn counter(row: usize, column: usize, set: u32) -> u32 {
+    (row as u32 * FORMATS.len() as u32 + column as u32) * SETS + set
+}
+
+fn operand_sets(row: usize, column: usize, format: &Format) -> impl Iterator<Item = [u32; 3]> {
+    let bits = PatternBits::new(format);
+    (0..SETS).map(move |set| bits.set(counter(row, column, set)))
+}
+
+fn results(row: usize, column: usize, format: &Format) -> Vec<u8> {
+    let bytes = format.width().div_ceil(8) as usize;
+    let result = |operands| OPERATIONS[row].0.evaluate(*format, operands).map_or(0, |outcome| outcome.bits);
+    operand_sets(row, column, format).flat_map(|set| result(set).to_le_bytes().into_iter().take(bytes)).collect()
+}
+
+fn shader(entry: &'static str, operations: &[Op], formats: &[(&str, &str, Format)]) -> ArithmeticShader {
+    let mut parts = Parts::default();
+    operations.iter().for_each(|&operation| parts.add_operation(operation));
+    formats.iter().for_each(|(.., format)| parts.add_format(format));
+    let text = parts.of(&(library() + include_str!("assets/arithmetic.wgsl")), entry);
+    ArithmeticShader { entry, text }
+}
+
+/// Encodes what WGSL allows for each set in words: the number of ranges of [`refsim::exec::wgsl::accuracy::order`],
+/// then the ends of each; `u32::MAX` where any result is allowed.
+fn limits(row: usize, column: usize, format: &Format) -> String {
+    let operation = OPERATIONS[row].0;
+    let Some(single) = SingleOperation::ALL
+        .into_iter()
+        .find(|single| single.operation() == operation && *single != SingleOperation::FromInteger)
+    else {
+        return String::new();
+    };
+    let words = operand_sets(row, column, format).flat_map(|set| match allowed(single, set) {
+        Allowed::Any => vec![u32::MAX],
+        Allowed::Within(ranges) => {
+            let ends = ranges.iter().flat_map(|&(low, high)| [low, high]).map(|end| (end as i32).cast_unsigned());
+            std::iter::once(ranges.len() as u32).chain(ends).collect()
+        }
+    });
+    base64_words(words)
+}
+
+/// Accuracy that WGSL (section 15.7.4) requires of `f32`.
+const fn accuracy(operation: Op) -> &'static str {
+    match operation {
+        Op::Add | Op::Sub | Op::Mul | Op::Floor | Op::Min | Op::Max => "correctly rounded",
+        Op::Mad => "each step correctly rounded, or fused",
+        Op::FusedMad => "as x * y + z",
+        Op::Div | Op::Rcp => "2.5 ULP",
+        Op::Rsq => "2 ULP",
+        Op::Sqrt => "as 1 / inverseSqrt(x)",
+        Op::Frc => "as x - floor(x)",
+        Op::Exp2 => "3 + 2 |x| ULP",
+        Op::Log2 => "2^-21 in [0.5, 2], else 3 ULP",
+        Op::Sin | Op::Cos => "2^-11 in [-pi, pi]",
+        _ => "",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_format_is_one_and_every_operation_has_results() {
+        for (name, _) in FORMATS {
+            let format: Format = name.parse().expect("a format");
+            assert_eq!(format.to_string(), name, "the canonical name");
+            for (operation, name, shader) in OPERATIONS {
+                assert!(operation.evaluate(format, [0; 3]).is_some(), "{name}");
+                assert!(shader < SHADERS.len());
+            }
+        }
+    }
+
+    /// A page that made other operands would call a right GPU wrong: these are what the page's script makes.
+    #[test]
+    fn operands_are_those_of_the_script() {
+        let bits = PatternBits::new(&Format::FP32);
+        let sets: Vec<[u32; 3]> = (0..4).map(|set| bits.set(counter(1, 7, set))).collect();
+        let script = [
+            [0x8000_0001, 0x7fff_ffff, 0xc051_1094],
+            [0xc058_1d02, 0xc084_a859, 0x40ae_1611],
+            [0x7f80_0000, 0x7efe_b5a0, 0xd1f0_4361],
+            [0x70a2_6012, 0xc8ad_abe1, 0x60ed_0ff8],
+        ];
+        assert_eq!(sets, script);
+    }
+
+    /// The text of each shader has its own entry point and no operation of the others.
+    #[test]
+    fn shaders_hold_what_they_run() {
+        let formats = FORMATS.map(|(name, title)| (name, title, format(name)));
+        for (entry, operations) in SHADERS {
+            let ArithmeticShader { text, .. } = shader(entry, operations, &formats);
+            assert_eq!(text.matches("@compute").count(), 1, "{entry}");
+            assert!(text.contains(&format!("fn {entry}(")));
+            assert_eq!(text.contains("fn n_circle("), entry == "circle_main", "{entry}");
+        }
+    }
+}

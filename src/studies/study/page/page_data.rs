@@ -1,0 +1,26 @@
+//! The data of the page.
+
+use serde::Serialize;
+
+use super::arithmetic::Arithmetic;
+use super::teapot::Teapot;
+use crate::study::{ProgressFn, StudyError};
+
+/// The data that the page's script reads, as JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct PageData {
+    /// Version of the program.
+    pub(super) version: &'static str,
+    arithmetic: Arithmetic,
+    pub(super) teapot: Teapot,
+}
+
+impl PageData {
+    /// Computes everything. `progress` is called with the name of each part before it starts.
+    pub(super) fn compute(progress: &mut ProgressFn<'_>) -> Result<Self, StudyError> {
+        progress("arithmetic", 0, 2);
+        let arithmetic = Arithmetic::compute();
+        progress("the teapot", 1, 2);
+        Ok(Self { version: env!("CARGO_PKG_VERSION"), arithmetic, teapot: Teapot::compute()? })
+    }
+}
