@@ -57,12 +57,11 @@ use context::Context;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, CheckReport> {
+    let mut program = fog::expand(program);
     if let Some(log) = &profile.log {
         log.add(&program);
     }
-    let mut program = program;
     profile.instruction_formats().assign(&mut program);
-    let program = fog::expand(program);
     let (mut violations, mut warnings) = (Vec::new(), Vec::new());
     let facts = {
         let mut context = Context::new(&program, profile);

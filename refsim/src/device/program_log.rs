@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::isa::Program;
 
-/// The programs that were checked for a device or a copy of it, each once, as they were assembled.
+/// The programs that were checked for a device or a copy of it, each once, with fog options expanded.
 ///
 /// For studies of systems that choose and write their programs themselves. All logs compare equal, because they do not
 /// belong to the card.

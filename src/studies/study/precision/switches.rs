@@ -1,8 +1,11 @@
 //! Sensitivity to the open switches of a device.
 
+use refsim::isa::{Program, Stage};
+
 use super::bits::FormatBits;
 use super::curve::BitScan;
 use super::runs::{RunError, Runs};
+use crate::study::StudyError;
 
 /// Value of a switch with what it changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,9 +75,18 @@ fn under(
     runs: &mut Runs<'_>,
 ) -> Result<SwitchFindings, RunError> {
     let mut given = runs.subject.profile().clone();
-    given.set_switch(switch, value).map_err(crate::study::StudyError::from)?;
+    given.set_switch(switch, value).map_err(StudyError::from)?;
     let goal = runs.goal;
     let as_given = runs.measure(&given)?.value(&goal.measure);
+    // Some switches decide which program a system chooses: formats of other programs' instructions would do nothing.
+    let mut exact = runs.uniform_device(&given, None);
+    let log = exact.log_programs();
+    runs.measure(&exact)?;
+    let studied: Vec<u64> = runs.programs.iter().map(|studied| studied.program.digest()).collect();
+    let pixel = |program: &Program| program.version.stage() == Stage::Pixel;
+    if log.programs().iter().filter(|program| pixel(program)).any(|program| !studied.contains(&program.digest())) {
+        return Err(StudyError::new("crossbar::precision::program", "other programs are chosen").into());
+    }
     let mut uniform = |bits: Option<FormatBits>| {
         let device = runs.uniform_device(&given, bits);
         Ok::<_, RunError>(runs.measure(&device)?.value(&goal.measure))

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::{SystemInput, SystemRun, at_most, bunny, camera};
+use super::run::{SystemInput, SystemRun, at_most, bunny, camera};
 use crate::card::MeshView;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::cpca::transfer::{Bounces, Incident};

@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
-use super::{SystemInput, SystemRun, at_most};
+use super::run::{SystemInput, SystemRun, at_most};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::{CardSolver, FormFactors, Patches, Storage, Subdivision, System, rooms};
 use crate::study::StudyError;

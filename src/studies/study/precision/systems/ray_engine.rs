@@ -5,7 +5,8 @@ use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::machine::{Executor, ExecutorKind};
 
-use super::{PixelPrograms, at_most};
+use super::programs::PixelPrograms;
+use super::run::at_most;
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;

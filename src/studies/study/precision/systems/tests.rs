@@ -2,10 +2,12 @@
 
 use std::time::Instant;
 
+use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 use strum::IntoEnumIterator as _;
 
 use super::*;
+use crate::study::precision::runs::exact;
 use crate::study::precision::subject::places;
 
 fn device(system: PaperSystem) -> Profile {

@@ -1,0 +1,130 @@
+//! Systems whose values are compared with those of their own exact run.
+
+use refsim::device::Profile;
+use refsim::machine::{Executor, ExecutorKind};
+
+use super::programs::PixelPrograms;
+use super::run::{SystemInput, SystemRun};
+use crate::picture::{RgbImage, display, rgb8};
+use crate::study::StudyError;
+use crate::study::precision::goal::Goal;
+use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+
+const MEASURES: [PrecisionMeasure; 5] = [
+    PrecisionMeasure {
+        name: "largest_relative",
+        meaning: "largest relative error of a channel; 1 where only the exact value is 0",
+    },
+    PrecisionMeasure { name: "mean_relative", meaning: "mean relative error of all channels" },
+    PrecisionMeasure { name: "largest_255ths", meaning: "largest error of a channel, in 255ths of white" },
+    PrecisionMeasure {
+        name: "visible",
+        meaning: "share of pixels or patches, in [0, 1], of which a channel is off by more than one 255th",
+    },
+    PrecisionMeasure { name: "not_finite", meaning: "number of channels that are infinite or NaN" },
+];
+
+/// System whose exact values are those of its run in single precision.
+pub(super) struct SystemSubject {
+    run: Box<dyn SystemRun>,
+    profile: Profile,
+    executors: [Executor; 2],
+    programs: PixelPrograms,
+    exact: Vec<[f64; 3]>,
+    exact_held_back: Vec<[f64; 3]>,
+}
+
+impl SystemSubject {
+    pub(super) fn new(run: Box<dyn SystemRun>, profile: Profile) -> Result<Self, StudyError> {
+        let executors = [ExecutorKind::Batch, ExecutorKind::Scalar].map(Executor::from);
+        let (programs, [exact, exact_held_back]) = PixelPrograms::of(&profile, |device| {
+            let values = |input| run.values(input, device, &executors[0]);
+            Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
+        })?;
+        Ok(Self { run, profile, executors, programs, exact, exact_held_back })
+    }
+}
+
+/// Errors of values against exact ones.
+fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> (Vec<(&'static str, f64)>, Option<usize>) {
+    let (mut sum, mut largest, mut off, mut not_finite, mut visible) = (0.0, 0.0_f64, 0.0_f64, 0_u64, 0_u64);
+    let mut worst: Option<(usize, f64)> = None;
+    for (at, (ours, right)) in found.iter().zip(exact).enumerate() {
+        let mut most = 0.0_f64;
+        for (&value, &right) in ours.iter().zip(right) {
+            not_finite += u64::from(!value.is_finite());
+            let absolute = if value.is_finite() { (value - right).abs() } else { f64::INFINITY };
+            let relative = match (absolute == 0.0, right == 0.0) {
+                (true, _) => 0.0,
+                (false, true) => 1.0,
+                (false, false) => absolute / right.abs(),
+            };
+            sum += relative;
+            largest = largest.max(relative);
+            most = most.max(255.0 * absolute);
+        }
+        off = off.max(most);
+        visible += u64::from(most > 1.0);
+        if most > worst.map_or(0.0, |(_, most)| most) {
+            worst = Some((at, most));
+        }
+    }
+    let count = exact.len().max(1) as f64;
+    let values = vec![
+        ("largest_relative", largest),
+        ("mean_relative", sum / (3.0 * count)),
+        ("largest_255ths", off),
+        ("visible", visible as f64 / count),
+        ("not_finite", not_finite as f64),
+    ];
+    (values, worst.map(|(at, _)| at))
+}
+
+impl PrecisionSubject for SystemSubject {
+    fn title(&self) -> String {
+        self.run.title().to_owned()
+    }
+
+    fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    fn programs(&self) -> Vec<StudiedProgram<'_>> {
+        self.programs.list()
+    }
+
+    fn measures(&self) -> &[PrecisionMeasure] {
+        &MEASURES
+    }
+
+    fn default_goal(&self) -> Goal {
+        self.run.default_goal()
+    }
+
+    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        let executor = &self.executors[usize::from(executor == ExecutorKind::Scalar)];
+        let found = self.run.values(SystemInput::Searched, profile, executor)?;
+        let (values, worst) = errors(&found, &self.exact);
+        let worst = worst.map(|at| {
+            let place = match self.run.size() {
+                Some([width, _]) => format!("pixel {}, {}", at as u32 % width, at as u32 / width),
+                None => format!("{} {at}", self.run.unit()),
+            };
+            let [ours, exact] = [found[at], self.exact[at]].map(|rgb| rgb.map(|value| value as f32));
+            format!("{place}: {ours:?}, not {exact:?}")
+        });
+        let picture = self.run.size().filter(|_| wanted.is_none()).map(|size| picture(size, &found));
+        Ok(Measured { values, worst, picture })
+    }
+
+    fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
+        let found = self.run.values(SystemInput::HeldBack, profile, &self.executors[0])?;
+        let (values, _) = errors(&found, &self.exact_held_back);
+        Ok(Some(Measured { values, ..Measured::default() }))
+    }
+}
+
+/// Picture of linear values.
+fn picture([width, height]: [u32; 2], values: &[[f64; 3]]) -> RgbImage {
+    rgb8(width, height, values.iter().map(|pixel| pixel.map(display::encode)))
+}
