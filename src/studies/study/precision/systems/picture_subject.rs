@@ -61,7 +61,8 @@ fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> (Vec<(&'static str, f64)>, 
             };
             sum += relative;
             largest = largest.max(relative);
-            most = most.max(255.0 * absolute);
+            // To a millionth, so that a code of 8 bits, which is read in single precision, is one 255th.
+            most = most.max((1e6 * 255.0 * absolute).round() / 1e6);
         }
         off = off.max(most);
         visible += u64::from(most > 1.0);
