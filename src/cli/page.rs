@@ -13,9 +13,9 @@ Examples:
   crossbar page --out out/page
       out/page/index.html: open it in a browser with WebGPU
 
-The file stands alone: it loads nothing and sends nothing. It runs operations in eight number formats, and the teapot
-under the Ray Engine's intersection program, on the visitor's GPU in whole numbers, and compares all bits with the emulator's, \
-which it carries; beside them the GPU's own floats. docs/page.md describes it.";
+The file stands alone: it loads nothing and sends nothing. On the visitor's GPU it runs operations in eight number \
+formats, and the teapot under the Ray Engine's intersection program, in whole numbers, and compares all bits with the \
+emulator's, which it carries; beside them the GPU's own floats. docs/page.md describes it.";
 
 /// Write a page on which a visitor's GPU is compared with the emulated cards, bit for bit
 #[derive(Debug, clap::Args)]

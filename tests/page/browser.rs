@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-/// Longest wait for the page to do something.
-const PATIENCE: Duration = Duration::from_secs(600);
+/// Longest wait for the page's next step.
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// The program, under the names that it has.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
@@ -94,12 +94,16 @@ impl Browser {
         result["result"]["value"].take()
     }
 
-    /// Waits until an expression holds.
+    /// Waits until an expression holds, as long as the page goes on to say something new.
     pub(crate) fn wait(&mut self, expression: &str) {
-        let start = Instant::now();
+        let mut start = Instant::now();
+        let mut last = Value::Null;
         while self.value(expression) != json!(true) {
             let status = self.value("document.getElementById('status').textContent");
-            assert!(start.elapsed() < PATIENCE, "{expression} does not come true; the page says {status}");
+            if status != last {
+                (start, last) = (Instant::now(), status);
+            }
+            assert!(start.elapsed() < PATIENCE, "{expression} does not come true; the page says {last}");
             std::thread::sleep(Duration::from_millis(100));
         }
     }

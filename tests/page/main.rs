@@ -49,7 +49,7 @@ fn write_page(folder: &Path) {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// Findings that the page shows as JSON.
+/// Results that the page shows as JSON.
 fn found(browser: &mut Browser) -> Value {
     let text = browser.value("document.getElementById('json').value");
     serde_json::from_str(text.as_str().expect("a text")).expect("JSON")

@@ -63,7 +63,7 @@ pub(super) struct Arithmetic {
     /// Results by operation, then format: little-endian patterns of the fewest bytes that hold the format's width.
     expected: Vec<Vec<String>>,
     native: NativeShader,
-    /// Errors that WGSL allows the adapter's `f32`, by operation ([`limits`]); empty where it is not judged.
+    /// Results that WGSL allows of the adapter's `f32`, by operation ([`limits`]); empty where it is not judged.
     limits: Vec<String>,
 }
 
