@@ -10,8 +10,8 @@ pub const MAX_INSTRUCTION_FORMATS: usize = 32;
 
 /// Number formats of instructions, by [`Program::digest`] and the instruction's index in the program.
 ///
-/// [`crate::check`] gives them to the instructions of a program, after the expansion of fog options; executors find them
-/// there.
+/// [`crate::check`] gives them to the instructions of a program, after the expansion of fog options; executors find
+/// them there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct InstructionFormats(BTreeMap<u64, BTreeMap<usize, Format>>);
 

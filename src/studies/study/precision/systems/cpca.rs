@@ -90,7 +90,9 @@ impl SystemRun for GlossyBunny {
         // The paper's card adds clusters up by blending, which it cannot do with floats.
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Bgra8 };
         let texels = card.view_texels(&self.light, &view)?.texels;
-        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
+        // Codes of 8 bits, which were read in single precision.
+        let code = |value: f32| (255.0 * f64::from(value)).round() / 255.0;
+        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(code)).collect())
     }
 
     fn size(&self) -> Option<[u32; 2]> {
