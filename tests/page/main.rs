@@ -40,9 +40,14 @@ fn main() -> ExitCode {
         trials.push(trial("a_wrong_bit_is_found_and_named", a_wrong_bit_is_found_and_named));
     }
     if name.is_none() {
-        eprintln!("no Chromium: the page is not tested");
+        tell("no Chromium: the page is not tested");
     }
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
+}
+
+#[expect(clippy::print_stderr, reason = "says that a test does not run")]
+fn tell(text: &str) {
+    eprintln!("{text}");
 }
 
 fn write_page(folder: &Path) {

@@ -1,6 +1,7 @@
 //! Smallest format of a family, and the goal's value against bits.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::ops::RangeInclusive;
 
 use super::bits::{FormatBits, FormatFamily};
@@ -70,9 +71,8 @@ impl BitScan {
     }
 
     fn add(&mut self, bits: u8, value: &mut impl FnMut(u8) -> Result<f64, RunError>) -> Result<(), RunError> {
-        if !self.points.contains_key(&bits) {
-            let value = value(bits)?;
-            self.points.insert(bits, value);
+        if let Entry::Vacant(point) = self.points.entry(bits) {
+            point.insert(value(bits)?);
         }
         Ok(())
     }

@@ -16,7 +16,7 @@ type EntryGroup = Vec<(usize, ReproduceEntry)>;
 /// Message of a worker thread.
 enum EntryEvent {
     Begun(&'static str),
-    Ended(usize, Result<EntryFindings, StudyError>),
+    Ended(usize, Box<Result<EntryFindings, StudyError>>),
 }
 
 /// Computes entries, with models of the given size where they have a choice. Renderings and runs needed by several
@@ -47,7 +47,7 @@ pub fn reproduce(
                 let _ = sender.send(EntryEvent::Begun(entry.id));
                 let found = record::findings(&entry, &shared);
                 let failed = found.is_err();
-                let _ = sender.send(EntryEvent::Ended(at, found));
+                let _ = sender.send(EntryEvent::Ended(at, Box::new(found)));
                 if failed {
                     break;
                 }
@@ -70,7 +70,7 @@ pub fn reproduce(
                 EntryEvent::Begun(id) => progress(id, done, entries.len() as u64),
                 EntryEvent::Ended(at, result) => {
                     done += 1;
-                    found[at] = Some(result);
+                    found[at] = Some(*result);
                 }
             }
         }

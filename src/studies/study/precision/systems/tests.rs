@@ -1,7 +1,5 @@
 //! Each system as a subject.
 
-use std::time::Instant;
-
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 use strum::IntoEnumIterator as _;
@@ -19,12 +17,10 @@ fn device(system: PaperSystem) -> Profile {
 #[test]
 fn each_system_is_run_with_formats_of_its_instructions() {
     for system in PaperSystem::iter() {
-        let start = Instant::now();
         let subject = system.subject(device(system)).unwrap_or_else(|e| panic!("{system:?}: {e}"));
         let programs = subject.programs();
         let places = places(&programs);
         let exact = exact(subject.profile(), programs.iter().map(|studied| studied.program));
-        let made = start.elapsed();
         let uniform = |format: &str| {
             let format: Format = format.parse().expect("a format");
             let mut device = exact.clone();
@@ -39,15 +35,7 @@ fn each_system_is_run_with_formats_of_its_instructions() {
                 subject.measure(device, kind, Some(&goal.measure)).unwrap_or_else(|e| panic!("{system:?}: {e}"));
             measured.value(&goal.measure)
         };
-        let start = Instant::now();
         let right = value(&exact, ExecutorKind::Batch);
-        let run = start.elapsed();
-        println!(
-            "{system:?}: {} programs, {} instructions, made in {made:?}, run in {run:?}: {}={right}",
-            programs.len(),
-            places.len(),
-            goal.measure
-        );
         assert!(goal.met(right), "{system:?}: the exact run has {right}");
         assert_eq!(value(&uniform("fp32"), ExecutorKind::Batch), right, "{system:?}: single precision");
         let coarse = uniform("e8m4");
