@@ -116,9 +116,10 @@ impl Profile {
         &self.instruction_formats
     }
 
-    /// Gives instruction `index` of a program a number format of its own ([`Instruction::format`]), or takes it away.
-    /// Returns `false`, without effect, if there is no such instruction, if it takes none ([`takes_format`]), or if its
-    /// program would have more than [`MAX_INSTRUCTION_FORMATS`] different ones.
+    /// Gives instruction `index` of a program a number format of its own
+    /// ([`Instruction::format`](crate::isa::Instruction::format)), or takes it away. Returns `false`, without effect,
+    /// if there is no such instruction, if it takes none ([`super::takes_format`]), or if its program would have more
+    /// than [`MAX_INSTRUCTION_FORMATS`] different ones.
     pub fn set_instruction_format(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
         self.instruction_formats.set(program, index, format)
     }
