@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 /// Longest wait for the page's next step.
-const PATIENCE: Duration = Duration::from_secs(300);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The program, under the names that it has.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
@@ -40,7 +40,8 @@ impl Browser {
         let gpu = if webgpu { "--enable-unsafe-webgpu --use-webgpu-adapter=swiftshader" } else { "--disable-gpu" };
         // The pipe is at descriptors 3 and 4.
         let line = format!(
-            "exec {name} --headless --no-sandbox --disable-dev-shm-usage --no-first-run --remote-debugging-pipe {gpu} \
+            "exec {name} --headless --no-sandbox --disable-dev-shm-usage --no-first-run --disable-renderer-backgrounding \
+             --disable-background-timer-throttling --disable-backgrounding-occluded-windows --remote-debugging-pipe {gpu} \
              --user-data-dir=\"$0\" about:blank 3<&0 4>&1 >/dev/null"
         );
         let mut child = Command::new("sh")
