@@ -43,7 +43,8 @@ const controls = (redraw) => {
   const form = at("controls");
   form.onsubmit = () => false;
   const kind = choice(form, "kind", "Numbers", ["fixed point sI.F", "floating point eXmY"]);
-  const fixed = [slider(form, "integers-of", "Integer bits I", 0, 8, 3), slider(form, "fractions-of", "Fraction bits F", 4, 20, 12)];
+  // 24 bits at most: beyond, the program converts coordinates in other places.
+  const fixed = [slider(form, "integers-of", "Integer bits I", 0, 7, 3), slider(form, "fractions-of", "Fraction bits F", 4, 16, 12)];
   const float = [slider(form, "exponent-of", "Exponent bits X", 4, 8, 5), slider(form, "mantissa-of", "Mantissa bits Y", 2, 23, 10)];
   const rounding = choice(form, "rounding", "Rounding", ROUNDINGS);
   const overflow = choice(form, "overflow", "Overflow", FIXED_OVERFLOWS);
