@@ -250,7 +250,8 @@ mod tests {
     use super::*;
 
     /// The page changes these words alone when the visitor chooses another format: the code of each format of at most 24
-    /// bits, and of each float, is the same but for them.
+    /// bits, and of each float, is the same but for them. That of single precision leaves out conversions from single
+    /// precision to itself, which change nothing.
     #[test]
     fn one_program_serves_all_formats_of_its_kind() {
         let (fixed, _) = MachineProgram::for_formats_like("s3.12", "s3.13").expect("a program");
@@ -261,9 +262,15 @@ mod tests {
         }
         let (float, _) = MachineProgram::for_formats_like("e7m16", "e7m16").expect("a program");
         assert!(float.ones.is_empty() && float.depth_scales.len() == 1);
-        for format in ["e5m10", "e8m23", "e5m2:rtz:ftz", "e4m3:rdn"] {
+        for format in ["e5m10", "e8m23:rtz", "e8m22", "e5m2:rtz:ftz", "e4m3:rdn"] {
             assert_eq!(float.words, microcode(format, 0.5).expect("a program").1.words, "{format}");
         }
+        // First word of a conversion, which has two more.
+        const CONVERSION: u32 = 4 | (NumberOperation::Convert as u32) << 16;
+        let conversions = |words: &[u32]| words.iter().filter(|&&word| word == CONVERSION).count();
+        let single = microcode("e8m23", 0.5).expect("a program").1.words;
+        assert_eq!(conversions(&single), 0);
+        assert_eq!(single.len() + 3 * conversions(&float.words), float.words.len());
     }
 
     #[test]
