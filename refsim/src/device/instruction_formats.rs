@@ -32,21 +32,6 @@ pub fn takes_format(instruction: &Instruction) -> bool {
 }
 
 impl InstructionFormats {
-    /// Returns `true` if no instruction has a format of its own.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Returns `true` if instructions of this program have formats of their own.
-    pub fn covers(&self, program: &Program) -> bool {
-        self.0.contains_key(&program.digest())
-    }
-
-    /// The format of an instruction, if it has one of its own.
-    pub fn get(&self, program: &Program, index: usize) -> Option<Format> {
-        self.0.get(&program.digest())?.get(&index).copied()
-    }
-
     /// Gives an instruction a format, or takes it away. `false`, without effect, if there is no such instruction, if it
     /// takes none ([`takes_format`]), or if its program would have more than [`MAX_INSTRUCTION_FORMATS`].
     pub(super) fn set(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {

@@ -81,19 +81,18 @@ fn under(
     // Some switches decide which program a system chooses: formats of other programs' instructions would do nothing.
     let mut exact = runs.uniform_device(&given, None);
     let log = exact.log_programs();
-    runs.measure(&exact)?;
+    let exact = runs.measure(&exact)?.value(&goal.measure);
     let studied: Vec<u64> = runs.programs.iter().map(|studied| studied.program.digest()).collect();
     let pixel = |program: &Program| program.version.stage() == Stage::Pixel;
     if log.programs().iter().filter(|program| pixel(program)).any(|program| !studied.contains(&program.digest())) {
         return Err(StudyError::new("crossbar::precision::program", "other programs are chosen").into());
     }
-    let mut uniform = |bits: Option<FormatBits>| {
-        let device = runs.uniform_device(&given, bits);
+    let mut found = SwitchFindings { given: as_given, exact, minimum };
+    let Some(FormatBits { family, range, digits }) = minimum else { return Ok(found) };
+    let mut value = |digits| {
+        let device = runs.uniform_device(&given, Some(FormatBits { family, range, digits }));
         Ok::<_, RunError>(runs.measure(&device)?.value(&goal.measure))
     };
-    let mut found = SwitchFindings { given: as_given, exact: uniform(None)?, minimum };
-    let Some(FormatBits { family, range, digits }) = minimum else { return Ok(found) };
-    let mut value = |digits| uniform(Some(FormatBits { family, range, digits }));
     let all = family.digit_bits(range);
     // Most switches change nothing: then the smallest format meets the goal, and one bit less does not.
     let is_same = goal.met(value(digits)?) && (digits == *all.start() || !goal.met(value(digits - 1)?));
