@@ -249,9 +249,9 @@ fn fnv(words: &[u32]) -> u64 {
 mod tests {
     use super::*;
 
-    /// The page changes these words alone when the visitor chooses another format: the code of each format of at most 24
-    /// bits, and of each float, is the same but for them. That of single precision leaves out conversions from single
-    /// precision to itself, which change nothing.
+    /// The page changes these words alone when the visitor chooses another format: the code of all fixed-point formats
+    /// of at most 24 bits is the same but for them, and so is that of all floats. The code of single precision leaves
+    /// out conversions from single precision to itself, which change nothing.
     #[test]
     fn one_program_serves_all_formats_of_its_kind() {
         let (fixed, _) = MachineProgram::for_formats_like("s3.12", "s3.13").expect("a program");
