@@ -222,6 +222,46 @@ fn a_program_has_a_limited_number_of_formats() {
     assert!(profile.set_instruction_format(&program, 0, Some(Format::FP16)), "in place of another");
 }
 
+/// All formats at once are those given one by one; formats that cannot be given change nothing.
+#[test]
+fn formats_of_a_program_are_replaced_together() {
+    let program = assemble("ps_2_0\ndcl t0\ntexkill t0\nadd r0, t0, t0\nmul r0, r0, t0\nmov oC0, r0").unwrap();
+    let [first, second]: [Format; 2] = ["fp16", "s3.12"].map(|format| format.parse().unwrap());
+    let mut together = running::ideal("fp32");
+    assert!(together.set_instruction_formats(&program, [(1, first), (2, second)].into()));
+    let mut single = running::ideal("fp32");
+    assert!(single.set_instruction_format(&program, 1, Some(first)));
+    assert!(single.set_instruction_format(&program, 2, Some(second)));
+    assert_eq!(together, single);
+    assert!(together.set_instruction_formats(&program, [(3, first)].into()));
+    let formats: Vec<_> = together.instruction_formats().iter().map(|(_, formats)| formats.clone()).collect();
+    assert_eq!(formats, [[(3, first)].into()], "the others went");
+    let before = together.clone();
+    for index in [0, 4] {
+        assert!(!together.set_instruction_formats(&program, [(1, first), (index, second)].into()));
+    }
+    assert_eq!(together, before);
+    assert!(together.set_instruction_formats(&program, [].into()));
+    assert_eq!(together, running::ideal("fp32"));
+}
+
+/// Formats of a device file that no program of a case has are found.
+#[test]
+fn formats_that_change_nothing_are_found() {
+    let program = assemble("ps_2_0\ndcl t0\ntexkill t0\nmov oC0, t0").unwrap();
+    let digest = program.digest();
+    let text = format!(
+        "device = \"ideal-fp32\"\n[programs.{digest:016x}]\n0 = \"fp16\"\n1 = \"fp16\"\n7 = \"fp16\"\n\
+         [programs.0123456789abcdef]\n0 = \"fp16\"\n"
+    );
+    let profile = Profile::from_device_file(&text).unwrap();
+    let mut unused = profile.instruction_formats().unused(&[&program]);
+    unused.sort();
+    let mut expected = vec![(0x0123_4567_89ab_cdef, None), (digest, Some(0)), (digest, Some(7))];
+    expected.sort();
+    assert_eq!(unused, expected);
+}
+
 #[test]
 fn messages_of_device_files() {
     let message = |text: &str| Profile::from_device_file(text).unwrap_err().to_string();

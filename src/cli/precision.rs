@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use super::memory::MemoryNeed;
 use super::one_of::{OneOf, one_of};
 use super::study::StudyArgs;
-use super::{run, switch};
+use super::{given, run, switch};
 use crate::case::{Overrides, Setup};
-use crate::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, PaperSystem, Precision, PrecisionSubject};
+use crate::study::precision::{
+    CaseSubject, FormatCosts, FormatFamily, Goal, KnownRuns, PaperSystem, Precision, PrecisionSubject,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -38,6 +40,11 @@ pub(super) struct Args {
     /// codes; of systems wrong<=0.001 for the Ray Engine, largest_relative<=0.01 for radiosity, largest_255ths<=1]
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
+
+    /// A case with the same pixel program, on which the format per instruction is tried and which no run of the search
+    /// sees; systems have one of their own
+    #[arg(long, value_name = "CASE.toml")]
+    held_back: Option<PathBuf>,
 
     /// A device in place of the case's, or of the card of the system's paper
     #[arg(long, value_name = "D")]
@@ -88,7 +95,7 @@ impl StudyArgs for Args {
 
     fn inputs(&self) -> Vec<&Path> {
         let case = Some(&self.case).filter(|_| self.system().is_none());
-        case.into_iter().chain(&self.costs).map(PathBuf::as_path).collect()
+        case.into_iter().chain(&self.held_back).chain(&self.costs).map(PathBuf::as_path).collect()
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
@@ -99,15 +106,17 @@ impl StudyArgs for Args {
     fn study(&self) -> miette::Result<Precision> {
         let costs = self.costs.as_deref().map(FormatCosts::load).transpose()?.unwrap_or_default();
         if let Some(system) = self.system() {
+            let of_cases = [("--held-back", self.held_back.is_some())];
+            given::refuse(of_cases, "cases", "leave it out: a system has another view or light of its own")?;
             let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
             return Ok(self.of(system.subject(profile)?, costs));
         }
-        let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
-        let overrides = Overrides { device, switches: self.switch.clone(), ..Overrides::default() };
-        let setup = Setup::read_with(&self.case, &overrides)?;
-        run::setup_memory(&setup)?;
-        let name = self.case.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(self.of(Box::new(CaseSubject::new(setup, &name)?), costs))
+        let mut subject = self.case(&self.case)?;
+        if let Some(path) = &self.held_back {
+            let (other, _) = self.setup(path)?;
+            subject = subject.holding_back(&other, &path.display().to_string())?;
+        }
+        Ok(self.of(Box::new(subject), costs))
     }
 }
 
@@ -117,7 +126,29 @@ impl Args {
         self.case.to_str()?.parse().ok()
     }
 
+    fn case(&self, path: &Path) -> miette::Result<CaseSubject> {
+        let (setup, name) = self.setup(path)?;
+        Ok(CaseSubject::new(setup, &name)?)
+    }
+
+    /// A case on the device of the options, and its name.
+    fn setup(&self, path: &Path) -> miette::Result<(Setup, String)> {
+        let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
+        let overrides = Overrides { device, switches: self.switch.clone(), ..Overrides::default() };
+        let setup = Setup::read_with(path, &overrides)?;
+        run::setup_memory(&setup)?;
+        Ok((setup, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
+    }
+
     fn of(&self, subject: Box<dyn PrecisionSubject>, costs: FormatCosts) -> Precision {
-        Precision { subject, goal: self.goal.clone(), families: self.family.0.clone(), budget: self.budget, costs }
+        let known = KnownRuns::of_folder(&self.out);
+        Precision {
+            subject,
+            goal: self.goal.clone(),
+            families: self.family.0.clone(),
+            budget: self.budget,
+            costs,
+            known,
+        }
     }
 }

@@ -250,13 +250,13 @@ pub(crate) fn all() -> Vec<Suite> {
                     continue;
                 }
                 let name = format!("programs::{}::{}::{}", version_name(version), family.name(), group.name());
-                let seeds = if vertex { 11 } else { 14 };
+                let seeds = if vertex { 8 } else { 10 };
                 out.push(Suite::new(name, Kind::Program(version, family, group), seeds));
             }
         }
     }
     for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
-        out.push(Suite::new(format!("mixed::{}", version_name(version)), Kind::Mixed(version), 28));
+        out.push(Suite::new(format!("mixed::{}", version_name(version)), Kind::Mixed(version), 20));
     }
     for card in Profile::card_names() {
         for version in &rules::profile(card).limits.versions {

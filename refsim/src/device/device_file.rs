@@ -123,6 +123,12 @@ impl Profile {
     pub fn set_instruction_format(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
         self.instruction_formats.set(program, index, format)
     }
+
+    /// Replaces the formats of all instructions of a program: those by index, all others have none. Returns `false`,
+    /// without effect, where [`Self::set_instruction_format`] would for one of them.
+    pub fn set_instruction_formats(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
+        self.instruction_formats.set_all(program, formats)
+    }
 }
 
 /// The beginning of a text from outside.

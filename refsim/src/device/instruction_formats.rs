@@ -47,6 +47,13 @@ impl InstructionFormats {
         self.insert(digest, formats)
     }
 
+    /// Replaces the formats of a program's instructions. `false`, without effect, if one of them is not there or takes
+    /// none ([`takes_format`]), or if there are more than [`MAX_INSTRUCTION_FORMATS`].
+    pub(super) fn set_all(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
+        formats.keys().all(|&index| program.instructions.get(index).is_some_and(takes_format))
+            && self.insert(program.digest(), formats)
+    }
+
     /// Replaces the formats of the program with this digest. `false`, without effect, if they are too many.
     pub(super) fn insert(&mut self, digest: u64, formats: BTreeMap<usize, Format>) -> bool {
         let mut different: Vec<Format> = Vec::new();
@@ -68,6 +75,22 @@ impl InstructionFormats {
     /// Digests of programs, and the formats of their instructions by index.
     pub fn iter(&self) -> impl Iterator<Item = (u64, &BTreeMap<usize, Format>)> {
         self.0.iter().map(|(digest, formats)| (*digest, formats))
+    }
+
+    /// Formats that change nothing in these programs: those of a program that is not among them, by its digest, and those
+    /// of an instruction that one of them does not have or that takes no format, by digest and index.
+    pub fn unused(&self, programs: &[&Program]) -> Vec<(u64, Option<usize>)> {
+        let mut found = Vec::new();
+        for (digest, formats) in self.iter() {
+            let program = programs.iter().find(|program| program.digest() == digest);
+            let Some(program) = program else {
+                found.push((digest, None));
+                continue;
+            };
+            let takes = |index: &usize| program.instructions.get(*index).is_some_and(takes_format);
+            found.extend(formats.keys().filter(|index| !takes(index)).map(|index| (digest, Some(*index))));
+        }
+        found
     }
 
     /// Sets the formats of a program's instructions; others are removed.

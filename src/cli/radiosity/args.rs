@@ -56,17 +56,17 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_enum, value_name = "HOW", default_value = "rays")]
     pub(super) factors: FactorsArg,
 
-    /// For rays: strata along a side of a patch; their square is the number of rays per pair
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub(super) strata: u32,
+    /// For rays: strata along a side of a patch; their square is the number of rays per pair [default: 3]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(super) strata: Option<u32>,
 
-    /// For hemicubes: pixels along a side of the top face, an even number
-    #[arg(long, value_name = "N", default_value_t = 64)]
-    pub(super) hemicube: u32,
+    /// For hemicubes: pixels along a side of the top face, an even number [default: 64]
+    #[arg(long, value_name = "N")]
+    pub(super) hemicube: Option<u32>,
 
-    /// Random seed
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub(super) seed: u64,
+    /// For rays: random seed [default: 1]
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u64>,
 
     /// End with an error unless all form factors of a patch sum to 1 within this
     #[arg(long, value_name = "X", value_parser = number::not_negative)]

@@ -2,7 +2,7 @@
 
 use super::args::{Args, FactorsArg, Law};
 use super::values::SolverArg;
-use crate::cli::Problem;
+use crate::cli::{Problem, given};
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Storage;
@@ -14,20 +14,27 @@ pub(super) fn subdivision(args: &Args) -> Subdivision {
     args.per_side.map_or(Subdivision::AtMost(args.patches as usize), Subdivision::PerSide)
 }
 
-pub(super) fn requirements(args: &Args) -> FactorRequirements {
+pub(super) fn requirements(args: &Args) -> Result<FactorRequirements, Problem> {
+    let of_rays = [("--strata", args.strata.is_some()), ("--seed", args.seed.is_some())];
+    let of_rays = of_rays.map(|(option, given)| (option, given && args.factors != FactorsArg::Rays));
+    given::refuse(of_rays, "form factors by rays", "add `--factors rays`, or leave it out")?;
+    let of_hemicubes = [("--hemicube", args.hemicube.is_some() && args.factors != FactorsArg::Hemicube)];
+    given::refuse(of_hemicubes, "form factors by hemicubes", "add `--factors hemicube`, or leave it out")?;
     let from = match args.factors {
         FactorsArg::Unoccluded => Factors::Unoccluded,
         FactorsArg::Rays => {
-            Factors::Rays(VisibilityParameters { side: args.strata, seed: args.seed, ..Default::default() })
+            let usual = VisibilityParameters::default();
+            let (side, seed) = (args.strata.unwrap_or(usual.side), args.seed.unwrap_or(usual.seed));
+            Factors::Rays(VisibilityParameters { side, seed, ..usual })
         }
-        FactorsArg::Hemicube => Factors::Hemicube { resolution: args.hemicube },
+        FactorsArg::Hemicube => Factors::Hemicube { resolution: args.hemicube.unwrap_or(64) },
     };
-    FactorRequirements {
+    Ok(FactorRequirements {
         from,
         closed: args.require_closed,
         enforce_reciprocity: args.enforce == Some(Law::Reciprocity),
         enforce_closure: args.enforce == Some(Law::Closure),
-    }
+    })
 }
 
 /// Every solver, those on the card in every packing and storage; nothing twice.

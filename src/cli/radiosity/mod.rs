@@ -48,7 +48,7 @@ impl StudyArgs for Args {
         Ok(Parameters {
             camera: viewpoint.camera(&scene)?,
             subdivision: ask::subdivision(self),
-            factors: ask::requirements(self),
+            factors: ask::requirements(self)?,
             methods: ask::methods(self)?,
             profile: self.card.profile("nv35")?,
             switches: self.card.switches(),

@@ -97,6 +97,10 @@ pub enum CaseWarning {
         #[label("here")]
         span: SourceSpan,
     },
+    /// Formats of instructions on the device that change nothing.
+    #[error("`{device}` gives {formats} formats of their own, but {reason}")]
+    #[diagnostic(code(crossbar::device), severity(Warning), help("{help}"))]
+    Formats { device: String, formats: String, reason: &'static str, help: String },
     /// A warning on a program.
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -140,6 +140,25 @@ impl Setup {
     }
 }
 
+/// Warnings on formats of instructions that the device has for other programs.
+fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) -> Vec<CaseWarning> {
+    let programs: Vec<&Program> = [pixel].into_iter().chain(vertex).collect();
+    let own: Vec<String> = programs.iter().map(|program| format!("{:016x}", program.digest())).collect();
+    let of_unused = |(digest, index): (u64, Option<usize>)| CaseWarning::Formats {
+        device: profile.name.clone(),
+        formats: match index {
+            Some(index) => format!("instruction {index} of program {digest:016x}"),
+            None => format!("the instructions of program {digest:016x}"),
+        },
+        reason: if index.is_some() { "it takes none" } else { "the case does not run it" },
+        help: match index {
+            Some(_) => "only instructions that write numbers to a register take one".to_owned(),
+            None => format!("a changed program has another digest; here they are {}", own.join(" and ")),
+        },
+    };
+    profile.instruction_formats().unused(&programs).into_iter().map(of_unused).collect()
+}
+
 impl Binder<'_> {
     fn bind(&self, case: Case) -> Result<Setup, CaseError> {
         let (profile, model, left_out) = self.profile(&case)?;
@@ -155,6 +174,7 @@ impl Binder<'_> {
         let stages = stages::bump(self, &case.bump)?;
         let mut warnings: Vec<CaseWarning> = pixel_text.warnings(&pixel).map(CaseWarning::Shader).collect();
         warnings.extend(stages::unset(self, &case.pixel, &pixel, &stages));
+        warnings.extend(unused_formats(&profile, &pixel, vertex.as_deref()));
         let mut projections = [Projection::None; BUMP_STAGES];
         let mut textures = BTreeMap::new();
         for texture in &case.texture {

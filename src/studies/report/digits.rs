@@ -48,7 +48,7 @@ pub fn count(count: u64) -> String {
 }
 
 /// Formats as the shortest text that reads back to the same number: plain near one, with an exponent far from it.
-pub(super) fn exact(value: f64) -> String {
+pub fn exact(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {
         "0".to_owned()

@@ -123,9 +123,9 @@ pub(super) const TABLE: &[Tried] = &[
             "render odd.obj --size 8x8 --out OUT",
         ],
         options: concat!(
-            "--sides=front@0,1,2,3,4,5 --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
-             --depth=1@0,2,3,4,5,6 --seed=2@2,3,4,5,6 same:--seed=2@0,1 --view=front --exposure=0.3 --ambient=0.5 \
-             --lens=0.1,1 --photons=100 --gather=1 \
+            "--sides=front@0,5 same:--sides=front@1,2,3,4 --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
+             --depth=1@0,2,3,4,5,6 --seed=2@2,3,4,5,6 same:--seed=2@0,1 --view=front@0,5,6 same:--view=front@1,2,3,4 \
+             --exposure=0.3 --ambient=0.5 --lens=0.1,1 --photons=100 --gather=1 \
              --caster=engine --time --model-up=y --strict@6",
             eye!()
         ),
@@ -388,7 +388,7 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["precision docs/examples/lerp.toml --out OUT"],
-        options: "--goal=mean_relative<=0.01 --device=r300 --switch=mad=fused --family=fixed --budget=7 \
+        options: "--goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 \
                   --costs=docs/examples/multiplier_area.csv --out=other",
     },
     Tried { bases: &["page --out OUT"], options: "--out=other" },

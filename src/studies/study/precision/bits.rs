@@ -99,6 +99,14 @@ impl FormatBits {
         digits.into_iter().chain(range).filter(legal)
     }
 
+    /// Format with so many bits more of range and of precision, as far as the family has them.
+    pub(super) fn wider(self, bits: u8) -> Self {
+        let range = (self.range + bits).min(*self.family.range_bits().end());
+        let digits = (self.digits + bits).min(*self.family.digit_bits(range).end());
+        // In fixed point both come from the same bits: those of precision that were there stay.
+        if digits < self.digits { self } else { Self { range, digits, ..self } }
+    }
+
     /// Narrowest format of the family.
     pub(super) fn narrowest(family: FormatFamily) -> Self {
         let range = *family.range_bits().start();

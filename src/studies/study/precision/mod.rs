@@ -7,9 +7,14 @@ mod bits;
 mod case;
 mod costs;
 mod curve;
+mod executors;
+mod family_report;
 mod goal;
 mod instructions;
+mod known_runs;
 mod outcome;
+mod pictures;
+mod refutations;
 mod report;
 mod runs;
 mod search;
@@ -28,8 +33,11 @@ pub use bits::FormatFamily;
 pub use case::CaseSubject;
 pub use costs::FormatCosts;
 pub use goal::{Goal, GoalError, GoalRelation};
+pub use known_runs::KnownRuns;
 pub use outcome::Precision;
-pub use subject::{InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+pub use subject::{
+    ErrorMap, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StepResult, StudiedProgram, WorstPlace,
+};
 pub use systems::PaperSystem;
 
 impl Study for Precision {

@@ -7,6 +7,8 @@ use super::costs::FormatCosts;
 use super::curve::Curve;
 use super::goal::Goal;
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, exact_results, fewest_bits, local};
+use super::known_runs::KnownRuns;
+use super::refutations::{self, RefutationTrace};
 use super::runs::{RunError, Runs};
 use super::search::{MixedFormats, search};
 use super::subject::{InstructionResults, Measured, PrecisionSubject};
@@ -21,6 +23,9 @@ const RUNS_PER_CURVE: u64 = 30;
 /// Runs that an instruction takes in one family of formats, about.
 const RUNS_PER_INSTRUCTION: u64 = 55;
 
+/// Largest number of bits that are added for input that was held back.
+pub(super) const MOST_SPARE: u8 = 6;
+
 /// Parameters of the study.
 pub struct Precision {
     /// Programs with their input.
@@ -33,6 +38,8 @@ pub struct Precision {
     pub budget: u64,
     /// Costs of formats.
     pub costs: FormatCosts,
+    /// Runs that need not be made again.
+    pub known: KnownRuns,
 }
 
 /// Findings in one family of formats.
@@ -49,6 +56,11 @@ pub(super) struct FamilyOutcome {
     pub(super) checked: Option<f64>,
     /// Value on input that was held back from the search.
     pub(super) held_back: Option<f64>,
+    /// Bits of range and of precision, so many of each for every instruction, with which that input meets the goal too;
+    /// `None` if [`MOST_SPARE`] are too few.
+    pub(super) spare: Option<u8>,
+    /// Traces of the formats that were refuted.
+    pub(super) refutations: Vec<RefutationTrace>,
 }
 
 /// Everything that was found.
@@ -104,7 +116,7 @@ impl Precision {
                 StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
             );
         }
-        let mut runs = Runs::new(&*self.subject, goal, self.budget, progress);
+        let mut runs = Runs::new(&*self.subject, goal, self.budget, &self.known, progress);
         if runs.count() == 0 {
             let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
             let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));
@@ -129,14 +141,7 @@ impl Precision {
             Err(RunError::Study(error)) => return Err(error),
         }
         for family in &mut outcome.families {
-            if let Some(mixed) = &family.mixed {
-                let formats: Vec<_> = mixed.formats.iter().copied().map(Some).collect();
-                let device = runs.device(runs.subject.profile(), &formats);
-                let Some(device) = device else { continue };
-                let value = |measured: Measured| measured.value(&runs.goal.measure);
-                family.checked = Some(value(runs.shown(&device, ExecutorKind::Scalar)?));
-                family.held_back = runs.subject.held_back(&device)?.map(value);
-            }
+            family.verify(runs)?;
         }
         Ok(outcome)
     }
@@ -152,15 +157,7 @@ impl Precision {
         for &family in &self.families {
             let mut curve = Curve::empty(family);
             let end = curve.compute(runs);
-            let needs = vec![InstructionNeeds::default(); runs.count()];
-            outcome.families.push(FamilyOutcome {
-                curve,
-                blamed: None,
-                needs,
-                mixed: None,
-                checked: None,
-                held_back: None,
-            });
+            outcome.families.push(FamilyOutcome::new(curve, runs.count()));
             end?;
         }
         runs.step("formats of cards");
@@ -191,6 +188,43 @@ fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
 }
 
 impl FamilyOutcome {
+    /// Without findings.
+    fn new(curve: Curve, instructions: usize) -> Self {
+        let needs = vec![InstructionNeeds::default(); instructions];
+        let refutations = Vec::new();
+        Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None, refutations }
+    }
+
+    /// Place and share of blame of the instruction with the largest; the first of equals.
+    pub(super) fn most_blamed(&self) -> Option<(usize, f64)> {
+        let shares = self.needs.iter().enumerate().filter_map(|(place, needs)| Some((place, needs.blame?)));
+        shares.min_by(|a, b| b.1.total_cmp(&a.1))
+    }
+
+    /// Runs the mixed formats on the scalar executor and on input that was held back, and traces what refuted less.
+    fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
+        let Some(mixed) = &self.mixed else { return Ok(()) };
+        let value = |measured: Measured| measured.value(&runs.goal.measure);
+        let with_spare = |spare: u8| {
+            let formats: Vec<_> = mixed.formats.iter().map(|bits| Some(bits.wider(spare))).collect();
+            runs.device(runs.subject.profile(), &formats)
+        };
+        if let Some(device) = with_spare(0) {
+            self.checked = Some(value(runs.shown(&device, ExecutorKind::Scalar)?));
+        }
+        for spare in 0..=MOST_SPARE {
+            let Some(device) = with_spare(spare) else { continue };
+            let Some(found) = runs.subject.held_back(&device)?.map(value) else { break };
+            self.held_back.get_or_insert(found);
+            if runs.goal.met(found) {
+                self.spare = Some(spare);
+                break;
+            }
+        }
+        self.refutations = refutations::traces(mixed, runs)?;
+        Ok(())
+    }
+
     /// Finds what each instruction needs, and the mixed formats.
     fn run(
         &mut self,

@@ -1,15 +1,15 @@
 //! Page and tables of the study.
 
-use refsim::machine::ExecutorKind;
 use serde_json::json;
 
-use super::bits::{FormatBits, FormatFamily};
+use super::bits::FormatBits;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
-use super::tables;
+use super::{family_report, known_runs, pictures, tables};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
-use crate::report::{Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Verdict};
+use crate::report::{Chart, Findings, FoundTable, NamedChart, Scale, Series, Verdict};
+use crate::shader::SourceLine;
 use crate::study::StudyError;
 
 /// Builds the findings; draws the pictures.
@@ -22,13 +22,13 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     if let Some(chart) = chart(outcome, runs) {
         found.chart(chart);
     }
-    pictures(&mut found, outcome, runs)?;
+    pictures::pictures(&mut found, outcome, runs)?;
     runs.subject.notes().into_iter().for_each(|note| found.paragraph(note));
     found.heading("Formats for all instructions");
     found.table(FoundTable::from(tables::named(outcome, runs)).csv("formats").field("formats"));
     found.table(FoundTable::from(tables::curves(outcome, runs)).csv("curve").field("curve").unprinted());
     for family in &outcome.families {
-        per_instruction(&mut found, study, family, outcome, runs);
+        family_report::per_instruction(&mut found, study, family, outcome, runs);
     }
     open_switches(&mut found, outcome);
     found.heading("Measures");
@@ -42,6 +42,7 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
             found.keep_file("mixed.toml", device.to_device_file(&programs).into_bytes());
         }
     }
+    found.keep_file(known_runs::FILE, runs.known.to_json());
     let has_minimum = outcome.families.iter().any(|family| family.curve.minimum.is_some());
     found.conclude(Verdict::held(has_minimum));
     Ok(found)
@@ -103,8 +104,10 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
             if mixed.is_minimal { "; one bit less anywhere misses the goal" } else { ", the best so far" },
         ));
     }
-    if let Some((program, line, share)) = most_blamed(outcome, runs) {
-        found.conclusion(format!("Most to blame: {program}:{line}, {} of the loss alone.", percent(share)));
+    let blamed = outcome.families.iter().find_map(|family| family.most_blamed().filter(|(_, share)| *share > 0.0));
+    if let Some((place, share)) = blamed {
+        let SourceLine { file, line, text, .. } = tables::line(place, runs);
+        found.conclusion(format!("Most to blame: {file}:{line}: `{text}`, {} of the loss alone.", percent(share)));
     }
     if outcome.budget_spent {
         let made = counted(runs.made, "run", "runs");
@@ -113,18 +116,8 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
 }
 
 /// Formats a value for sentences.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     shown(value, Quantity::Error)
-}
-
-/// Program, line and share of the instruction with the largest blame, in the first family that has some.
-fn most_blamed(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<(String, String, f64)> {
-    let blames = |family: &FamilyOutcome| -> Vec<f64> { family.needs.iter().filter_map(|needs| needs.blame).collect() };
-    let shares = outcome.families.iter().map(blames).find(|shares| shares.iter().any(|share| *share > 0.0))?;
-    // The first of equals.
-    let (place, share) = shares.into_iter().enumerate().min_by(|a, b| b.1.total_cmp(&a.1))?;
-    let line = tables::line(place, runs);
-    Some((line.file, format!("{}: `{}`", line.line, line.text), share))
 }
 
 /// Chart of the curves, if they span an axis.
@@ -175,70 +168,6 @@ fn finite(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     points.into_iter().filter(|point| point.1.is_finite()).collect()
 }
 
-/// Adds the pictures: exact, in the smallest uniform format, with a bit less.
-fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<(), StudyError> {
-    let profile = runs.subject.profile();
-    let mut pictures = Vec::new();
-    let mut add = |name: String, caption: String, device| -> Result<(), StudyError> {
-        let measured = runs.shown(&device, ExecutorKind::Batch)?;
-        let value = number(measured.value(&runs.goal.measure));
-        let caption = format!("{caption}: {} {value}", runs.goal.measure);
-        pictures.extend(measured.picture.map(|picture| NamedPicture::new(name, picture, caption)));
-        Ok(())
-    };
-    add("exact".to_owned(), "exact run".to_owned(), runs.uniform_device(profile, None))?;
-    for minimum in outcome.families.iter().filter_map(|family| family.curve.minimum) {
-        let less = minimum.narrower().next();
-        for bits in [minimum].into_iter().chain(less) {
-            add(bits.to_string(), format!("all instructions in {bits}"), runs.uniform_device(profile, Some(bits)))?;
-        }
-    }
-    found.pictures(pictures);
-    Ok(())
-}
-
-/// Adds the tables of one family.
-fn per_instruction(
-    found: &mut Findings,
-    study: &Precision,
-    family: &FamilyOutcome,
-    outcome: &PrecisionOutcome,
-    runs: &Runs<'_>,
-) {
-    let (Some(minimum), name) = (family.curve.minimum, family.curve.family.name()) else { return };
-    let (csv, mixed_csv, refuted_csv) = match family.curve.family {
-        FormatFamily::Float => ("instructions_float", "mixed_float", "refuted_float"),
-        FormatFamily::Fixed => ("instructions_fixed", "mixed_fixed", "refuted_fixed"),
-    };
-    found.heading(format!("Instructions in {name} formats"));
-    found.table(FoundTable::from(tables::instructions(family, minimum, outcome, runs)).csv(csv).field(csv));
-    if let Some(blamed) = family.blamed {
-        let sum: f64 = family.needs.iter().filter_map(|needs| needs.blame).fold(0.0, |sum, share| sum + share);
-        found.paragraph(format!(
-            "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
-             Errors are in units in the last place of {minimum}, against the exact results of the same operands. Blame \
-             is the share of the loss with all instructions in {} that comes when only this one is; regained is the \
-             share that goes when only this one is exact. The shares of blame sum to {}: errors add up, cancel or hide \
-             each other.",
-            blamed.bits,
-            percent(sum),
-            digits = family.curve.family.digits(),
-        ));
-    }
-    let Some(mixed) = &family.mixed else { return };
-    let state = if mixed.is_minimal { "1-minimal" } else { "the best so far" };
-    found.heading(format!("Mixed {name} formats, {state}"));
-    found.table(FoundTable::from(tables::mixed(mixed, study, runs)).csv(mixed_csv).field(mixed_csv).unprinted());
-    for (where_from, value) in
-        [("On the scalar executor", family.checked), ("On input that was held back from the search", family.held_back)]
-    {
-        let Some(value) = value else { continue };
-        let met = if runs.goal.met(value) { "meets" } else { "misses" };
-        found.paragraph(format!("{where_from} {} is {}: it {met} the goal.", runs.goal.measure, number(value)));
-    }
-    found.table(FoundTable::from(tables::refuted(mixed, runs)).csv(refuted_csv).field(refuted_csv).unprinted());
-}
-
 /// Adds the fields of the document.
 fn fields(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
     let family = |family: &FamilyOutcome| {
@@ -250,6 +179,7 @@ fn fields(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
             "one_minimal": family.mixed.as_ref().map(|mixed| mixed.is_minimal),
             "scalar": family.checked,
             "held_back": family.held_back,
+            "spare": family.spare,
         })
     };
     found.fields(json!({

@@ -9,7 +9,10 @@ use refsim::num::Format;
 
 use super::bits::FormatBits;
 use super::goal::Goal;
-use super::subject::{InstructionPlace, InstructionResults, Measured, PrecisionSubject, StudiedProgram, places};
+use super::known_runs::KnownRuns;
+use super::subject::{
+    InstructionPlace, InstructionResults, Measured, PrecisionSubject, StudiedProgram, WorstPlace, places,
+};
 use crate::study::{ProgressFn, StudyError};
 
 /// Formats of all instructions, in the order of [`places`]; `None` computes in the registers' format.
@@ -41,7 +44,9 @@ pub(super) struct Runs<'a> {
     /// Number of runs made.
     pub(super) made: u64,
     /// Values of the goal's measure, and the place of the largest error.
-    values: BTreeMap<Assignment, (f64, Option<String>)>,
+    values: BTreeMap<Assignment, (f64, Option<WorstPlace>)>,
+    /// Runs that an earlier study made, and those of this one.
+    pub(super) known: KnownRuns,
     /// Number of runs that the study is likely to make, for progress.
     pub(super) expected: u64,
     /// Name of the current step, for progress.
@@ -54,6 +59,7 @@ impl<'a> Runs<'a> {
         subject: &'a dyn PrecisionSubject,
         goal: &'a Goal,
         budget: u64,
+        known: &KnownRuns,
         progress: &'a mut ProgressFn<'a>,
     ) -> Self {
         let programs = subject.programs();
@@ -67,6 +73,7 @@ impl<'a> Runs<'a> {
             made: 0,
             expected: budget,
             values: BTreeMap::new(),
+            known: known.of(subject, &goal.measure),
             step: String::new(),
             progress,
         }
@@ -95,15 +102,14 @@ impl<'a> Runs<'a> {
     /// Device of a run; `None` if the instructions of a program would have more different formats than a device can
     /// hold.
     pub(super) fn device(&self, given: &Profile, assignment: &[Option<FormatBits>]) -> Option<Profile> {
-        let mut device = exact(given, self.programs.iter().map(|studied| studied.program));
+        let mut formats = vec![BTreeMap::new(); self.programs.len()];
         for (place, bits) in self.places.iter().zip(assignment) {
-            if let Some(bits) = bits {
-                let format = Some(bits.format(given.rules.format));
-                let program = self.programs[place.program].program;
-                for at in place.instructions() {
-                    device.set_instruction_format(program, at, format).then_some(())?;
-                }
-            }
+            let format = bits.map(|bits| bits.format(given.rules.format));
+            formats[place.program].extend(place.instructions().filter_map(|at| Some((at, format?))));
+        }
+        let mut device = exact(given, []);
+        for (studied, formats) in self.programs.iter().zip(formats) {
+            device.set_instruction_formats(studied.program, formats).then_some(())?;
         }
         Some(device)
     }
@@ -119,18 +125,28 @@ impl<'a> Runs<'a> {
         if let Some((value, _)) = self.values.get(assignment) {
             return Ok(*value);
         }
-        let measured = match self.device(self.subject.profile(), assignment) {
-            Some(device) => self.measure(&device)?,
-            // Without values, which meets no goal.
-            None => Measured::default(),
+        let (value, worst) = match self.known.get(assignment) {
+            Some(known) => {
+                self.spend()?;
+                known
+            }
+            None => {
+                let measured = match self.device(self.subject.profile(), assignment) {
+                    Some(device) => self.measure(&device)?,
+                    // Without values, which meets no goal.
+                    None => Measured::default(),
+                };
+                let value = measured.value(&self.goal.measure);
+                self.known.insert(assignment, value, measured.worst.clone());
+                (value, measured.worst)
+            }
         };
-        let value = measured.value(&self.goal.measure);
-        self.values.insert(assignment.clone(), (value, measured.worst));
+        self.values.insert(assignment.clone(), (value, worst));
         Ok(value)
     }
 
     /// Value of a run that was made, and the place of its largest error.
-    pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<String>)> {
+    pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
         self.values.get(assignment).cloned()
     }
 
@@ -172,9 +188,7 @@ pub(super) fn exact<'p>(given: &Profile, programs: impl IntoIterator<Item = &'p 
     let mut device = given.clone();
     device.set_format(Format::FP32.with_specials(given.rules.format.specials));
     for program in programs {
-        for at in 0..program.instructions.len() {
-            device.set_instruction_format(program, at, None);
-        }
+        device.set_instruction_formats(program, BTreeMap::new());
     }
     device
 }

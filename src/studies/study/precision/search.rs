@@ -6,6 +6,7 @@ use super::bits::FormatBits;
 use super::costs::FormatCosts;
 use super::curve::BitScan;
 use super::runs::{Assignment, RunError, Runs};
+use super::subject::WorstPlace;
 
 /// Bits of precision beyond those of the smallest uniform format from which a search starts: what a few instructions
 /// then leave to spare, others can do without.
@@ -33,7 +34,7 @@ pub(super) struct RefutedFormat {
     /// Value of the goal's measure.
     pub(super) value: f64,
     /// Place of the largest error.
-    pub(super) worst: Option<String>,
+    pub(super) worst: Option<WorstPlace>,
 }
 
 fn assignment(formats: &[FormatBits]) -> Assignment {
@@ -84,8 +85,7 @@ fn descend(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> 
         let fewest = if digits == 0 { range.min(1) } else { *family.range_bits().start() };
         narrow(formats, place, fewest..=range, runs, |range| FormatBits { family, range, digits })?;
     }
-    while remove_one(formats, order, runs)? {}
-    Ok(())
+    remove_bits(formats, order, runs)
 }
 
 /// Narrows one instruction by bisection of one field, of which it has the most bits of `field`.
@@ -110,18 +110,32 @@ fn narrow(
     found
 }
 
-/// Removes one bit where that meets the goal; returns `false` if it does nowhere.
-fn remove_one(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> Result<bool, RunError> {
-    for &place in order {
-        let now = formats[place];
-        for less in now.narrower() {
-            formats[place] = less;
-            match runs.meets(&assignment(formats)) {
-                Ok(true) => return Ok(true),
-                found => {
-                    formats[place] = now;
-                    found?;
-                }
+/// Removes single bits, one instruction after the other and from the last to the first again, until none of them can
+/// do with a bit less while the others stay as they are.
+fn remove_bits(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> Result<(), RunError> {
+    let mut refuted = 0;
+    for &place in order.iter().cycle() {
+        if refuted == order.len() {
+            break;
+        }
+        refuted += 1;
+        while remove_one(formats, place, runs)? {
+            refuted = 1;
+        }
+    }
+    Ok(())
+}
+
+/// Removes one bit of an instruction if the goal is met without; returns `false` if it is missed.
+fn remove_one(formats: &mut [FormatBits], place: usize, runs: &mut Runs<'_>) -> Result<bool, RunError> {
+    let now = formats[place];
+    for less in now.narrower() {
+        formats[place] = less;
+        match runs.meets(&assignment(formats)) {
+            Ok(true) => return Ok(true),
+            found => {
+                formats[place] = now;
+                found?;
             }
         }
     }

@@ -1,10 +1,12 @@
 //! Interface to that whose precision is studied.
 
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 
 use refsim::device::{Profile, takes_format};
 use refsim::isa::Program;
 use refsim::machine::ExecutorKind;
+use serde::{Deserialize, Serialize};
 
 use super::goal::Goal;
 use crate::picture::RgbImage;
@@ -34,10 +36,45 @@ pub struct PrecisionMeasure {
 pub struct Measured {
     /// Values by the names of their measures.
     pub values: Vec<(&'static str, f64)>,
-    /// Place of the largest error, with what is there and what should be; `None` if nothing differs.
-    pub worst: Option<String>,
+    /// Place of the largest error; `None` if nothing differs.
+    pub worst: Option<WorstPlace>,
     /// Picture of the result.
     pub picture: Option<RgbImage>,
+    /// Error of each pixel.
+    pub errors: Option<ErrorMap>,
+}
+
+/// Place where a run differs most from what it should be.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WorstPlace {
+    /// The place, with what is there and what should be.
+    pub text: String,
+    /// Column and row of its pixel, if the place is one of [`PrecisionSubject::steps`].
+    pub pixel: Option<[u32; 2]>,
+}
+
+/// Error of each pixel, rows from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorMap {
+    /// Width in pixels.
+    pub width: u32,
+    /// Unit of the errors, in the plural.
+    pub unit: &'static str,
+    /// Largest error of a channel of each pixel; infinite where a value is not finite.
+    pub values: Vec<f64>,
+}
+
+/// Result of one component of an executed instruction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepResult {
+    /// Index of the program.
+    pub program: usize,
+    /// Index of the instruction.
+    pub instruction: usize,
+    /// Component, 0 to 3.
+    pub component: u8,
+    /// The result.
+    pub value: f64,
 }
 
 impl Measured {
@@ -71,6 +108,9 @@ pub trait PrecisionSubject {
     /// Goal if none is given.
     fn default_goal(&self) -> Goal;
 
+    /// Everything that decides the values of a run beside its device, for a digest.
+    fn content(&self) -> &dyn Debug;
+
     /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`.
     ///
     /// # Errors
@@ -93,6 +133,16 @@ pub trait PrecisionSubject {
     /// If the device cannot run the programs.
     fn results(&self, profile: &Profile) -> Result<Option<Vec<InstructionResults>>, StudyError> {
         let _ = profile;
+        Ok(None)
+    }
+
+    /// Results of all instructions that are executed for a pixel, fragment by fragment in the order of execution; `None`
+    /// if the subject has no traces.
+    ///
+    /// # Errors
+    /// If the device cannot run the programs.
+    fn steps(&self, profile: &Profile, pixel: [u32; 2]) -> Result<Option<Vec<StepResult>>, StudyError> {
+        let _ = (profile, pixel);
         Ok(None)
     }
 

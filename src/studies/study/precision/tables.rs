@@ -11,13 +11,23 @@ use crate::shader::SourceLine;
 /// Source line of an instruction.
 pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
     let place = &runs.places[place];
-    let studied = &runs.programs[place.program];
-    studied.text.line(studied.program.instructions[place.at].span)
+    source_line(place.program, place.at, runs)
 }
 
-/// Line number and text; with the program's name if there are several.
-fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
-    let SourceLine { file, line, text, .. } = line(place, runs);
+fn source_line(program: usize, instruction: usize, runs: &Runs<'_>) -> SourceLine {
+    let studied = &runs.programs[program];
+    studied.text.line(studied.program.instructions[instruction].span)
+}
+
+/// Line number and text of the instruction at a place; with the program's name if there are several.
+pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
+    let place = &runs.places[place];
+    line_cells(place.program, place.at, runs)
+}
+
+/// As [`named_line`], by the indices of program and instruction.
+pub(super) fn line_cells(program: usize, instruction: usize, runs: &Runs<'_>) -> [Cell; 2] {
+    let SourceLine { file, line, text, .. } = source_line(program, instruction, runs);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }
@@ -115,7 +125,7 @@ pub(super) fn refuted(mixed: &MixedFormats, runs: &Runs<'_>) -> Table {
             refuted.bits.to_string().into(),
             Cell::error(refuted.value),
             runs.goal.met(refuted.value).into(),
-            refuted.worst.clone().into(),
+            refuted.worst.as_ref().map(|worst| worst.text.as_str()).into(),
         ];
         table.push(named_line(refuted.place, runs).into_iter().chain(cells));
     }

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, at_most, bunny, camera};
+use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crate::all_frequency::on_card::{FactoredCard, ProductOptions, ProductPlace, TransferredMesh};
@@ -12,7 +12,6 @@ use crate::all_frequency::shade::TransferredRadiance;
 use crate::card::MeshView;
 use crate::scene::Camera;
 use crate::study::StudyError;
-use crate::study::precision::goal::Goal;
 use crate::transfer::synthetic::signal_at;
 use crate::transfer::{Tangents, Vertices};
 
@@ -20,8 +19,6 @@ use crate::transfer::{Tangents, Vertices};
 const TERMS: usize = 10;
 /// Directions along a side of its table.
 const TABLE: usize = 16;
-/// Pixels along a side of the picture.
-const PICTURE: u32 = 64;
 
 /// Bunny with a reflectance in terms, and transferred radiance made of waves with edges.
 #[derive(Debug)]
@@ -42,8 +39,7 @@ impl FactoredBunny {
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), 3 * reflectance.terms(), 5, place);
         let transferred = TransferredRadiance::new(reflectance.terms(), signal.values().as_chunks().0.to_vec());
-        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
-        Ok(Self { vertices, reflectance, transferred, cameras })
+        Ok(Self { vertices, reflectance, transferred, cameras: cameras(&mesh) })
     }
 }
 
@@ -52,25 +48,12 @@ impl SystemRun for FactoredBunny {
         "All-frequency transfer: products of ten terms"
     }
 
-    fn unit(&self) -> &'static str {
-        "pixel"
-    }
-
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
         let Self { vertices, reflectance, transferred, .. } = self;
         let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
         let place = ProductPlace::Pixels(ProductOptions::default());
         let mut card = FactoredCard::new(profile.clone(), executor.clone(), mesh, place)?;
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
-        let texels = card.view_texels(&view)?.texels;
-        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
-    }
-
-    fn size(&self) -> Option<[u32; 2]> {
-        Some([PICTURE; 2])
-    }
-
-    fn default_goal(&self) -> Goal {
-        at_most("largest_255ths", 1.0)
+        Ok(colors(&card.view_texels(&view)?.texels))
     }
 }

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, at_most, bunny, camera};
+use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayOptions, TexturedMesh};
 use crate::bi_scale::texture::BidirectionalTexture;
@@ -12,7 +12,6 @@ use crate::card::MeshView;
 use crate::geom::random::CounterRng;
 use crate::scene::Camera;
 use crate::study::StudyError;
-use crate::study::precision::goal::Goal;
 use crate::transfer::synthetic::signal_at;
 use crate::transfer::{Tangents, Vertices};
 
@@ -20,8 +19,6 @@ use crate::transfer::{Tangents, Vertices};
 const TEXELS: usize = 8;
 const VIEWS: usize = 4;
 const LIGHTS: usize = 4;
-/// Pixels along a side of the picture.
-const PICTURE: u32 = 64;
 
 /// Bunny with a texture of random responses, and local light made of waves.
 #[derive(Debug)]
@@ -53,18 +50,13 @@ impl TexturedBunny {
         let signal = signal_at(vertices.len(), 3 * lights, 5, place);
         let scale = 1.0 / lights as f32;
         let local = signal.values().as_chunks().0.iter().map(|rgb: &[f32; 3]| rgb.map(|x| scale * (1.0 + x))).collect();
-        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
-        Ok(Self { vertices, coordinates, textures: [texture], local, cameras })
+        Ok(Self { vertices, coordinates, textures: [texture], local, cameras: cameras(&mesh) })
     }
 }
 
 impl SystemRun for TexturedBunny {
     fn title(&self) -> &'static str {
         "Bi-scale transfer: a bidirectional texture on the bunny"
-    }
-
-    fn unit(&self) -> &'static str {
-        "pixel"
     }
 
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
@@ -77,15 +69,6 @@ impl SystemRun for TexturedBunny {
         };
         let mut card = BiScaleCard::new(profile.clone(), executor.clone(), mesh, DisplayOptions::default())?;
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
-        let texels = card.view_texels(&self.local, &view)?.texels;
-        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
-    }
-
-    fn size(&self) -> Option<[u32; 2]> {
-        Some([PICTURE; 2])
-    }
-
-    fn default_goal(&self) -> Goal {
-        at_most("largest_255ths", 1.0)
+        Ok(colors(&card.view_texels(&self.local, &view)?.texels))
     }
 }

@@ -4,14 +4,13 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, at_most, bunny, camera};
+use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
 use crate::card::MeshView;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::cpca::transfer::{Bounces, Incident};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
 use crate::study::StudyError;
-use crate::study::precision::goal::Goal;
 use crate::study::prt::{ExitRadiance, Precomputation};
 use crate::transfer::brdf::{Brdf, ExitBasis};
 use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
@@ -26,8 +25,6 @@ const CLUSTERS: usize = 6;
 const VECTORS: usize = 6;
 /// Exponent of the Phong lobe.
 const EXPONENT: f64 = 8.0;
-/// Pixels along a side of the picture.
-const PICTURE: u32 = 64;
 
 /// Glossy bunny that shadows itself.
 #[derive(Debug)]
@@ -68,18 +65,13 @@ impl GlossyBunny {
             start: StartPoints::Seed(1),
         };
         let clustering = compress(&signal, &options, |_| ()).expect("fewer clusters than vertices").clustering;
-        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
-        Ok(Self { vertices, clustering, basis, light: HarmonicLight::red_and_blue(ORDER), cameras })
+        Ok(Self { vertices, clustering, basis, light: HarmonicLight::red_and_blue(ORDER), cameras: cameras(&mesh) })
     }
 }
 
 impl SystemRun for GlossyBunny {
     fn title(&self) -> &'static str {
         "Clustered principal components: a glossy bunny"
-    }
-
-    fn unit(&self) -> &'static str {
-        "pixel"
     }
 
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
@@ -89,17 +81,8 @@ impl SystemRun for GlossyBunny {
         let mut card = PrtCard::new(profile.clone(), executor.clone(), transfer, &PrtCardOptions::default())?;
         // The paper's card adds clusters up by blending, which it cannot do with floats.
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Bgra8 };
-        let texels = card.view_texels(&self.light, &view)?.texels;
+        let colors = colors(&card.view_texels(&self.light, &view)?.texels);
         // Codes of 8 bits, which were read in single precision.
-        let code = |value: f32| (255.0 * f64::from(value)).round() / 255.0;
-        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(code)).collect())
-    }
-
-    fn size(&self) -> Option<[u32; 2]> {
-        Some([PICTURE; 2])
-    }
-
-    fn default_goal(&self) -> Goal {
-        at_most("largest_255ths", 1.0)
+        Ok(colors.into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
     }
 }

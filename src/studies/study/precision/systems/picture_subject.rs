@@ -1,14 +1,19 @@
 //! Systems whose values are compared with those of their own exact run.
 
+use std::fmt::Debug;
+
 use refsim::device::Profile;
-use refsim::machine::{Executor, ExecutorKind};
+use refsim::machine::ExecutorKind;
 
 use super::programs::PixelPrograms;
 use super::run::{SystemInput, SystemRun};
 use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
+use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+use crate::study::precision::subject::{
+    ErrorMap, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram, WorstPlace,
+};
 
 const MEASURES: [PrecisionMeasure; 5] = [
     PrecisionMeasure {
@@ -28,7 +33,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
 pub(super) struct SystemSubject {
     run: Box<dyn SystemRun>,
     profile: Profile,
-    executors: [Executor; 2],
+    executors: SubjectExecutors,
     programs: PixelPrograms,
     exact: Vec<[f64; 3]>,
     exact_held_back: Vec<[f64; 3]>,
@@ -36,20 +41,30 @@ pub(super) struct SystemSubject {
 
 impl SystemSubject {
     pub(super) fn new(run: Box<dyn SystemRun>, profile: Profile) -> Result<Self, StudyError> {
-        let executors = [ExecutorKind::Batch, ExecutorKind::Scalar].map(Executor::from);
+        let executors = SubjectExecutors::new();
         let (programs, [exact, exact_held_back]) = PixelPrograms::of(&profile, |device| {
-            let values = |input| run.values(input, device, &executors[0]);
+            let values = |input| run.values(input, device, &executors.batch);
             Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
         })?;
         Ok(Self { run, profile, executors, programs, exact, exact_held_back })
     }
 }
 
+/// Errors of values.
+struct SystemErrors {
+    /// By the names of [`MEASURES`].
+    values: Vec<(&'static str, f64)>,
+    /// Index of the first of the largest errors, if there are any.
+    worst: Option<usize>,
+    /// Largest error of a channel by pixel or patch, in 255ths.
+    off: Vec<f64>,
+}
+
 /// Errors of values against exact ones.
-fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> (Vec<(&'static str, f64)>, Option<usize>) {
-    let (mut sum, mut largest, mut off, mut not_finite, mut visible) = (0.0, 0.0_f64, 0.0_f64, 0_u64, 0_u64);
-    let mut worst: Option<(usize, f64)> = None;
-    for (at, (ours, right)) in found.iter().zip(exact).enumerate() {
+fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> SystemErrors {
+    let (mut sum, mut largest, mut not_finite) = (0.0, 0.0_f64, 0_u64);
+    let mut off = Vec::with_capacity(exact.len());
+    for (ours, right) in found.iter().zip(exact) {
         let mut most = 0.0_f64;
         for (&value, &right) in ours.iter().zip(right) {
             not_finite += u64::from(!value.is_finite());
@@ -64,21 +79,19 @@ fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> (Vec<(&'static str, f64)>, 
             // To a millionth, so that a code of 8 bits, which is read in single precision, is one 255th.
             most = most.max((1e6 * 255.0 * absolute).round() / 1e6);
         }
-        off = off.max(most);
-        visible += u64::from(most > 1.0);
-        if most > worst.map_or(0.0, |(_, most)| most) {
-            worst = Some((at, most));
-        }
+        off.push(most);
     }
+    let most = off.iter().copied().fold(0.0, f64::max);
+    let visible = off.iter().filter(|off| **off > 1.0).count();
     let count = exact.len().max(1) as f64;
     let values = vec![
         ("largest_relative", largest),
         ("mean_relative", sum / (3.0 * count)),
-        ("largest_255ths", off),
+        ("largest_255ths", most),
         ("visible", visible as f64 / count),
         ("not_finite", not_finite as f64),
     ];
-    (values, worst.map(|(at, _)| at))
+    SystemErrors { values, worst: off.iter().position(|off| *off > 0.0 && *off == most), off }
 }
 
 impl PrecisionSubject for SystemSubject {
@@ -98,29 +111,33 @@ impl PrecisionSubject for SystemSubject {
         &MEASURES
     }
 
+    fn content(&self) -> &dyn Debug {
+        &self.exact
+    }
+
     fn default_goal(&self) -> Goal {
         self.run.default_goal()
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let executor = &self.executors[usize::from(executor == ExecutorKind::Scalar)];
-        let found = self.run.values(SystemInput::Searched, profile, executor)?;
-        let (values, worst) = errors(&found, &self.exact);
+        let found = self.run.values(SystemInput::Searched, profile, self.executors.of(executor))?;
+        let SystemErrors { values, worst, off } = errors(&found, &self.exact);
         let worst = worst.map(|at| {
             let place = match self.run.size() {
                 Some([width, _]) => format!("pixel {}, {}", at as u32 % width, at as u32 / width),
                 None => format!("{} {at}", self.run.unit()),
             };
             let [ours, exact] = [found[at], self.exact[at]].map(|rgb| rgb.map(|value| value as f32));
-            format!("{place}: {ours:?}, not {exact:?}")
+            WorstPlace { text: format!("{place}: {ours:?}, not {exact:?}"), pixel: None }
         });
-        let picture = self.run.size().filter(|_| wanted.is_none()).map(|size| picture(size, &found));
-        Ok(Measured { values, worst, picture })
+        let shown = self.run.size().filter(|_| wanted.is_none());
+        let errors = shown.map(|[width, _]| ErrorMap { width, unit: "255ths", values: off });
+        Ok(Measured { values, worst, picture: shown.map(|size| picture(size, &found)), errors })
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        let found = self.run.values(SystemInput::HeldBack, profile, &self.executors[0])?;
-        let (values, _) = errors(&found, &self.exact_held_back);
+        let found = self.run.values(SystemInput::HeldBack, profile, &self.executors.batch)?;
+        let values = errors(&found, &self.exact_held_back).values;
         Ok(Some(Measured { values, ..Measured::default() }))
     }
 }

@@ -56,6 +56,10 @@ impl SystemRun for CornellBox {
         Ok(card.read()?.iter().map(|rgb| rgb.map(f64::from)).collect())
     }
 
+    fn size(&self) -> Option<[u32; 2]> {
+        None
+    }
+
     /// Radiosities within 1 %.
     fn default_goal(&self) -> Goal {
         at_most("largest_relative", 0.01)

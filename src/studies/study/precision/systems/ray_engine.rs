@@ -1,5 +1,7 @@
 //! The Ray Engine: eye rays on the teapot, judged by exact arithmetic.
 
+use std::fmt::Debug;
+
 use glam::{DMat3, DVec3};
 use refsim::device::Profile;
 use refsim::isa::Version;
@@ -15,8 +17,9 @@ use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 use crate::study::StudyError;
 use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
+use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram, WorstPlace};
 
 /// Quads along a side of a patch.
 const TESSELLATION: u32 = 4;
@@ -40,7 +43,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
 /// Eye rays on the teapot.
 pub(super) struct RayEngineSubject {
     profile: Profile,
-    executors: [Executor; 2],
+    executors: SubjectExecutors,
     mesh: Mesh,
     /// Views of the search, and the one that is held back.
     views: [(RayBatch, JudgedRays); 2],
@@ -63,9 +66,9 @@ impl RayEngineSubject {
             let judged = JudgedRays::new(&tracer, view.rays().to_vec(), Sides::Front);
             (view, judged)
         });
-        let executors = [ExecutorKind::Batch, ExecutorKind::Scalar].map(Executor::from);
+        let executors = SubjectExecutors::new();
         let (programs, _) = PixelPrograms::of(&profile, |device| {
-            Ok(Crossbar::new(device.clone(), executors[0].clone()).intersect(&mesh, &views[0].0, Sides::Front)?)
+            Ok(Crossbar::new(device.clone(), executors.batch.clone()).intersect(&mesh, &views[0].0, Sides::Front)?)
         })?;
         Ok(Self { profile, executors, mesh, views, programs })
     }
@@ -91,8 +94,11 @@ impl RayEngineSubject {
         let mut pixels = judged.pixels(&verdicts);
         let picture = is_pictured.then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
         let worst = pixels.position(|verdict| verdict.rank() > 0);
-        let worst = worst.map(|at| format!("ray at pixel {}, {}", at as u32 % SIDE, at as u32 / SIDE));
-        Ok(Measured { values, worst, picture })
+        let worst = worst.map(|at| WorstPlace {
+            text: format!("ray at pixel {}, {}", at as u32 % SIDE, at as u32 / SIDE),
+            pixel: None,
+        });
+        Ok(Measured { values, worst, picture, errors: None })
     }
 }
 
@@ -113,17 +119,20 @@ impl PrecisionSubject for RayEngineSubject {
         &MEASURES
     }
 
+    fn content(&self) -> &dyn Debug {
+        &MEASURES
+    }
+
     /// One ray in a thousand. Without leaks alone, formats in which every ray hits something would do.
     fn default_goal(&self) -> Goal {
         at_most("wrong", 0.001)
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let executor = &self.executors[usize::from(executor == ExecutorKind::Scalar)];
-        self.measured(&self.views[0], profile, executor, wanted.is_none())
+        self.measured(&self.views[0], profile, self.executors.of(executor), wanted.is_none())
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        self.measured(&self.views[1], profile, &self.executors[0], false).map(Some)
+        self.measured(&self.views[1], profile, &self.executors.batch, false).map(Some)
     }
 }

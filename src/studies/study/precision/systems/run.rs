@@ -13,6 +13,9 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::study::StudyError;
 use crate::study::precision::goal::{Goal, GoalRelation};
 
+/// Pixels along a side of the pictures.
+const PICTURE: u32 = 64;
+
 /// Input of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SystemInput {
@@ -28,7 +31,9 @@ pub(super) trait SystemRun: fmt::Debug {
     fn title(&self) -> &'static str;
 
     /// Name of a value: `pixel`, `patch`.
-    fn unit(&self) -> &'static str;
+    fn unit(&self) -> &'static str {
+        "pixel"
+    }
 
     /// Red, green and blue of each pixel or patch. Pictures are exposed, so that white is 1.
     ///
@@ -38,11 +43,13 @@ pub(super) trait SystemRun: fmt::Debug {
 
     /// Width and height of the picture, if the values are one.
     fn size(&self) -> Option<[u32; 2]> {
-        None
+        Some([PICTURE; 2])
     }
 
-    /// Goal if none is given.
-    fn default_goal(&self) -> Goal;
+    /// Goal if none is given: codes of 8 bits are off by one at most.
+    fn default_goal(&self) -> Goal {
+        at_most("largest_255ths", 1.0)
+    }
 }
 
 /// Goal that a measure is at most a bound.
@@ -55,14 +62,18 @@ pub(super) fn bunny() -> Mesh {
     TransferModel::BiScaleBunny.mesh(3)
 }
 
-/// Camera that frames a mesh in a square picture; from another side for the view that is held back.
-pub(super) fn camera(mesh: &Mesh, side: u32, input: SystemInput) -> Camera {
+/// Cameras that frame a mesh in a picture, by [`SystemInput`]: from another side for the view that is held back.
+pub(super) fn cameras(mesh: &Mesh) -> [Camera; 2] {
     let [low, high] = mesh.bounds().map_or([DVec3::ZERO; 2], |bounds| bounds.map(wide));
     let (middle, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
-    let towards = match input {
-        SystemInput::Searched => DVec3::new(0.35, -0.9, 0.3),
-        SystemInput::HeldBack => DVec3::new(-0.9, 0.2, 0.5),
-    };
-    let eye = middle + 2.4 * radius * towards.normalize();
-    Camera::new(narrow(eye), narrow(middle), [0.0, 0.0, 1.0], 0.42, side, side).expect("an eye outside the mesh")
+    [DVec3::new(0.35, -0.9, 0.3), DVec3::new(-0.9, 0.2, 0.5)].map(|towards| {
+        let eye = middle + 2.4 * radius * towards.normalize();
+        let (eye, middle) = (narrow(eye), narrow(middle));
+        Camera::new(eye, middle, [0.0, 0.0, 1.0], 0.42, PICTURE, PICTURE).expect("an eye outside the mesh")
+    })
+}
+
+/// Colors of texels, without alpha.
+pub(super) fn colors(texels: &[[f32; 4]]) -> Vec<[f64; 3]> {
+    texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
 }

@@ -4,12 +4,11 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, at_most, bunny, camera};
+use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
 use crate::atlas::Atlas;
 use crate::card::MeshView;
 use crate::scene::Camera;
 use crate::study::StudyError;
-use crate::study::precision::goal::Goal;
 use crate::subsurface::Dipole;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::{LinkChoice, Links, MeanWeighting, SCALAR_CHANNEL};
@@ -26,8 +25,6 @@ const LINKS: usize = 16;
 const SCALE: f64 = 10.0;
 /// Largest relative error of factors.
 const TOLERANCE: f64 = 0.05;
-/// Pixels along a side of the picture.
-const PICTURE: u32 = 64;
 
 /// Bunny of marble, lit from one side.
 pub(super) struct Marble {
@@ -55,18 +52,13 @@ impl Marble {
         let choice = LinkChoice::Adaptive { count: LINKS };
         let links = Links::new(&surface, &dipoles[SCALAR_CHANNEL..], choice, TOLERANCE, &|_, _| {})?;
         let textures = LinkTextures::new(&links, &surface, MeanWeighting::Area);
-        let cameras = [SystemInput::Searched, SystemInput::HeldBack].map(|input| camera(&mesh, PICTURE, input));
-        Ok(Self { model: CardModel::new(&atlas), textures, eta: material.eta, cameras })
+        Ok(Self { model: CardModel::new(&atlas), textures, eta: material.eta, cameras: cameras(&mesh) })
     }
 }
 
 impl SystemRun for Marble {
     fn title(&self) -> &'static str {
         "Subsurface scattering: a bunny of marble"
-    }
-
-    fn unit(&self) -> &'static str {
-        "pixel"
     }
 
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
@@ -86,15 +78,6 @@ impl SystemRun for Marble {
         )?;
         card.light(&[Light::Directional { towards: [1.0, -1.0, 2.0], irradiance: [4.0, 3.8, 3.4] }])?;
         let view = MeshView { camera: self.cameras[input as usize], exposure: 1.0, format: TexelFormat::Rgba32f };
-        let texels = card.view_texels(&View::scattered(view))?.texels;
-        Ok(texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect())
-    }
-
-    fn size(&self) -> Option<[u32; 2]> {
-        Some([PICTURE; 2])
-    }
-
-    fn default_goal(&self) -> Goal {
-        at_most("largest_255ths", 1.0)
+        Ok(colors(&card.view_texels(&View::scattered(view))?.texels))
     }
 }

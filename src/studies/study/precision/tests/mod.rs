@@ -1,5 +1,7 @@
 //! Programs with known answers.
 
+mod after_search;
+
 use std::path::Path;
 
 use refsim::device::Profile;
@@ -29,6 +31,7 @@ fn study(case: &str, goal: &str, families: &[FormatFamily]) -> Precision {
         families: families.to_vec(),
         budget: 10_000,
         costs: FormatCosts::default(),
+        known: KnownRuns::default(),
     }
 }
 

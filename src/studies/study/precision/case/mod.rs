@@ -1,0 +1,208 @@
+//! Case files as subjects.
+
+mod drawn;
+mod errors;
+
+use std::fmt::Debug;
+
+use refsim::device::Profile;
+use refsim::exec::FragmentFormats;
+use refsim::machine::{ExecutorKind, FragmentTrace};
+use refsim::num::to_f64;
+
+use super::executors::SubjectExecutors;
+use super::goal::{Goal, GoalRelation};
+use super::runs::exact;
+use super::subject::{
+    ErrorMap, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StepResult, StudiedProgram, WorstPlace,
+};
+use crate::case::{Loaded, Setup, trace};
+use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
+use crate::study::StudyError;
+use drawn::{DrawnCase, codes};
+use errors::{CaseErrors, FLIP, LARGEST_CODES, MEASURES, SSIM};
+
+/// Number of pixels that are traced, at most.
+const TRACED: usize = 1024;
+
+/// Case whose pixel program is studied. The reference is its exact run.
+#[derive(Debug)]
+pub struct CaseSubject {
+    setup: Setup,
+    title: String,
+    executors: SubjectExecutors,
+    measures: Vec<PrecisionMeasure>,
+    exact: DrawnCase,
+    /// Case with the same pixel program, on which mixed formats are tried that were searched on this one.
+    held_back: Option<Box<CaseSubject>>,
+}
+
+impl CaseSubject {
+    /// Draws the exact run of a case; its device is the one as given. `name` is the title of a case without one.
+    ///
+    /// # Errors
+    /// If the device cannot draw the case.
+    pub fn new(setup: Setup, name: &str) -> Result<Self, StudyError> {
+        let executors = SubjectExecutors::new();
+        let exact = DrawnCase::new(&setup, &executors.batch, &exact(&setup.profile, [&*setup.pixel]))?;
+        let screen = exact.screen(setup.size)?;
+        let perceptual = [(SSIM, ssim(&screen, &screen).is_some()), (FLIP, true)];
+        let first = exact.has_codes().then_some(LARGEST_CODES);
+        let last = perceptual.into_iter().filter(|(_, has)| *has).map(|(measure, _)| measure);
+        let title = setup.title.clone().unwrap_or_else(|| name.to_owned());
+        let measures = first.into_iter().chain(MEASURES).chain(last).collect();
+        Ok(Self { title, executors, measures, exact, setup, held_back: None })
+    }
+
+    /// Holds back a case: the formats that were searched on this case are tried on it, on the device of this one. `name`
+    /// is where it comes from.
+    ///
+    /// # Errors
+    /// If it has another pixel program, if this one's device cannot draw it, or if it lacks a measure of this one.
+    pub fn holding_back(mut self, other: &Setup, name: &str) -> Result<Self, StudyError> {
+        let other = Self::new(other.on_device(self.setup.profile.clone())?, name)?;
+        let refused = |expected: &str, found: &str, help: &str| {
+            let text = format!("{name}: expected {expected}, found {found}");
+            StudyError::new("crossbar::precision::held_back", text).with_help(help)
+        };
+        if other.setup.pixel.digest() != self.setup.pixel.digest() {
+            let help = "name a case with other textures, constants or geometry";
+            return Err(refused("a case with the same pixel program", "another program", help));
+        }
+        let has = |measure: &PrecisionMeasure| other.measures.iter().any(|own| own.name == measure.name);
+        if let Some(missing) = self.measures.iter().find(|measure| !has(measure)) {
+            let expected = format!("a case with the measure `{}`", missing.name);
+            return Err(refused(
+                &expected,
+                "none",
+                "give its targets the formats and sizes of the case that is searched",
+            ));
+        }
+        self.held_back = Some(Box::new(other));
+        Ok(self)
+    }
+}
+
+impl PrecisionSubject for CaseSubject {
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn profile(&self) -> &Profile {
+        &self.setup.profile
+    }
+
+    fn programs(&self) -> Vec<StudiedProgram<'_>> {
+        vec![StudiedProgram { program: &self.setup.pixel, text: &self.setup.pixel_text }]
+    }
+
+    fn measures(&self) -> &[PrecisionMeasure] {
+        &self.measures
+    }
+
+    fn content(&self) -> &dyn Debug {
+        &self.setup
+    }
+
+    /// One code, or one percent on the average where no target has codes.
+    fn default_goal(&self) -> Goal {
+        let first = self.measures[0];
+        let bound = if first == LARGEST_CODES { 1.0 } else { 0.01 };
+        Goal { measure: first.name.to_owned(), relation: GoalRelation::AtMost, bound }
+    }
+
+    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        let drawn = DrawnCase::new(&self.setup, self.executors.of(executor), profile)?;
+        let [width, height] = self.setup.size;
+        let errors = CaseErrors::new(&drawn, &self.exact, width as usize * height as usize);
+        let known = errors.values().into_iter().filter(|(name, _)| self.measures.iter().any(|m| m.name == *name));
+        let mut values: Vec<(&'static str, f64)> = known.collect();
+        if wanted.is_none_or(|wanted| [SSIM.name, FLIP.name].contains(&wanted)) {
+            let [ours, exact] = [drawn.screen(self.setup.size)?, self.exact.screen(self.setup.size)?];
+            values.extend(ssim(&ours, &exact).map(|ssim| (SSIM.name, ssim)));
+            values.extend(flip(&ours, &exact, DEFAULT_PPD).map(|flip| (FLIP.name, flip.mean)));
+        }
+        let is_shown = wanted.is_none();
+        Ok(Measured {
+            values,
+            worst: errors.worst.map(|worst| self.place(worst, &drawn)),
+            picture: is_shown.then(|| drawn.picture(self.setup.size)),
+            errors: is_shown.then(|| ErrorMap { width, unit: self.exact.unit(), values: errors.off }),
+        })
+    }
+
+    fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
+        let measure = |other: &Self| other.measure(profile, ExecutorKind::Batch, None);
+        self.held_back.as_deref().map(measure).transpose()
+    }
+
+    fn steps(&self, profile: &Profile, pixel: [u32; 2]) -> Result<Option<Vec<StepResult>>, StudyError> {
+        let fragments = trace(&self.setup.on_device(profile.clone())?, &self.executors.batch, pixel)?.fragments;
+        Ok(Some(fragments.iter().flat_map(|fragment| self.step_results(profile, fragment)).collect()))
+    }
+
+    fn results(&self, profile: &Profile) -> Result<Option<Vec<InstructionResults>>, StudyError> {
+        let setup = self.setup.on_device(profile.clone())?;
+        let loaded = Loaded::new(&setup, &self.executors.batch)?;
+        let [width, height] = self.setup.size;
+        let count = width as usize * height as usize;
+        let step = count.div_ceil(TRACED).max(1);
+        let pixels: Vec<(u32, u32)> = (0..count as u32).step_by(step).map(|at| (at % width, at / width)).collect();
+        let traces = loaded.trace(&pixels)?;
+        let mut results = InstructionResults::new();
+        // The first result of each instruction of a fragment.
+        for (number, fragment) in (0..).zip(traces.iter().flatten()) {
+            for step in self.step_results(profile, fragment) {
+                results.entry(step.instruction).or_default().entry((number, step.component)).or_insert(step.value);
+            }
+        }
+        Ok(Some(vec![results]))
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let all = || self.exact.targets.iter().flat_map(|target| &target.values);
+        let not_finite = all().filter(|value| !value.is_finite()).count();
+        let note = || format!("Of {} channels of the exact run {not_finite} are infinite or NaN.", all().count());
+        let warnings = self.setup.warnings.iter().map(|warning| format!("Warning: {warning}."));
+        (not_finite > 0).then(note).into_iter().chain(warnings).collect()
+    }
+}
+
+impl CaseSubject {
+    /// Describes the place of a value with the exact one.
+    fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> WorstPlace {
+        let (ours, exact) = (&drawn.targets[target], &self.exact.targets[target]);
+        let (pixel, channel) = (at / exact.channels.len(), exact.channels[at % exact.channels.len()]);
+        let width = self.setup.size[0] as usize;
+        let name = ["red", "green", "blue", "alpha"].get(usize::from(channel.stored_from)).copied().unwrap_or_default();
+        let of = if self.exact.targets.len() > 1 { format!(" of target {target}") } else { String::new() };
+        let (x, y) = (pixel % width, pixel / width);
+        let text = match codes(channel) {
+            Some(codes) => {
+                let [ours, exact] = [ours, exact].map(|target| (target.values[at] * codes).round());
+                format!("{x}, {y}{of}: {name} {ours}, not {exact}")
+            }
+            None => format!("{x}, {y}{of}: {name} {}, not {}", ours.values[at] as f32, exact.values[at] as f32),
+        };
+        WorstPlace { text, pixel: Some([x as u32, y as u32]) }
+    }
+
+    /// Results of the instructions of a fragment that write registers, component by component.
+    fn step_results(&self, profile: &Profile, fragment: &FragmentTrace) -> Vec<StepResult> {
+        let formats = FragmentFormats::new(&profile.rules);
+        let mut results = Vec::new();
+        for step in &fragment.shading.steps {
+            let instruction = self.setup.pixel.instructions.get(step.instruction);
+            let Some(destination) = instruction.and_then(|instruction| instruction.destination) else { continue };
+            let format = formats.of_file(destination.register.file);
+            let components = (0..4_u8).filter(|&component| step.mask.contains(usize::from(component)));
+            results.extend(components.map(|component| StepResult {
+                program: 0,
+                instruction: step.instruction,
+                component,
+                value: to_f64(&format, step.value[usize::from(component)]),
+            }));
+        }
+        results
+    }
+}

@@ -1,0 +1,21 @@
+//! Executors of a subject.
+
+use refsim::machine::{Executor, ExecutorKind};
+
+/// The batch and the scalar executor, which keep what they decoded from run to run.
+#[derive(Clone, Debug)]
+pub(super) struct SubjectExecutors {
+    pub(super) batch: Executor,
+    scalar: Executor,
+}
+
+impl SubjectExecutors {
+    pub(super) fn new() -> Self {
+        Self { batch: ExecutorKind::Batch.into(), scalar: ExecutorKind::Scalar.into() }
+    }
+
+    /// Executor of a kind; all but the scalar one are batch.
+    pub(super) fn of(&self, kind: ExecutorKind) -> &Executor {
+        if kind == ExecutorKind::Scalar { &self.scalar } else { &self.batch }
+    }
+}

@@ -1,0 +1,86 @@
+//! Traces of refutations: the pixel at which a format with one bit less misses the goal, instruction by instruction.
+
+use super::outcome::FamilyOutcome;
+use super::runs::{Assignment, Runs};
+use super::search::{MixedFormats, RefutedFormat};
+use super::subject::{StepResult, WorstPlace};
+use super::tables::{line_cells, named_line};
+use crate::report::{Table, digits};
+use crate::study::StudyError;
+
+/// Results of the instructions at the worst pixel of a refutation.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RefutationTrace {
+    pub(super) refuted: RefutedFormat,
+    /// Column and row.
+    pixel: [u32; 2],
+    /// Results of the exact run, with the mixed formats, and with one bit less.
+    steps: [Vec<StepResult>; 3],
+}
+
+/// Traces each format that was refuted, as far as the subject has traces.
+pub(super) fn traces(mixed: &MixedFormats, runs: &Runs<'_>) -> Result<Vec<RefutationTrace>, StudyError> {
+    let mut found = Vec::new();
+    let formats: Assignment = mixed.formats.iter().copied().map(Some).collect();
+    for refuted in &mixed.refuted {
+        let Some(WorstPlace { pixel: Some(pixel), .. }) = refuted.worst else { continue };
+        let mut less = formats.clone();
+        less[refuted.place] = Some(refuted.bits);
+        let exact = vec![None; formats.len()];
+        let steps = |assignment: &Assignment| match runs.device(runs.subject.profile(), assignment) {
+            Some(device) => runs.subject.steps(&device, pixel),
+            None => Ok(None),
+        };
+        if let [Some(exact), Some(mixed), Some(less)] = [steps(&exact)?, steps(&formats)?, steps(&less)?] {
+            found.push(RefutationTrace { refuted: refuted.clone(), pixel, steps: [exact, mixed, less] });
+        }
+    }
+    Ok(found)
+}
+
+/// The trace of the most blamed instruction that has one.
+pub(super) fn most_blamed<'t>(traces: &'t [RefutationTrace], family: &FamilyOutcome) -> Option<&'t RefutationTrace> {
+    let blame = |trace: &RefutationTrace| family.needs[trace.refuted.place].blame.unwrap_or(0.0);
+    // The first of equals.
+    traces.iter().min_by(|a, b| blame(b).total_cmp(&blame(a)))
+}
+
+/// What a trace is of, in words.
+pub(super) fn title(trace: &RefutationTrace, runs: &Runs<'_>) -> String {
+    let [line, text] = named_line(trace.refuted.place, runs).map(|cell| cell.text());
+    let [column, row] = trace.pixel;
+    format!("Pixel {column}, {row} with line {line}, {text}, in {}", trace.refuted.bits)
+}
+
+/// Table of traces: a row for each component of each step that all three runs execute.
+pub(super) fn table<'t>(
+    title: impl Into<String>,
+    traces: impl IntoIterator<Item = &'t RefutationTrace>,
+    runs: &Runs<'_>,
+) -> Table {
+    let columns =
+        "refuted_line format column row line instruction component exact mixed one_bit_less one_bit_less_differs";
+    let mut table = Table::of(title, columns);
+    for RefutationTrace { refuted, pixel: [column, row], steps } in traces {
+        let [refuted_line, _] = named_line(refuted.place, runs);
+        for (exact, [mixed, less]) in aligned(steps) {
+            let place = [refuted_line.clone(), refuted.bits.to_string().into(), (*column).into(), (*row).into()];
+            let [line, text] = line_cells(exact.program, exact.instruction, runs);
+            let component = ["r", "g", "b", "a"][usize::from(exact.component)];
+            let values = [exact.value, mixed, less].map(|value| digits::exact(value).into());
+            let differs = less.to_bits() != mixed.to_bits();
+            table.push(place.into_iter().chain([line, text, component.into()]).chain(values).chain([differs.into()]));
+        }
+    }
+    table
+}
+
+/// Steps that are the same instruction's in all three runs, up to the first that are not: another way was taken there.
+fn aligned([exact, mixed, less]: &[Vec<StepResult>; 3]) -> impl Iterator<Item = (StepResult, [f64; 2])> {
+    let place = |step: &StepResult| (step.program, step.instruction, step.component);
+    exact
+        .iter()
+        .zip(mixed.iter().zip(less))
+        .take_while(move |(exact, (mixed, less))| place(exact) == place(mixed) && place(exact) == place(less))
+        .map(|(exact, (mixed, less))| (*exact, [mixed.value, less.value]))
+}
