@@ -60,10 +60,10 @@ pub(super) fn per_instruction(
         _ => {}
     }
     found.table(FoundTable::from(tables::refuted(mixed, runs)).csv(refuted_csv).field(refuted_csv).unprinted());
-    let traces = refutations::table("Traces of refutations", &family.refutations, runs);
+    let traces = refutations::all(&family.refutations, runs);
     found.keep_table(FoundTable::from(traces).csv(traces_csv));
     if let Some(trace) = refutations::most_blamed(&family.refutations, family) {
-        let table = refutations::table(refutations::title(trace, runs), [trace], runs);
+        let table = refutations::table(refutations::title(trace, runs), trace, runs);
         found.explained_table(
             FoundTable::from(table).unprinted(),
             "The refutation of the instruction most to blame; the table of all is beside the page.",

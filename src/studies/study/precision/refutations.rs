@@ -5,7 +5,7 @@ use super::runs::{Assignment, Runs};
 use super::search::{MixedFormats, RefutedFormat};
 use super::subject::{StepResult, WorstPlace};
 use super::tables::{line_cells, named_line};
-use crate::report::{Table, digits};
+use crate::report::{Cell, Table, digits};
 use crate::study::StudyError;
 
 /// Results of the instructions at the worst pixel of a refutation.
@@ -52,27 +52,36 @@ pub(super) fn title(trace: &RefutationTrace, runs: &Runs<'_>) -> String {
     format!("Pixel {column}, {row} with line {line}, {text}, in {}", trace.refuted.bits)
 }
 
-/// Table of traces: a row for each component of each step that all three runs execute.
-pub(super) fn table<'t>(
-    title: impl Into<String>,
-    traces: impl IntoIterator<Item = &'t RefutationTrace>,
-    runs: &Runs<'_>,
-) -> Table {
-    let columns =
-        "refuted_line format column row line instruction component exact mixed one_bit_less one_bit_less_differs";
-    let mut table = Table::of(title, columns);
-    for RefutationTrace { refuted, pixel: [column, row], steps } in traces {
-        let [refuted_line, _] = named_line(refuted.place, runs);
-        for (exact, [mixed, less]) in aligned(steps) {
-            let place = [refuted_line.clone(), refuted.bits.to_string().into(), (*column).into(), (*row).into()];
-            let [line, text] = line_cells(exact.program, exact.instruction, runs);
-            let component = ["r", "g", "b", "a"][usize::from(exact.component)];
-            let values = [exact.value, mixed, less].map(|value| digits::exact(value).into());
-            let differs = less.to_bits() != mixed.to_bits();
-            table.push(place.into_iter().chain([line, text, component.into()]).chain(values).chain([differs.into()]));
-        }
+/// Columns of a trace.
+const COLUMNS: &str = "line instruction component exact mixed one_bit_less one_bit_less_differs";
+
+/// Table of one trace: a row for each component of each step that all three runs execute.
+pub(super) fn table(title: String, trace: &RefutationTrace, runs: &Runs<'_>) -> Table {
+    let mut table = Table::of(title, COLUMNS);
+    rows(trace, runs).for_each(|row| table.push(row));
+    table
+}
+
+/// Table of all traces, each row with what was refuted.
+pub(super) fn all(traces: &[RefutationTrace], runs: &Runs<'_>) -> Table {
+    let mut table = Table::of("Traces of refutations", &format!("refuted_line format column row {COLUMNS}"));
+    for trace in traces {
+        let [refuted_line, _] = named_line(trace.refuted.place, runs);
+        let [column, row] = trace.pixel;
+        let place = [refuted_line, trace.refuted.bits.to_string().into(), column.into(), row.into()];
+        rows(trace, runs).for_each(|row| table.push(place.iter().cloned().chain(row)));
     }
     table
+}
+
+fn rows(trace: &RefutationTrace, runs: &Runs<'_>) -> impl Iterator<Item = Vec<Cell>> {
+    aligned(&trace.steps).map(|(exact, [mixed, less])| {
+        let [line, text] = line_cells(exact.program, exact.instruction, runs);
+        let component = ["r", "g", "b", "a"][usize::from(exact.component)];
+        let values = [exact.value, mixed, less].map(|value| digits::exact(value).into());
+        let differs = less.to_bits() != mixed.to_bits();
+        [line, text, component.into()].into_iter().chain(values).chain([differs.into()]).collect()
+    })
 }
 
 /// Steps that are the same instruction's in all three runs, up to the first that are not: another way was taken there.
