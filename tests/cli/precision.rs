@@ -26,6 +26,15 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
         "fp32",
     ]);
     assert_eq!(compared.code, Some(0), "{}", compared.transcript());
+    // Formats of a program that has changed do nothing, which is said.
+    let case = fs::read_to_string(root.path().join("docs/examples/lerp.toml")).expect("a case");
+    let changed = case.replace("\"nv25\"", "\"out/mixed.toml\"");
+    fs::write(root.path().join("same.toml"), &changed).expect("a file");
+    fs::write(root.path().join("changed.toml"), changed.replace("lrp r0, t0, c0, c1", "mul r0, t0, c0"))
+        .expect("a file");
+    let said = |case: &str| run(&["run", case, "--out", "drawn"]).stderr;
+    assert_eq!(said("same.toml"), "");
+    assert!(said("changed.toml").contains("which the case does not run"), "{}", said("changed.toml"));
 }
 
 #[test]

@@ -98,7 +98,7 @@ pub enum CaseWarning {
         span: SourceSpan,
     },
     /// Formats of instructions on the device that change nothing.
-    #[error("`{device}` gives {formats} formats of their own, but {reason}")]
+    #[error("`{device}` has {formats}, which {reason}")]
     #[diagnostic(code(crossbar::device), severity(Warning), help("{help}"))]
     Formats { device: String, formats: String, reason: &'static str, help: String },
     /// A warning on a program.

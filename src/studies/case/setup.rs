@@ -147,10 +147,10 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
     let of_unused = |(digest, index): (u64, Option<usize>)| CaseWarning::Formats {
         device: profile.name.clone(),
         formats: match index {
-            Some(index) => format!("instruction {index} of program {digest:016x}"),
-            None => format!("the instructions of program {digest:016x}"),
+            Some(index) => format!("a format for instruction {index} of program {digest:016x}"),
+            None => format!("formats for instructions of program {digest:016x}"),
         },
-        reason: if index.is_some() { "it takes none" } else { "the case does not run it" },
+        reason: if index.is_some() { "takes none" } else { "the case does not run" },
         help: match index {
             Some(_) => "only instructions that write numbers to a register take one".to_owned(),
             None => format!("a changed program has another digest; here they are {}", own.join(" and ")),
