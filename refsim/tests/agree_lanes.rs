@@ -53,7 +53,8 @@ fn same(f: Format, what: &str, [a, b, c]: [&[u32]; 3], batch: &[u32], scalar: im
     }
 }
 
-const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+const ROUNDINGS: [Rounding; 6] =
+    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
 
 /// The layout with every combination of rules of its kind.
 fn variants(base: Format) -> Vec<Format> {
@@ -127,10 +128,10 @@ fn short_formats_agree_on_all_pairs() {
     let layouts: &[&str] = if full() {
         &[
             "s0.1", "s1.1", "s2.0", "s0.4", "s3.4", "s7.0", "s2.5", "n0.2", "n2.3", "n0.6", "e2m1", "e2m3", "e3m2",
-            "e4m3", "e5m2", "e3m4", "e2m5", "e6m1",
+            "e2m1fn", "e3m2fn", "e4m3fn", "e5m2fnuz", "e3m2fnuz", "e4m3", "e5m2", "e3m4", "e2m5", "e6m1",
         ]
     } else {
-        &["s0.1", "s2.0", "s2.3", "n0.2", "n2.3", "e2m1", "e2m3", "e3m2", "e4m1"]
+        &["s0.1", "s2.0", "s2.3", "n0.2", "n2.3", "e2m1", "e2m3", "e3m2", "e4m1", "e2m1fn", "e3m3fn", "e2m3fnuz"]
     };
     for text in layouts {
         for f in variants(layout(text)) {
@@ -157,9 +158,41 @@ fn short_formats_agree_on_all_pairs() {
 #[test]
 fn all_formats_agree_on_random_operands() {
     let layouts = [
-        "s3.12", "s1.10", "s0.8", "s0.15", "s15.0", "s7.8", "s8.8", "s0.31", "s31.0", "s15.16", "s7.16", "n3.8",
-        "n0.8", "n7.8", "n13.2", "n2.7", "e5m10", "e7m16", "e8m23", "e8m7", "e3m4", "e8m10", "e6m10", "e7m10", "e6m9",
-        "e5m11", "e8m16", "e2m23", "e8m1", "e7m23",
+        "s3.12",
+        "s1.10",
+        "s0.8",
+        "s0.15",
+        "s15.0",
+        "s7.8",
+        "s8.8",
+        "s0.31",
+        "s31.0",
+        "s15.16",
+        "s7.16",
+        "n3.8",
+        "n0.8",
+        "n7.8",
+        "n13.2",
+        "n2.7",
+        "e5m10",
+        "e7m16",
+        "e8m23",
+        "e8m7",
+        "e3m4",
+        "e8m10",
+        "e6m10",
+        "e7m10",
+        "e6m9",
+        "e5m11",
+        "e8m16",
+        "e2m23",
+        "e8m1",
+        "e7m23",
+        "e4m3fn",
+        "e5m2fnuz",
+        "e7m23fn",
+        "e7m16fnuz",
+        "e2m3fn",
     ];
     let n = if full() { 65536 } else { 512 };
     for (seed, text) in layouts.iter().enumerate() {
@@ -317,7 +350,8 @@ fn single_floats_agree_at_their_largest_and_smallest() {
 fn conversions_agree() {
     let texts = "s3.12 s3.12:rna s3.12:rtz:wrap s3.12:rdn s3.12:rne:wrap s3.12:rna:wrap s3.12:rdn:wrap \
                  n3.8 n3.8:rna n3.8:rtz n3.8:rdn:wrap n0.8:rdn n7.8:rna:wrap n0.5:rtz s1.10 s0.8:wrap s0.31 s31.0:wrap s15.16:rtz fp16 fp16:rtz fp16:ftz fp16:nvovf fp24 \
-                 fp24:rdn fp24:sat fp32 fp32:ftz fp32:ftz:nvovf:nv fp32:rdn bf16 e3m4 e8m10:rna";
+                 fp24:rdn fp24:sat fp32 fp32:ftz fp32:ftz:nvovf:nv fp32:rdn bf16 e3m4 e8m10:rna \
+                 s3.12:rup s0.8:rod n3.8:rup:wrap n3.8:rod fp16:rup fp16:rod fp32:rod e4m3fn e4m3fn:sat e5m2fnuz e2m1fn";
     let layouts: Vec<Format> = texts.split(' ').map(layout).collect();
     let n = if full() { 100_000 } else { 1000 };
     for &from in &layouts {

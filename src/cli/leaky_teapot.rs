@@ -184,7 +184,7 @@ fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
     let formats: Vec<(&str, Format)> = args
         .format
         .iter()
-        .map(|text| Ok((text.as_str(), text.parse::<Format>().map_err(view::bad_format)?)))
+        .map(|text| Ok((text.as_str(), text.parse().and_then(Format::for_registers).map_err(view::bad_format)?)))
         .collect::<miette::Result<_>>()?;
     let mut all = Vec::new();
     match (args.device.is_empty(), formats.is_empty()) {

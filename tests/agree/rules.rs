@@ -53,12 +53,33 @@ impl Family {
                 "s1.6:rdn:wrap",
                 "n3.8:rna",
                 "n2.6:rtz",
+                "s1.10:rup",
+                "s0.8:rod",
+                "n3.8:rup",
+                "n2.6:rod:wrap",
             ],
-            Self::LongFixed => &["s7.16", "s15.16:rtz", "s0.31", "s8.20:rdn", "s15.0:rna", "s7.24:wrap"],
+            Self::LongFixed => {
+                &["s7.16", "s15.16:rtz", "s0.31", "s8.20:rdn", "s15.0:rna", "s7.24:wrap", "s7.16:rup", "s15.16:rod"]
+            }
             Self::Fp16 => &["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "fp16:sat", "fp16:rna", "fp16:rdn:ftz"],
             Self::Fp24 => &["fp24", "fp24:ftz", "fp24:rtz", "fp24:rdn:sat", "fp24:rna", "fp24:nvovf:nv"],
             Self::Fp32 => &["fp32", "fp32:ftz", "fp32:rtz", "fp32:nv:nvovf", "fp32:sat", "fp32:rna:ftz", "fp32:rdn"],
-            Self::OddFloat => &["bf16", "e3m4", "e8m10", "e8m10:rna", "e5m2", "e6m9:rtz", "e4m3:sat", "e7m10:ftz"],
+            Self::OddFloat => &[
+                "e4m3fn",
+                "bf16",
+                "e5m2fnuz:sat",
+                "e3m4",
+                "e8m10",
+                "e7m16fn:rup:nv",
+                "e8m10:rna",
+                "fp16:rup:ftz",
+                "e5m2",
+                "fp24:rod",
+                "e6m9:rtz",
+                "e2m3fn:nv",
+                "e4m3:sat",
+                "e7m10:ftz",
+            ],
         }
     }
 }
@@ -118,7 +139,8 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
     profile.name = format!("ideal-{name}");
     let rules = &mut profile.rules;
     if group.has(Group::Arithmetic) {
-        rules.partial = r.choose(&[None, Some("fp16"), Some("fp16:rtz:nv"), Some("s1.10"), Some("fp32")]).map(format);
+        let partial = [None, Some("fp16"), Some("fp16:rtz:nv"), Some("s1.10"), Some("fp32"), Some("e4m3fn")];
+        rules.partial = r.choose(&partial).map(format);
         if r.one_in(4) {
             rules.vertex_format = format(r.pick(&["fp32:rtz", "fp24", "s7.16", "fp32:ftz"]));
         }

@@ -34,6 +34,76 @@ fn suffixes_choose_rounding_and_overflow() {
     assert_eq!(results("add --format s3.12 --flags", "7FFF 0001"), ["7FFF 05"]);
 }
 
+/// 448, 464 and the next single; what a format lacks.
+#[test]
+fn floats_without_infinity() {
+    let numbers = "43E00000\n43E80000\n43E80001\n7F800000";
+    let to = |format: &str| results(&format!("convert --format fp32 --to {format} --flags"), numbers);
+    assert_eq!(to("e4m3fn"), ["7E 00", "7E 01", "7F 05", "7F 05"]);
+    assert_eq!(to("e4m3fn:sat"), ["7E 00", "7E 01", "7E 05", "7E 05"]);
+    assert_eq!(to("e4m3fn:rup"), ["7E 00", "7F 05", "7F 05", "7F 05"]);
+    assert_eq!(to("e4m3fn:rod"), ["7E 00", "7E 05", "7E 05", "7F 05"]);
+    assert_eq!(to("e2m1fn"), ["7 05"; 4]);
+    assert_eq!(to("e8m0"), ["88 01", "88 01", "88 01", "FF 05"]);
+    assert_eq!(results("div --format e4m3fnuz --flags", "40 00\n00 C0"), ["80 08", "00 00"]);
+}
+
+#[test]
+fn chance_is_by_seed_and_line() {
+    let halves = "3F808000\n".repeat(1000);
+    let run = |options: &str| results(&format!("convert --format fp32 --to bf16:rst {options}"), &halves);
+    let made = run("--seed 1");
+    let ups = made.iter().filter(|bits| *bits == "3F81").count();
+    assert!((450..550).contains(&ups) && made.iter().all(|bits| bits == "3F81" || bits == "3F80"), "{ups} of 1000");
+    assert_eq!(made, run("--seed 1 --threads 3"));
+    assert_ne!(made, run("--seed 2"));
+    // The first word from 0 is 0xe220a839, which carries half a unit; the second is 0x6e789e6a, which does not.
+    assert_eq!(run("")[..2], ["3F81", "3F80"]);
+}
+
+#[test]
+fn lines_of_many_numbers() {
+    let block = "83 0 8 7 4";
+    assert_eq!(results("quantize --format fp32 --block mxfp4", "3f800000 becccccd 42c00000 42200000"), [block]);
+    let back = results("dequantize --format fp32 --block mxfp4 --json --flags", block);
+    assert_eq!(back, [r#"{"flags":"00","results":["00000000","80000000","42C00000","42000000"]}"#]);
+    let terms = "6800 3C00 3C00 3C00 3C00 3C00\n\n3C00 3C00";
+    assert_eq!(results("dot --format fp16", terms), ["6800", "3C00"]);
+    assert_eq!(results("dot --format fp16 --accumulator fp32 --flags", terms), ["6801 00", "3C00 00"]);
+    assert_eq!(results("dot --format fp16 --order exact", terms), ["6801", "3C00"]);
+    for (arguments, input, expected) in [
+        ("quantize --format fp32", "0", "blocks need a block format"),
+        ("add --format fp32 --block mxfp4", "0 0", "`--block` is for `quantize` and `dequantize` only"),
+        ("add --format fp32 --order tree", "0 0", "`--accumulator` and `--order` are for `dot` only"),
+        ("dot --format fp32 --exhaustive", "", "neither `--verify` nor `--exhaustive` nor `--to`"),
+        ("dot --format fp32 --accumulator fp16:rst", "0 0", "round more than once"),
+        ("dot --format fp32", "0 0 0", "line 1: expected 1 to 32 pairs of numbers, found 3 fields"),
+        ("dequantize --format fp32 --block mxint8", "7F 100", "expected at most 2 hexadecimal digits (8 bits)"),
+    ] {
+        let ran = alu(arguments, input);
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "alu {arguments}");
+        // Messages are wrapped.
+        let words = |text: &str| text.replace(['│', '|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words(&ran.stderr).contains(expected), "alu {arguments}: {}", ran.stderr);
+    }
+}
+
+/// Formats of `alu` alone.
+#[test]
+fn devices_refuse_scales_and_chance() {
+    for (format, reason) in [("e8m0", "neither zero nor negative"), ("fp16:rst", "number no operations")] {
+        for arguments in [
+            &["devices", &format!("ideal-{format}")][..],
+            &["leaky-teapot", "--size", "8x8", "--tessellation", "1", "--format", format, "--out", "unused"],
+        ] {
+            let ran = crossbar(arguments, "");
+            assert_eq!(ran.code, Some(2), "{arguments:?}");
+            let words = ran.stderr.replace(['│', '|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(words.contains(reason), "{arguments:?}: {}", ran.stderr);
+        }
+    }
+}
+
 #[test]
 fn blank_lines_and_line_ends_do_not_matter() {
     assert_eq!(results("sqrt --format fp16", "\r\n4400\r\n\n   \n  4880\t\n3C00"), ["4000", "4200", "3C00"]);

@@ -54,8 +54,9 @@ impl Profile {
         let problem = |problem: String| DeviceError::File { problem };
         let file: DeviceFile = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
         let mut profile = Self::named(&file.device)?;
+        let registers = |format: Format| format.for_registers().map_err(|error| problem(error.to_string()));
         if let Some(format) = file.format {
-            profile.set_format(format);
+            profile.set_format(registers(format)?);
         }
         for (name, value) in &file.switches {
             profile.set_switch(name, value)?;
@@ -68,7 +69,7 @@ impl Profile {
                 Ok(index) => Ok(index),
                 Err(_) => Err(problem(format!("programs.{digest}.{}: expected an instruction's index", cut(&text)))),
             };
-            let formats = formats.into_iter().map(|(text, format)| Ok((index(text)?, format)));
+            let formats = formats.into_iter().map(|(text, format)| Ok((index(text)?, registers(format)?)));
             let formats = formats.collect::<Result<BTreeMap<_, _>, DeviceError>>()?;
             if !profile.instruction_formats.insert(number, formats) {
                 let most = MAX_INSTRUCTION_FORMATS;
@@ -118,8 +119,8 @@ impl Profile {
 
     /// Gives instruction `index` of a program a number format of its own
     /// ([`Instruction::format`](crate::isa::Instruction::format)), or takes it away. Returns `false`, without effect,
-    /// if there is no such instruction, if it takes none ([`super::takes_format`]), or if its program would have more
-    /// than [`MAX_INSTRUCTION_FORMATS`] different ones.
+    /// if there is no such instruction, if it takes none ([`super::takes_format`]) or not this one
+    /// ([`Format::for_registers`]), or if its program would have more than [`MAX_INSTRUCTION_FORMATS`] different ones.
     pub fn set_instruction_format(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
         self.instruction_formats.set(program, index, format)
     }

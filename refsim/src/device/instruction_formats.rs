@@ -33,9 +33,12 @@ pub fn takes_format(instruction: &Instruction) -> bool {
 
 impl InstructionFormats {
     /// Gives an instruction a format, or takes it away. `false`, without effect, if there is no such instruction, if it
-    /// takes none ([`takes_format`]), or if its program would have more than [`MAX_INSTRUCTION_FORMATS`].
+    /// takes none ([`takes_format`]) or not this one ([`Format::for_registers`]), or if its program would have more
+    /// than [`MAX_INSTRUCTION_FORMATS`].
     pub(super) fn set(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
-        if !program.instructions.get(index).is_some_and(takes_format) {
+        if !program.instructions.get(index).is_some_and(takes_format)
+            || format.is_some_and(|f| f.for_registers().is_err())
+        {
             return false;
         }
         let digest = program.digest();

@@ -14,7 +14,7 @@ use super::rules::{
     ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
     TexelValues, TexkillComponents, WeightRounding,
 };
-use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name, rounding_name};
+use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name};
 use crate::isa::Version;
 use crate::num::{DotOrder, Format};
 
@@ -124,8 +124,8 @@ impl Profile {
             return Self::from_toml(name, text);
         }
         if let Some(format) = name.strip_prefix("ideal-") {
-            let format: Format =
-                format.parse().map_err(|source| DeviceError::IdealFormat { name: name.to_owned(), source })?;
+            let parsed = format.parse().and_then(Format::for_registers);
+            let format = parsed.map_err(|source| DeviceError::IdealFormat { name: name.to_owned(), source })?;
             let mut profile = Self::from_toml("ideal", IDEAL)?;
             profile.name = name.to_owned();
             profile.set_format(format);
@@ -208,7 +208,8 @@ impl Profile {
     }
 
     /// Replaces the format of pixel registers and pixel arithmetic with all its rules, for parameter sweeps. Also
-    /// disables `_pp` and clamps results to the format's own range only.
+    /// disables `_pp` and clamps results to the format's own range only. The format must be one for registers
+    /// ([`Format::for_registers`]).
     pub fn set_format(&mut self, format: Format) {
         self.rules.format = format;
         self.rules.result_range = ResultRange::Format;
@@ -222,7 +223,7 @@ impl Profile {
         for switch in &mut self.switches {
             let current = match switch.name.as_str() {
                 "registers" => registers_name(format).to_owned(),
-                "rounding" => rounding_name(format.rounding).to_owned(),
+                "rounding" => format.rounding.name().to_owned(),
                 "overflow" => overflow_name(format.overflow).to_owned(),
                 "denormals" => denormals_name(format.denormals).to_owned(),
                 "format" => format.to_string(),

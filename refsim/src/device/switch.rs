@@ -84,16 +84,6 @@ fn counted_in(format: Format, value: &str) -> Option<Format> {
     Some(Format { kind: layout.kind, ..format })
 }
 
-/// Format suffix of a rounding rule.
-pub(super) fn rounding_name(rounding: Rounding) -> &'static str {
-    match rounding {
-        Rounding::NearestEven => "rne",
-        Rounding::NearestAway => "rna",
-        Rounding::TowardZero => "rtz",
-        Rounding::Down => "rdn",
-    }
-}
-
 /// Format suffix of an overflow rule.
 pub(super) fn overflow_name(overflow: Overflow) -> &'static str {
     match overflow {
@@ -116,8 +106,7 @@ fn set_format_rule(format: &mut Format, name: &str, value: &str) -> Option<()> {
     match name {
         "registers" => *format = counted_in(*format, value)?,
         "rounding" => {
-            let all = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
-            format.rounding = all.into_iter().find(|r| rounding_name(*r) == value)?;
+            format.rounding = Rounding::ALL.iter().find(|(name, _)| *name == value)?.1;
         }
         "overflow" => {
             let all = [Overflow::Saturate, Overflow::Wrap, Overflow::Infinity, Overflow::Nv30];

@@ -2,19 +2,21 @@
 
 use super::env::Env;
 use super::flags::{Flags, Outcome};
-use super::format::{Denormals, Format};
+use super::format::Format;
 use super::round::{infinite, round_quotient};
+use super::rules::Denormals;
 use super::unpack::{Unpacked, nan_bits, unpack};
 
 /// Converts the number `bits` from format `from` to format `to`, rounding once by `to`'s rules.
 ///
-/// NaN to NaN, `INVALID` if it was signalling; NaN to fixed point is 0 and `INVALID`. Infinity stays infinity; in
-/// fixed point it saturates with `OVERFLOW`, also where finite numbers wrap.
+/// NaN to NaN, `INVALID` if it was signalling; NaN to a format without one is 0 and `INVALID`. Infinity stays infinity;
+/// in fixed point it saturates with `OVERFLOW`, also where finite numbers wrap, and in floats without infinity it
+/// overflows as numbers do.
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
     match unpack(from, bits) {
         Unpacked::Nan { signaling } => {
-            let bad = signaling || to.format.is_fixed();
+            let bad = signaling || to.format.canonical_nan().is_none();
             Outcome::new(nan_bits(&to.format), if bad { Flags::INVALID } else { Flags::empty() })
         }
         Unpacked::Inf { sign } => infinite(&to.format, sign),

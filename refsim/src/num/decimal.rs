@@ -51,7 +51,7 @@ pub fn from_decimal(env: impl Into<Env>, text: &str) -> Result<Outcome, DecimalE
     }
     if body.eq_ignore_ascii_case("nan") {
         let quiet = nan_result(&env.format, &[]);
-        return Ok(if env.format.is_fixed() { invalid(&env.format) } else { quiet });
+        return Ok(if env.format.canonical_nan().is_none() { invalid(&env.format) } else { quiet });
     }
     let literal = scan(text, text.len() - body.len())?;
     Ok(round_decimal(&env, negative, &literal))
@@ -173,7 +173,8 @@ pub fn to_decimal_exact(format: &Format, bits: u32) -> String {
 
 /// Formats `bits` as the shortest decimal text that [`from_decimal`] reads back to the same bits (of equally short
 /// ones, the nearest to the value). Subnormals of a flushing format are written as zero. Large and small magnitudes are
-/// written with an exponent.
+/// written with an exponent. Normalized numbers of a format that rounds to odd may have no text that is read back: no
+/// decimal number is two thirds, and all that are near round to odd.
 pub fn to_decimal(format: &Format, bits: u32) -> String {
     let (sign, digits, point) = match expand(format, bits) {
         Ok(parts) => parts,

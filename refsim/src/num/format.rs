@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials};
+
 /// A number format: a layout, and four rules that map an exact result to a representable one.
 ///
 /// Written `s3.12`, `e5m10`, `fp24:rtz:ftz`; see [`FromStr`](std::str::FromStr) below and the room's essay.
@@ -12,6 +14,8 @@ use serde::{Deserialize, Serialize};
 pub struct Format {
     /// The layout.
     pub kind: FormatKind,
+    /// Which patterns are infinities, NaN and zeros (floats).
+    pub encoding: Encoding,
     /// Direction in which inexact results are rounded.
     pub rounding: Rounding,
     /// Treatment of results out of range.
@@ -40,63 +44,15 @@ pub enum FormatKind {
         /// Bits of the codes from 0 to 1, 2 to 8.
         frac_bits: u8,
     },
-    /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits.
+    /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits. With
+    /// [`Encoding::Scale`] the exponent alone: `e8m0`, 8 bits.
     Float {
-        /// Exponent bits, 2 to 8; the bias is `2^(X-1) - 1` and the largest field means infinity or NaN.
+        /// Exponent bits, 2 to 8 (7 in encodings without infinity); [`Encoding`] says what the bias is, and what the
+        /// largest field means.
         exp_bits: u8,
         /// Stored mantissa bits, 1 to 23; the leading one is not stored.
         man_bits: u8,
     },
-}
-
-/// Direction in which inexact results are rounded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Rounding {
-    /// To the nearest, ties to the even pattern (`:rne`).
-    NearestEven,
-    /// To the nearest, ties away from zero (`:rna`).
-    NearestAway,
-    /// Truncation of the magnitude (`:rtz`).
-    TowardZero,
-    /// Toward minus infinity (`:rdn`): the effect of dropping low bits of a two's complement product.
-    Down,
-}
-
-/// Treatment of results out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Overflow {
-    /// The nearest end of the range (`:sat`). A float with this rule makes no infinity from finite operands at
-    /// all: division by zero and `log2 0` give the largest finite number too (Direct3D's `log(0) = -FLT_MAX`).
-    Saturate,
-    /// Modulo the width (`:wrap`), fixed point only. Results that are exactly infinite, and overflowing
-    /// exponentials, have no residue and saturate.
-    Wrap,
-    /// IEEE 754 (`:inf`): infinity or the largest finite number, as the rounding direction asks. Floats only.
-    Infinity,
-    /// `NV_fragment_program` (`:nvovf`): exact magnitudes of `2^(emax+1)` and more become infinity, smaller ones
-    /// at most the largest finite number, in every rounding direction. Floats only.
-    Nv30,
-}
-
-/// Treatment of subnormal numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Denormals {
-    /// Gradual underflow (`:keep`).
-    Keep,
-    /// Subnormal operands count as zero, and a result whose rounded value is subnormal becomes zero (`:ftz`). The
-    /// sign is kept. A flushed result raises `UNDERFLOW` and `INEXACT`; a flushed operand raises nothing.
-    Flush,
-}
-
-/// Conventions for NaN, infinity and domain errors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Specials {
-    /// Direct3D 9 on IEEE 754 values (`:ieee`): `min` is `a < b ? a : b` and `max` is `a >= b ? a : b`, so a NaN
-    /// in either place gives `b`; `rsq`, `log2` and `pow` take the magnitude of their operand.
-    Ieee,
-    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN; `rsq(-0)` is -inf; `rsq` and `log2` of a
-    /// negative number are NaN.
-    Nv,
 }
 
 impl Format {
@@ -112,10 +68,13 @@ impl Format {
     pub const FP32: Format = Format::float_unchecked(8, 23);
     /// The upper half of binary32 (alias `bf16`).
     pub const BF16: Format = Format::float_unchecked(8, 7);
+    /// Powers of two, the scales of OCP's block formats: `e8m0`.
+    pub const E8M0: Format = Format::float_unchecked(8, 0).with_encoding(Encoding::Scale);
 
     const fn fixed_unchecked(int_bits: u8, frac_bits: u8) -> Format {
         Format {
             kind: FormatKind::Fixed { int_bits, frac_bits },
+            encoding: Encoding::Ieee,
             rounding: Rounding::NearestEven,
             overflow: Overflow::Saturate,
             denormals: Denormals::Keep,
@@ -126,6 +85,7 @@ impl Format {
     const fn float_unchecked(exp_bits: u8, man_bits: u8) -> Format {
         Format {
             kind: FormatKind::Float { exp_bits, man_bits },
+            encoding: Encoding::Ieee,
             rounding: Rounding::NearestEven,
             overflow: Overflow::Infinity,
             denormals: Denormals::Keep,
@@ -158,6 +118,13 @@ impl Format {
         } else {
             None
         }
+    }
+
+    /// The same layout with another encoding. [`Encoding::Finite`] and [`Encoding::UnsignedZero`] are for floats of at
+    /// most 7 exponent bits, whose numbers single precision has, [`Encoding::Scale`] for [`Format::E8M0`] alone.
+    pub const fn with_encoding(mut self, encoding: Encoding) -> Format {
+        self.encoding = encoding;
+        self
     }
 
     /// The same format with another rounding.
@@ -205,7 +172,34 @@ impl Format {
             FormatKind::Fixed { int_bits, frac_bits } | FormatKind::Normalized { int_bits, frac_bits } => {
                 1 + int_bits as u32 + frac_bits as u32
             }
-            FormatKind::Float { exp_bits, man_bits } => 1 + exp_bits as u32 + man_bits as u32,
+            FormatKind::Float { exp_bits, man_bits } => self.is_signed() as u32 + exp_bits as u32 + man_bits as u32,
+        }
+    }
+
+    /// Returns `true` if the format has negative numbers: all but [`Format::E8M0`].
+    pub const fn is_signed(&self) -> bool {
+        !matches!(self.encoding, Encoding::Scale)
+    }
+
+    /// Returns `true` if there are two zeros.
+    pub const fn has_negative_zero(&self) -> bool {
+        !self.is_fixed() && matches!(self.encoding, Encoding::Ieee | Encoding::Finite)
+    }
+
+    /// Returns `true` if a float has a pattern that means NaN.
+    const fn has_nan(&self) -> bool {
+        !(self.is_fixed() || matches!(self.encoding, Encoding::Finite) && self.width() <= 6)
+    }
+
+    /// Exponents of the smallest normal and of the largest finite number; `(0, 0)` in fixed point.
+    pub const fn exponents(&self) -> (i32, i32) {
+        let FormatKind::Float { exp_bits, .. } = self.kind else { return (0, 0) };
+        let half = 1 << (exp_bits - 1);
+        match self.encoding {
+            Encoding::Ieee => (2 - half, half - 1),
+            Encoding::Finite => (2 - half, half),
+            Encoding::UnsignedZero => (1 - half, half - 1),
+            Encoding::Scale => (1 - half, half - 1),
         }
     }
 
@@ -214,9 +208,9 @@ impl Format {
         u32::MAX >> (32 - self.width())
     }
 
-    /// The sign bit.
+    /// The sign bit; in [`Format::E8M0`], which has none, the bit above the width.
     pub const fn sign_bit(&self) -> u32 {
-        1 << (self.width() - 1)
+        1 << (self.width() - self.is_signed() as u32)
     }
 
     /// Positive zero.
@@ -230,7 +224,10 @@ impl Format {
             FormatKind::Fixed { int_bits: 0, .. } => self.max_finite(),
             FormatKind::Fixed { frac_bits, .. } => 1 << frac_bits,
             FormatKind::Normalized { .. } => self.denominator(),
-            FormatKind::Float { exp_bits, man_bits } => ((1 << (exp_bits - 1)) - 1) << man_bits,
+            FormatKind::Float { exp_bits, man_bits } => {
+                let bias = (1 << (exp_bits - 1)) - !matches!(self.encoding, Encoding::UnsignedZero) as u32;
+                bias << man_bits
+            }
         }
     }
 
@@ -238,15 +235,20 @@ impl Format {
     pub const fn max_finite(&self) -> u32 {
         match self.kind {
             FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => self.sign_bit() - 1,
-            FormatKind::Float { man_bits, .. } => self.sign_bit() - 1 - (1 << man_bits),
+            FormatKind::Float { man_bits, .. } => match self.encoding {
+                Encoding::Ieee => self.sign_bit() - 1 - (1 << man_bits),
+                Encoding::Finite => self.sign_bit() - 1 - self.has_nan() as u32,
+                Encoding::UnsignedZero => self.sign_bit() - 1,
+                Encoding::Scale => self.sign_bit() - 2,
+            },
         }
     }
 
-    /// The most negative finite number.
+    /// The most negative finite number; in [`Format::E8M0`] the smallest.
     pub const fn min_finite(&self) -> u32 {
         match self.kind {
             FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => self.sign_bit(),
-            FormatKind::Float { .. } => self.sign_bit() | self.max_finite(),
+            FormatKind::Float { .. } => (self.sign_bit() | self.max_finite()) * self.is_signed() as u32,
         }
     }
 
@@ -255,41 +257,46 @@ impl Format {
         if negative { self.min_finite() } else { self.max_finite() }
     }
 
-    /// The pattern of an infinity; `None` in fixed point.
+    /// The pattern of an infinity; `None` in fixed point and in encodings without one.
     pub const fn infinity(&self, negative: bool) -> Option<u32> {
-        match self.kind {
-            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => None,
-            FormatKind::Float { man_bits, .. } => {
+        match (self.kind, self.encoding) {
+            (FormatKind::Float { man_bits, .. }, Encoding::Ieee) => {
                 let inf = self.sign_bit() - (1 << man_bits);
                 Some(if negative { inf | self.sign_bit() } else { inf })
             }
+            _ => None,
         }
     }
 
-    /// The NaN that operations return: positive, quiet, rest of the payload zero. `None` in fixed point.
+    /// The NaN that operations return: positive, quiet, rest of the payload zero; in encodings that have but one, that.
+    /// `None` in fixed point and in finite floats of at most 6 bits.
     pub const fn canonical_nan(&self) -> Option<u32> {
-        match self.kind {
-            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => None,
-            FormatKind::Float { man_bits, .. } => Some((self.sign_bit() - (1 << man_bits)) | (1 << (man_bits - 1))),
+        match (self.kind, self.encoding) {
+            (FormatKind::Float { man_bits, .. }, Encoding::Ieee) => {
+                Some((self.sign_bit() - (1 << man_bits)) | (1 << (man_bits - 1)))
+            }
+            (FormatKind::Float { .. }, Encoding::UnsignedZero) => Some(self.sign_bit()),
+            (FormatKind::Float { .. }, _) if self.has_nan() => Some(self.sign_bit() - 1),
+            _ => None,
         }
     }
 
     /// Returns `true` if the pattern is a NaN. Bits above the width are ignored.
     pub const fn is_nan(&self, bits: u32) -> bool {
-        match self.kind {
-            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
-            FormatKind::Float { man_bits, .. } => {
-                let magnitude = bits & (self.sign_bit() - 1);
-                magnitude > self.sign_bit() - (1 << man_bits)
-            }
+        let magnitude = bits & (self.sign_bit() - 1);
+        match (self.kind, self.encoding) {
+            (FormatKind::Float { man_bits, .. }, Encoding::Ieee) => magnitude > self.sign_bit() - (1 << man_bits),
+            (FormatKind::Float { .. }, Encoding::UnsignedZero) => bits & self.mask() == self.sign_bit(),
+            (FormatKind::Float { .. }, _) => self.has_nan() && magnitude == self.sign_bit() - 1,
+            _ => false,
         }
     }
 
     /// Returns `true` if the pattern is an infinity.
     pub const fn is_infinite(&self, bits: u32) -> bool {
-        match self.kind {
-            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
-            FormatKind::Float { man_bits, .. } => bits & (self.sign_bit() - 1) == self.sign_bit() - (1 << man_bits),
+        match self.infinity(false) {
+            Some(infinity) => bits & (self.sign_bit() - 1) == infinity,
+            None => false,
         }
     }
 
@@ -300,7 +307,7 @@ impl Format {
 
     /// Returns `true` if the sign bit is set (a negative number, -0, or a negative NaN).
     pub const fn is_negative(&self, bits: u32) -> bool {
-        bits & self.sign_bit() != 0
+        bits & self.mask() & self.sign_bit() != 0
     }
 
     /// Returns `true` if operations treat the pattern as zero: either zero, or a subnormal of a flushing format.
@@ -309,7 +316,8 @@ impl Format {
             FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => bits & self.mask() == 0,
             FormatKind::Float { .. } => {
                 let magnitude = bits & (self.sign_bit() - 1);
-                magnitude == 0 || (self.is_subnormal(bits) && matches!(self.denormals, Denormals::Flush))
+                let zero = magnitude == 0 && self.is_signed() && !self.is_nan(bits);
+                zero || (self.is_subnormal(bits) && matches!(self.denormals, Denormals::Flush))
             }
         }
     }

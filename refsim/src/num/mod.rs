@@ -1,15 +1,19 @@
 //! Number formats, and arithmetic in them by integer operations alone.
 //!
-//! A [`Format`] is a record: a layout ([`FormatKind`]) and four rules ([`Rounding`], [`Overflow`], [`Denormals`],
-//! [`Specials`]). It is written as a string, the same everywhere in Crossbar:
+//! A [`Format`] is a record: a layout ([`FormatKind`], [`Encoding`]) and four rules ([`Rounding`], [`Overflow`],
+//! [`Denormals`], [`Specials`]). It is written as a string, the same everywhere in Crossbar:
 //!
 //! | string | meaning |
 //! |---|---|
 //! | `s3.12` | fixed point: sign, 3 integer and 12 fraction bits, two's complement |
 //! | `n3.8` | normalized integers: sign, 3 integer and 8 fraction bits, two's complement, in units of 1/255 |
 //! | `e5m10` | float: sign, 5 exponent and 10 mantissa bits, as IEEE 754 lays them out |
+//! | `e4m3fn` `e4m3fnuz` | floats without infinity: one NaN of either sign, or one NaN and one zero ([`Encoding`]) |
+//! | `e8m0` | powers of two, without sign and zero: scales of blocks ([`block`]) |
 //! | `ps14` `fx12` `fp16` `fp24` `fp32` `bf16` | `s3.12` `s1.10` `e5m10` `e7m16` `e8m23` `e8m7` |
-//! | `:rne` `:rna` `:rtz` `:rdn` | rounding: nearest even (default), nearest away, toward zero, down |
+//! | `:rne` `:rna` `:rtz` | rounding: nearest even (default), nearest away, toward zero |
+//! | `:rdn` `:rup` `:rod` | rounding: down, up, to odd |
+//! | `:rst` | stochastic rounding, by the word of an operation ([`Rounding::Stochastic`]) |
 //! | `:sat` `:wrap` | overflow in fixed point and normalized integers: saturate (default), wrap |
 //! | `:inf` `:sat` `:nvovf` | overflow in floats: IEEE (default), saturate, `NV_fragment_program` |
 //! | `:keep` `:ftz` | floats: subnormals kept (default), flushed to zero |
@@ -29,9 +33,9 @@
 //! - No host float decides a bit. `fp32` goes the same way as every other format.
 //! - A NaN result is the canonical one: positive, quiet, the rest of its payload zero. A signalling NaN operand
 //!   raises `INVALID`, a quiet one doesn't (except in the signalling comparisons).
-//! - Where there is no real result, floats give NaN and fixed point gives zero, with `INVALID`.
-//! - An exactly infinite result is infinity with `DIVIDE_BY_ZERO`; fixed point and `:sat` floats give the end of the
-//!   range instead.
+//! - Where there is no real result, floats give NaN and formats without NaN give zero, with `INVALID`.
+//! - An exactly infinite result is infinity with `DIVIDE_BY_ZERO`, or NaN where there is no infinity; fixed point,
+//!   floats without either and `:sat` floats give the end of the range instead.
 //! - Under `:ftz` subnormal operands and results are zeros of their sign, in every operation, moves included.
 //! - `UNDERFLOW` is raised for results that are tiny and inexact; [`Tininess`] chooses what tiny means. In fixed
 //!   point it is never raised.
@@ -46,6 +50,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod block;
 mod convert;
 pub mod decimal;
 mod env;
@@ -54,7 +59,9 @@ mod format;
 mod operation;
 pub mod ops;
 mod parse;
+mod random;
 mod round;
+mod rules;
 mod sum;
 mod transcendental;
 mod unpack;
@@ -62,9 +69,11 @@ mod unpack;
 pub use convert::{power_of_two, to_f64};
 pub use env::{Env, Tininess};
 pub use flags::{Flags, Outcome};
-pub use format::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
+pub use format::{Format, FormatKind};
 pub use operation::NumberOperation;
 pub use ops::DotOrder;
 pub use parse::FormatError;
+pub use random::random_word;
 pub use round::{from_parts, from_ratio};
+pub use rules::{Denormals, Encoding, Overflow, Rounding, Specials};
 pub use unpack::{Unpacked, unpack};

@@ -1,19 +1,24 @@
-//! Parsing and printing of format strings: `s3.12`, `n3.8:rna`, `e5m10:rtz`, `fp24:rne:ftz`.
+//! Parsing and printing of format strings: `s3.12`, `n3.8:rna`, `e5m10:rtz`, `fp24:rne:ftz`, `e4m3fn:sat`, `e8m0`.
 
 use std::fmt;
 use std::str::FromStr;
 
-use super::format::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
+use super::format::{Format, FormatKind};
+use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials};
 
-/// Aliases of layouts.
-const ALIASES: [(&str, Format); 6] = [
+/// Aliases of layouts, and the one layout that is none of the patterns.
+const ALIASES: [(&str, Format); 7] = [
     ("ps14", Format::S3_12),
     ("fx12", Format::FX12),
     ("fp16", Format::FP16),
     ("fp24", Format::FP24),
     ("fp32", Format::FP32),
     ("bf16", Format::BF16),
+    ("e8m0", Format::E8M0),
 ];
+
+/// Encodings of floats that are part of the layout's name, behind the bit counts; the longer name first.
+const ENCODINGS: [(&str, Encoding); 2] = [("fnuz", Encoding::UnsignedZero), ("fn", Encoding::Finite)];
 
 /// Error of parsing a number format. Each message contains the whole string and what to write instead.
 #[non_exhaustive]
@@ -21,11 +26,13 @@ const ALIASES: [(&str, Format); 6] = [
 pub enum FormatError {
     /// The part before the first colon is not a layout.
     #[error(
-        "number format `{text}`: expected a layout `sI.F`, `nI.F`, `eXmY` or one of ps14, fx12, fp16, fp24, fp32, bf16, found `{found}`"
+        "number format `{text}`: expected a layout `sI.F`, `nI.F`, `eXmY`, `eXmYfn`, `eXmYfnuz` or one of ps14, fx12, fp16, fp24, fp32, bf16, e8m0, found `{found}`"
     )]
     #[diagnostic(
         code(num::format_layout),
-        help("write for example `s3.12` (fixed point), `n3.8` (normalized integers) or `e5m10` (float)")
+        help(
+            "write for example `s3.12` (fixed point), `n3.8` (normalized integers), `e5m10` (float) or `e4m3fn` (float without infinity)"
+        )
     )]
     Layout {
         /// The whole string.
@@ -37,7 +44,9 @@ pub enum FormatError {
     #[error("number format `{text}`: expected {expected}, found `{found}`")]
     #[diagnostic(
         code(num::format_range),
-        help("fixed point goes up to 32 bits, normalized integers up to 16, floats from `e2m1` to `e8m23`")
+        help(
+            "fixed point goes up to 32 bits, normalized integers up to 16, floats from `e2m1` to `e8m23`, those without infinity to `e7m23fn`"
+        )
     )]
     Range {
         /// The whole string.
@@ -49,7 +58,7 @@ pub enum FormatError {
     },
     /// An unknown suffix.
     #[error(
-        "number format `{text}`: expected a suffix :rne :rna :rtz :rdn, :sat :wrap :inf :nvovf, :keep :ftz or :ieee :nv, found `:{found}` at character {at}"
+        "number format `{text}`: expected a suffix :rne :rna :rtz :rdn :rup :rod :rst, :sat :wrap :inf :nvovf, :keep :ftz or :ieee :nv, found `:{found}` at character {at}"
     )]
     #[diagnostic(
         code(num::format_suffix),
@@ -92,6 +101,36 @@ pub enum FormatError {
         /// The rule that is set twice.
         rule: &'static str,
     },
+    /// A format that registers cannot have.
+    #[error("number format `{text}`: no format of registers and instructions, since {reason}")]
+    #[diagnostic(
+        code(num::format_registers),
+        help(
+            "devices take every layout but `e8m0` and every rounding but `:rst`; `crossbar alu` computes with these too"
+        )
+    )]
+    Registers {
+        /// The format.
+        text: String,
+        /// The reason, a clause.
+        reason: &'static str,
+    },
+}
+
+impl Format {
+    /// The format itself, if registers and instructions of a device can have it: all but [`Format::E8M0`], and all
+    /// roundings but [`Rounding::Stochastic`].
+    ///
+    /// # Errors
+    /// [`FormatError::Registers`].
+    pub fn for_registers(self) -> Result<Format, FormatError> {
+        let reason = match self.rounding {
+            Rounding::Stochastic(_) => "executors that work on many pixels at once number no operations",
+            _ if !self.is_signed() => "scales have neither zero nor negative numbers",
+            _ => return Ok(self),
+        };
+        Err(FormatError::Registers { text: self.to_string(), reason })
+    }
 }
 
 impl FromStr for Format {
@@ -111,7 +150,7 @@ impl FromStr for Format {
     }
 }
 
-/// `sI.F`, `nI.F`, `eXmY` or an alias.
+/// `sI.F`, `nI.F`, `eXmY` with or without an encoding, or an alias.
 fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
     if let Some((_, format)) = ALIASES.iter().find(|(name, _)| *name == layout) {
         return Ok(*format);
@@ -123,6 +162,14 @@ fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
     if let Some((i, f)) = split_counts(layout, 'n', '.') {
         return Format::normalized(i, f)
             .ok_or_else(|| range("2 to 8 fraction bits, and 15 integer and fraction bits together"));
+    }
+    for (name, encoding) in ENCODINGS {
+        if let Some((x, m)) = layout.strip_suffix(name).and_then(|counts| split_counts(counts, 'e', 'm')) {
+            return Format::float(x, m)
+                .filter(|_| x < 8)
+                .map(|format| format.with_encoding(encoding))
+                .ok_or_else(|| range("2 to 7 exponent and 1 to 23 mantissa bits without infinity"));
+        }
     }
     if let Some((x, m)) = split_counts(layout, 'e', 'm') {
         return Format::float(x, m).ok_or_else(|| range("2 to 8 exponent and 1 to 23 mantissa bits"));
@@ -137,15 +184,18 @@ fn split_counts(layout: &str, lead: char, mid: char) -> Option<(u8, u8)> {
     (digits(a) && digits(b)).then(|| (a.parse().unwrap_or(255), b.parse().unwrap_or(255)))
 }
 
+/// The rounding of a suffix.
+fn rounding(suffix: &str) -> Option<Rounding> {
+    let all = Rounding::ALL.into_iter().chain([("rst", Rounding::Stochastic(0))]);
+    all.into_iter().find(|(name, _)| *name == suffix).map(|(_, rounding)| rounding)
+}
+
 /// Applies one suffix.
 fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at: usize) -> Result<(), FormatError> {
     let fixed = format.is_fixed();
     // Rule index, and the kind of layout that the suffix applies to.
     let (rule, only) = match suffix {
-        "rne" => (0, None),
-        "rna" => (0, None),
-        "rtz" => (0, None),
-        "rdn" => (0, None),
+        name if rounding(name).is_some() => (0, None),
         "sat" => (1, None),
         "wrap" => (1, Some(true)),
         "inf" | "nvovf" => (1, Some(false)),
@@ -161,11 +211,11 @@ fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at:
         let rule = ["rounding", "overflow", "denormal", "special-value"][rule];
         return Err(FormatError::Twice { text: text.to_owned(), found: suffix.to_owned(), at, rule });
     }
+    if let Some(rounding) = rounding(suffix) {
+        format.rounding = rounding;
+        return Ok(());
+    }
     match suffix {
-        "rne" => format.rounding = Rounding::NearestEven,
-        "rna" => format.rounding = Rounding::NearestAway,
-        "rtz" => format.rounding = Rounding::TowardZero,
-        "rdn" => format.rounding = Rounding::Down,
         "sat" => format.overflow = Overflow::Saturate,
         "wrap" => format.overflow = Overflow::Wrap,
         "inf" => format.overflow = Overflow::Infinity,
@@ -184,14 +234,15 @@ impl fmt::Display for Format {
         let mut text = match self.kind {
             FormatKind::Fixed { int_bits, frac_bits } => format!("s{int_bits}.{frac_bits}"),
             FormatKind::Normalized { int_bits, frac_bits } => format!("n{int_bits}.{frac_bits}"),
-            FormatKind::Float { exp_bits, man_bits } => format!("e{exp_bits}m{man_bits}"),
+            FormatKind::Float { exp_bits, man_bits } => {
+                let encoding = ENCODINGS.iter().find(|(_, encoding)| *encoding == self.encoding);
+                format!("e{exp_bits}m{man_bits}{}", encoding.map_or("", |(name, _)| name))
+            }
         };
-        text.push_str(match self.rounding {
-            Rounding::NearestEven => "",
-            Rounding::NearestAway => ":rna",
-            Rounding::TowardZero => ":rtz",
-            Rounding::Down => ":rdn",
-        });
+        if self.rounding != Rounding::NearestEven {
+            text.push(':');
+            text.push_str(self.rounding.name());
+        }
         text.push_str(match (self.is_fixed(), self.overflow) {
             (true, Overflow::Wrap) => ":wrap",
             (false, Overflow::Saturate) => ":sat",

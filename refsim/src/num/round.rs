@@ -5,7 +5,10 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::env::{Env, Tininess};
 use super::flags::{Flags, Outcome};
-use super::format::{Denormals, Format, FormatKind, Overflow, Rounding};
+use super::format::{Format, FormatKind};
+use super::rules::{Denormals, Encoding, Overflow, Rounding};
+use super::unpack::invalid;
+pub(crate) use super::unpack::zero;
 
 /// Exponents beyond this overflow or underflow in every format; clamping to it keeps the arithmetic below in range.
 const FAR: i32 = 1 << 20;
@@ -40,6 +43,12 @@ pub(crate) fn round_quotient(env: &Env, sign: bool, sig: u64, exp: i32, den: u64
     if den == 1 || sig == 0 {
         return round(env, sign, sig, exp, false);
     }
+    if let Rounding::Stochastic(_) = env.format.rounding {
+        // More bits, for the 32 of the fraction.
+        let left = u128::from(sig).leading_zeros();
+        let (dividend, den) = (u128::from(sig) << left, u128::from(den));
+        return in_units(env, sign, dividend / den, exp - left.cast_signed(), dividend % den != 0);
+    }
     // With the dividend's leading bit at 2^63 a float's quotient has 40 bits or more; in fixed point its last bit is
     // 2^-32 or less, half a unit of the finest format.
     let left = sig.leading_zeros();
@@ -60,11 +69,11 @@ pub(crate) fn in_units(env: &Env, sign: bool, sig: u128, exp: i32, sticky: bool)
         FormatKind::Normalized { int_bits, frac_bits } => {
             round_fixed(&env.format, int_bits + frac_bits, 0, sign, sig, exp, sticky)
         }
-        FormatKind::Float { exp_bits, man_bits } => {
+        FormatKind::Float { man_bits, .. } => {
             // Rounding needs only 64 leading bits and a sticky bit.
             let drop = 64 - sig.leading_zeros();
             let lost = sig & ((1 << drop) - 1) != 0;
-            round_float(env, exp_bits, man_bits, sign, (sig >> drop) as u64, exp + drop.cast_signed(), sticky | lost)
+            round_float(env, man_bits, sign, (sig >> drop) as u64, exp + drop.cast_signed(), sticky | lost)
         }
     }
 }
@@ -80,19 +89,29 @@ pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> 
         FormatKind::Normalized { int_bits, frac_bits } => {
             round_fixed(&env.format, int_bits + frac_bits, 0, sign, u128::from(sig), exp, sticky)
         }
-        FormatKind::Float { exp_bits, man_bits } => round_float(env, exp_bits, man_bits, sign, sig, exp, sticky),
+        FormatKind::Float { man_bits, .. } => round_float(env, man_bits, sign, sig, exp, sticky),
     }
 }
 
 /// Returns `true` if rounding increments the truncated magnitude.
+///
+/// `fraction` computes the first 32 bits of what was cut off.
 #[inline]
-fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool) -> bool {
+fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool, fraction: impl Fn() -> u32) -> bool {
     match rounding {
         Rounding::NearestEven => half && (below || odd),
         Rounding::NearestAway => half,
         Rounding::TowardZero => false,
-        Rounding::Down => sign && (half || below),
+        Rounding::Down | Rounding::Up => rounding.is_outward(sign) && (half || below),
+        Rounding::Odd => !odd && (half || below),
+        Rounding::Stochastic(word) => fraction().checked_add(word).is_none(),
     }
+}
+
+/// The first 32 bits of the fraction of `sig / 2^shift`; `shift` is at least 1.
+fn fraction(sig: u128, shift: i32) -> u32 {
+    let shift = shift.unsigned_abs();
+    if shift < 32 { (sig as u32) << (32 - shift) } else { sig.checked_shr(shift - 32).unwrap_or(0) as u32 }
 }
 
 /// Rounds `sig / 2^shift` to an integer; also returns `true` if the result is inexact.
@@ -103,38 +122,39 @@ fn shift_round(rounding: Rounding, sign: bool, sig: u64, shift: i32, sticky: boo
     }
     if shift > 64 {
         let lost = sig != 0 || sticky;
-        return (u64::from(goes_up(rounding, sign, false, false, lost)), lost);
+        let up = goes_up(rounding, sign, false, false, lost, || fraction(sig.into(), shift));
+        return (u64::from(up), lost);
     }
     let half = (sig >> (shift - 1)) & 1 == 1;
     let below = sticky || sig & ((1 << (shift - 1)) - 1) != 0;
     let kept = if shift == 64 { 0 } else { sig >> shift };
-    let up = goes_up(rounding, sign, kept & 1 == 1, half, below);
+    let up = goes_up(rounding, sign, kept & 1 == 1, half, below, || fraction(sig.into(), shift));
     (kept + u64::from(up), half || below)
 }
 
 #[inline]
-fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
+fn round_float(env: &Env, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
     let format = &env.format;
-    let sign_bits = if sign { format.sign_bit() } else { 0 };
     if sig == 0 && !sticky {
-        return Outcome::exact(sign_bits);
+        return zero(format, sign);
     }
     let man = i32::from(man_bits);
-    let min_exp = 2 - (1 << (exp_bits - 1));
+    let (min_exp, max_exp) = format.exponents();
     // With the leading bit at 2^63 the last place of every float lies above the last bit of `sig`. (Zero with a sticky
     // bit keeps its exponent.)
     let left = sig.leading_zeros() & 63;
     let (sig, exp) = (sig << left, exp - left.cast_signed());
     // The value lies in [2^top, 2^(top+1)); its unit in the last place is 2^unit.
     let top = if sig == 0 { exp - 1 } else { exp + 63 };
+    if format.encoding == Encoding::Scale {
+        return round_scale(format, sign, sig, top, sticky);
+    }
     let unit = (top - man).max(min_exp - man);
     let (kept, inexact) = shift_round(format.rounding, sign, sig, unit - exp, sticky);
     // Adds exponent field and mantissa: the hidden bit adds the first 1 to the exponent, a carry the next.
     let magnitude = (((unit - min_exp + man) as u64) << man) + kept;
-    let infinity = u64::from(format.sign_bit()) - (1 << man);
-    if magnitude >= infinity {
-        let huge = top > 1 - min_exp;
-        return overflow_float(format, sign, huge);
+    if magnitude > u64::from(format.max_finite()) {
+        return overflow_float(format, sign, top > max_exp);
     }
     let mut flags = if inexact { Flags::INEXACT } else { Flags::empty() };
     if inexact && top < min_exp {
@@ -147,9 +167,31 @@ fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp:
         }
     }
     if format.denormals == Denormals::Flush && magnitude != 0 && magnitude >> man == 0 {
-        return Outcome::new(sign_bits, Flags::UNDERFLOW | Flags::INEXACT);
+        return zero(format, sign).also(Flags::UNDERFLOW | Flags::INEXACT);
     }
-    Outcome::new(sign_bits | magnitude as u32, flags)
+    if magnitude == 0 {
+        return zero(format, sign).also(flags);
+    }
+    Outcome::new(magnitude as u32 | if sign { format.sign_bit() } else { 0 }, flags)
+}
+
+/// Rounds a power of two times a number in [1, 2) to a scale: `sig` is that number with its leading bit at 2^63, or 0
+/// for something above zero. Halves go up: with one digit there is no even one (IEEE 754-2019, 4.3.1). Below the
+/// smallest scale everything above zero is that one.
+fn round_scale(format: &Format, sign: bool, sig: u64, top: i32, sticky: bool) -> Outcome {
+    let (least, most) = format.exponents();
+    if sign {
+        return invalid(format);
+    }
+    let (kept, inexact) = shift_round(format.rounding, sign, sig, 63, sticky);
+    let exponent = top + i32::from(kept == 2);
+    if exponent > most {
+        return overflow_float(format, sign, top > most);
+    }
+    if sig == 0 || exponent < least {
+        return Outcome::new(format.min_finite(), Flags::UNDERFLOW | Flags::INEXACT);
+    }
+    Outcome::new((exponent - least).unsigned_abs(), if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
 /// The result of a float overflow; `huge` if the exact magnitude is `2^(emax+1)` or more.
@@ -159,11 +201,12 @@ fn overflow_float(format: &Format, sign: bool, huge: bool) -> Outcome {
         Overflow::Nv30 => huge,
         Overflow::Infinity | Overflow::Wrap => match format.rounding {
             Rounding::NearestEven | Rounding::NearestAway => true,
-            Rounding::TowardZero => false,
-            Rounding::Down => sign,
+            Rounding::TowardZero | Rounding::Odd => false,
+            Rounding::Stochastic(_) => true,
+            Rounding::Down | Rounding::Up => format.rounding.is_outward(sign),
         },
     };
-    let bits = if infinite { format.infinity(sign).unwrap_or(0) } else { format.extreme(sign) };
+    let bits = if infinite { unbounded(format, sign) } else { format.extreme(sign) };
     Outcome::new(bits, Flags::OVERFLOW | Flags::INEXACT)
 }
 
@@ -186,12 +229,13 @@ fn round_fixed(
         let (kept, inexact) = shift_round(format.rounding, sign, sig as u64, shift, sticky);
         (u128::from(kept), false, inexact)
     } else if shift > 128 {
-        (u128::from(goes_up(format.rounding, sign, false, false, true)), false, true)
+        let up = goes_up(format.rounding, sign, false, false, true, || fraction(sig, shift));
+        (u128::from(up), false, true)
     } else {
         let half = (sig >> (shift - 1)) & 1 == 1;
         let below = sticky || sig & ((1 << (shift - 1)) - 1) != 0;
         let kept = if shift == 128 { 0 } else { sig >> shift };
-        let up = goes_up(format.rounding, sign, kept & 1 == 1, half, below);
+        let up = goes_up(format.rounding, sign, kept & 1 == 1, half, below, || fraction(sig, shift));
         (kept + u128::from(up), false, half || below)
     };
     // Two's complement reaches one unit further on the negative side.
@@ -205,27 +249,26 @@ fn round_fixed(
     Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// The result of an exact infinity from finite operands: infinity, or the end of the range where the format has no
-/// infinity or saturates.
-pub(crate) fn divide_by_zero(format: &Format, sign: bool) -> Outcome {
-    let bits = match format.infinity(sign) {
-        Some(infinity) if format.overflow != Overflow::Saturate => infinity,
-        _ => format.extreme(sign),
-    };
-    Outcome::new(bits, Flags::DIVIDE_BY_ZERO)
+/// The pattern that stands for an infinity: itself; NaN where there is none; the end of the range where there is no
+/// NaN either.
+fn unbounded(format: &Format, sign: bool) -> u32 {
+    format.infinity(sign).or(format.canonical_nan()).unwrap_or(format.extreme(sign))
 }
 
-/// An infinite operand passed through: infinity, or in fixed point the end of the range with `OVERFLOW`.
+/// The result of an exact infinity from finite operands: infinity (or what stands for it), or the end of the range
+/// where the format saturates.
+pub(crate) fn divide_by_zero(format: &Format, sign: bool) -> Outcome {
+    let saturates = format.overflow == Overflow::Saturate;
+    Outcome::new(if saturates { format.extreme(sign) } else { unbounded(format, sign) }, Flags::DIVIDE_BY_ZERO)
+}
+
+/// An infinite operand passed through: infinity; where there is none, with `OVERFLOW`, what stands for it, or the end
+/// of the range where the format saturates.
 pub(crate) fn infinite(format: &Format, sign: bool) -> Outcome {
     match format.infinity(sign) {
         Some(bits) => Outcome::exact(bits),
-        None => Outcome::new(format.extreme(sign), Flags::OVERFLOW | Flags::INEXACT),
+        None => Outcome::new(divide_by_zero(format, sign).bits, Flags::OVERFLOW | Flags::INEXACT),
     }
-}
-
-/// A zero of the given sign; fixed point has only one.
-pub(crate) fn zero(format: &Format, sign: bool) -> Outcome {
-    Outcome::exact(if sign && !format.is_fixed() { format.sign_bit() } else { 0 })
 }
 
 /// Computes the quotient `num / den`, rounded once. Used for texel decoding and attribute interpolation.
@@ -234,7 +277,7 @@ pub(crate) fn zero(format: &Format, sign: bool) -> Outcome {
 pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> Outcome {
     let env = env.into();
     match (num, den) {
-        (0, 0) => return super::unpack::invalid(&env.format),
+        (0, 0) => return invalid(&env.format),
         (_, 0) => return divide_by_zero(&env.format, negative),
         (0, _) => return zero(&env.format, negative),
         _ => {}

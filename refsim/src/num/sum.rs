@@ -2,8 +2,8 @@
 
 use super::env::Env;
 use super::flags::Outcome;
-use super::format::Rounding;
 use super::round::{in_units, round_quotient, zero};
+use super::rules::Rounding;
 
 /// `(-1)^sign * sig * 2^exp` over a denominator that the terms of a sum share, exact; `sig` below `2^64`.
 #[derive(Clone, Copy, Debug)]

@@ -15,9 +15,10 @@ use num_traits::ToPrimitive;
 use self::enclose::Enclosure;
 use super::env::Env;
 use super::flags::{Flags, Outcome};
-use super::format::{FormatKind, Overflow, Specials};
+use super::format::FormatKind;
 use super::ops::mul;
 use super::round::{divide_by_zero, from_parts, in_units, infinite, zero};
+use super::rules::{Overflow, Specials};
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// Numbers of places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24

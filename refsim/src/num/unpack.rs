@@ -2,7 +2,8 @@
 
 use super::Outcome;
 use super::flags::Flags;
-use super::format::{Denormals, Format, FormatKind};
+use super::format::{Format, FormatKind};
+use super::rules::{Denormals, Encoding};
 
 /// A decoded number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -30,8 +31,8 @@ pub enum Unpacked {
     },
 }
 
-/// Decodes `bits` as operations see them: under [`Denormals::Flush`] a subnormal is a zero of its sign. Bits above the
-/// width are ignored.
+/// Decodes `bits` as operations see them: under [`Denormals::Flush`] a subnormal is a zero of its sign (the one zero,
+/// if there is but one). Bits above the width are ignored.
 pub fn unpack(format: &Format, bits: u32) -> Unpacked {
     let bits = bits & format.mask();
     let sign = format.is_negative(bits);
@@ -42,18 +43,24 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
             Unpacked::Finite { sign, sig, exp, den: format.denominator() }
         }
         FormatKind::Float { exp_bits, man_bits } => {
-            let bias = (1 << (exp_bits - 1)) - 1;
             let field = (bits >> man_bits) & ((1 << exp_bits) - 1);
             let man = bits & ((1 << man_bits) - 1);
-            if field == (1 << exp_bits) - 1 {
-                return match man {
-                    0 => Unpacked::Inf { sign },
-                    _ => Unpacked::Nan { signaling: man >> (man_bits - 1) == 0 },
-                };
+            if format.is_nan(bits) {
+                // Encodings with one NaN have a quiet one.
+                let quiet = format.encoding != Encoding::Ieee || man >> (man_bits - 1) != 0;
+                return Unpacked::Nan { signaling: !quiet };
             }
-            let unit = 1 - bias - i32::from(man_bits);
+            if format.is_infinite(bits) {
+                return Unpacked::Inf { sign };
+            }
+            let (least, _) = format.exponents();
+            let unit = least - i32::from(man_bits);
+            if format.encoding == Encoding::Scale {
+                return Unpacked::Finite { sign, sig: 1, exp: least + field.cast_signed(), den: 1 };
+            }
             if field == 0 {
                 let sig = if format.denormals == Denormals::Flush { 0 } else { u64::from(man) };
+                let sign = sign && (sig != 0 || format.has_negative_zero());
                 return Unpacked::Finite { sign, sig, exp: unit, den: 1 };
             }
             let sig = u64::from(man | 1 << man_bits);
@@ -70,7 +77,7 @@ pub(crate) fn pass(format: &Format, bits: u32) -> u32 {
             return nan_bits(format);
         }
         if format.is_zero(bits) {
-            return bits & format.sign_bit();
+            return zero(format, format.is_negative(bits)).bits;
         }
     }
     bits
@@ -79,6 +86,14 @@ pub(crate) fn pass(format: &Format, bits: u32) -> u32 {
 /// The canonical NaN, or zero where the format has none.
 pub(crate) fn nan_bits(format: &Format) -> u32 {
     format.canonical_nan().unwrap_or(0)
+}
+
+/// A zero of the given sign. Fixed point has only one, as have some floats; a scale is never zero, which is `INVALID`.
+pub(crate) fn zero(format: &Format, sign: bool) -> Outcome {
+    if !format.is_signed() {
+        return invalid(format);
+    }
+    Outcome::exact(if sign && format.has_negative_zero() { format.sign_bit() } else { 0 })
 }
 
 /// The result of an operation without a real result: canonical NaN (fixed point: zero) and `INVALID`.

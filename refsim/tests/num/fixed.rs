@@ -13,13 +13,17 @@ fn round(p: i64, rounding: Rounding) -> i64 {
         Rounding::NearestAway => (p + 0x800) >> 12,
         Rounding::TowardZero => p / 4096,
         Rounding::Down => p.div_euclid(4096),
+        Rounding::Up => -(-p).div_euclid(4096),
+        Rounding::Odd if p % 4096 != 0 => p.div_euclid(4096) | 1,
+        Rounding::Odd => p / 4096,
+        Rounding::Stochastic(_) => unreachable!("not among those tested here"),
     }
 }
 
 #[test]
 fn s3_12_products_equal_integers() {
     let stride = if full() { 1 } else { 509 };
-    for rounding in [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down] {
+    for (_, rounding) in Rounding::ALL {
         for overflow in [Overflow::Saturate, Overflow::Wrap] {
             let f = Format::S3_12.with_rounding(rounding).with_overflow(overflow);
             (0..=0xffffu32 / stride).into_par_iter().for_each(|i| {

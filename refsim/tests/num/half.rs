@@ -7,8 +7,11 @@ use rustc_apfloat::{Float, FloatConvert, Round, Status, StatusAnd};
 
 use crate::full;
 
-pub(crate) const MODES: [(Rounding, Round); 2] =
-    [(Rounding::NearestEven, Round::NearestTiesToEven), (Rounding::TowardZero, Round::TowardZero)];
+pub(crate) const MODES: [(Rounding, Round); 3] = [
+    (Rounding::NearestEven, Round::NearestTiesToEven),
+    (Rounding::TowardZero, Round::TowardZero),
+    (Rounding::Up, Round::TowardPositive),
+];
 
 /// Converts apfloat's status to flags.
 pub(crate) fn flags(status: Status) -> Flags {

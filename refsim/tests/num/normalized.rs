@@ -5,7 +5,8 @@ use refsim::num::{DotOrder, Flags, Format, Outcome, Overflow, Rounding, Unpacked
 
 use crate::{Cases, full};
 
-const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+const ROUNDINGS: [Rounding; 6] =
+    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
 
 /// A format with its unit, apart from `Format`'s own.
 struct Reference {
@@ -34,6 +35,9 @@ impl Reference {
             Rounding::NearestAway => 2 * rest > d || (2 * rest == d && n > 0),
             Rounding::TowardZero => rest != 0 && n < 0,
             Rounding::Down => false,
+            Rounding::Up => rest != 0,
+            Rounding::Odd => rest != 0 && floor % 2 == 0,
+            Rounding::Stochastic(_) => unreachable!("not among those tested here"),
         };
         let (whole, half) = (floor + i128::from(up), 1i128 << (self.bits - 1));
         let mut flags = if rest == 0 { Flags::empty() } else { Flags::INEXACT };

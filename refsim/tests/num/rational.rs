@@ -5,7 +5,7 @@
 
 use std::cmp::Ordering;
 
-use refsim::num::{Denormals, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Tininess};
+use refsim::num::{Denormals, Encoding, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Tininess};
 
 /// A fraction `n / d` with `d > 0`, reduced by twos only.
 #[derive(Clone, Copy, Debug)]
@@ -56,13 +56,13 @@ impl Q {
     }
 }
 
-/// Magnitude of the `i`th non-negative number of a format; the one after the last finite float is `2^(emax+1)`.
+/// Magnitude of the `i`th non-negative number of a format; the ones after the last finite float go on as if they were.
 pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     match f.kind {
         FormatKind::Fixed { frac_bits, .. } => Q::scaled(i.into(), -i32::from(frac_bits)),
         FormatKind::Normalized { frac_bits, .. } => Q::new(i.into(), (1 << frac_bits) - 1),
         FormatKind::Float { exp_bits, man_bits } => {
-            let bias = (1 << (exp_bits - 1)) - 1;
+            let bias = (1 << (exp_bits - 1)) - i32::from(f.encoding != Encoding::UnsignedZero);
             let (field, man) = ((i >> man_bits).cast_signed(), i128::from(i & ((1 << man_bits) - 1)));
             let hidden = if field == 0 { 0 } else { 1 << man_bits };
             Q::scaled(hidden + man, field.max(1) - bias - i32::from(man_bits))
@@ -76,6 +76,9 @@ fn up(rounding: Rounding, negative: bool, low: Q, high: Q, low_even: bool, again
     match rounding {
         Rounding::TowardZero => false,
         Rounding::Down => negative,
+        Rounding::Up => !negative,
+        Rounding::Odd => low_even,
+        Rounding::Stochastic(_) => unreachable!("`tables` has it"),
         Rounding::NearestEven | Rounding::NearestAway => match against(low.add(high).halved()) {
             Ordering::Less => false,
             Ordering::Greater => true,
@@ -134,24 +137,34 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
 }
 
 fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn(Q) -> Ordering) -> Outcome {
-    let FormatKind::Float { man_bits, .. } = f.kind else { unreachable!("a float") };
+    let FormatKind::Float { exp_bits, man_bits } = f.kind else { unreachable!("a float") };
     let sign = if negative { f.sign_bit() } else { 0 };
-    let infinity = f.max_finite() + 1;
-    let beyond = against(magnitude(f, infinity)).is_ge();
-    let low = below(f, infinity.into(), against) as u32;
+    // How many patterns of a sign are numbers, and those of whole exponent fields.
+    let (numbers, fields) = match f.encoding {
+        Encoding::Ieee => (((1 << exp_bits) - 1) << man_bits, ((1 << exp_bits) - 1) << man_bits),
+        Encoding::Finite if 1 + exp_bits + man_bits > 6 => {
+            ((1 << (exp_bits + man_bits)) - 1, 1 << (exp_bits + man_bits))
+        }
+        _ => (1 << (exp_bits + man_bits), 1 << (exp_bits + man_bits)),
+    };
+    let beyond = against(magnitude(f, fields)).is_ge();
+    let low = below(f, numbers.into(), against) as u32;
     let (here, next) = (magnitude(f, low), magnitude(f, low + 1));
     let inexact = against(here).is_ne();
     let rounded = low + u32::from(inexact && up(f.rounding, negative, here, next, low.is_multiple_of(2), against));
-    if beyond || rounded == infinity {
+    if against(magnitude(f, numbers)).is_ge() || rounded == numbers {
         let infinite = match (f.overflow, f.rounding) {
             (Overflow::Saturate, _) => false,
             (Overflow::Nv30, _) => beyond,
-            (_, Rounding::TowardZero) => false,
+            (_, Rounding::TowardZero | Rounding::Odd) => false,
             (_, Rounding::Down) => negative,
+            (_, Rounding::Up) => !negative,
             _ => true,
         };
-        return Outcome::new(sign | (infinity - u32::from(!infinite)), Flags::OVERFLOW | Flags::INEXACT);
+        let bits = if infinite { unbounded(f, negative) } else { sign | (numbers - 1) };
+        return Outcome::new(bits, Flags::OVERFLOW | Flags::INEXACT);
     }
+    let sign = if rounded == 0 && f.encoding == Encoding::UnsignedZero { 0 } else { sign };
     let mut flags = if inexact { Flags::INEXACT } else { Flags::empty() };
     let normal = magnitude(f, 1 << man_bits);
     if inexact && against(normal).is_lt() {
@@ -163,7 +176,19 @@ fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn
         flags.set(Flags::UNDERFLOW, !reaches);
     }
     if f.denormals == Denormals::Flush && rounded != 0 && rounded < 1 << man_bits {
-        return Outcome::new(sign, Flags::UNDERFLOW | Flags::INEXACT);
+        let zero = if f.encoding == Encoding::UnsignedZero { 0 } else { sign };
+        return Outcome::new(zero, Flags::UNDERFLOW | Flags::INEXACT);
     }
     Outcome::new(sign | rounded, flags)
+}
+
+/// What an infinity becomes in a float: itself, NaN, or the largest number.
+pub(crate) fn unbounded(f: &Format, negative: bool) -> u32 {
+    let sign = if negative { f.sign_bit() } else { 0 };
+    match f.encoding {
+        Encoding::Ieee => sign | f.infinity(false).expect("IEEE 754 has infinities"),
+        Encoding::Finite if f.width() > 6 => f.sign_bit() - 1,
+        Encoding::Finite => sign | (f.sign_bit() - 1),
+        Encoding::UnsignedZero | Encoding::Scale => f.sign_bit(),
+    }
 }

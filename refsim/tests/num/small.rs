@@ -5,14 +5,15 @@ use std::cmp::Ordering;
 use num_bigint::BigUint;
 use rayon::prelude::*;
 use refsim::num::{
-    Denormals, DotOrder, Format, Outcome, Overflow, Rounding, Specials, Tininess, from_parts, from_ratio, ops,
+    Denormals, DotOrder, Encoding, Format, Outcome, Overflow, Rounding, Specials, Tininess, from_parts, from_ratio, ops,
 };
 
 use crate::rational::{self, Q};
 use crate::small_ops::Reference;
 use crate::{Cases, full};
 
-const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+const ROUNDINGS: [Rounding; 6] =
+    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
 
 /// Every layout with at most 6 bits and every meaningful combination of rules.
 fn formats() -> Vec<Format> {
@@ -26,8 +27,12 @@ fn formats() -> Vec<Format> {
             }
         }
     }
-    let floats = (2..6).flat_map(|x| (1..6).filter_map(move |m| Format::float(x, m)));
-    for layout in floats.filter(|f| f.width() <= 6) {
+    let floats = (2..6).flat_map(|x| (1..6).filter_map(move |m| Format::float(x, m))).filter(|f| f.width() <= 6);
+    let encodings = [Encoding::Ieee, Encoding::Finite, Encoding::UnsignedZero];
+    let encoded = floats.flat_map(|f| encodings.map(|encoding| f.with_encoding(encoding)));
+    // Finite floats have NaN from 7 bits on.
+    let seven = [(2, 4), (4, 2), (3, 3)].into_iter().filter_map(|(x, m)| Format::float(x, m));
+    for layout in encoded.chain(seven.map(|f| f.with_encoding(Encoding::Finite))) {
         for rounding in ROUNDINGS {
             for overflow in [Overflow::Infinity, Overflow::Saturate, Overflow::Nv30] {
                 for denormals in [Denormals::Keep, Denormals::Flush] {
@@ -39,7 +44,7 @@ fn formats() -> Vec<Format> {
             }
         }
     }
-    assert_eq!(all.len(), (20 + 10) * 8 + 6 * 48);
+    assert_eq!(all.len(), (20 + 10) * 12 + (3 * 6 + 3) * 72);
     all
 }
 
@@ -161,8 +166,37 @@ fn dot_products() {
             let terms = &terms[..2 + round % 3];
             for order in [DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact] {
                 let found = ops::dot(r.f.tininess(r.tininess), order, terms);
-                let expected = r.dot(order, terms);
+                let expected = r.dot(&r.f, order, terms);
                 assert!(found == expected, "{} {order:?} {terms:x?}: found {found:x?}, expected {expected:x?}", r.f);
+            }
+        }
+    });
+}
+
+/// Sums in accumulators that are wider, narrower, and of another kind than the operands.
+#[test]
+fn accumulated_dot_products() {
+    let rounds = if full() { 5_000 } else { 100 };
+    let accumulators = ["e5m10", "e3m2:rup", "e4m3fn:sat", "e2m1fn", "s7.8:rod", "s2.1:wrap", "n3.4:rna"];
+    let accumulators = accumulators.map(|text| text.parse::<Format>().expect("a format"));
+    let defaults =
+        formats().into_iter().filter(|f| f.specials == Specials::Ieee && f.rounding == Rounding::NearestEven);
+    defaults.collect::<Vec<_>>().par_iter().for_each(|&f| {
+        let mut cases = Cases(13);
+        for round in 0..rounds {
+            let random = cases.next();
+            let bits = |shift: usize| (random >> shift) as u32 & f.mask();
+            let terms: [(u32, u32); 4] = std::array::from_fn(|i| (bits(16 * i), bits(16 * i + 8)));
+            let terms = &terms[..2 + round % 3];
+            for accumulator in accumulators {
+                let sums = Reference { f: accumulator, tininess: Tininess::After };
+                for order in [DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact] {
+                    let sum = sums.dot(&f, order, terms);
+                    let result = Reference { f, tininess: Tininess::After };
+                    let expected = result.convert_from(&accumulator, sum.bits).also(sum.flags);
+                    let found = ops::dot_accumulated(f, accumulator, order, terms);
+                    assert!(found == expected, "{f} in {accumulator} {order:?} {terms:x?}: {found:x?}, {expected:x?}");
+                }
             }
         }
     });

@@ -2,7 +2,9 @@
 
 use std::cmp::Ordering;
 
-use refsim::num::{Denormals, DotOrder, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Specials, Tininess};
+use refsim::num::{
+    Denormals, DotOrder, Encoding, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Specials, Tininess,
+};
 
 use crate::rational::{self, Q, magnitude};
 
@@ -41,11 +43,18 @@ pub(crate) fn decode(f: &Format, bits: u32) -> Val {
         let index = if negative { f.sign_bit() - low } else { low };
         return Num(negative, magnitude(f, index));
     };
-    let infinity = f.max_finite() + 1;
+    match f.encoding {
+        Encoding::Finite if f.width() > 6 && low == f.sign_bit() - 1 => return Nan { signaling: false },
+        Encoding::UnsignedZero if negative && low == 0 => return Nan { signaling: false },
+        _ => {}
+    }
+    let infinity = if f.encoding == Encoding::Ieee { f.max_finite() + 1 } else { u32::MAX };
     match low.cmp(&infinity) {
         Ordering::Greater => Nan { signaling: low & (1 << (man_bits - 1)) == 0 },
         Ordering::Equal => Inf(negative),
-        Ordering::Less if low < 1 << man_bits && f.denormals == Denormals::Flush => Num(negative, ZERO),
+        Ordering::Less if low < 1 << man_bits && f.denormals == Denormals::Flush => {
+            Num(negative && f.encoding != Encoding::UnsignedZero, ZERO)
+        }
         Ordering::Less => Num(negative, magnitude(f, low)),
     }
 }
@@ -56,7 +65,8 @@ impl Reference {
     }
 
     fn zero(&self, negative: bool) -> Outcome {
-        Outcome::exact(if negative && !self.f.is_fixed() { self.f.sign_bit() } else { 0 })
+        let signed = !self.f.is_fixed() && self.f.encoding != Encoding::UnsignedZero;
+        Outcome::exact(if negative && signed { self.f.sign_bit() } else { 0 })
     }
 
     pub(crate) fn finish(&self, negative: bool, q: Q) -> Outcome {
@@ -78,12 +88,15 @@ impl Reference {
     }
 
     fn infinity(&self, negative: bool) -> Outcome {
-        Outcome::exact(self.f.infinity(negative).expect("only floats have infinite operands"))
+        if !self.f.is_fixed() && self.f.encoding == Encoding::Ieee {
+            return Outcome::exact(self.f.infinity(negative).expect("only floats have infinite operands"));
+        }
+        Outcome::new(self.pole(negative).bits, Flags::OVERFLOW | Flags::INEXACT)
     }
 
     fn pole(&self, negative: bool) -> Outcome {
         let finite = self.f.is_fixed() || self.f.overflow == Overflow::Saturate;
-        let bits = if finite { self.f.extreme(negative) } else { self.f.infinity(negative).expect("a float") };
+        let bits = if finite { self.f.extreme(negative) } else { rational::unbounded(&self.f, negative) };
         Outcome::new(bits, Flags::DIVIDE_BY_ZERO)
     }
 
@@ -232,6 +245,9 @@ impl Reference {
             Rounding::NearestAway => twice.cmp(ONE).is_ge(),
             Rounding::TowardZero => false,
             Rounding::Down => negative && twice.n > 0,
+            Rounding::Up => !negative && twice.n > 0,
+            Rounding::Odd => twice.n > 0 && whole % 2 == 0,
+            Rounding::Stochastic(_) => unreachable!("`tables` has it"),
         };
         let changed = exact && twice.n > 0;
         let outcome = self.finish(negative, Q::new(whole + i128::from(up), 1));
@@ -301,7 +317,7 @@ impl Reference {
 
     pub(crate) fn convert_from(&self, from: &Format, bits: u32) -> Outcome {
         match decode(from, bits) {
-            Nan { .. } if self.f.is_fixed() => self.invalid(),
+            Nan { .. } if self.f.canonical_nan().is_none() => self.invalid(),
             nan @ Nan { .. } => self.nan(&[nan]).expect("a NaN"),
             Inf(x) if self.f.is_fixed() => Outcome::new(self.f.extreme(x), Flags::OVERFLOW | Flags::INEXACT),
             Inf(x) => self.infinity(x),
@@ -309,18 +325,19 @@ impl Reference {
         }
     }
 
-    pub(crate) fn dot(&self, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
-        let mul = |(a, b)| self.mul(self.val(a), self.val(b));
+    /// Products of numbers of `operands`, summed in this format.
+    pub(crate) fn dot(&self, operands: &Format, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
+        let mul = |(a, b)| self.mul(decode(operands, a), decode(operands, b));
         let add = |a: Outcome, b: Outcome| self.add(self.val(a.bits), self.val(b.bits)).also(a.flags | b.flags);
         match (order, terms) {
-            (DotOrder::Exact, _) => self.dot_exact(terms),
+            (DotOrder::Exact, _) => self.dot_exact(operands, terms),
             (DotOrder::Tree, &[x, y, z, w]) => add(add(mul(x), mul(y)), add(mul(z), mul(w))),
             _ => terms[1..].iter().fold(mul(terms[0]), |sum, term| add(sum, mul(*term))),
         }
     }
 
-    fn dot_exact(&self, terms: &[(u32, u32)]) -> Outcome {
-        let values: Vec<[Val; 2]> = terms.iter().map(|&(a, b)| [self.val(a), self.val(b)]).collect();
+    fn dot_exact(&self, operands: &Format, terms: &[(u32, u32)]) -> Outcome {
+        let values: Vec<[Val; 2]> = terms.iter().map(|&(a, b)| [decode(operands, a), decode(operands, b)]).collect();
         let products: Vec<_> = values.iter().map(|&[a, b]| self.product(a, b)).collect();
         let zero_by_infinity =
             |[a, b]: &[Val; 2]| !matches!(a, Nan { .. }) && !matches!(b, Nan { .. }) && self.product(*a, *b).is_err();

@@ -68,6 +68,13 @@ fn check(f: &Format, name: &str, x: u32, bits: u32, exact: &BigInt) {
     let truncated = match f.rounding {
         Rounding::TowardZero => Some(true),
         Rounding::Down => Some(!negative),
+        Rounding::Up => Some(negative),
+        // An odd pattern is on either side of the number.
+        Rounding::Odd => {
+            let near = down(low_bits) < magnitude && magnitude < up(low_bits);
+            assert!(bits & 1 == 1 && near, "{f} {name} {x:#x}: {bits:#x} is not the odd neighbour");
+            return;
+        }
         _ => None,
     };
     let (low, high) = match truncated {
@@ -90,7 +97,7 @@ fn operands(f: &Format, exp_bits: u32, man_bits: u32) -> Vec<u32> {
 }
 
 fn formats() -> impl Iterator<Item = (Format, u32, u32)> {
-    let roundings = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+    let roundings = Rounding::ALL.map(|(_, rounding)| rounding);
     [(Format::FP16, 5, 10), (Format::FP24, 7, 16), (Format::FP32, 8, 23)]
         .into_iter()
         .flat_map(move |(f, e, m)| roundings.map(|r| (f.with_rounding(r), e, m)))
@@ -113,13 +120,17 @@ fn exp2_is_correctly_rounded() {
             if whole > emax {
                 assert!(found.flags.contains(Flags::OVERFLOW), "{f} exp2 {x:#x}: {found:?}");
             } else if whole < -emax - man_bits.cast_signed() - 3 {
-                assert!(found.bits == 0 && found.flags.contains(Flags::UNDERFLOW), "{f} exp2 {x:#x}: {found:?}");
+                let least = u32::from(matches!(f.rounding, Rounding::Up | Rounding::Odd));
+                assert!(found.bits == least && found.flags.contains(Flags::UNDERFLOW), "{f} exp2 {x:#x}: {found:?}");
             } else if integer && whole >= 1 - emax - man_bits.cast_signed() {
                 assert_eq!(value(&f, found.bits), BigInt::one() << (whole + PLACES.cast_signed()));
                 assert_eq!(found.flags, Flags::empty(), "{f} exp2 {x:#x}");
             } else if integer {
                 // Below the smallest subnormal: a midpoint at most.
-                let up = whole == -emax - man_bits.cast_signed() && f.rounding == Rounding::NearestAway;
+                let up = match f.rounding {
+                    Rounding::NearestAway => whole == -emax - man_bits.cast_signed(),
+                    rounding => matches!(rounding, Rounding::Up | Rounding::Odd),
+                };
                 assert_eq!(found.bits, u32::from(up), "{f} exp2 {x:#x}");
             } else if f.is_finite(found.bits) {
                 let (product, whole) = exp2(&exact, &roots);

@@ -74,6 +74,14 @@ fn format_strings() {
         ("fp32:rne:inf:keep:ieee", "e8m23"),
         ("e2m1:nvovf:nv", "e2m1:nvovf:nv"),
         ("s0.31", "s0.31"),
+        ("s3.12:rup", "s3.12:rup"),
+        ("fp16:rod:sat", "e5m10:rod:sat"),
+        ("e4m3fn", "e4m3fn"),
+        ("bf16:rst", "e8m7:rst"),
+        ("e5m2fnuz:rtz", "e5m2fnuz:rtz"),
+        ("e2m1fn:rne", "e2m1fn"),
+        ("e7m23fn", "e7m23fn"),
+        ("e8m0:sat", "e8m0:sat"),
     ] {
         let format: Format = text.parse().expect("a format");
         assert_eq!(format.to_string(), canonical);
@@ -83,13 +91,18 @@ fn format_strings() {
     assert!(matches!(fail(""), FormatError::Layout { .. }));
     assert!(matches!(fail("s16.16"), FormatError::Range { .. }));
     assert!(matches!(fail("e9m3"), FormatError::Range { .. }));
+    assert!(matches!(fail("e8m7fn"), FormatError::Range { .. }));
+    assert!(matches!(fail("e8m7fnuz"), FormatError::Range { .. }));
+    assert!(matches!(fail("e8m0fn"), FormatError::Range { .. }));
+    assert!(matches!(fail("e4m0"), FormatError::Range { .. }));
+    assert!(matches!(fail("s3.12fn"), FormatError::Layout { .. }));
     assert!(matches!(fail("s3.12:up"), FormatError::Suffix { at: 5, .. }));
     assert!(matches!(fail("fp16:wrap"), FormatError::WrongKind { kind: "fixed point", .. }));
     assert!(matches!(fail("s3.12:nv"), FormatError::WrongKind { kind: "floats", .. }));
     assert!(matches!(fail("fp16:rtz:rne"), FormatError::Twice { rule: "rounding", .. }));
     assert_eq!(
         fail("s3.12:up").to_string(),
-        "number format `s3.12:up`: expected a suffix :rne :rna :rtz :rdn, :sat :wrap :inf :nvovf, :keep :ftz or \
+        "number format `s3.12:up`: expected a suffix :rne :rna :rtz :rdn :rup :rod :rst, :sat :wrap :inf :nvovf, :keep :ftz or \
          :ieee :nv, found `:up` at character 5"
     );
 }

@@ -8,7 +8,8 @@ use rustc_apfloat::ieee::Single;
 use crate::half::{MODES, agree};
 use crate::{Cases, full};
 
-const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+const ROUNDINGS: [Rounding; 6] =
+    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
 
 /// Runs `body` on generators of 64 seeds, in parallel.
 fn seeds(cases: u64, body: impl Fn(&mut Cases) + Sync) {
@@ -58,6 +59,9 @@ fn narrow(x: f64, rounding: Rounding) -> Option<u32> {
         Rounding::NearestAway => rest >= 0.5,
         Rounding::TowardZero => false,
         Rounding::Down => sign != 0 && rest > 0.0,
+        Rounding::Up => sign == 0 && rest > 0.0,
+        Rounding::Odd => rest > 0.0 && !odd,
+        Rounding::Stochastic(_) => unreachable!("not among those tested here"),
     };
     whole += if up { 1.0 } else { 0.0 };
     let value = whole * power(top - 16);
@@ -65,8 +69,9 @@ fn narrow(x: f64, rounding: Rounding) -> Option<u32> {
     if value > largest {
         let infinite = match rounding {
             Rounding::NearestEven | Rounding::NearestAway => true,
-            Rounding::TowardZero => false,
+            Rounding::TowardZero | Rounding::Odd | Rounding::Stochastic(_) => false,
             Rounding::Down => sign != 0,
+            Rounding::Up => sign == 0,
         };
         return Some(sign | if infinite { 0x7f_0000 } else { 0x7e_ffff });
     }

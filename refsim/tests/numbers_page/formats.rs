@@ -10,6 +10,8 @@ pub(crate) struct Words {
     fixed: bool,
     /// Fixed point in units of `1 / (2^F - 1)`.
     normalized: bool,
+    /// Nothing, `fn` or `fnuz`.
+    encoding: &'static str,
     rounding: &'static str,
     overflow: &'static str,
     flush: bool,
@@ -21,6 +23,7 @@ impl Words {
             layout: (exponent, mantissa),
             fixed: false,
             normalized: false,
+            encoding: "",
             rounding: "rne",
             overflow: "inf",
             flush: false,
@@ -28,7 +31,7 @@ impl Words {
     }
 
     fn random(r: &mut Random) -> Self {
-        let rounding = r.choose(&["rne", "rna", "rtz", "rdn"]);
+        let rounding = r.choose(&["rne", "rna", "rtz", "rdn", "rup", "rod"]);
         if r.below(2) == 0 {
             let normalized = r.below(2) == 0;
             let layout = match normalized {
@@ -36,11 +39,12 @@ impl Words {
                 false => r.choose(&[(3, 12), (1, 10), (0, 8), (0, 15), (7, 0), (15, 16)]),
             };
             let overflow = r.choose(&["sat", "wrap"]);
-            return Self { layout, fixed: true, normalized, rounding, overflow, flush: false };
+            return Self { layout, fixed: true, normalized, encoding: "", rounding, overflow, flush: false };
         }
         let layout = r.choose(&[(5, 10), (7, 16), (8, 23), (4, 3), (2, 1), (8, 7)]);
         let overflow = r.choose(&["inf", "sat", "nvovf"]);
-        Self { layout, fixed: false, normalized: false, rounding, overflow, flush: r.below(2) == 0 }
+        let encoding = if layout.0 == 8 { "" } else { r.choose(&["", "fn", "fnuz"]) };
+        Self { layout, fixed: false, normalized: false, encoding, rounding, overflow, flush: r.below(2) == 0 }
     }
 
     fn text(&self) -> String {
@@ -48,9 +52,25 @@ impl Words {
         match (self.fixed, self.flush) {
             (true, _) if self.normalized => format!("n{a}.{b}:{rules}"),
             (true, _) => format!("s{a}.{b}:{rules}"),
-            (false, true) => format!("e{a}m{b}:{rules}:ftz"),
-            (false, false) => format!("e{a}m{b}:{rules}"),
+            (false, true) => format!("e{a}m{b}{}:{rules}:ftz", self.encoding),
+            (false, false) => format!("e{a}m{b}{}:{rules}", self.encoding),
         }
+    }
+
+    /// The pattern of NaN; of formats without infinity, which have one, any NaN is this.
+    fn nan(&self) -> Option<u32> {
+        let (a, b) = self.layout;
+        match self.encoding {
+            "fnuz" => Some(1 << (a + b)),
+            "fn" if 1 + a + b <= 6 => None,
+            "fn" => Some((1 << (a + b)) - 1),
+            _ => Some(((1 << a) - 1) << b | 1 << (b - 1)),
+        }
+    }
+
+    fn bias(&self) -> i32 {
+        let (a, _) = self.layout;
+        if self.encoding == "fnuz" { 1 << (a - 1) } else { (1 << (a - 1)) - 1 }
     }
 
     /// Rounds a number of units to an integer.
@@ -59,6 +79,8 @@ impl Words {
             "rne" => x.round_ties_even(),
             "rna" => x.round(),
             "rtz" => x.trunc(),
+            "rup" => x.ceil(),
+            "rod" if x.floor() % 2.0 == 0.0 => x.ceil(),
             _ => x.floor(),
         }
     }
@@ -89,13 +111,28 @@ impl Words {
             return (pattern(kept), if kept == units { Flags::empty() } else { Flags::INEXACT });
         }
         let x = x / d;
-        let (bias, infinity) = ((1 << (a - 1)) - 1, ((1u32 << a) - 1) << b);
+        let bias = self.bias();
+        // The largest finite pattern, its exponent and its value.
+        let infinity = ((1u32 << a) - 1) << b;
+        let (largest, most) = match self.encoding {
+            "" => (infinity - 1, bias),
+            "fn" if self.nan().is_some() => ((1 << (a + b)) - 2, bias + 1),
+            "fn" => ((1 << (a + b)) - 1, bias + 1),
+            _ => ((1 << (a + b)) - 1, bias - 1),
+        };
+        let end = self.value(largest);
         let sign = u32::from(x.is_sign_negative()) << (a + b);
+        let zero = if self.encoding == "fnuz" { 0 } else { sign };
+        let unbounded = if self.encoding.is_empty() { sign | infinity } else { self.nan().unwrap_or(sign | largest) };
         if x.is_nan() {
-            return (infinity | 1 << (b - 1), Flags::empty());
+            return self.nan().map_or((0, Flags::INVALID), |nan| (nan, Flags::empty()));
+        }
+        if x.is_infinite() && self.encoding.is_empty() {
+            return (unbounded, Flags::empty());
         }
         if x.is_infinite() {
-            return (sign | infinity, Flags::empty());
+            let bits = if self.overflow == "sat" { sign | largest } else { unbounded };
+            return (bits, Flags::OVERFLOW | Flags::INEXACT);
         }
         // Exponent of a double, from its exponent field.
         let exponent = |x: f64| if x == 0.0 { -5000 } else { ((x.to_bits() >> 52 & 0x7ff) as i32) - 1023 };
@@ -104,16 +141,17 @@ impl Words {
             self.whole(x / unit) * unit
         };
         let (rounded, least) = (at(1 - bias), 1 - bias);
-        if rounded.abs() >= power(bias + 1) {
-            let huge = x.abs() >= power(bias + 1);
+        if rounded.abs() > end {
+            let huge = x.abs() >= power(most + 1);
             let infinite = match (self.overflow, self.rounding) {
-                ("sat", _) | (_, "rtz") if self.overflow != "nvovf" => false,
+                ("sat", _) | (_, "rtz" | "rod") if self.overflow != "nvovf" => false,
                 ("nvovf", _) => huge,
                 (_, "rdn") => sign != 0,
+                (_, "rup") => sign == 0,
                 _ => true,
             };
-            let magnitude = if infinite { infinity } else { infinity - 1 };
-            return (sign | magnitude, Flags::OVERFLOW | Flags::INEXACT);
+            let bits = if infinite { unbounded } else { sign | largest };
+            return (bits, Flags::OVERFLOW | Flags::INEXACT);
         }
         let mut flags = if rounded == x { Flags::empty() } else { Flags::INEXACT };
         if rounded != x && at(-4000).abs() < power(least) {
@@ -121,8 +159,9 @@ impl Words {
         }
         let magnitude = rounded.abs();
         if self.flush && magnitude != 0.0 && magnitude < power(least) {
-            return (sign, Flags::UNDERFLOW | Flags::INEXACT);
+            return (zero, Flags::UNDERFLOW | Flags::INEXACT);
         }
+        let sign = if magnitude == 0.0 { zero } else { sign };
         let field = exponent(magnitude).max(least - 1) - least + 1;
         let mantissa = match field {
             0 => magnitude / power(least - b),
@@ -144,12 +183,16 @@ impl Words {
             let code = f64::from((bits << spare).cast_signed() >> spare);
             return if self.normalized { code } else { code * power(-b) };
         }
-        let (bias, field) = ((1 << (a - 1)) - 1, (bits >> b & ((1 << a) - 1)).cast_signed());
+        let (bias, field) = (self.bias(), (bits >> b & ((1 << a) - 1)).cast_signed());
         let mantissa = f64::from(bits & ((1 << b) - 1));
+        let one = if self.encoding == "fnuz" { bits } else { bits & ((1 << (a + b)) - 1) };
+        if !self.encoding.is_empty() && self.nan() == Some(one & ((2 << (a + b)) - 1)) {
+            return f64::NAN;
+        }
         let magnitude = match field {
             0 if self.flush => 0.0,
             0 => mantissa * power(1 - bias - b),
-            _ if field == (1 << a) - 1 => {
+            _ if field == (1 << a) - 1 && self.encoding.is_empty() => {
                 if mantissa == 0.0 {
                     f64::INFINITY
                 } else {
@@ -158,7 +201,8 @@ impl Words {
             }
             _ => (mantissa + power(b)) * power(field - bias - b),
         };
-        if bits >> (a + b) & 1 == 1 { -magnitude } else { magnitude }
+        let signed = self.encoding != "fnuz" || magnitude != 0.0;
+        if bits >> (a + b) & 1 == 1 && signed { -magnitude } else { magnitude }
     }
 }
 
@@ -179,11 +223,12 @@ fn one_rounding_into_every_format() {
             (bits_expected, flags) = (into.round(value).0, Flags::OVERFLOW | Flags::INEXACT);
         }
         if value.is_nan() {
-            let quiet = bits & 1 << (from.layout.1 - 1) != 0;
-            flags = if into.fixed || !quiet { Flags::INVALID } else { Flags::empty() };
+            let quiet = !from.encoding.is_empty() || bits & 1 << (from.layout.1 - 1) != 0;
+            let none = into.fixed || into.nan().is_none();
+            flags = if none || !quiet { Flags::INVALID } else { Flags::empty() };
         }
         if value.is_nan() && !into.fixed {
-            bits_expected &= !target.sign_bit();
+            bits_expected = into.nan().unwrap_or(0);
         }
         let found = ops::convert(&source, target, bits);
         let place = format!("{bits:#x} of {} into {}", from.text(), into.text());

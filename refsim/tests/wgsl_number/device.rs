@@ -179,6 +179,18 @@ pub(crate) fn every_pair_of_short_formats(gpu: &Arc<Gpu>) {
         "e4m1:rna",
         "n1.3:rna",
         "n0.4:rdn:wrap",
+        "s2.2:rup",
+        "s1.3:rod:wrap",
+        "n1.3:rod",
+        "n0.4:rup",
+        "e3m2:rup",
+        "e2m3:rod:ftz",
+        "e3m2fn",
+        "e2m1fn:rup:nv",
+        "e3m3fn:rod:nvovf",
+        "e4m2fn:sat",
+        "e2m3fnuz:rup:ftz",
+        "e3m2fnuz",
     ]
     .iter()
     .map(|f| f.parse().expect("a format"))

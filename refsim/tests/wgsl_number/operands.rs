@@ -66,7 +66,8 @@ pub(crate) fn formats() -> Vec<Format> {
     let fixed =
         [(3, 12), (1, 10), (0, 31), (31, 0), (1, 2), (0, 1), (7, 8), (15, 16), (1, 30), (16, 15), (0, 8), (8, 23)];
     let float = [(8, 23), (5, 10), (7, 16), (8, 7), (3, 2), (2, 1), (2, 23), (8, 1), (4, 3), (6, 9), (8, 22), (3, 20)];
-    let rounding = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+    let finite = ["e4m3fn", "e2m1fn", "e3m2fn", "e7m23fn", "e4m3fnuz", "e5m2fnuz", "e7m16fnuz", "e2m1fnuz"];
+    let rounding = Rounding::ALL.map(|(_, rounding)| rounding);
     let mut all = Vec::new();
     for (i, (int, frac)) in fixed.into_iter().enumerate() {
         let Some(format) = Format::fixed(int, frac) else { continue };
@@ -84,8 +85,8 @@ pub(crate) fn formats() -> Vec<Format> {
         }
     }
     let overflow = [Overflow::Infinity, Overflow::Saturate, Overflow::Nv30];
-    for (i, (exp, man)) in float.into_iter().enumerate() {
-        let Some(format) = Format::float(exp, man) else { continue };
+    let float = float.into_iter().filter_map(|(exp, man)| Format::float(exp, man));
+    for (i, format) in float.chain(finite.map(|text| text.parse().expect("a format"))).enumerate() {
         all.push(format);
         for (j, r) in rounding.into_iter().enumerate() {
             let k = i + j;

@@ -13,7 +13,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 pub(crate) const PIXEL: [Version; 7] =
     [Version::Ps1_1, Version::Ps1_2, Version::Ps1_3, Version::Ps1_4, Version::Ps2_0, Version::Ps2A, Version::Ps2B];
-pub(crate) const FORMATS: [&str; 12] = [
+pub(crate) const FORMATS: [&str; 17] = [
     "fp32",
     "s3.12",
     "fp16",
@@ -26,6 +26,11 @@ pub(crate) const FORMATS: [&str; 12] = [
     "e4m3",
     "n3.8:rna",
     "n2.6:rdn",
+    "s3.12:rup",
+    "fp16:rod",
+    "e4m3fn",
+    "e5m2fnuz:rup",
+    "e3m2fn",
 ];
 
 /// Seeds: only `CROSSBAR_SEED` if set; thirty times as many with `CROSSBAR_FULL`.

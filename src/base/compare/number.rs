@@ -75,10 +75,10 @@ impl Number {
         match self.format.kind {
             FormatKind::Fixed { frac_bits, .. } => power_of_two(-i32::from(frac_bits)),
             FormatKind::Normalized { .. } => 1.0 / f64::from(self.format.denominator()),
-            FormatKind::Float { exp_bits, man_bits } => {
-                let bias = (1 << (exp_bits - 1)) - 1;
+            FormatKind::Float { man_bits, .. } => {
+                let (least, most) = self.format.exponents();
                 let exponent = ((magnitude.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-                power_of_two(exponent.clamp(1 - bias, bias) - i32::from(man_bits))
+                power_of_two(exponent.clamp(least, most) - i32::from(man_bits))
             }
         }
     }
@@ -103,7 +103,7 @@ impl Number {
 /// the larger there. `None` if one of them is not finite, or NaN, and they are not equal.
 pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
     let (a, b) = (left.double(), right.double());
-    if left.format.kind == right.format.kind {
+    if (left.format.kind, left.format.encoding) == (right.format.kind, right.format.encoding) {
         let steps = left.step().abs_diff(right.step()) as f64;
         let known = (a.is_finite() && b.is_finite()) || left.equals(right);
         return (known.then_some(if left.equals(right) { 0.0 } else { steps }), left.format);

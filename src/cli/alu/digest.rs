@@ -53,17 +53,18 @@ pub(super) fn run(unit: &Unit, out: &mut Out) -> miette::Result<()> {
 /// The rows are computed in parallel and folded in order: no number of threads changes the total.
 fn digest(unit: &Unit) -> u64 {
     let patterns = 1_u32 << unit.operand_width();
-    let row = |value: &dyn Fn(u32) -> [u32; 3]| {
-        (0..patterns).fold(FNV_START, |h, b| fold(h, u64::from(unit.evaluate(value(b)).bits)))
+    let row = |first: u32, value: &dyn Fn(u32) -> [u32; 3]| {
+        let index = |b: u32| u64::from(first) * u64::from(patterns) + u64::from(b);
+        (0..patterns).fold(FNV_START, |h, b| fold(h, u64::from(unit.evaluate(value(b), index(b)).bits)))
     };
     if unit.op.operands() == 1 {
-        return fold(FNV_START, row(&|a| [a, 0, 0]));
+        return fold(FNV_START, row(0, &|a| [a, 0, 0]));
     }
     let progress = ProgressBar::new("operand pairs", u64::from(patterns).pow(2));
     let mut total = FNV_START;
     let firsts: Vec<u32> = (0..patterns).collect();
     for some in firsts.chunks(ROWS_A_STEP) {
-        let rows: Vec<u64> = some.par_iter().map(|&a| row(&|b| [a, b, 0])).collect();
+        let rows: Vec<u64> = some.par_iter().map(|&a| row(a, &|b| [a, b, 0])).collect();
         total = rows.into_iter().fold(total, fold);
         progress.advance(some.len() as u64 * u64::from(patterns));
     }

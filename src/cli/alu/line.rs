@@ -108,7 +108,7 @@ impl LineFormat {
 }
 
 /// The number that the digits of `field` write, if it has at most `width` bits.
-fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, LineError> {
+pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, LineError> {
     let found = || String::from_utf8_lossy(field).chars().take(40).collect();
     let mut value = 0_u64;
     for &byte in field {

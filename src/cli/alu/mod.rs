@@ -3,13 +3,15 @@
 mod digest;
 mod line;
 mod operation;
+mod row;
 mod stream;
 
 use std::io::{self, Read};
 
-use refsim::num::{Format, Tininess};
+use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
 use self::operation::{AluOperation, Unit};
+use self::row::{RowOperation, RowUnit};
 use super::one_of::{OneOf, one_of};
 use super::{Out, Problem, Verdict};
 
@@ -23,13 +25,21 @@ Examples:
       Berkeley TestFloat's own vectors against this arithmetic
   crossbar alu mul --format s3.4 --exhaustive
       one digest over the products of all 65536 pairs
+  echo 3F800000 42C00000 | crossbar alu quantize --format fp32 --block mxfp4
+      1 and 96 with a shared scale: prints 83 0 7, which are 2^4, 0 and 6
+  echo 6800 3C00 3C00 3C00 3C00 3C00 | crossbar alu dot --format fp16 --accumulator fp32
+      2048 * 1 + 1 * 1 + 1 * 1, summed in single precision: prints 6801, 2050; without --accumulator 2048
 
 Lines: hexadecimal operands parted by blanks, as TestFloat writes them; blank lines are skipped. A result has as many \
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
 08 division by zero, 10 invalid.
 
-Formats: sI.F (fixed point), nI.F (normalized integers: n3.8 counts in 255ths), eXmY (float), or ps14 fx12 fp16 bf16 fp24 fp32; then, if wanted, rounding :rne :rna :rtz \
-:rdn, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv.
+Formats: sI.F (fixed point), nI.F (normalized integers: n3.8 counts in 255ths), eXmY (float), eXmYfn and eXmYfnuz (floats \
+without infinity, as e4m3fn and e2m1fn), e8m0 (powers of two), or ps14 fx12 fp16 bf16 fp24 fp32; then, if wanted, rounding \
+:rne :rna :rtz :rdn :rup :rod :rst, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv.
+
+Stochastic rounding (:rst) takes the word of the line, counted from 0: the upper half of that output of SplitMix64 from the \
+state --seed. With --exhaustive it is that of the pair, counted in the digest's order.
 
 The digest: for each first operand a in rising order h = 0xcbf29ce484222325, then for each second operand b in rising \
 order h = (h xor result) * 0x100000001b3 mod 2^64; the h of all a are folded into the total by the same rule. An \
@@ -52,6 +62,18 @@ pub(super) struct Args {
     #[arg(long, value_name = "F2")]
     to: Option<Format>,
 
+    /// The block format of `quantize` and `dequantize`, whose --format is that of the plain numbers
+    #[arg(long, value_name = "B", value_parser = blocks())]
+    block: Option<BlockFormat>,
+
+    /// The format in which `dot` rounds products and sums; by default that of the operands
+    #[arg(long, value_name = "A")]
+    accumulator: Option<Format>,
+
+    /// The order in which `dot` sums; by default sequential
+    #[arg(long, value_parser = orders())]
+    order: Option<DotOrder>,
+
     /// Lines carry expected results too, as testfloat_gen writes them: print every mismatch, then the count
     ///
     /// A line is operands, result and flags; the flags may be missing unless --flags asks for their comparison. Any NaN
@@ -71,6 +93,10 @@ pub(super) struct Args {
     #[arg(long, default_value = "after", requires = "flags", value_parser = tininess())]
     tininess: Tininess,
 
+    /// The seed of stochastic rounding, `:rst`
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+
     /// Let roundToInt raise inexact where it changes the value
     #[arg(long, requires = "flags")]
     exact: bool,
@@ -82,7 +108,25 @@ fn tininess() -> OneOf<Tininess> {
     one_of([("before", "Before rounding", Tininess::Before), after])
 }
 
+/// The orders of a sum, for `--order`.
+fn orders() -> OneOf<DotOrder> {
+    one_of([
+        ("sequential", "((x + y) + z) + w, each step rounded", DotOrder::Sequential),
+        ("tree", "(x + y) + (z + w), each step rounded", DotOrder::Tree),
+        ("exact", "the exact sum, rounded once into the accumulator", DotOrder::Exact),
+    ])
+}
+
+/// The block formats, for `--block`.
+fn blocks() -> OneOf<BlockFormat> {
+    one_of(BlockFormat::ALL.map(|block| (block.name(), "OCP Microscaling: 32 elements and a scale", block)))
+}
+
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    if let Some(unit) = row_unit(args)? {
+        row::run(&unit, args.flags, io::stdin().lock(), out)?;
+        return Ok(Verdict::Done);
+    }
     let unit = unit(args)?;
     if args.exhaustive {
         digest::run(&unit, out)?;
@@ -95,6 +139,49 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
     stream::compute(unit, flags, input, out)?;
     Ok(Verdict::Done)
+}
+
+/// The unit of an operation on lines of many numbers, once its options go together; `None` for other operations.
+fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
+    let operation = match (args.op, args.block) {
+        (AluOperation::Quantize, Some(block)) => RowOperation::Quantize(block),
+        (AluOperation::Dequantize, Some(block)) => RowOperation::Dequantize(block),
+        (AluOperation::Quantize | AluOperation::Dequantize, None) => {
+            return Err(Problem::usage("blocks need a block format", "add for example `--block mxfp4`"));
+        }
+        (_, Some(_)) => {
+            return Err(Problem::usage(
+                "`--block` is for `quantize` and `dequantize` only",
+                "leave `--block` out, or quantize first and compute with the elements",
+            ));
+        }
+        (AluOperation::Dot, None) => {
+            RowOperation::Dot(args.order.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(args.format))
+        }
+        (_, None) => {
+            if args.accumulator.is_some() || args.order.is_some() {
+                return Err(Problem::usage(
+                    "`--accumulator` and `--order` are for `dot` only",
+                    "leave them out: every other operation is rounded once, in its format",
+                ));
+            }
+            return Ok(None);
+        }
+    };
+    if args.verify || args.exhaustive || args.to.is_some() {
+        return Err(Problem::usage(
+            "operations on lines of many numbers take neither `--verify` nor `--exhaustive` nor `--to`",
+            "leave the option out; `--format` is the format of the plain numbers",
+        ));
+    }
+    let formats = [args.format, args.accumulator.unwrap_or(args.format)];
+    if formats.iter().any(|format| matches!(format.rounding, Rounding::Stochastic(_))) {
+        return Err(Problem::usage(
+            "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
+            "take another rounding, or round each number on a line of its own",
+        ));
+    }
+    Ok(Some(RowUnit { operation, env: args.format.tininess(args.tininess) }))
 }
 
 /// The unit that the options make, once they go together.
@@ -119,5 +206,5 @@ fn unit(args: &Args) -> Result<Unit, Problem> {
     if args.exact && args.op != AluOperation::RoundToInt {
         return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
     }
-    Ok(Unit { op: args.op, env: args.format.tininess(args.tininess), to, exact: args.exact })
+    Ok(Unit { op: args.op, env: args.format.tininess(args.tininess), to, exact: args.exact, seed: args.seed })
 }

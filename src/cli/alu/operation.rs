@@ -1,6 +1,6 @@
 //! The operations by name.
 
-use refsim::num::{Env, Format, NumberOperation as Op, Outcome, ops};
+use refsim::num::{Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
 
 use crate::cli::one_of::{OneOf, one_of};
 
@@ -11,10 +11,15 @@ pub(super) enum AluOperation {
     Table(Op),
     RoundToInt,
     Convert,
+    /// Numbers to a block with a shared scale, and back.
+    Quantize,
+    Dequantize,
+    /// The sum of products of any number.
+    Dot,
 }
 
 /// The operations under TestFloat's names, where it has one, and what the help says of them.
-const NAMED: [(AluOperation, &str, &str); 17] = [
+const NAMED: [(AluOperation, &str, &str); 20] = [
     (AluOperation::Table(Op::Add), "add", "two operands, rounded once"),
     (AluOperation::Table(Op::Sub), "sub", "two operands, rounded once"),
     (AluOperation::Table(Op::Mul), "mul", "two operands, rounded once"),
@@ -32,6 +37,9 @@ const NAMED: [(AluOperation, &str, &str); 17] = [
     (AluOperation::Table(Op::Rsq), "rsq", "1 / sqrt(a)"),
     (AluOperation::RoundToInt, "roundToInt", "to a whole number, by the rounding of the format"),
     (AluOperation::Convert, "convert", "to the format of --to, rounded by its rules"),
+    (AluOperation::Dot, "dot", "a b + c d + ... of 1 to 32 pairs, in the format of --accumulator"),
+    (AluOperation::Quantize, "quantize", "1 to 32 numbers to a block of --block: scale, then elements"),
+    (AluOperation::Dequantize, "dequantize", "a block of --block (scale, then elements) to numbers"),
 ];
 
 impl AluOperation {
@@ -45,11 +53,13 @@ impl AluOperation {
         NAMED.iter().find(|(operation, ..)| *operation == self).map_or("", |&(_, name, _)| name)
     }
 
-    /// How many operands it takes, 1 to 3.
+    /// How many operands it takes, 1 to 3; 0 of operations that take lines of any number ([`super::row`]).
     pub(super) const fn operands(self) -> usize {
         match self {
             Self::Table(operation) => operation.operands(),
             Self::RoundToInt | Self::Convert => 1,
+            // On lines of many numbers, by `super::row`.
+            Self::Dot | Self::Quantize | Self::Dequantize => 0,
         }
     }
 
@@ -69,6 +79,8 @@ pub(super) struct Unit {
     pub(super) to: Format,
     /// True if `roundToInt` raises inexact.
     pub(super) exact: bool,
+    /// The seed of stochastic rounding.
+    pub(super) seed: u64,
 }
 
 impl Unit {
@@ -87,16 +99,25 @@ impl Unit {
         !self.op.is_comparison() && self.to.is_nan(result)
     }
 
-    /// The result for operands of the format's width; those that the operation does not take are ignored.
-    pub(super) fn evaluate(&self, operands: [u32; 3]) -> Outcome {
-        let (env, [a, ..]) = (self.env, operands);
+    /// The result for operands of the format's width; those that the operation does not take are ignored. Stochastic
+    /// rounding takes the word of `index`.
+    pub(super) fn evaluate(&self, operands: [u32; 3], index: u64) -> Outcome {
+        let (mut env, mut to, [a, ..]) = (self.env, self.to, operands);
+        for format in [&mut env.format, &mut to] {
+            if let Rounding::Stochastic(word) = &mut format.rounding {
+                *word = random_word(self.seed, index);
+            }
+        }
         match self.op {
             AluOperation::Table(operation) => {
                 operation.evaluate(env, operands).expect("the table defines what the command names")
             }
             AluOperation::RoundToInt if self.exact => ops::round_to_int_exact(env, a),
             AluOperation::RoundToInt => ops::round_to_int(env, a),
-            AluOperation::Convert => ops::convert(&env.format, self.to.tininess(env.tininess), a),
+            AluOperation::Dot | AluOperation::Quantize | AluOperation::Dequantize => {
+                unreachable!("`super::row` has the operations on lines of many numbers")
+            }
+            AluOperation::Convert => ops::convert(&env.format, to.tininess(env.tininess), a),
         }
     }
 }

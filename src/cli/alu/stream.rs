@@ -34,15 +34,15 @@ struct NothingToVerify;
 
 /// Output for consecutive lines, and the first error, after which nothing was read.
 #[derive(Default)]
-struct TaskOutput {
-    text: Vec<u8>,
+pub(super) struct TaskOutput {
+    pub(super) text: Vec<u8>,
     passed: u64,
     failed: u64,
     error: Option<LineError>,
 }
 
 /// Calls `work` on tasks of consecutive lines, `take` on what they made, in the order of the lines.
-fn each_line(
+pub(super) fn each_line(
     mut input: impl Read,
     work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), LineError> + Sync,
     mut take: impl FnMut(&TaskOutput) -> miette::Result<()>,
@@ -108,7 +108,7 @@ pub(super) fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out)
     let json = out.json();
     let work = |part: &mut TaskOutput, text: &[u8], number: u64| {
         let Some(line) = format.read(text, number)? else { return Ok(()) };
-        let outcome = unit.evaluate(line.operands);
+        let outcome = unit.evaluate(line.operands, number - 1);
         if json {
             push_json_result(&mut part.text, unit, flags, outcome);
         } else {
@@ -148,7 +148,7 @@ pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) 
     let json = out.json();
     let work = |part: &mut TaskOutput, text: &[u8], number: u64| {
         let Some(line) = format.read(text, number)? else { return Ok(()) };
-        let outcome = unit.evaluate(line.operands);
+        let outcome = unit.evaluate(line.operands, number - 1);
         if agrees(unit, flags, &line, outcome) {
             part.passed += 1;
         } else {

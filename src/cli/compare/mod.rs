@@ -147,7 +147,7 @@ fn request(
     let overrides = || -> miette::Result<Overrides> {
         Ok(Overrides {
             device: device.map(device_named).transpose()?,
-            format: format.map(|text| text.parse::<Format>().map_err(bad_format)).transpose()?,
+            format: format.map(|text| text.parse().and_then(Format::for_registers).map_err(bad_format)).transpose()?,
             switches: switches.to_vec(),
             step_budget,
         })

@@ -89,7 +89,7 @@ impl Binder<'_> {
     }
 
     fn format(&self, format: &Spanned<String>) -> Result<Format, CaseError> {
-        format.get_ref().parse().map_err(|error: refsim::num::FormatError| {
+        format.get_ref().parse().and_then(Format::for_registers).map_err(|error| {
             self.place.wrong(format.span(), error.to_string(), "for example `s3.12`, `fp24` or `e5m10:rtz`")
         })
     }

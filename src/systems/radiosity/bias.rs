@@ -27,7 +27,7 @@ pub struct Accumulator {
     pub mantissa: u8,
     /// The exponent of the smallest normal number, below which steps no longer shrink: -14 of fp16, -126 of fp32.
     pub least_exponent: i32,
-    /// Truncation, or one of the roundings to nearest.
+    /// Rounding of the sums.
     pub rounding: Rounding,
     /// One sum per channel, or four partial sums per block.
     pub packing: Packing,
@@ -38,8 +38,8 @@ pub struct Accumulator {
 impl Accumulator {
     /// The accumulator of a floating-point register; `None` for fixed point.
     pub fn of(format: &Format, packing: Packing, block: usize) -> Option<Self> {
-        let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
-        let least_exponent = 2 - (1 << (exp_bits - 1));
+        let FormatKind::Float { man_bits, .. } = format.kind else { return None };
+        let (least_exponent, _) = format.exponents();
         Some(Self { mantissa: man_bits, least_exponent, rounding: format.rounding, packing, block })
     }
 
@@ -53,6 +53,15 @@ impl Accumulator {
         let counted = match self.rounding {
             Rounding::NearestEven | Rounding::NearestAway => steps.round_ties_even(),
             Rounding::Down => steps.floor(),
+            Rounding::Up => steps.ceil(),
+            Rounding::Odd => {
+                let units = after / step;
+                let floor = units.floor();
+                let odd = floor + if floor != units && floor % 2.0 == 0.0 { 1.0 } else { 0.0 };
+                steps + (odd - units)
+            }
+            // On the mean, stochastic rounding loses nothing.
+            Rounding::Stochastic(_) => steps,
             Rounding::TowardZero => {
                 if after >= 0.0 {
                     steps.floor()

@@ -1,9 +1,10 @@
 //! Raw values: representation of numbers of any format in 32 bits in `batch` and `wgsl`.
 //!
 //! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32
-//! pattern of the same number, which exists for every format; NaN is always `0x7fc0_0000`.
+//! pattern of the same number, which exists for every format of registers ([`Format::for_registers`]); NaN is always
+//! `0x7fc0_0000`.
 
-use crate::num::{Denormals, Format, FormatKind};
+use crate::num::{Denormals, Encoding, Format, FormatKind};
 
 /// `2^e`; `e` must be the exponent of a normal double.
 #[inline(always)]
@@ -16,6 +17,15 @@ pub(crate) fn pow2(e: i32) -> f64 {
 pub(crate) struct FloatLayout {
     man_bits: u32,
     exp_bits: u32,
+    bias: i32,
+    /// `true` if the largest exponent field has infinity and NaN.
+    ieee: bool,
+    /// Of other encodings, the bits that tell NaN, and what they are in it; and the pattern that NaN is written as.
+    nan_mask: u32,
+    nan: u32,
+    canonical_nan: u32,
+    /// `true` if zero has no sign.
+    one_zero: bool,
     /// Smallest normal number.
     pub(crate) min_normal: f64,
     /// `2^-man_bits`: a binade's power of two times this is its unit in the last place.
@@ -26,13 +36,26 @@ pub(crate) struct FloatLayout {
 
 impl FloatLayout {
     /// The layout of a format with these field widths.
-    pub(crate) fn new(exp_bits: u8, man_bits: u8, denormals: Denormals) -> Self {
+    pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
+        let (least, _) = format.exponents();
+        let sign = format.sign_bit();
+        let (nan_mask, nan) = match (format.canonical_nan(), format.encoding) {
+            (Some(nan), Encoding::UnsignedZero) => (format.mask(), nan),
+            (Some(nan), _) => (sign - 1, nan),
+            (None, _) => (0, u32::MAX),
+        };
         Self {
             man_bits: man_bits.into(),
             exp_bits: exp_bits.into(),
-            min_normal: pow2(2 - (1 << (exp_bits - 1))),
+            bias: 1 - least,
+            ieee: format.encoding == Encoding::Ieee,
+            nan_mask,
+            nan,
+            canonical_nan: format.canonical_nan().unwrap_or(0),
+            one_zero: !format.has_negative_zero(),
+            min_normal: pow2(least),
             unit: pow2(-i32::from(man_bits)),
-            flushes: denormals == Denormals::Flush,
+            flushes: format.denormals == Denormals::Flush,
         }
     }
 
@@ -44,14 +67,18 @@ impl FloatLayout {
         let magnitude = bits & ((1 << (m + x)) - 1);
         let field = magnitude >> m;
         let man = magnitude & ((1 << m) - 1);
-        if field == (1 << x) - 1 {
+        if self.ieee && field == (1 << x) - 1 {
             return if man == 0 { f32::from_bits(sign | 0x7f80_0000) } else { f32::NAN };
+        }
+        if !self.ieee && bits & self.nan_mask == self.nan {
+            return f32::NAN;
         }
         let value = if field == 0 {
             if self.flushes { 0.0 } else { f64::from(man) * self.min_normal * self.unit }
         } else {
-            f64::from(man | 1 << m) * self.unit * pow2(field.cast_signed() + 1 - (1 << (x - 1)))
+            f64::from(man | 1 << m) * self.unit * pow2(field.cast_signed() - self.bias)
         };
+        let sign = if self.one_zero && value == 0.0 { 0 } else { sign };
         f32::from_bits((value as f32).to_bits() | sign)
     }
 
@@ -62,7 +89,7 @@ impl FloatLayout {
         let sign = u32::from(x.is_sign_negative()) << w;
         let infinity = ((1 << self.exp_bits) - 1) << m;
         if x.is_nan() {
-            return infinity | 1 << (m - 1);
+            return self.canonical_nan;
         }
         if x.is_infinite() {
             return sign | infinity;
@@ -72,8 +99,7 @@ impl FloatLayout {
             return sign | (mag / (self.min_normal * self.unit)) as u32;
         }
         let bits = mag.to_bits();
-        let bias = (1i64 << (self.exp_bits - 1)) - 1;
-        let field = ((bits >> 52).cast_signed() - 1023 + bias) as u32;
+        let field = ((bits >> 52).cast_signed() - 1023 + i64::from(self.bias)) as u32;
         sign | field << m | (bits << 12 >> 12 >> (52 - m)) as u32
     }
 }
@@ -85,9 +111,7 @@ pub(super) fn decode(format: &Format, bits: u32) -> u32 {
             let spare = 32 - format.width();
             (bits.cast_signed() << spare >> spare).cast_unsigned()
         }
-        FormatKind::Float { exp_bits, man_bits } => {
-            FloatLayout::new(exp_bits, man_bits, format.denormals).decode(bits).to_bits()
-        }
+        FormatKind::Float { exp_bits, man_bits } => FloatLayout::new(format, exp_bits, man_bits).decode(bits).to_bits(),
     }
 }
 
@@ -96,7 +120,7 @@ pub(super) fn encode(format: &Format, raw: u32) -> u32 {
     match format.kind {
         FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => raw & format.mask(),
         FormatKind::Float { exp_bits, man_bits } => {
-            FloatLayout::new(exp_bits, man_bits, format.denormals).encode(f32::from_bits(raw))
+            FloatLayout::new(format, exp_bits, man_bits).encode(f32::from_bits(raw))
         }
     }
 }

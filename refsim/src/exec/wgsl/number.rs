@@ -3,7 +3,7 @@
 //! It implements [`crate::num`]: the exact result, rounded once. It uses 32-bit integer arithmetic for every format, so
 //! its results are the same on every adapter that conforms to WGSL, whatever its floating point.
 
-use crate::num::{Denormals, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials};
 
 /// Names of the operations in shaders. Values are raw; comparisons return masks.
 impl NumberOperation {
@@ -34,13 +34,16 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     let (kind, upper, frac) = match format.kind {
         FormatKind::Fixed { int_bits, frac_bits } => (0, int_bits, frac_bits),
         FormatKind::Normalized { int_bits, frac_bits } => (0, int_bits + frac_bits, 0),
-        FormatKind::Float { exp_bits, man_bits } => (1, exp_bits, man_bits),
+        FormatKind::Float { exp_bits, man_bits } => (float_word(format), exp_bits, man_bits),
     };
     let rounding = match format.rounding {
         Rounding::NearestEven => 0,
         Rounding::NearestAway => 1,
-        Rounding::TowardZero => 2,
+        // Devices refuse the other (`Format::for_registers`).
+        Rounding::TowardZero | Rounding::Stochastic(_) => 2,
         Rounding::Down => 3,
+        Rounding::Up => 4,
+        Rounding::Odd => 5,
     };
     let overflow = match (format.overflow, format.is_fixed()) {
         (Overflow::Wrap, true) => 1,
@@ -51,6 +54,16 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     let flush = u32::from(format.denormals == Denormals::Flush);
     let special = u32::from(format.specials == Specials::Nv);
     [kind, upper.into(), frac.into(), rounding, overflow, flush, special, denominator_word(format)]
+}
+
+/// The kind of a float: 1 of IEEE 754; without infinity 2, without NaN too 3, without -0 4.
+fn float_word(format: &Format) -> u32 {
+    match format.encoding {
+        Encoding::Ieee => 1,
+        Encoding::Finite if format.canonical_nan().is_some() => 2,
+        Encoding::Finite => 3,
+        Encoding::UnsignedZero | Encoding::Scale => 4,
+    }
 }
 
 fn denominator_word(format: &Format) -> u32 {

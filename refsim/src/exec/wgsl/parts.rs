@@ -6,14 +6,16 @@
 //! unreachable.
 
 use super::program::operations;
-use crate::num::{Format, NumberOperation};
+use crate::num::{Encoding, Format, NumberOperation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws besides operations. In the text, each guards blocks with an `if`.
-const FEATURES: [&str; 24] = [
-    // Numbers: fixed-point registers; normalized ones; formats other than single precision with default rules.
+const FEATURES: [&str; 25] = [
+    // Numbers: fixed-point registers; normalized ones; floats without infinity; formats other than single precision
+    // with default rules.
     "HAS_FIXED",
     "HAS_NORMALIZED",
+    "HAS_FINITE",
     "HAS_FORMATS",
     // Square roots and their reciprocals; sums of products, rounded once.
     "HAS_ROOTS",
@@ -119,6 +121,7 @@ impl Parts {
     pub fn add_format(&mut self, format: &Format) {
         self.add_if(format.is_fixed(), "HAS_FIXED");
         self.add_if(format.denominator() != 1, "HAS_NORMALIZED");
+        self.add_if(format.encoding != Encoding::Ieee, "HAS_FINITE");
     }
 
     /// Adds a number operation, with its group.

@@ -3,7 +3,9 @@
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 
-use super::{add, mul};
+use super::mul::product;
+use super::{add, convert};
+use crate::num::Format;
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
 use crate::num::round::{from_parts, from_ratio, infinite, zero};
@@ -25,9 +27,31 @@ pub enum DotOrder {
 /// Sums the products of `terms` (dp2, dp3, dp4; any number works, an empty sum is +0).
 pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
     let env = env.into();
-    let products = || terms.iter().map(|&(a, b)| mul(env, a, b));
+    accumulated(env, &env.format, order, terms)
+}
+
+/// [`dot`] with an accumulator of its own format: operands and result are numbers of `env`'s format; the exact
+/// products, and the sums in the given order, are rounded into the accumulator's format by its rules, and the last sum
+/// once more into the result's. With [`DotOrder::Exact`] the exact sum is rounded into the accumulator.
+///
+/// Where the accumulator has every number of the operands' format this is what an instruction does that has the
+/// accumulator's format as its own ([`crate::isa::Instruction::format`]).
+pub fn dot_accumulated(
+    env: impl Into<Env>,
+    accumulator: impl Into<Env>,
+    order: DotOrder,
+    terms: &[(u32, u32)],
+) -> Outcome {
+    let (env, accumulator) = (env.into(), accumulator.into());
+    let sum = accumulated(accumulator, &env.format, order, terms);
+    convert(&accumulator.format, env, sum.bits).also(sum.flags)
+}
+
+/// The sum of the products of numbers of a format, rounded into the accumulator.
+fn accumulated(env: Env, operands: &Format, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
+    let products = || terms.iter().map(|&(a, b)| product(&env, unpack(operands, a), unpack(operands, b)));
     match order {
-        DotOrder::Exact => exact(&env, terms),
+        DotOrder::Exact => exact(&env, operands, terms),
         DotOrder::Sequential => products()
             .reduce(|sum, term| add(env, sum.bits, term.bits).also(sum.flags | term.flags))
             .unwrap_or(Outcome::exact(0)),
@@ -48,7 +72,7 @@ pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcom
 }
 
 /// Computes a dot product with one rounding: special values first, then the finite terms.
-fn exact(env: &Env, terms: &[(u32, u32)]) -> Outcome {
+fn exact(env: &Env, from: &Format, terms: &[(u32, u32)]) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     let format = &env.format;
     let mut finite = Vec::with_capacity(terms.len());
@@ -56,7 +80,7 @@ fn exact(env: &Env, terms: &[(u32, u32)]) -> Outcome {
     let (mut nan, mut bad) = (false, false);
     let mut infinity: Option<bool> = None;
     for &(a, b) in terms {
-        let (a, b) = (unpack(format, a), unpack(format, b));
+        let (a, b) = (unpack(from, a), unpack(from, b));
         operands.extend([a, b]);
         match (a, b) {
             (Nan { .. }, _) | (_, Nan { .. }) => nan = true,
@@ -78,10 +102,10 @@ fn exact(env: &Env, terms: &[(u32, u32)]) -> Outcome {
     if nan {
         return nan_result(format, &operands);
     }
-    infinity.map_or_else(|| exact_finite(env, &finite), |sign| infinite(format, sign))
+    infinity.map_or_else(|| exact_finite(env, from, &finite), |sign| infinite(format, sign))
 }
 
-fn exact_finite(env: &Env, terms: &[Term]) -> Outcome {
+fn exact_finite(env: &Env, from: &Format, terms: &[Term]) -> Outcome {
     let nonzero = || terms.iter().filter(|t| t.sig != 0);
     let Some(unit) = nonzero().map(|t| t.exp).min() else {
         // All products are zeros: the result has their common sign, if they have one.
@@ -93,7 +117,7 @@ fn exact_finite(env: &Env, terms: &[Term]) -> Outcome {
         return zero(&env.format, sign);
     };
     let reach = nonzero().map(|t| t.exp + 64 - t.sig.leading_zeros().cast_signed()).max().unwrap_or(unit);
-    let den = u128::from(env.format.denominator());
+    let den = u128::from(from.denominator());
     if den > 1 || (reach - unit < 120 && terms.len() <= 64) {
         let total: i128 = nonzero()
             .map(|t| {

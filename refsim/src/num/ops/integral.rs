@@ -2,8 +2,8 @@
 
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
-use crate::num::format::Rounding;
 use crate::num::round::{from_parts, infinite};
+use crate::num::rules::Rounding;
 use crate::num::sum::{Term, sum};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
@@ -44,7 +44,9 @@ pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact:
         Rounding::NearestEven => 2 * rest > one || (2 * rest == one && integer % 2 == 1),
         Rounding::NearestAway => 2 * rest >= one,
         Rounding::TowardZero => false,
-        Rounding::Down => sign && rest != 0,
+        Rounding::Down | Rounding::Up => rounding.is_outward(sign) && rest != 0,
+        Rounding::Odd => integer % 2 == 0 && rest != 0,
+        Rounding::Stochastic(word) => ((u128::from(rest) << 32) / u128::from(one) + u128::from(word)) >> 32 != 0,
     };
     let outcome = from_parts(env, sign, u128::from(integer + u64::from(up)), 0, false);
     outcome.also(if exact && rest != 0 { Flags::INEXACT } else { Flags::empty() })

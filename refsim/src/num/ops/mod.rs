@@ -20,7 +20,7 @@ pub use super::transcendental::{cos, exp2, log2, pow, sin};
 pub use add::{add, sub};
 pub use compare::{eq, eq_signaling, le, le_quiet, lt, lt_quiet};
 pub use div::{div, rcp};
-pub use dot::{DotOrder, dot};
+pub use dot::{DotOrder, dot, dot_accumulated};
 pub use fused::{fused_mad, mad};
 pub use integral::{floor, frc, round_to_int, round_to_int_exact, round_to_int_with};
 pub use mul::mul;

@@ -2,18 +2,27 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::round::{infinite, round_quotient};
+use crate::num::round::{from_parts, infinite, round_quotient};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a * b`. `0 * inf` is `INVALID`.
 pub fn mul(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
-    use Unpacked::{Finite, Inf, Nan};
     let env = env.into();
-    let (a, b) = (unpack(&env.format, a), unpack(&env.format, b));
+    product(&env, unpack(&env.format, a), unpack(&env.format, b))
+}
+
+/// The product of two numbers of one format, which need not be that of the result.
+pub(crate) fn product(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
+    use Unpacked::{Finite, Inf, Nan};
     match (a, b) {
+        (Finite { sign: sa, sig: ma, exp: ea, den: 1 }, Finite { sign: sb, sig: mb, exp: eb, .. })
+            if env.format.denominator() != 1 =>
+        {
+            from_parts(*env, sa != sb, u128::from(ma * mb), ea + eb, false)
+        }
         (Finite { sign: sa, sig: ma, exp: ea, den: da }, Finite { sign: sb, sig: mb, exp: eb, den: db }) => {
             // At most 2^31 * 2^31, or 2^15 * 2^15 over a denominator.
-            round_quotient(&env, sa != sb, ma * mb, ea + eb, u64::from(da) * u64::from(db))
+            round_quotient(env, sa != sb, ma * mb, ea + eb, u64::from(da) * u64::from(db))
         }
         (Nan { .. }, _) | (_, Nan { .. }) => nan_result(&env.format, &[a, b]),
         (Inf { .. }, Finite { sig: 0, .. }) | (Finite { sig: 0, .. }, Inf { .. }) => invalid(&env.format),

@@ -2,9 +2,9 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::format::Specials;
-use crate::num::round::round;
-use crate::num::unpack::{Unpacked, key, nan_bits, nan_result, pass, unpack};
+use crate::num::round::{round, zero};
+use crate::num::rules::Specials;
+use crate::num::unpack::{Unpacked, invalid, key, nan_bits, nan_result, pass, unpack};
 
 /// `-x`. In fixed point the most negative number overflows. A NaN becomes the canonical one and raises nothing.
 pub fn neg(env: impl Into<Env>, x: u32) -> Outcome {
@@ -23,6 +23,8 @@ fn with_sign(env: &Env, x: u32, change: impl Fn(bool) -> bool) -> Outcome {
     match unpack(format, x) {
         Unpacked::Finite { sign, sig, exp, .. } if format.is_fixed() => round(env, change(sign), sig, exp, false),
         Unpacked::Nan { .. } => Outcome::exact(nan_bits(format)),
+        Unpacked::Finite { sign, sig: 0, .. } => zero(format, change(sign)),
+        Unpacked::Finite { sign, .. } if change(sign) && !format.is_signed() => invalid(format),
         Unpacked::Inf { sign } | Unpacked::Finite { sign, .. } => {
             let magnitude = pass(format, x) & !format.sign_bit();
             Outcome::exact(if change(sign) { magnitude | format.sign_bit() } else { magnitude })

@@ -5,7 +5,8 @@
 use super::compare::order;
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
-use crate::num::format::{FormatKind, Specials};
+use crate::num::format::FormatKind;
+use crate::num::rules::Specials;
 use crate::num::unpack::{key, nan_bits, pass};
 
 /// `a < b ? a : b` (Direct3D 9 `min`), so that a NaN on either side, and a pair of zeros, give `b`; with
@@ -50,10 +51,10 @@ pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
     Outcome::exact(pass(&format, if first { a } else { b }))
 }
 
-/// The pattern of 0.5 in a float; `eXmY` always has it, `e2mY` as a subnormal.
+/// The pattern of 0.5 in a float; all have it, those whose bias is 1 as a subnormal.
 fn half(format: &crate::num::Format) -> u32 {
     match format.kind {
-        FormatKind::Float { exp_bits: 2, man_bits } => 1 << (man_bits - 1),
+        FormatKind::Float { man_bits, .. } if format.one() == 1 << man_bits => 1 << (man_bits - 1),
         FormatKind::Float { man_bits, .. } => format.one() - (1 << man_bits),
         FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => 0,
     }

@@ -2,8 +2,8 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::format::Specials;
 use crate::num::round::{divide_by_zero, in_units, infinite, zero};
+use crate::num::rules::Specials;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// The square root. Negative operands are `INVALID` (fixed point: 0); `sqrt(-0)` is -0.

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use refsim::num::{Denormals, Format, FormatKind, Overflow};
+use refsim::num::{Denormals, Encoding, Format, FormatKind, Overflow};
 
 /// Formats of cards, and of later ones.
 const NAMED: [(&str, FormatBits); 8] = [
@@ -119,6 +119,7 @@ impl FormatBits {
         let alike = rules.is_fixed() == (self.family == FormatFamily::Fixed);
         let own = |kind, overflow| Format {
             kind,
+            encoding: Encoding::Ieee,
             overflow: if alike { rules.overflow } else { overflow },
             denormals: if alike { rules.denormals } else { Denormals::Keep },
             ..rules

@@ -154,7 +154,7 @@ impl<'a> EncodedLinks<'a> {
 /// The least number of a format that has all its bits.
 fn least_normal(format: Format) -> f64 {
     match format.kind {
-        FormatKind::Float { exp_bits, .. } => power_of_two(2 - (1 << (exp_bits - 1))),
+        FormatKind::Float { .. } => power_of_two(format.exponents().0),
         FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => 0.0,
     }
 }

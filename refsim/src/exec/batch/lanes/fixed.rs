@@ -2,7 +2,7 @@
 
 use super::lane::Lane;
 use super::power;
-use super::round::{AWAY, EVEN, ZERO, rounding_index};
+use super::round::{AWAY, EVEN, UP, ZERO, rounding_index};
 use crate::num::Format;
 
 /// How to divide by a power of two with rounding, the same way for every rounding: `(v + more + (v >> at & mask)) >>
@@ -10,7 +10,7 @@ use crate::num::Format;
 ///
 /// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
 /// - Nearest away is half a unit up, one less where `v` is negative.
-/// - Toward zero is up to the next unit where `v` is negative.
+/// - Toward zero is up to the next unit where `v` is negative, and up is that everywhere.
 #[derive(Clone, Copy, Debug)]
 struct Shift {
     count: u32,
@@ -32,6 +32,7 @@ impl Shift {
             EVEN => (half - some, some),
             AWAY => (half, -some),
             ZERO => (0, dropped),
+            UP => (dropped, 0),
             _ => (0, 0),
         };
         Shift { count, half, dropped, more, mask, by_sign: rounding != EVEN }
@@ -59,7 +60,7 @@ pub(super) struct IntegerRounding {
     sign: u64,
     /// Distances below which one is subtracted, and from which one is added.
     pub(super) lower: f64,
-    upper: f64,
+    pub(super) upper: f64,
 }
 
 impl IntegerRounding {
@@ -82,6 +83,7 @@ impl IntegerRounding {
             EVEN => IntegerRounding { sign: u64::MAX, lower: -never, upper: never },
             AWAY => IntegerRounding { sign: SIZE, lower: -never, upper: 0.5 },
             ZERO => IntegerRounding { sign: SIZE, lower: 0.0, upper: never },
+            UP => IntegerRounding { sign: u64::MAX, lower: -never, upper: f64::from_bits(1) },
             _ => IntegerRounding { sign: u64::MAX, lower: 0.0, upper: never },
         }
     }
@@ -102,6 +104,7 @@ impl Beside {
             EVEN => Beside { less: [0, 0], more: [0, 0], any: 0 },
             AWAY => Beside { less: [0, -1], more: [-1, 0], any: 0 },
             ZERO => Beside { less: [-1, 0], more: [0, -1], any: -1 },
+            UP => Beside { less: [0, 0], more: [-1, -1], any: -1 },
             _ => Beside { less: [-1, -1], more: [0, 0], any: -1 },
         }
     }
@@ -524,7 +527,7 @@ mod tests {
 
     #[test]
     fn other_roundings_are_not_fused() {
-        for text in ["s3.12:rna", "s3.12:rtz", "s3.12:rdn"] {
+        for text in ["s3.12:rna", "s3.12:rtz", "s3.12:rdn", "s3.12:rup"] {
             assert!(!FixedLane::<false, false>::new(&text.parse().expect("a format"), 3, 12).is_fused(), "{text}");
         }
     }

@@ -2,10 +2,10 @@
 
 use super::lane::Lane;
 use super::odd::SIGN;
-use super::round::{AWAY, DOWN, DoubleRounder, EVEN, ShortRounder, SingleRounder, ZERO, rounding_index};
+use super::round::{AWAY, DOWN, DoubleRounder, EVEN, ODD, ShortRounder, SingleRounder, ZERO, rounding_index};
 use super::{odd, power, toward};
-use crate::exec::lower::{FloatLayout, pow2};
-use crate::num::{Denormals, Format, Overflow, Rounding, Specials};
+use crate::exec::lower::FloatLayout;
+use crate::num::{Denormals, Encoding, Format, Overflow, Rounding, Specials};
 
 /// Binary32, in `f32`: nearest even is the host's own rounding.
 pub(crate) const HOST: u8 = 0;
@@ -24,7 +24,7 @@ pub(crate) const DOUBLE: u8 = 2;
 pub(crate) const GENERAL: u8 = 3;
 
 /// Rounding decided at run time.
-pub(crate) const ANY: u8 = 4;
+pub(crate) const ANY: u8 = ODD + 1;
 
 /// The arithmetic that is right for every float format.
 pub(crate) type GeneralLane = FloatLane<GENERAL, ANY>;
@@ -40,13 +40,19 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     short: ShortRounder,
     /// The magnitude of what `1/0` and `log2 0` give.
     pole: f32,
+    /// The result where there is no number: NaN, or 0 in formats without.
+    nan: f32,
+    /// Turns -0 into +0, in encodings without it, when added.
+    zero: f64,
     nv: bool,
     guarded: bool,
 }
 
 /// The path that fits a format with these bits.
 pub(crate) fn path(format: &Format, exp_bits: u8, man_bits: u8) -> u8 {
+    let common = format.encoding == Encoding::Ieee && !matches!(format.rounding, Rounding::Up | Rounding::Odd);
     match (exp_bits, man_bits) {
+        _ if !common => GENERAL,
         // The largest number where the rule asks for infinity, and the guard sees nothing.
         (8, _) if format.overflow == Overflow::Nv30 && format.rounding != Rounding::NearestEven => GENERAL,
         (8, 23) => HOST,
@@ -60,16 +66,20 @@ pub(crate) fn path(format: &Format, exp_bits: u8, man_bits: u8) -> u8 {
 impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
     /// The arithmetic of a float format with these bits, for which [`path`] must have said `PATH`, or [`GENERAL`].
     pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
-        let emax = (1 << (exp_bits - 1)) - 1;
-        let largest = (pow2(emax) * (2.0 - pow2(-i32::from(man_bits)))) as f32;
+        let layout = FloatLayout::new(format, exp_bits, man_bits);
         let bounded = matches!(format.overflow, Overflow::Saturate | Overflow::Nv30);
+        let nan = if format.canonical_nan().is_some() { f32::NAN } else { 0.0 };
+        let unbounded = if format.encoding == Encoding::Ieee { f32::INFINITY } else { f32::NAN };
+        let saturates = format.overflow == Overflow::Saturate || format.canonical_nan().is_none();
         FloatLane {
             rounding: rounding_index(format.rounding),
-            layout: FloatLayout::new(exp_bits, man_bits, format.denormals),
-            single: SingleRounder::new(format, exp_bits, man_bits),
-            double: DoubleRounder::new(format, exp_bits, man_bits),
+            layout,
+            single: SingleRounder::new(format, man_bits),
+            double: DoubleRounder::new(format, man_bits),
             short: ShortRounder::new(exp_bits, man_bits),
-            pole: if format.overflow == Overflow::Saturate { largest } else { f32::INFINITY },
+            pole: if saturates { layout.decode(format.max_finite()) } else { unbounded },
+            nan,
+            zero: if format.has_negative_zero() { -0.0 } else { 0.0 },
             nv: format.specials == Specials::Nv,
             guarded: match (PATH, R) {
                 (GENERAL, _) | (DOUBLE, EVEN) => false,
@@ -99,6 +109,12 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
             (SINGLE, _) => self.short.round(R, x),
             _ => self.single.cut(R, x),
         }
+    }
+
+    /// The result, or what stands for NaN.
+    #[inline(always)]
+    fn number(&self, x: f32) -> f32 {
+        if x.is_nan() { self.nan } else { x }
     }
 
     /// A pole's value, by sign.
@@ -143,7 +159,8 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if PATH == HOST && R == EVEN {
             self.single.flushed(self.double.convert(x))
         } else {
-            self.double.round(self.rounding(), x) as f32
+            let rounded = self.double.round(self.rounding(), x);
+            if PATH == GENERAL { self.number((rounded + self.zero) as f32) } else { rounded as f32 }
         }
     }
 
@@ -161,8 +178,8 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     fn general(&self) -> Option<GeneralLane> {
-        let Self { rounding, layout, single, double, short, pole, nv, .. } = *self;
-        Some(FloatLane { rounding, layout, single, double, short, pole, nv, guarded: false })
+        let Self { rounding, layout, single, double, short, pole, nan, zero, nv, .. } = *self;
+        Some(FloatLane { rounding, layout, single, double, short, pole, nan, zero, nv, guarded: false })
     }
 
     #[inline(always)]
@@ -279,7 +296,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
             f32::NAN
         };
         let value = if regular { root } else { special };
-        if self.nv & (a < 0.0) { f32::NAN } else { value }
+        if self.nv & (a < 0.0) { self.nan } else { value }
     }
 
     fn exp2(&self, a: f32) -> f32 {
@@ -289,7 +306,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     fn log2(&self, a: f32) -> f32 {
         let mag = f64::from(a.abs());
         if self.nv & (a < 0.0) {
-            f32::NAN
+            self.nan
         } else if mag == 0.0 {
             self.pole(SIGN_BIT)
         } else {
@@ -319,7 +336,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn neg(&self, a: f32) -> f32 {
-        -a
+        if PATH == GENERAL { (self.zero - f64::from(a)) as f32 } else { -a }
     }
 
     #[inline(always)]

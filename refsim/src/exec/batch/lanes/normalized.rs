@@ -51,8 +51,10 @@ impl<const WRAP: bool> NormalizedLane<WRAP> {
     fn over(&self, v: f64) -> i32 {
         let value = self.product.magnitude(v);
         let near = by_pivot(value * self.reciprocal);
-        let less = if value - near * self.denominator < self.product.lower { 1.0 } else { 0.0 };
-        self.codes.fit32((self.product.signed(near - less, v) + PIVOT).to_bits() as i32)
+        let rest = value - near * self.denominator;
+        let less = if rest < self.product.lower { 1.0 } else { 0.0 };
+        let more = if rest >= self.product.upper { 1.0 } else { 0.0 };
+        self.codes.fit32((self.product.signed(near - less + more, v) + PIVOT).to_bits() as i32)
     }
 
     /// `floor(a / D)`
@@ -278,7 +280,7 @@ mod tests {
 
     #[test]
     fn wide_formats_and_other_roundings_are_not_fused() {
-        for text in ["n5.8", "n3.8:rtz", "n3.8:rdn"] {
+        for text in ["n5.8", "n3.8:rtz", "n3.8:rdn", "n3.8:rup"] {
             assert!(!lane(text).is_fused(), "{text}");
         }
     }

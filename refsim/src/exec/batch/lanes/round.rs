@@ -2,15 +2,18 @@
 //! for both widths of the host.
 
 use crate::exec::lower::pow2;
-use crate::num::{Denormals, Format, Overflow, Rounding};
+use crate::num::{Denormals, Encoding, Format, Overflow, Rounding};
 
 /// The number of a rounding: what lanes have as a constant.
 pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
     match rounding {
         Rounding::NearestEven => EVEN,
         Rounding::NearestAway => AWAY,
-        Rounding::TowardZero => ZERO,
+        // Devices refuse the other (`Format::for_registers`).
+        Rounding::TowardZero | Rounding::Stochastic(_) => ZERO,
         Rounding::Down => DOWN,
+        Rounding::Up => UP,
+        Rounding::Odd => ODD,
     }
 }
 
@@ -18,6 +21,8 @@ pub(crate) const EVEN: u8 = 0;
 pub(crate) const AWAY: u8 = 1;
 pub(crate) const ZERO: u8 = 2;
 pub(crate) const DOWN: u8 = 3;
+pub(crate) const UP: u8 = 4;
+pub(crate) const ODD: u8 = 5;
 
 macro_rules! rounder {
     ($name:ident, $float:ty, $bits:ty, $mantissa:literal) => {
@@ -35,8 +40,10 @@ macro_rules! rounder {
             flush: $float,
             /// The largest finite number.
             max: $float,
-            /// From where on an exact magnitude becomes infinite, by sign.
+            /// From where on an exact magnitude becomes infinite, by sign; NaN if none does, infinities neither.
             infinite: [$float; 2],
+            /// The number beyond: infinity, or NaN in encodings without it.
+            beyond: $float,
         }
 
         impl $name {
@@ -44,20 +51,31 @@ macro_rules! rounder {
             const EXPONENT: $bits = Self::SIGN - (1 << $mantissa);
 
             /// For a format with these bits.
-            pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
-                let (m, emax) = (<$bits>::from(man_bits), (1 << (exp_bits - 1)) - 1);
-                let min_normal = pow2(1 - emax) as $float;
-                let exact_max = pow2(emax) * (2.0 - pow2(-i32::from(man_bits)));
+            pub(crate) fn new(format: &Format, man_bits: u8) -> Self {
+                let m = <$bits>::from(man_bits);
+                let (emin, emax) = format.exponents();
+                let min_normal = pow2(emin) as $float;
+                let last = pow2(emax - i32::from(man_bits));
+                // The pattern behind the largest number of IEEE 754 is infinity's, that of a finite one NaN's.
+                let short = format.encoding == Encoding::Finite && format.canonical_nan().is_some();
+                let exact_max = pow2(emax) * 2.0 - if short { 2.0 } else { 1.0 } * last;
                 let max = exact_max as $float;
                 let never = <$float>::INFINITY;
+                let ieee = format.encoding == Encoding::Ieee;
                 let infinite = match (format.overflow, format.rounding) {
+                    (_, _) if format.canonical_nan().is_none() => [<$float>::NAN; 2],
+                    (Overflow::Saturate, _) if !ieee => [<$float>::NAN; 2],
                     (Overflow::Saturate, _) => [never; 2],
                     (Overflow::Nv30, _) => [(pow2(emax) * 2.0) as $float; 2],
                     (_, Rounding::NearestEven | Rounding::NearestAway) => {
-                        [(exact_max + pow2(emax - 1 - i32::from(man_bits))) as $float; 2]
+                        let half = (exact_max + last / 2.0) as $float;
+                        // To even, a tie stays if the largest number is even.
+                        let stays = short && format.rounding == Rounding::NearestEven;
+                        [<$float>::from_bits(half.to_bits() + <$bits>::from(stays)); 2]
                     }
-                    (_, Rounding::TowardZero) => [never; 2],
+                    (_, Rounding::TowardZero | Rounding::Odd | Rounding::Stochastic(_)) => [never; 2],
                     (_, Rounding::Down) => [never, <$float>::from_bits(max.to_bits() + 1)],
+                    (_, Rounding::Up) => [<$float>::from_bits(max.to_bits() + 1), never],
                 };
                 Self {
                     lowest: min_normal.to_bits(),
@@ -66,6 +84,7 @@ macro_rules! rounder {
                     flush: if format.denormals == Denormals::Flush { min_normal } else { 0.0 },
                     max,
                     infinite,
+                    beyond: if ieee { never } else { <$float>::NAN },
                 }
             }
 
@@ -92,12 +111,22 @@ macro_rules! rounder {
             fn near(&self, rounding: u8, x: $float, exponent: $bits) -> $float {
                 let pivot = <$float>::from_bits(exponent.wrapping_add(self.pivot));
                 let unit = <$float>::from_bits(exponent) * self.unit;
-                let value = if rounding == DOWN { x } else { x.abs() };
+                // Up is down of the number turned round.
+                let value = match rounding {
+                    DOWN => x,
+                    UP => -x,
+                    _ => x.abs(),
+                };
                 let near = (value + pivot) - pivot;
+                let below = (near - if near > value { unit } else { 0.0 }).abs();
                 match rounding {
                     EVEN => near,
                     AWAY => near + if value - near >= 0.5 * unit { unit } else { 0.0 },
-                    _ => (near - if near > value { unit } else { 0.0 }).abs(),
+                    ODD => {
+                        let pairs = 0.5 * (below / unit);
+                        below + if value > below && pairs == pairs.floor() { unit } else { 0.0 }
+                    }
+                    _ => below,
                 }
             }
 
@@ -108,9 +137,9 @@ macro_rules! rounder {
                 // In this order a NaN stays.
                 let limited = if self.max < kept { self.max } else { kept };
                 let by_sign = (self.infinite[0].to_bits() ^ self.infinite[1].to_bits()) & Self::negative(x);
-                let differs = if rounding == DOWN { by_sign } else { 0 };
+                let differs = if rounding == DOWN || rounding == UP { by_sign } else { 0 };
                 let infinite = <$float>::from_bits(self.infinite[0].to_bits() ^ differs);
-                let fits = if x.abs() >= infinite { <$float>::INFINITY } else { limited };
+                let fits = if x.abs() >= infinite { self.beyond } else { limited };
                 <$float>::from_bits(fits.to_bits() | x.to_bits() & Self::SIGN)
             }
         }

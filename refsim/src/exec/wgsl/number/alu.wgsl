@@ -222,6 +222,9 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         case N_NEG, N_ABS: {
             let flips = op == N_NEG || sign != 0u;
             raw = select(select(a, a ^ 0x80000000u, flips), N_NAN, n_is_nan(f, a));
+            if (HAS_FINITE) {
+                raw = select(raw, n_zero(f, raw >> 31u), (a & 0x7fffffffu) == 0u);
+            }
             if !float {
                 let least = n_extreme(f, 1u);
                 let turned = select(0u - a, select(~least, least, f.overflow == 1u), a == least);

@@ -71,8 +71,7 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     let infinite = x.kind == 1u && !inverse;
     let pole = select(by_zero, empty && inverse, root) && !infinite;
     let zero = select(empty || y.kind == 1u, select(empty, x.kind == 1u, inverse), root);
-    let unbounded = n_is_float(f) && (infinite || f.overflow != 0u);
-    var raw = select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, unbounded);
+    var raw = select(n_pole(f, sign), n_infinite(f, sign), infinite);
     raw = select(n_zero(f, sign), raw, infinite || pole);
     raw = select(raw, n_nan(f), nan);
     // rest / divisor is less than one, except that divisor 0 stands for 2^32: then the digits are those of rest.

@@ -5,10 +5,10 @@
 // whatever follows it ("jammed"), which rounding can't tell from the truth as long as it happens two places above.
 
 struct Format {
-    kind: u32,       // 0 fixed, 1 float
+    kind: u32,       // 0 fixed, 1 float; floats without infinity: 2, without NaN too 3, without -0 4
     upper: u32,      // integer bits, or exponent bits
     frac: u32,       // fraction bits, or stored mantissa bits
-    rounding: u32,   // 0 nearest even, 1 nearest away, 2 toward zero, 3 down
+    rounding: u32,   // 0 nearest even, 1 nearest away, 2 toward zero, 3 down, 4 up, 5 to odd
     overflow: u32,   // 0 saturate, 1 wrap, 2 infinity, 3 as NV_fragment_program
     denormals: u32,  // 0 keep, 1 flush
     special: u32,    // 0 Direct3D, 1 NV_fragment_program
@@ -48,47 +48,80 @@ fn n_known(raw: u32) -> Real {
 
 fn n_is_float(f: Format) -> bool {
     if (HAS_FIXED) {
-        return f.kind == N_FLOAT;
+        return f.kind != N_FIXED;
     }
     return true;
 }
 
 // No result: NaN, or zero where there is none.
 fn n_nan(f: Format) -> u32 {
+    if (HAS_FINITE) {
+        if f.kind == 3u {
+            return 0u;
+        }
+    }
     return select(0u, N_NAN, n_is_float(f));
 }
 
 fn n_zero(f: Format, sign: u32) -> u32 {
+    if (HAS_FINITE) {
+        if f.kind == 4u {
+            return 0u;
+        }
+    }
     return select(0u, sign << 31u, n_is_float(f));
 }
 
 // The finite end of the range on a side.
 fn n_extreme(f: Format, sign: u32) -> u32 {
-    let exponent = (1u << ((f.upper - 1u) & 31u)) + 126u;
-    let float = (sign << 31u) | (exponent << 23u) | (((1u << f.frac) - 1u) << ((23u - f.frac) & 31u));
+    var exponent = (1u << ((f.upper - 1u) & 31u)) + 126u;
+    var ones = (1u << f.frac) - 1u;
+    if (HAS_FINITE) {
+        exponent += select(0u, 1u, f.kind == 2u || f.kind == 3u);
+        ones -= select(0u, 1u, f.kind == 2u);
+    }
+    let float = (sign << 31u) | (exponent << 23u) | (ones << ((23u - f.frac) & 31u));
     let most = (1u << (f.upper + f.frac)) - 1u;
     return select(select(most, ~most, sign == 1u), float, n_is_float(f));
 }
 
-// An infinite operand passed on.
-fn n_infinite(f: Format, sign: u32) -> u32 {
+// What stands for an infinity.
+fn n_unbounded(f: Format, sign: u32) -> u32 {
+    if (HAS_FINITE) {
+        if f.kind == 3u {
+            return n_extreme(f, sign);
+        }
+        if f.kind > 1u {
+            return N_NAN;
+        }
+    }
     return select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, n_is_float(f));
 }
 
 // An exactly infinite result of finite operands.
 fn n_pole(f: Format, sign: u32) -> u32 {
-    return select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, n_is_float(f) && f.overflow != 0u);
+    return select(n_extreme(f, sign), n_unbounded(f, sign), f.overflow != 0u);
+}
+
+// An infinite operand passed on.
+fn n_infinite(f: Format, sign: u32) -> u32 {
+    if (HAS_FINITE) {
+        if f.kind > 1u {
+            return n_pole(f, sign);
+        }
+    }
+    return n_unbounded(f, sign);
 }
 
 // A float too large; huge: beyond the largest exponent before rounding.
 fn n_overflow(f: Format, sign: u32, huge: bool) -> u32 {
-    var infinite = f.rounding < 2u || (f.rounding == 3u && sign == 1u);
+    var infinite = f.rounding < 2u || f.rounding == 4u - sign;
     if f.overflow == 0u {
         infinite = false;
     } else if f.overflow == 3u {
         infinite = huge;
     }
-    return select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, infinite);
+    return select(n_extreme(f, sign), n_unbounded(f, sign), infinite);
 }
 
 // x 2^s, cut to the word on both sides.
@@ -213,8 +246,12 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     let top = e + 95;
     let places = i32(f.frac);
     // Exponents of the smallest and the largest normal number.
-    let lowest = 2 - (1 << (f.upper - select(0u, 1u, float)));
-    let highest = 1 - lowest;
+    var lowest = 2 - (1 << (f.upper - select(0u, 1u, float)));
+    var highest = 1 - lowest;
+    if (HAS_FINITE) {
+        highest += select(0, 1, f.kind == 2u || f.kind == 3u);
+        lowest -= select(0, 1, f.kind == 4u);
+    }
     let unit = select(-places, max(top, lowest) - places, float);
     let shift = unit - e;
     // Below two the integer ends in 32 zeros, in fixed point; a float never comes near.
@@ -224,7 +261,8 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     let half = (y.z & 2u) != 0u;
     let below = (y.z & 1u) != 0u;
     var up = f.rounding == 0u && half && (below || (kept & 1u) != 0u);
-    up = up || (f.rounding == 1u && half) || (f.rounding == 3u && sign == 1u && (half || below));
+    up = up || (f.rounding == 1u && half) || (f.rounding == 4u - sign && (half || below));
+    up = up || (f.rounding == 5u && (half || below) && (kept & 1u) == 0u);
     let rounded = kept + select(0u, 1u, up);
     var result = 0u;
     if (HAS_FIXED) {
@@ -242,8 +280,12 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
         let exponent = 31 - i32(clear) + unit;
         let normal = (u32(exponent + 127) << 23u) | (((rounded << clear) << 1u) >> 9u);
         let size = select(normal, rounded << (u32(unit + 149) & 31u), exponent < -126);
-        result = (sign << 31u) | select(size, 0u, flushed);
-        if top > highest || (top == highest && (rounded >> ((f.frac + 1u) & 31u)) != 0u) {
+        result = select((sign << 31u) | size, n_zero(f, sign), flushed);
+        var most = (2u << (f.frac & 31u)) - 1u;
+        if (HAS_FINITE) {
+            most -= select(0u, 1u, f.kind == 2u);
+        }
+        if top > highest || (top == highest && rounded > most) {
             result = n_overflow(f, sign, top > highest);
         }
     }
@@ -272,17 +314,29 @@ fn n_decode(f: Format, bits: u32) -> u32 {
     let sign = ((bits >> width) & 1u) << 31u;
     let field = (bits >> f.frac) & ((1u << f.upper) - 1u);
     let mantissa = bits & ((1u << f.frac) - 1u);
-    if field == (1u << f.upper) - 1u {
+    let ones = field == (1u << f.upper) - 1u;
+    var ieee = true;
+    if (HAS_FINITE) {
+        ieee = f.kind == 1u;
+        let last = f.kind == 2u && ones && mantissa == (1u << f.frac) - 1u;
+        if last || (f.kind == 4u && sign != 0u && (field | mantissa) == 0u) {
+            return N_NAN;
+        }
+    }
+    if ieee && ones {
         return select(sign | N_INFINITY, N_NAN, mantissa != 0u);
     }
     if field == 0u && (mantissa == 0u || f.denormals == 1u) {
-        return sign;
+        return n_zero(f, sign >> 31u);
     }
     let above = 23u - f.frac;
     if f.upper == 8u {
         return sign | (field << 23u) | (mantissa << above);
     }
-    let bias = (1u << (f.upper - 1u)) - 1u;
+    var bias = (1u << (f.upper - 1u)) - 1u;
+    if (HAS_FINITE) {
+        bias += select(0u, 1u, f.kind == 4u);
+    }
     if field != 0u {
         return sign | ((field + 127u - bias) << 23u) | (mantissa << above);
     }
@@ -300,6 +354,11 @@ fn n_encode(f: Format, raw: u32) -> u32 {
     let magnitude = raw & 0x7fffffffu;
     let infinity = ((1u << f.upper) - 1u) << f.frac;
     if magnitude > N_INFINITY {
+        if (HAS_FINITE) {
+            if f.kind > 1u {
+                return select((1u << width) - 1u, 1u << width, f.kind == 4u);
+            }
+        }
         return infinity | (1u << (f.frac - 1u));
     }
     let sign = (raw >> 31u) << width;
@@ -310,7 +369,10 @@ fn n_encode(f: Format, raw: u32) -> u32 {
     if f.upper == 8u || magnitude == 0u {
         return sign | (magnitude >> above);
     }
-    let bias = (1 << (f.upper - 1u)) - 1;
+    var bias = (1 << (f.upper - 1u)) - 1;
+    if (HAS_FINITE) {
+        bias += select(0, 1, f.kind == 4u);
+    }
     let exponent = i32(magnitude >> 23u) - 127;
     let mantissa = magnitude & 0x7fffffu;
     if exponent >= 1 - bias {

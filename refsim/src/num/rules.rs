@@ -1,0 +1,101 @@
+//! The rules of a format: which patterns are what, and how an exact result becomes a number of it.
+
+/// Which patterns of a float are infinities, NaN and zeros.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Encoding {
+    /// IEEE 754: the largest exponent field has infinity and NaN, the bias is `2^(X-1) - 1`. Fixed point has this too.
+    Ieee,
+    /// `eXmYfn`, "finite": the largest field has numbers like any other, and there is no infinity. The pattern of all
+    /// ones is NaN, of either sign; in formats of at most 6 bits it is a number too, and there is no NaN.
+    Finite,
+    /// `eXmYfnuz`, "finite, unsigned zero": numbers in the largest field, no infinity, no -0, whose pattern is the one
+    /// NaN. The bias is one more, `2^(X-1)`.
+    UnsignedZero,
+    /// `e8m0`: powers of two from `2^-127` to `2^127`, without sign and without zero; all ones is NaN. A scale of
+    /// blocks ([`super::block`]).
+    Scale,
+}
+
+/// Direction in which inexact results are rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Rounding {
+    /// To the nearest, ties to the even pattern (`:rne`).
+    NearestEven,
+    /// To the nearest, ties away from zero (`:rna`).
+    NearestAway,
+    /// Truncation of the magnitude (`:rtz`).
+    TowardZero,
+    /// Toward minus infinity (`:rdn`): the effect of dropping low bits of a two's complement product.
+    Down,
+    /// Toward plus infinity (`:rup`).
+    Up,
+    /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. What was rounded so
+    /// can be rounded once more into a format of two bits less, in any direction, as if it had been exact.
+    Odd,
+    /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the first 32 bits of the fraction that is
+    /// cut off, as an integer, and this word together are `2^32` or more. Over all words that is as often as the
+    /// fraction says. The word belongs to one operation ([`super::random_word`]); operations of several roundings use
+    /// it for each.
+    /// Devices refuse it ([`Format::for_registers`]).
+    Stochastic(u32),
+}
+
+impl Rounding {
+    /// Every rounding that depends on nothing else, by its name in format strings.
+    pub const ALL: [(&'static str, Self); 6] = [
+        ("rne", Self::NearestEven),
+        ("rna", Self::NearestAway),
+        ("rtz", Self::TowardZero),
+        ("rdn", Self::Down),
+        ("rup", Self::Up),
+        ("rod", Self::Odd),
+    ];
+
+    /// The name in format strings and switches, without colon.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, rounding)| *rounding == self).map_or("rst", |(name, _)| name)
+    }
+
+    /// Returns `true` if a magnitude of this sign is rounded to the next larger one wherever it is inexact.
+    pub(crate) const fn is_outward(self, negative: bool) -> bool {
+        matches!((self, negative), (Self::Down, true) | (Self::Up, false))
+    }
+}
+
+/// Treatment of results out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Overflow {
+    /// The nearest end of the range (`:sat`). A float with this rule makes no infinity from finite operands at
+    /// all: division by zero and `log2 0` give the largest finite number too (Direct3D's `log(0) = -FLT_MAX`).
+    Saturate,
+    /// Modulo the width (`:wrap`), fixed point only. Results that are exactly infinite, and overflowing
+    /// exponentials, have no residue and saturate.
+    Wrap,
+    /// IEEE 754 (`:inf`): infinity or the largest finite number, as the rounding direction asks. Encodings without
+    /// infinity have NaN in its place, those without NaN the largest finite number. Floats only.
+    Infinity,
+    /// `NV_fragment_program` (`:nvovf`): exact magnitudes of `2^(emax+1)` and more become infinity, smaller ones
+    /// at most the largest finite number, in every rounding direction. Floats only.
+    Nv30,
+}
+
+/// Treatment of subnormal numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Denormals {
+    /// Gradual underflow (`:keep`).
+    Keep,
+    /// Subnormal operands count as zero, and a result whose rounded value is subnormal becomes zero (`:ftz`). The
+    /// sign is kept. A flushed result raises `UNDERFLOW` and `INEXACT`; a flushed operand raises nothing.
+    Flush,
+}
+
+/// Conventions for NaN, infinity and domain errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Specials {
+    /// Direct3D 9 on IEEE 754 values (`:ieee`): `min` is `a < b ? a : b` and `max` is `a >= b ? a : b`, so a NaN
+    /// in either place gives `b`; `rsq`, `log2` and `pow` take the magnitude of their operand.
+    Ieee,
+    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN; `rsq(-0)` is -inf; `rsq` and `log2` of a
+    /// negative number are NaN.
+    Nv,
+}
