@@ -2,6 +2,8 @@
 
 #[path = "common/programs.rs"]
 mod programs;
+#[path = "common/spacing.rs"]
+mod spacing;
 
 use proptest::prelude::*;
 use refsim::asm::{ErrorKind, MAX_ERRORS, MAX_STATEMENTS, MAX_TEXT, assemble, print};
@@ -49,6 +51,16 @@ proptest! {
         let again = assemble(&text);
         prop_assert_eq!(again.as_ref(), Ok(&program), "{}", text);
         prop_assert_eq!(print(&again.unwrap()), text);
+    }
+
+    #[test]
+    fn no_text_has_two_readings(
+        program in programs::program(),
+        spaces in prop::collection::vec(any::<usize>(), 0..300),
+    ) {
+        let mut spaces = spaces.into_iter();
+        let choose = |n| spaces.next().unwrap_or(0) % n;
+        spacing::has_one_reading(&print(&program), &[" ", "\t", " /* mov r0, 1.5 */ "], choose);
     }
 
     #[test]

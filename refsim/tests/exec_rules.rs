@@ -133,6 +133,22 @@ fn r200_constants_have_eight_bits() {
 }
 
 #[test]
+fn nv20_rounds_constants_or_cuts_them_to_bytes() {
+    let moved = |value: &str| {
+        let mut profile = Profile::named("nv20").unwrap();
+        profile.set_switch("constants", value).unwrap();
+        run("ps_1_1\nmov r0, c0", &profile, &[[0.5, -0.5, 0.001, 1.0]]).value(0)
+    };
+    let codes = |codes: [i32; 4]| {
+        let format: Format = "n3.8".parse().unwrap();
+        codes.map(|k| refsim::num::from_ratio(format, k < 0, k.unsigned_abs().into(), 255).bits)
+    };
+    assert_eq!(moved("snorm8-cut"), codes([127, -127, 0, 255]));
+    assert_eq!(moved("snorm8"), codes([128, -128, 0, 255]));
+    assert_eq!(moved("register"), codes([128, -128, 0, 255]));
+}
+
+#[test]
 fn ps_1_x_output_is_saturated_and_ps_2_output_is_not() {
     let text = "ps_1_4\nmov_x4 r0, c0";
     let ran = run(text, &r200(), &[[1.0, -1.0, 0.125, 0.25]]);

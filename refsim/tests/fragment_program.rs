@@ -13,6 +13,8 @@ mod fragment_program {
 
 #[path = "common/running.rs"]
 mod running;
+#[path = "common/spacing.rs"]
+mod spacing;
 
 use refsim::device::Profile;
 use refsim::exec::{Constants, PixelBindings};

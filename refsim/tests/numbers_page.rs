@@ -9,6 +9,8 @@ mod blending;
 mod clipping;
 #[path = "numbers_page/colors.rs"]
 mod colors;
+#[path = "numbers_page/constants.rs"]
+mod constants;
 #[path = "numbers_page/filters.rs"]
 mod filters;
 #[path = "numbers_page/formats.rs"]

@@ -178,6 +178,8 @@ named_choice! {
         Register = "register",
         /// As sign and 8-bit magnitude `k / 255` (nearest, halves away from zero), clamped to [-1, 1], then converted.
         Snorm8 = "snorm8",
+        /// As [`Self::Snorm8`], but k is the single-precision product of the magnitude and 255, cut: 0.5 is 127/255.
+        Snorm8Cut = "snorm8-cut",
     }
 }
 

@@ -15,6 +15,8 @@ const FLOAT_CONSTANTS: usize = 256;
 const FRAGMENT_CONSTANTS: usize = FIRST_LITERAL as usize + 4096;
 /// 1.0 in single precision.
 const FP32_ONE: u32 = 0x3f80_0000;
+/// 255.0 in single precision.
+const FP32_255: u32 = 0x437f_0000;
 
 /// Constants of one stage, set by the host. Unset ones are zero; definitions in the program (`def`, `defi`, `defb`)
 /// take precedence.
@@ -65,7 +67,8 @@ impl ResolvedConstants {
             let bits = if clamp { clamped_to_one(bits) } else { bits };
             match rules.constant_storage {
                 ConstantStorage::Register => num::ops::convert(&Format::FP32, rules.format, bits).bits,
-                ConstantStorage::Snorm8 => snorm8(rules.format, bits),
+                ConstantStorage::Snorm8 => snorm8(rules.format, bits, unorm_steps(magnitude(bits), 255)),
+                ConstantStorage::Snorm8Cut => snorm8(rules.format, bits, cut_255ths(magnitude(bits))),
             }
         })
     }
@@ -133,15 +136,31 @@ impl ResolvedConstants {
 
 /// Clamps a single-precision pattern to [-1, 1]; NaN is unchanged.
 fn clamped_to_one(bits: u32) -> u32 {
-    let magnitude = bits & 0x7fff_ffff;
+    let magnitude = magnitude(bits);
     if magnitude > FP32_ONE && magnitude <= 0x7f80_0000 { (bits & 0x8000_0000) | FP32_ONE } else { bits }
 }
 
-/// Rounds a single-precision pattern to sign and 8-bit magnitude `k / 255` (halves away from zero), clamped to [-1, 1],
-/// then rounds it into `format`. NaN gives 0.
-fn snorm8(format: Format, bits: u32) -> u32 {
-    let k = unorm_steps(bits & 0x7fff_ffff, 255);
+/// The pattern without its sign.
+fn magnitude(bits: u32) -> u32 {
+    bits & 0x7fff_ffff
+}
+
+/// `k / 255` with the sign of `bits`, rounded into `format`.
+fn snorm8(format: Format, bits: u32, k: u32) -> u32 {
     num::from_ratio(format, bits >> 31 == 1 && k != 0, u128::from(k), 255).bits
+}
+
+/// The single-precision product of a magnitude and 255, clamped to 255 and cut to a whole number. NaN gives 0.
+///
+/// The product is rounded before it is cut, as a driver in C rounds it: `k / 255` in single precision gives k again.
+fn cut_255ths(magnitude: u32) -> u32 {
+    if magnitude >= FP32_ONE {
+        return if magnitude > 0x7f80_0000 { 0 } else { 255 };
+    }
+    let product = num::ops::mul(Format::FP32, magnitude, FP32_255).bits;
+    let (exponent, significand) = (product >> 23, (product & 0x007f_ffff) | 0x0080_0000);
+    // The product is at most 255, so that its exponent field is at most 134; below 127 it is less than 1.
+    if exponent < 127 { 0 } else { significand >> (150 - exponent) }
 }
 
 /// Clamps a single-precision pattern to [0, 1] and rounds it to `k / steps` (halves up; `steps` below 2^24); returns k.
@@ -187,5 +206,23 @@ pub fn delivered_color(rules: &Rules, bits: u32) -> u32 {
             };
             num::ops::convert(&Format::FP32, rules.format, clamped).bits
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All codes survive the way through single precision, and what lies between two codes goes to the lower one.
+    #[test]
+    fn bytes_are_cut_as_a_driver_cuts_them() {
+        for k in 0..=255_u32 {
+            let code = num::from_ratio(Format::FP32, false, k.into(), 255).bits;
+            assert_eq!(cut_255ths(code), k, "{k}/255");
+            let between = num::from_ratio(Format::FP32, false, u128::from(2 * k + 1), 510).bits;
+            assert_eq!(cut_255ths(between), k, "{k}.5/255");
+            assert_eq!(unorm_steps(code, 255), k);
+        }
+        assert_eq!([0, 1, 0x3f7f_ffff, FP32_ONE, 0x7f80_0000, 0x7fc0_0000].map(cut_255ths), [0, 0, 254, 255, 255, 0]);
     }
 }

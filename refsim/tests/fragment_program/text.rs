@@ -1,5 +1,6 @@
-//! Parsing and printing, arbitrary text, and error messages.
+//! Parsing and printing, arbitrary text, spaces, and error messages.
 
+use crate::spacing::has_one_reading;
 use proptest::prelude::*;
 use refsim::asm::{MAX_ERRORS, assemble, print};
 use refsim::isa::{ConditionTest, Opcode, OpcodeClass, Spelling, TextureTarget, Version};
@@ -149,6 +150,18 @@ proptest! {
         let again = assemble(&printed);
         prop_assert_eq!(again.as_ref(), Ok(&read), "{}", printed);
         prop_assert_eq!(print(&again.unwrap()), printed);
+    }
+
+    #[test]
+    fn no_text_has_two_readings(
+        nv in any::<bool>(),
+        choices in prop::collection::vec(any::<u32>(), 0..120),
+        spaces in prop::collection::vec(any::<u32>(), 0..300),
+    ) {
+        let program = assemble(&program(if nv { Version::Fp1_0 } else { Version::ArbFp1_0 }, &choices));
+        let program = program.map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
+        let mut spaces = Choices(spaces.iter());
+        has_one_reading(&print(&program), &[" ", "\n", "\t", "\r\n", " # 1.5; END\n"], |n| spaces.below(n));
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Blending into 8-bit targets.
 
 use super::draws::{COLUMNS, codes, color_program, colored, quads, rows};
-use super::rule::{Count, Hypotheses, Rule};
+use super::rule::{Hypotheses, Rule};
 use super::table::{Row, table};
+use super::values::Values;
 use refsim::device::Profile;
 use refsim::exec::Constants;
 use refsim::machine::{Executor, VertexSource};
@@ -58,7 +59,7 @@ fn corners<'a>(rows: impl Iterator<Item = (usize, &'a Row)>, column: &str) -> Ve
 }
 
 /// Each row is a cell: its ground drawn, then its source blended over it.
-fn redraw(profile: &Profile, executor: &Executor) -> Count {
+fn redraw(profile: &Profile, executor: &Executor) -> Values {
     let rows_of_file = table("nv2a/a_blend.csv");
     let (program, constants) = (color_program(profile), Constants::default());
     let mut machine = executor.machine(profile.clone()).expect("a machine");
@@ -73,13 +74,17 @@ fn redraw(profile: &Profile, executor: &Executor) -> Count {
         machine.draw(&call).expect("drawn");
     }
     let image = machine.read_back(target).expect("read back");
-    let mut count = Count::default();
+    let mut values = Values::default();
     for (i, row) in numbered {
-        let within = |(name, code): (&str, u8)| {
-            let [low, high] = ["lo", "hi"].map(|end| format!("{name}_{end}"));
-            row.text(&low).is_empty() || (row.number(&low)..=row.number(&high)).contains(&code)
-        };
-        count.add(["r", "g", "b", "a"].into_iter().zip(codes(image, i)).all(within));
+        let drawn = codes(image, i);
+        // The code that is possible and next to the one drawn.
+        let nearest: [u8; 4] = std::array::from_fn(|channel| {
+            let [low, high] = ["lo", "hi"].map(|end| format!("{}_{end}", ["r", "g", "b", "a"][channel]));
+            let known = !row.text(&low).is_empty();
+            if known { drawn[channel].clamp(row.number(&low), row.number(&high)) } else { drawn[channel] }
+        });
+        let [color, measured] = [drawn, nearest].map(|[r, g, b, _]| [r, g, b]);
+        values.add(measured, color, drawn == nearest);
     }
-    count
+    values
 }

@@ -1,9 +1,10 @@
 //! Arithmetic of the combiners: what registers count in, and how results are rounded.
 
 use super::draws::{COLUMNS, cell, codes, quads, rows};
-use super::rule::{Count, Hypotheses, Rule};
+use super::rule::{Hypotheses, Rule};
 use super::running::{bits, checked, constants};
 use super::table::{Row, table};
+use super::values::Values;
 use refsim::device::Profile;
 use refsim::machine::{Executor, VertexSource};
 use refsim::raster::Vertex;
@@ -32,9 +33,9 @@ pub(crate) fn rules() -> Vec<Rule> {
             unit: "color",
             hypotheses: Hypotheses::Switch("rounding"),
             redraw: |device, executor| {
-                let mut count = operations(device, executor);
-                count += lerps(device, executor);
-                count
+                let mut values = operations(device, executor);
+                values.0.extend(lerps(device, executor).0);
+                values
             },
             open: "Halves below zero. Those above go up, which only a division by 2 and the bias of one half tell.",
             ..rule.clone()
@@ -79,7 +80,7 @@ fn shown(device: &Profile, executor: &Executor, cells: &[(String, [u8; 2], u8)])
 }
 
 /// `a*b + (1 - a)*c`. A row lists all factors within one code of the picture's; one of them must give what is shown.
-fn lerps(device: &Profile, executor: &Executor) -> Count {
+fn lerps(device: &Profile, executor: &Executor) -> Values {
     let rows = table(LERPS);
     let factors = |row: &Row| -> Vec<u8> { row.text("a").split(';').map(|a| a.parse().expect("a code")).collect() };
     let lerp = "ps_1_1\nlrp r0, v0, v1, c0".to_owned();
@@ -88,16 +89,17 @@ fn lerps(device: &Profile, executor: &Executor) -> Count {
         .flat_map(|row| factors(row).into_iter().map(|a| (lerp.clone(), [a, row.number("b")], row.number("c"))))
         .collect();
     let mut found = shown(device, executor, &cells).into_iter();
-    let mut count = Count::default();
+    let mut values = Values::default();
     for row in &rows {
-        let codes: Vec<u8> = found.by_ref().take(factors(row).len()).collect();
-        count.add(codes.contains(&row.number("out8")));
+        let measured: u8 = row.number("out8");
+        let codes = found.by_ref().take(factors(row).len());
+        values.add_code(measured, codes.min_by_key(|code| code.abs_diff(measured)).expect("a factor"));
     }
-    count
+    values
 }
 
 /// Single operations of a combiner, in the assembler's words.
-fn operations(device: &Profile, executor: &Executor) -> Count {
+fn operations(device: &Profile, executor: &Executor) -> Values {
     let rows = table(OPERATIONS);
     let body = |row: &Row| match row.text("operation") {
         "identity" => "mov r0, v0",
@@ -118,9 +120,9 @@ fn operations(device: &Profile, executor: &Executor) -> Count {
         .iter()
         .map(|row| (format!("ps_1_1\n{}", body(row)), [code(row, "a"), code(row, "b")], code(row, "c")))
         .collect();
-    let mut count = Count::default();
+    let mut values = Values::default();
     for (row, found) in rows.iter().zip(shown(device, executor, &cells)) {
-        count.add(found == row.number("out8"));
+        values.add_code(row.number("out8"), found);
     }
-    count
+    values
 }

@@ -1,8 +1,9 @@
 //! Window positions and the fill rule: shapes whose edges step by 1/16 of a pixel about pixel centers.
 
 use super::draws::{at, color_program, quads};
-use super::rule::{Count, Hypotheses, Rule};
+use super::rule::{Hypotheses, Rule};
 use super::table::{Row, table};
+use super::values::Values;
 use refsim::device::Profile;
 use refsim::exec::Constants;
 use refsim::machine::{Executor, VertexSource};
@@ -44,11 +45,11 @@ fn corners(row: &Row) -> Vec<Vertex> {
 }
 
 /// Draws each shape alone; all pixels of its rows and columns must be as the file has them.
-fn redraw(profile: &Profile, executor: &Executor) -> Count {
+fn redraw(profile: &Profile, executor: &Executor) -> Values {
     let (program, constants) = (color_program(profile), Constants::default());
     let mut machine = executor.machine(profile.clone()).expect("a machine");
     let target = machine.create_target(TexelFormat::Bgra8, SIZE, SIZE).expect("a target");
-    let mut count = Count::default();
+    let mut values = Values::default();
     for shape in table(FILE).chunk_by(|a, b| a.text("shape") == b.text("shape")) {
         let white = |corner| Vertex { colors: [[0x3f80_0000; 4]; 2], ..corner };
         let vertices: Vec<Vertex> = corners(&shape[0]).into_iter().map(white).collect();
@@ -64,16 +65,17 @@ fn redraw(profile: &Profile, executor: &Executor) -> Count {
         machine.clear_target(target, [0; 4]).expect("cleared");
         machine.draw(&call).expect("drawn");
         let image = machine.read_back(target).expect("read back");
-        let row_is_right = |row: &Row| {
-            let drawn: std::ops::RangeInclusive<i64> = row.number("column_first")..=row.number("column_last");
-            (row.number("row_first")..=row.number("row_last")).all(|y| {
-                columns.clone().all(|x| {
-                    let expected = *drawn.start() >= 0 && drawn.contains(&i64::from(x));
-                    (image.raw(0, 0, y, x) != 0) == expected
-                })
-            })
-        };
-        count.add(shape.iter().all(row_is_right));
+        let (mut expected, mut drawn) = (Vec::new(), Vec::new());
+        for row in shape {
+            let covered: std::ops::RangeInclusive<i64> = row.number("column_first")..=row.number("column_last");
+            for y in row.number("row_first")..=row.number("row_last") {
+                expected.extend(columns.clone().map(|x| *covered.start() >= 0 && covered.contains(&i64::from(x))));
+                drawn.extend(columns.clone().map(|x| image.raw(0, 0, y, x) != 0));
+            }
+        }
+        // A shape is shown by the number of its pixels.
+        let pixels = |covered: &[bool]| covered.iter().filter(|covered| **covered).count() as u8;
+        values.add_grey(pixels(&expected), pixels(&drawn), expected == drawn);
     }
-    count
+    values
 }

@@ -1,8 +1,9 @@
 //! Interpolated depths in integer buffers.
 
 use super::draws::{at, color_program, quads};
-use super::rule::{Count, Hypotheses, Rule};
+use super::rule::{Hypotheses, Rule};
 use super::table::{Row, table};
+use super::values::Values;
 use refsim::device::Profile;
 use refsim::exec::Constants;
 use refsim::machine::{Executor, VertexSource};
@@ -46,10 +47,10 @@ fn is_between_codes(row: &Row) -> bool {
 }
 
 /// Draws the triangles of each shape into each buffer and compares the rows that `choose` takes.
-fn redraw(profile: &Profile, executor: &Executor, choose: fn(&Row) -> bool) -> Count {
+fn redraw(profile: &Profile, executor: &Executor, choose: fn(&Row) -> bool) -> Values {
     let (program, constants) = (color_program(profile), Constants::default());
     let shapes = table("nv2a/a_depth_shapes.csv");
-    let mut count = Count::default();
+    let mut values = Values::default();
     let same = |a: &Row, b: &Row| a.text("buffer") == b.text("buffer") && a.text("shape") == b.text("shape");
     for rows in table(FILE).chunk_by(same) {
         let (format, steps) = match rows[0].text("buffer") {
@@ -75,8 +76,10 @@ fn redraw(profile: &Profile, executor: &Executor, choose: fn(&Row) -> bool) -> C
         let depths = machine.read_depth(buffer).expect("read back").data();
         for row in rows.iter().filter(|row| choose(row)) {
             let [x, y] = ["column", "row"].map(|name| row.number::<usize>(name));
-            count.add(depths[y * 640 + x] == row.number("stored_code"));
+            let (measured, drawn): (u32, u32) = (row.number("stored_code"), depths[y * 640 + x]);
+            // Codes are shown by their last byte.
+            values.add_grey(measured as u8, drawn as u8, measured == drawn);
         }
     }
-    count
+    values
 }

@@ -1,10 +1,11 @@
 //! Filters of textures: weights, arithmetic, level of detail.
 
 use super::draws::{COLUMNS, at, codes, quads, rows};
-use super::rule::{Count, Hypotheses, Rule};
+use super::rule::{Hypotheses, Rule};
 use super::running::{bits, checked};
 use super::table::{Row, table};
 use super::texels::reading;
+use super::values::Values;
 use refsim::device::Profile;
 use refsim::exec::Constants;
 use refsim::machine::{Executor, VertexSource};
@@ -71,7 +72,7 @@ fn checked_levels() -> Image {
 }
 
 /// Draws the checks with each bias that `wanted` accepts and compares the pixels that were read.
-fn checks(profile: &Profile, executor: &Executor, wanted: impl Fn(i32) -> bool) -> Count {
+fn checks(profile: &Profile, executor: &Executor, wanted: impl Fn(i32) -> bool) -> Values {
     let all = table("nv2a/b_filter.csv");
     let (program, constants) = (checked("ps_1_1\ntex t0\nmov r0, t0", profile), Constants::default());
     let mut machine = executor.machine(profile.clone()).expect("a machine");
@@ -81,7 +82,7 @@ fn checks(profile: &Profile, executor: &Executor, wanted: impl Fn(i32) -> bool) 
         corner.texcoords[0] = bits([u, v, 0.0, 1.0]);
         corner
     });
-    let mut count = Count::default();
+    let mut values = Values::default();
     let bias = |row: &Row| row.number::<i32>("bias256");
     for alike in all.chunk_by(|a, b| bias(a) == bias(b)).filter(|rows| wanted(bias(&rows[0]))) {
         let target = machine.create_target(TexelFormat::Bgra8, SIDE, SIDE).expect("a target");
@@ -91,10 +92,11 @@ fn checks(profile: &Profile, executor: &Executor, wanted: impl Fn(i32) -> bool) 
         let image = machine.read_back(target).expect("read back");
         for row in alike {
             let [b, g, r, _] = (image.raw(0, 0, row.number("y"), row.number("x")) as u32).to_le_bytes();
-            count.add([r, g, b] == ["r", "g", "b"].map(|name| row.number::<u8>(name)));
+            let measured = ["r", "g", "b"].map(|name| row.number::<u8>(name));
+            values.add(measured, [r, g, b], measured == [r, g, b]);
         }
     }
-    count
+    values
 }
 
 /// Red of a pixel that is dimmed by a byte and blended over a ground.
@@ -104,13 +106,13 @@ fn dimmed(byte: i32) -> i32 {
 }
 
 /// Each row is a cell that reads between two texels. A signed byte k arrives as 2k / 255, or as 1 for -128 negated.
-fn fractions(profile: &Profile, executor: &Executor) -> Count {
+fn fractions(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_filter_fraction.csv");
     let programs = ["t0", "-t0"].map(|value| checked(&format!("ps_1_1\ntex t0\nmov r0, {value}"), profile));
     let constants = Constants::default();
     let state = SamplerState { mip: MipFilter::None, address_u: AddressMode::Clamp, ..LINEAR };
     let mut machine = executor.machine(profile.clone()).expect("a machine");
-    let mut count = Count::default();
+    let mut values = Values::default();
     let texels = |row: &Row| ["texel1", "texel2"].map(|name| row.number::<i32>(name) as u8);
     for alike in all.chunk_by(|a, b| (a.text("kind"), texels(a)) == (b.text("kind"), texels(b))) {
         let signed = alike[0].text("kind") == "signed";
@@ -132,8 +134,9 @@ fn fractions(profile: &Profile, executor: &Executor) -> Count {
         for (row, (above, below)) in alike.iter().zip(above.into_iter().zip(below)) {
             // Half of the register's code, -255 being that of -128.
             let byte = if signed { (above - below).div_euclid(2) } else { above };
-            count.add(dimmed(byte) == row.number::<i32>("red8"));
+            let (measured, drawn): (i32, i32) = (row.number("red8"), dimmed(byte));
+            values.add_grey(measured as u8, drawn as u8, measured == drawn);
         }
     }
-    count
+    values
 }

@@ -13,12 +13,15 @@ mod coverage;
 mod depth;
 mod draws;
 mod filters;
+mod iterated;
 mod page;
+mod pictures;
 mod rule;
 #[path = "../common/running.rs"]
 mod running;
 mod table;
 mod texels;
+mod values;
 
 use rule::Rule;
 

@@ -1,36 +1,48 @@
-//! The page `docs/measured.md`: its table is made here.
+//! The page `docs/measured.md`: its table and its pictures are made here.
 
+use super::pictures;
 use super::rule::Measured;
+use super::values::Values;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-const MARKS: [&str; 2] = ["<!-- measured -->\n", "<!-- end -->"];
+const TABLE: [&str; 2] = ["<!-- measured -->\n", "<!-- end -->"];
+const PICTURES: [&str; 2] = ["<!-- pictures -->\n", "<!-- end of pictures -->"];
 
 /// Every rule is counted and compared on every executor ([`Measured::of`]), and the page has the counts.
 pub(crate) fn the_page_has_the_counts() {
     let measured: Vec<Measured> = super::topics().into_iter().map(Measured::of).collect();
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/measured.md");
     let text = std::fs::read_to_string(&path).expect("the page").replace('\r', "");
-    let (head, rest) = text.split_once(MARKS[0]).expect("the mark where the table begins");
-    let (_, tail) = rest.split_once(MARKS[1]).expect("the mark where it ends");
-    let made = format!("{head}{}{}{}{tail}", MARKS[0], table(&measured), MARKS[1]);
-    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    let made = replaced(&text, TABLE, &table(&measured));
+    let made = replaced(&made, PICTURES, &pictures::section(&measured));
+    let write = std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always");
+    pictures::hold(&measured, write);
+    if write {
         return std::fs::write(path, made).expect("written");
     }
     measured.iter().for_each(Measured::stands_in_the_profiles);
     assert!(made == text, "INSTA_UPDATE=always cargo test -p refsim --test measured writes the page; expected\n{made}");
 }
 
+/// The page with another text between two marks.
+fn replaced(page: &str, marks: [&str; 2], text: &str) -> String {
+    let (head, rest) = page.split_once(marks[0]).expect("the mark where it begins");
+    let (_, tail) = rest.split_once(marks[1]).expect("the mark where it ends");
+    [head, marks[0], text, marks[1], tail].concat()
+}
+
 fn table(measured: &[Measured]) -> String {
     let mut out = String::from(
         "| rule | hypotheses: values predicted | of | verdict | open | data |\n|---|---|---|---|---|---|\n",
     );
-    for Measured { rule, own, right, all } in measured {
-        let shown = |(name, right): &(String, usize)| match name == own {
-            true => format!("**{name}: {}**", thousands(*right)),
-            false => format!("{name}: {}", thousands(*right)),
+    for one in measured {
+        let (rule, (own, all)) = (&one.rule, one.own());
+        let shown = |(name, values): &(String, Values)| match name == own {
+            true => format!("**{name}: {}**", thousands(values.right())),
+            false => format!("{name}: {}", thousands(values.right())),
         };
-        let hypotheses: Vec<String> = right.iter().map(shown).collect();
+        let hypotheses: Vec<String> = one.values.iter().map(shown).collect();
         let verdict = if rule.settled { format!("settled: {own}") } else { "open".to_owned() };
         let (open, plural) = (if rule.open.is_empty() { "nothing" } else { rule.open }, plural(rule.unit));
         let _ = writeln!(
@@ -38,7 +50,7 @@ fn table(measured: &[Measured]) -> String {
             "| {} | {} | {} {plural} | {verdict} | {open} | `{}` |",
             rule.name,
             hypotheses.join("<br>"),
-            thousands(*all),
+            thousands(all),
             rule.data
         );
     }

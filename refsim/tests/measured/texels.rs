@@ -1,9 +1,10 @@
 //! Values of texels: narrow channels, signed bytes, border colors.
 
 use super::draws::{COLUMNS, cell, codes, quads, rows};
-use super::rule::{Count, Hypotheses, Rule};
+use super::rule::{Hypotheses, Rule};
 use super::running::{bits, checked};
 use super::table::{Row, table};
+use super::values::Values;
 use refsim::device::Profile;
 use refsim::exec::Constants;
 use refsim::machine::{Executor, VertexSource};
@@ -91,9 +92,9 @@ fn channel(row: &Row) -> usize {
 }
 
 /// Each row is a texel; R6G5B5's blue is read where bgra5551 has it.
-fn narrow_channels(profile: &Profile, executor: &Executor) -> Count {
+fn narrow_channels(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_texel_codes.csv");
-    let mut count = Count::default();
+    let mut values = Values::default();
     for alike in all.chunk_by(|a, b| a.text("format") == b.text("format")) {
         let (format, shifts) = match alike[0].text("format") {
             "R5G6B5" => (TexelFormat::Bgr565, [11, 5, 0]),
@@ -103,29 +104,29 @@ fn narrow_channels(profile: &Profile, executor: &Executor) -> Count {
         };
         let texels: Vec<u32> = alike.iter().map(|row| row.number::<u32>("code") << shifts[channel(row)]).collect();
         for (row, found) in alike.iter().zip(drawn(profile, executor, format, &texels)) {
-            count.add(found[channel(row)] == row.number::<u8>("out8"));
+            values.add_code(row.number("out8"), found[channel(row)]);
         }
     }
-    count
+    values
 }
 
 /// Each row is a texel with its code in every channel.
-fn signed_bytes(profile: &Profile, executor: &Executor) -> Count {
+fn signed_bytes(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_signed_texel.csv");
-    let mut count = Count::default();
+    let mut values = Values::default();
     for alike in all.chunk_by(|a, b| a.text("kind") == b.text("kind")) {
         let format = if alike[0].text("kind") == "signed" { TexelFormat::Rgba8Snorm } else { TexelFormat::Rgba8 };
         let texels: Vec<u32> = alike.iter().map(|row| 0x0101_0101 * row.number::<u32>("code")).collect();
         for (row, found) in alike.iter().zip(drawn(profile, executor, format, &texels)) {
-            count.add(found[channel(row)] == row.number::<u8>("out8"));
+            values.add_code(row.number("out8"), found[channel(row)]);
         }
     }
-    count
+    values
 }
 
 /// A pixel outside a texture of each format that the emulator has.
-fn borders(profile: &Profile, executor: &Executor) -> Count {
-    let mut count = Count::default();
+fn borders(profile: &Profile, executor: &Executor) -> Values {
+    let mut values = Values::default();
     for row in table("nv2a/b_border.csv").iter().filter(|row| !row.text("ours").is_empty()) {
         assert_eq!(row.text("pixels_right"), row.text("pixels"), "all pixels show the color");
         let image = Image::new_2d(row.text("ours").parse().expect("a format"), 8, 8).expect("an image");
@@ -136,7 +137,8 @@ fn borders(profile: &Profile, executor: &Executor) -> Count {
             ..SamplerState::NEAREST_CLAMP
         };
         let found = sampled(profile, executor, (image, state), &reading(0, [1.5, 0.5]));
-        count.add(found[0] == [255, 34, 204, 51]);
+        let [r, g, b, _] = found[0];
+        values.add([255, 34, 204], [r, g, b], found[0] == [255, 34, 204, 51]);
     }
-    count
+    values
 }

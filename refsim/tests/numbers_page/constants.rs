@@ -1,0 +1,64 @@
+//! "Constants": what a pixel program reads, on both executors of the host.
+
+use super::running::{checked, constants};
+use super::{Random, probes};
+use refsim::device::{ConstantStorage, Profile};
+use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
+use refsim::texture::TexelFormat;
+
+/// A constant as the page has it, in registers of FP32.
+fn stored(storage: ConstantStorage, before_2_0: bool, x: f32) -> f32 {
+    let x = if before_2_0 && !x.is_nan() { x.clamp(-1.0, 1.0) } else { x };
+    let magnitude = x.abs().min(1.0);
+    let k = match storage {
+        ConstantStorage::Register => return x,
+        _ if x.is_nan() => 0,
+        // The product is exact in FP64.
+        ConstantStorage::Snorm8 => (f64::from(magnitude) * 255.0 + 0.5) as u8,
+        ConstantStorage::Snorm8Cut => (magnitude * 255.0) as u8,
+    };
+    if x < 0.0 { -f32::from(k) / 255.0 } else { f32::from(k) / 255.0 }
+}
+
+#[test]
+fn constants_are_stored_as_the_page_says() {
+    let mut r = Random(47);
+    for (&storage, version) in ConstantStorage::ALL.iter().flat_map(|s| [(s, "ps_1_4"), (s, "ps_2_0")]) {
+        let mut profile = Profile::named("ideal-fp32").expect("a device");
+        profile.rules.constant_storage = storage;
+        let before_2_0 = version == "ps_1_4";
+        let end = if before_2_0 { "" } else { "mov oC0, r0" };
+        let program = checked(&format!("{version}\nmov r0, c0\n{end}"), &profile);
+        for _ in 0..probes(60) {
+            let values: [f32; 4] = std::array::from_fn(|_| r.single());
+            // Results of ps_1_x are saturated: they show magnitudes, and no NaN.
+            let shown = values.map(|x| {
+                if !before_2_0 {
+                    x
+                } else if x.is_nan() {
+                    0.5
+                } else {
+                    x.abs()
+                }
+            });
+            let expected = shown.map(|x| stored(storage, before_2_0, x));
+            let host = constants(&[shown]);
+            for kind in [ExecutorKind::Scalar, ExecutorKind::Batch] {
+                let mut machine = Machine::new(profile.clone(), kind);
+                let target = machine.create_target(TexelFormat::Rgba32f, 1, 1).expect("a target");
+                let quad = full_screen_quad(|_, _| []);
+                let source = VertexSource::Transformed(&quad);
+                let mut call = DrawCall::new(source, Primitive::QuadList, &program, &host, target);
+                call.center = PixelCenter::OpenGl;
+                machine.draw(&call).expect("drawn");
+                let texel = machine.read_back(target).expect("read").raw(0, 0, 0, 0);
+                let found: [f32; 4] = std::array::from_fn(|i| f32::from_bits((texel >> (32 * i)) as u32));
+                for (found, expected) in found.into_iter().zip(expected) {
+                    let same = found == expected || (found.is_nan() && expected.is_nan());
+                    assert!(same, "{storage:?}, {version}, {shown:?}: {found} for {expected}");
+                }
+            }
+        }
+    }
+}
