@@ -6,7 +6,9 @@ mod adapter;
 mod running;
 
 use refsim::device::Profile;
-use refsim::exec::gpu::Gpu;
+use refsim::exec::gpu::{BINDINGS, Gpu};
+use refsim::exec::wgsl::follow::{ENTRY, Record, module};
+use refsim::exec::wgsl::kernel::RESUMES;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DepthId, DrawCall, ExecutorKind, Machine, TextureId, VertexSource};
 use refsim::num::Format;
@@ -27,6 +29,7 @@ fn main() -> ExitCode {
         programs,
         short_programs_agree_on_any_driver,
         long_traces_are_whole,
+        buffers_of_a_trace_run_elsewhere,
     ])
 }
 
@@ -368,4 +371,50 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
     pair.same(&[target], Some(depth), "after");
     assert_ne!(traced(&pair.device), found, "a trace starts from what was drawn");
     assert_eq!(traced(&pair.device), traced(&pair.reference));
+}
+
+/// The buffers of a trace give the first fragment of each pixel, in more than one dispatch if it takes long.
+fn buffers_of_a_trace_run_elsewhere(gpu: &Arc<Gpu>) {
+    let profile = Profile::named("r300").unwrap();
+    let reads = "texld r1, r0, s0\nmad r0, r1, c0, r0\n".repeat(4);
+    let program = checked(&format!("ps_2_0\ndcl t0\ndcl_2d s0\nmov r0, t0\n{reads}mov oC0, r0"), &profile);
+    let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]]);
+    let mut machine = Machine::new(profile.clone(), ExecutorKind::Scalar);
+    let target = machine.create_target(TexelFormat::Bgra8, 9, 7).unwrap();
+    let mut random = Random(5);
+    let image = machine.create_texture(texture(&mut random)).unwrap();
+    let corners = vertices(&mut random, 9);
+    let source = VertexSource::Transformed(&corners);
+    let call = DrawCall::new(source, Primitive::TriangleList, &program, &host, target);
+    let call = call.with_texture(0, image, SamplerState::NEAREST_CLAMP);
+    let pixels: Vec<(u32, u32)> = (0..63).map(|i| (i % 9, i / 9)).collect();
+
+    let made = machine.trace_buffers(&call, &pixels).unwrap();
+    let pipeline = gpu.pipeline(&made.parts.of(&module(), ENTRY), ENTRY, &BINDINGS).unwrap();
+    let mut video = made.video.clone();
+    video.resize(made.video.len() + pixels.len() * made.record_words, 0);
+    let (scratch, counts) = (vec![0; made.scratch_words], vec![0; made.count_words]);
+    let buffers = [&made.draw, &made.setups, &made.tiles, &made.samplers, &video, &made.code, &scratch, &counts]
+        .map(|words| gpu.buffer_of(words).unwrap());
+    let records = loop {
+        gpu.dispatch(&pipeline, &buffers.each_ref(), [pixels.len() as u32, 1, 1]).unwrap();
+        let found = gpu.read(&buffers[4], made.video.len()..video.len()).unwrap();
+        if !found.chunks_exact(made.record_words).any(|words| Record::new(words).unwrap().is_unfinished()) {
+            break found;
+        }
+        gpu.upload(&buffers[0], RESUMES, &[1]).unwrap();
+    };
+    let mut covered = 0;
+    let expected = machine.trace_pixels(&call, &pixels).unwrap();
+    for ((words, fragments), &(x, y)) in records.chunks_exact(made.record_words).zip(expected).zip(&pixels) {
+        let record = Record::new(words).unwrap();
+        assert_eq!(record.triangle().is_some(), !fragments.is_empty(), "{x}, {y}");
+        let Some(fragment) = fragments.first() else { continue };
+        covered += 1;
+        let lane = ((x & 1) | (y & 1) << 1) as usize;
+        let mut expected = fragment.shading.clone();
+        expected.steps.iter_mut().for_each(|step| step.flags = refsim::num::Flags::empty());
+        assert_eq!(record.shading(record.kept(0), &program, &profile.rules, lane), expected, "{x}, {y}");
+    }
+    assert!((1..pixels.len()).contains(&covered), "{covered}");
 }

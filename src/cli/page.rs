@@ -1,26 +1,33 @@
 //! `crossbar page`: a page that compares a visitor's GPU with the emulator.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
 use super::{Out, Problem, ProgressBar, Verdict, view};
 use crate::io::atomic::FileSet;
+use crate::io::{ReadError, read_limited};
 use crate::study::page::page;
 
 const EXAMPLES: &str = "\
 Examples:
   crossbar page --out out/page
       out/page/index.html: open it in a browser with WebGPU
+  refsim/web/build && crossbar page --emulator target/web/refsim_web.wasm
+      the same with the emulator in it, for programs of one's own
 
 The file stands alone: it loads nothing and sends nothing. On the visitor's GPU it runs operations in eight number \
-formats, and the teapot under the Ray Engine's intersection program, in whole numbers, and compares all bits with the \
-emulator's, which it carries; beside them the GPU's own floats. docs/page.md describes it.";
+formats, the teapot under the Ray Engine's intersection program, and programs of the systems instruction by instruction, \
+in whole numbers, and compares all bits with the emulator's, which it carries; beside them the GPU's own floats. \
+docs/page.md describes it.";
 
 /// Write a page on which a visitor's GPU is compared with the emulated cards, bit for bit
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
+    /// The emulator for programs of the visitor's own: what `refsim/web/build` compiles
+    #[arg(long, value_name = "FILE.wasm")]
+    emulator: Option<PathBuf>,
     /// Where to write index.html
     #[arg(long, value_name = "DIR", default_value = "out/page")]
     out: PathBuf,
@@ -29,8 +36,9 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     // Before the work, so that a folder that cannot be written is found out at once.
     let folder = FileSet::by("page", &args.out).map_err(Problem::from)?;
+    let emulator = args.emulator.as_deref().map(read_emulator).transpose()?;
     let bar = ProgressBar::new("", 1);
-    let text = page(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    let text = page(emulator.as_deref(), &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
     let bytes = text.len();
     let written = view::write_folder(folder, &[("index.html".to_owned(), text.into_bytes())])?;
@@ -42,4 +50,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         out.line(format_args!("wrote {} ({bytes} bytes)", path.display()))?;
     }
     Ok(Verdict::Done)
+}
+
+fn read_emulator(path: &Path) -> Result<Vec<u8>, ReadError> {
+    /// Largest module, in bytes.
+    const LIMIT: u64 = 32 << 20;
+    let what = "WebAssembly module";
+    let read = read_limited(path, LIMIT).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
+    read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit: LIMIT })
 }

@@ -34,7 +34,13 @@ fn main() -> ExitCode {
     };
     let mut trials = vec![
         trial("every_bit_is_the_emulators_and_controls_work", every_bit_is_the_emulators_and_controls_work),
-        trial("without_webgpu_there_are_pictures", without_webgpu_there_are_pictures),
+        trial("a_wrong_step_is_marked", a_wrong_step_is_marked),
+        trial(
+            "without_webgpu_there_are_pictures_and_stored_traces",
+            without_webgpu_there_are_pictures_and_stored_traces,
+        ),
+        trial("the_emulator_in_the_page_has_the_native_bits", the_emulator_in_the_page_has_the_native_bits)
+            .with_ignored_flag(name.is_none() || !emulator().is_file()),
     ];
     if is_full() {
         trials.push(trial("a_wrong_bit_is_found_and_named", a_wrong_bit_is_found_and_named));
@@ -95,6 +101,13 @@ fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     assert!(single.iter().all(|line| line["sets"].as_u64() > Some(500)));
     assert!(found["adapter"]["browser"].is_string());
 
+    // Every step of every program has the emulator's bits.
+    let programs = list("programs");
+    assert_eq!(programs.len(), 5 * 3);
+    assert!(programs.iter().all(|line| line["wrong"] == 0 && line["pixels"] == 256), "{programs:#?}");
+    assert!(programs.iter().all(|line| line["steps"].as_u64() > Some(8)));
+    stepping_by_keys(&mut browser);
+
     // The live view shows the first fixed view in s3.12, then what the keyboard chooses.
     let first = format!("s3.12 {}", list("teapot")[0]["expected"].as_str().unwrap_or_default());
     assert_eq!(drawn(&mut browser), first);
@@ -109,6 +122,46 @@ fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     let others: Vec<&str> =
         browser.requests().into_iter().filter(|url| !url.starts_with("file:") && !url.starts_with("data:")).collect();
     assert!(others.is_empty(), "{others:?}");
+}
+
+fn attribute(browser: &mut Browser, id: &str, name: &str) -> String {
+    browser.value(&format!("document.getElementById('{id}').{name}")).as_str().unwrap_or_default().to_owned()
+}
+
+/// The keyboard steps a program, chooses a pixel and another program.
+fn stepping_by_keys(browser: &mut Browser) {
+    let now = |browser: &mut Browser| {
+        let line = "document.querySelector('#source [aria-current=step]')?.textContent ?? ''";
+        (attribute(browser, "stepper", "dataset.step"), browser.value(line).as_str().unwrap_or_default().to_owned())
+    };
+    assert_eq!(attribute(browser, "program-verdict", "className"), "equal");
+    let (first, line) = now(browser);
+    assert!(line.contains("texld r1, t0"), "{line}");
+    browser.press("stepper", "ArrowRight", 39);
+    let (second, line) = now(browser);
+    assert_eq!(second.parse().ok(), first.parse::<u32>().ok().map(|step| step + 1));
+    assert!(line.contains("texld r2, t0"), "{line}");
+    browser.press("stepper", "ArrowLeft", 37);
+    assert_eq!(now(browser).0, first);
+    browser.press("stepper", "End", 35);
+    assert!(now(browser).1.contains("+cmp r0.a"), "{:?}", now(browser));
+    browser.press("stepper", "Home", 36);
+    assert_eq!(now(browser), ("0".to_owned(), String::new()), "an input register");
+    // What is written stands there three times: the emulator's, the GPU's, and the GPU's own floats.
+    let cells =
+        browser.value("[...document.querySelectorAll('#written tr:first-child > *')].map((cell) => cell.textContent)");
+    let cells: Vec<&str> = cells.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    assert_eq!((cells.len(), cells[0]), (7, "v0.x"), "{cells:?}");
+    assert!(cells[2] == cells[3] && cells[5].len() == 8, "{cells:?}");
+
+    let pixel = attribute(browser, "stepper", "dataset.pixel");
+    browser.press("pixels", "ArrowDown", 40);
+    let below = attribute(browser, "stepper", "dataset.pixel");
+    assert_eq!(below.parse().ok(), pixel.parse::<u32>().ok().map(|pixel| pixel + 16));
+    browser.press("program", "ArrowDown", 40);
+    browser.wait("document.getElementById('source').textContent.startsWith('; Ray-triangle intersection, front faces, any origin')");
+    browser.press("variant", "ArrowDown", 40);
+    browser.wait("document.getElementById('written-caption').textContent.endsWith('e5m10')");
 }
 
 fn is_full() -> bool {
@@ -180,12 +233,111 @@ fn a_wrong_bit_is_found_and_named(name: &str, file: &Path) {
     assert!(picture.contains("pixel (8, 39)"), "{picture}");
 }
 
-fn without_webgpu_there_are_pictures(name: &str, file: &Path) {
+/// A stored trace with one wrong bit is red, at its pixel and line. The page has little else, so that this is short.
+fn a_wrong_step_is_marked(name: &str, file: &Path) {
+    /// The pixel that is chosen at first.
+    const PIXEL: usize = 8 * 16 + 8;
+    let mut line = 0;
+    let changed = changed(file, "wrong_step.html", |data| {
+        data["arithmetic"]["shaders"] = json!([]);
+        data["arithmetic"]["formats"].as_array_mut().into_iter().flatten().for_each(|f| f["native"] = Value::Null);
+        data["teapot"]["side"] = json!(32);
+        data["teapot"]["views"].as_array_mut().expect("views").truncate(1);
+        pictures(data, 0).clear();
+        let programs = data["programs"]["programs"].as_array_mut().expect("programs");
+        programs.truncate(1);
+        let variants = programs[0]["variants"].as_array_mut().expect("variants");
+        variants.truncate(1);
+        let variant = &mut variants[0];
+        let bytes = |entry: &Value| {
+            let width = variant["formats"][entry["format"].as_u64().unwrap_or_default() as usize]["width"].as_u64();
+            entry["names"].as_array().map_or(0, Vec::len) * width.unwrap_or_default().div_ceil(8) as usize
+        };
+        let sizes: Vec<usize> = variant["entries"].as_array().expect("entries").iter().map(bytes).collect();
+        let at = sizes.len() - 3;
+        line = variant["entries"][at]["line"].as_u64().expect("an instruction") + 1;
+        let before: usize = sizes[..at].iter().sum();
+        flip(&mut variant["values"], PIXEL * sizes.iter().sum::<usize>() + before);
+    });
+    let mut browser = Browser::start(name, true);
+    browser.open(&changed);
+    browser.wait("document.body.dataset.state !== 'loading'");
+    assert_eq!(browser.value("document.body.dataset.state"), json!("different"));
+    let programs = found(&mut browser)["programs"].clone();
+    assert_eq!((&programs[0]["wrong"], &programs[1]), (&json!(1), &Value::Null), "{programs}");
+    assert_eq!(programs[0]["first"], json!({ "x": 8, "y": 8, "line": line }));
+    assert_eq!(attribute(&mut browser, "program-verdict", "className"), "wrong");
+    let verdict = attribute(&mut browser, "program-verdict", "textContent");
+    assert!(verdict.contains("1 pixel") && verdict.contains("(8, 8)"), "{verdict}");
+    let marked =
+        "[...document.querySelectorAll('#source > li')].findIndex((item) => item.classList.contains('wrong')) + 1";
+    assert_eq!(browser.value(marked), json!(line));
+    // Two steps before the last one is the wrong one.
+    browser.press("stepper", "End", 35);
+    assert_eq!(browser.value("document.querySelectorAll('#written .wrong').length"), json!(0));
+    browser.press("stepper", "ArrowLeft", 37);
+    browser.press("stepper", "ArrowLeft", 37);
+    assert_eq!(browser.value("document.querySelectorAll('#written .wrong').length"), json!(1));
+    assert!(browser.errors().is_empty(), "{:?}", browser.errors());
+}
+
+/// A browser in which pages find no WebGPU.
+fn without_webgpu(name: &str) -> Browser {
     let mut browser = Browser::start(name, false);
     browser.call(
         "Page.addScriptToEvaluateOnNewDocument",
         json!({ "source": "Object.defineProperty(Navigator.prototype, 'gpu', { get: () => undefined });" }),
     );
+    browser
+}
+
+/// The module that `refsim/web/build` writes.
+fn emulator() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("target/web/refsim_web.wasm")
+}
+
+/// The emulator in the page answers as it does natively (`refsim/web/answers.txt`): pictures and traces, to the letter.
+fn the_emulator_in_the_page_has_the_native_bits(name: &str, file: &Path) {
+    let folder = file.with_file_name("emulator");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    let output = command.args(["page", "--emulator"]).arg(emulator()).arg("--out").arg(&folder).output();
+    let output = output.expect("the program");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut browser = without_webgpu(name);
+    browser.open(&folder.join("index.html"));
+    browser.wait("document.getElementById('playground').parentElement.dataset.state === 'ready'");
+    let dataset = |browser: &mut Browser, name: &str| {
+        let value = browser.value(&format!("document.getElementById('playground').parentElement.dataset.{name}"));
+        value.as_str().expect("text").to_owned()
+    };
+    // From the last example to the first, so that each is a change.
+    let list: Vec<&str> = include_str!("../../refsim/web/answers.txt").lines().collect();
+    for (example, golden) in list.into_iter().enumerate().rev() {
+        let (digest, title) = golden.split_once(' ').expect("a digest and a title");
+        let choose = format!(
+            "(() => {{ const list = document.getElementById('play-example'); list.value = '{example}'; \
+             list.dispatchEvent(new Event('change')); return list.selectedOptions[0].textContent; }})()"
+        );
+        let request = dataset(&mut browser, "request");
+        assert_eq!(browser.value(&choose), json!(title));
+        let section = "document.getElementById('playground').parentElement";
+        browser.wait(&format!("{section}.dataset.request !== {}", json!(request)));
+        let answer = dataset(&mut browser, "answer");
+        assert_eq!(format!("{:08x}", crc32fast::hash(answer.as_bytes())), digest, "{title}: {answer}");
+    }
+    // A mistake is told at its place, and the link carries the program.
+    let text = "document.getElementById('program-text')";
+    browser.value(&format!("{text}.value = 'ps_1_4\nmull r0, r0, r0\n'; {text}.dispatchEvent(new Event('input'))"));
+    browser.wait("document.querySelector('#remarks button')?.textContent === 'line 2, column 1'");
+    let link = attribute(&mut browser, "play-link", "href");
+    browser.call("Page.navigate", json!({ "url": "about:blank" }));
+    browser.call("Page.navigate", json!({ "url": link }));
+    browser.wait("document.querySelector('#remarks button')?.textContent === 'line 2, column 1'");
+    assert!(browser.errors().is_empty(), "{:?}", browser.errors());
+}
+
+fn without_webgpu_there_are_pictures_and_stored_traces(name: &str, file: &Path) {
+    let mut browser = without_webgpu(name);
     browser.open(file);
     browser.wait("document.body.dataset.state !== 'loading'");
     assert_eq!(browser.value("document.body.dataset.state"), json!("without"));
@@ -194,5 +346,10 @@ fn without_webgpu_there_are_pictures(name: &str, file: &Path) {
     let shown = "[...document.querySelectorAll('.fixed > img')].filter((image) => image.complete && image.naturalWidth === 128).length";
     assert_eq!(browser.value(shown), json!(6));
     assert_eq!(found(&mut browser)["operations"], json!([]));
+    assert!(attribute(&mut browser, "program-verdict", "textContent").starts_with("Stored trace"));
+    let before = attribute(&mut browser, "stepper", "dataset.step");
+    browser.press("stepper", "ArrowRight", 39);
+    assert_ne!(attribute(&mut browser, "stepper", "dataset.step"), before);
+    assert!(browser.value("document.querySelectorAll('#written code').length").as_u64() > Some(0));
     assert!(browser.errors().is_empty(), "{:?}", browser.errors());
 }

@@ -35,7 +35,6 @@ pub enum MachineError {
     #[error(transparent)]
     Gpu(#[from] crate::exec::gpu::GpuError),
     /// The pixel program cannot be encoded for GPUs.
-    #[cfg(feature = "wgpu")]
     #[error(transparent)]
     GpuProgram(#[from] crate::exec::wgsl::program::ProgramError),
     /// A handle of a `texture` or `depth buffer` that was released or belongs to another machine.

@@ -24,8 +24,11 @@ mod record;
 mod recorder;
 mod resources;
 mod state;
+mod step_budget;
 mod tiles;
 mod trace;
+mod trace_buffers;
+mod trace_layout;
 mod validate;
 mod vertices;
 mod walk;
@@ -37,6 +40,7 @@ pub use executor_kind::ExecutorKind;
 pub use handle::{DepthId, TextureId};
 pub use pixel_state::PixelState;
 pub use trace::FragmentTrace;
+pub use trace_buffers::TraceBuffers;
 
 use std::sync::Arc;
 

@@ -1,7 +1,9 @@
 //! Traces of pixels through a draw.
 
 #[cfg(feature = "wgpu")]
-use super::device::{GpuTracer, StepBudget};
+use super::device::GpuTracer;
+#[cfg(feature = "wgpu")]
+use super::step_budget::StepBudget;
 use super::tiles::tile_draw;
 use super::validate::{Plan, ROUND};
 use super::vertices::{VertexStage, raster_rules};
@@ -104,7 +106,7 @@ impl Machine {
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
     }
 
-    fn start(&self, call: &DrawCall<'_>, (x, y): (u32, u32)) -> Result<TracedPixel, MachineError> {
+    pub(super) fn start(&self, call: &DrawCall<'_>, (x, y): (u32, u32)) -> Result<TracedPixel, MachineError> {
         let tile = load(&self.memory, call, Region { x, y, width: 1, height: 1 })?;
         if tile.index(x, y).is_none() {
             let size = match (call.targets.first(), call.depth_buffer) {
@@ -136,7 +138,7 @@ impl Machine {
     }
 
     /// Runs vertex stage and set-up of a call in the same rounds as a draw.
-    fn rounds(
+    pub(super) fn rounds(
         &self,
         call: &DrawCall<'_>,
         plan: &Plan,
@@ -188,7 +190,7 @@ impl Machine {
 }
 
 /// A set-up with the indices of its instance, triangle and part.
-type PlacedSetup = (usize, usize, usize, TriangleSetup);
+pub(super) type PlacedSetup = (usize, usize, usize, TriangleSetup);
 
 /// Sets up triangles of a round whose first instance is `first`.
 fn set_up(
@@ -211,8 +213,8 @@ fn set_up(
 }
 
 /// A pixel being traced.
-struct TracedPixel {
-    tile: TargetTile,
+pub(super) struct TracedPixel {
+    pub(super) tile: TargetTile,
     fragments: Vec<FragmentTrace>,
 }
 

@@ -6,7 +6,7 @@ use refsim::{
     exec::ResolvedConstants,
     machine::{
         AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, ProgramPlace, StepRate,
-        TextureId, VertexSource, VertexStreams,
+        TextureId, TraceBuffers, VertexSource, VertexStreams,
     },
     output::{DepthSurface, MAX_TARGETS, WriteMask},
     raster::{ClipSpace, PixelCenter, Vertex},
@@ -95,6 +95,15 @@ impl<'s> Loaded<'s> {
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
         self.machine.trace_pixels(&call, pixels).map_err(|error| placed(self.setup, error))
+    }
+
+    /// Encodes a trace of some pixels for another host of WebGPU: see [`Machine::trace_buffers`].
+    ///
+    /// # Errors
+    /// As [`Loaded::trace`].
+    pub fn trace_buffers(&self, pixels: &[(u32, u32)]) -> Result<TraceBuffers, CaseError> {
+        let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
+        self.machine.trace_buffers(&call, pixels).map_err(|error| placed(self.setup, error))
     }
 
     /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`].

@@ -6,7 +6,7 @@ use refsim::{
     check::Checked,
     device::Profile,
     exec::{BUMP_STAGES, BumpStage, Constants, Projection},
-    isa::{Program, Stage, Version},
+    isa::{Program, Register, Stage, Version},
     machine::{ExecutorKind, Machine, MachineError},
     output::{AlphaTest, BlendState, DepthFormat, DepthState},
     texture::TexelFormat,
@@ -25,6 +25,7 @@ use super::{
     vertices::{self, Geometry},
 };
 use crate::{
+    compare,
     io::read_limited,
     shader::{ShaderError, ShaderText},
 };
@@ -124,6 +125,11 @@ impl Setup {
     /// As [`Setup::read`].
     pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
         Self::bound(name, bytes, folder, &Overrides::default())
+    }
+
+    /// Name of a component of a pixel register in program syntax.
+    pub fn component(&self, register: &Register, component: usize) -> String {
+        compare::component(&self.pixel, register, component)
     }
 
     fn bound(name: &str, bytes: &[u8], folder: &Path, overrides: &Overrides) -> Result<Self, CaseError> {

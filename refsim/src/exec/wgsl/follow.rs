@@ -1,7 +1,8 @@
 //! Kernel for pixel traces: its text, its parameters, and its records.
 
 use super::kernel::{DrawWords, with_entry};
-use super::program::{Interpolation, TRACE_WORDS, trace_delivered, trace_steps};
+use super::program::{Interpolation, TRACE_WORDS, machine, trace_delivered, trace_steps};
+use super::texture;
 use crate::device::Rules;
 use crate::exec::lower::{Arith, Formats};
 use crate::exec::{CheckedProgram, DepthValue, FragmentResult, Shading, inputs_read, program};
@@ -20,8 +21,15 @@ pub const HEAD: usize = RESULTS + 19;
 const INPUT: usize = 4;
 const RESULTS: usize = INPUT + 45;
 const NOTHING: u32 = 1;
-const FRAGMENT: u32 = 2;
-const UNFINISHED: u32 = 3;
+/// First word of a record with a fragment.
+pub const FRAGMENT: u32 = 2;
+/// First word of a record whose dispatch must be repeated.
+pub const UNFINISHED: u32 = 3;
+
+/// The complete module: the kernel, the machine that runs programs, and texture reads.
+pub fn module() -> String {
+    text() + &machine() + &texture::library()
+}
 
 /// The kernel's complete text, without program and textures.
 pub fn text() -> String {

@@ -78,6 +78,9 @@ const FIELDS: [(&str, usize); 22] = [
 /// Size of `draw` in words.
 pub const DRAW_WORDS: usize = field("");
 
+/// Index in `draw` of the word that is 1 in a dispatch that resumes the previous one.
+pub const RESUMES: usize = field("D_RESUMES");
+
 /// Loop iterations for testing whether a triangle covers anything.
 const LOOK_COST: u32 = 12;
 

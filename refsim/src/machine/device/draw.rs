@@ -14,6 +14,7 @@ use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::{FlowMap, ResolvedConstants, colors_written, inputs_read, output_rules, program};
 use crate::isa::Stage;
 use crate::machine::memory::Memory;
+use crate::machine::step_budget::StepBudget;
 use crate::machine::validate::Plan;
 use crate::machine::validate::ROUND;
 use crate::machine::vertices::{VertexStage, set_up};
@@ -95,36 +96,12 @@ impl Machine {
         GpuError::Device { adapter, reason }.into()
     }
 
-    /// Classifies the pixel program of a call by its step budget.
-    pub(in crate::machine) fn step_budget(&self, call: &DrawCall<'_>) -> StepBudget {
-        let (checked, source) = (call.pixel_program, program(call.pixel_program));
-        let constants = ResolvedConstants::pixel(source, &self.profile.rules, call.pixel_constants);
-        let budget = self.profile.limits.step_budget(Stage::Pixel);
-        match enforced(source, &FlowMap::new(source), &constants, budget) {
-            Some(budget) if checked.facts().has_flow => StepBudget::Enforced(budget),
-            Some(_) => StepBudget::Exceeded,
-            None => StepBudget::NeverExceeded,
-        }
-    }
-
     fn vertices_may_fail(&self, call: &DrawCall<'_>) -> bool {
         let VertexSource::Program { program: source, constants, .. } = &call.vertices else { return false };
         let constants = ResolvedConstants::vertex(source, &self.profile.rules, constants);
         let budget = self.profile.limits.step_budget(Stage::Vertex);
         enforced(source, &FlowMap::new(source), &constants, budget).is_some()
     }
-}
-
-/// Relation of a pixel program to its step budget.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::machine) enum StepBudget {
-    /// Every fragment exceeds it: the program has no flow control and is too long. The scalar executor counts its
-    /// steps.
-    Exceeded,
-    /// A fragment may exceed it; the value is the budget.
-    Enforced(u32),
-    /// No fragment can exceed it.
-    NeverExceeded,
 }
 
 impl Card {

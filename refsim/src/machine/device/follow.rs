@@ -3,27 +3,19 @@
 //! The kernel works on copies of the pixels' targets, so a trace changes nothing. All pixels of a round share a
 //! dispatch, so this does not implement [`crate::exec::PixelTracer`].
 
-use super::shader::{FOLLOW, load};
+use super::shader::FOLLOW;
 use super::{Card, draw};
+use crate::exec::Shading;
 use crate::exec::gpu::{Gpu, LoadedProgram};
-use crate::exec::wgsl::follow::{FollowDispatch, HEAD, JOB_WORDS, Record};
-use crate::exec::wgsl::kernel::{COUNT_WORDS, DepthPlace, DrawState, DrawWords, EXTRA_ROWS, OVERRUN};
+use crate::exec::wgsl::follow::{FollowDispatch, HEAD, Record};
+use crate::exec::wgsl::kernel::{COUNT_WORDS, EXTRA_ROWS, OVERRUN};
 use crate::exec::wgsl::program::TRACE_WORDS;
-use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::wgsl::texture;
-use crate::exec::{Shading, colors_written, inputs_read, output_rules, program};
-use crate::isa::OpcodeClass;
+use crate::machine::trace_layout::{PixelJob, TraceLayout, job_words, near};
 use crate::machine::{DrawCall, Machine, MachineError, PixelState};
-use crate::output::MAX_TARGETS;
 use crate::raster::TriangleSetup;
-use crate::texture::{Image, TextureKind};
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Capacity of a record, in steps, for programs with flow control, whose number of steps is unbounded.
-const FLOW_STEPS: usize = 256;
-/// Maximum number of input registers recorded before the steps.
-const INPUTS: usize = 12;
 
 /// A fragment of a traced pixel: the index of the triangle's set-up within the pass, the pixel's state before, the
 /// execution of the program, and the pixel's state after.
@@ -41,13 +33,8 @@ pub(in crate::machine) struct GpuTracer<'a> {
     call: &'a DrawCall<'a>,
     pixels: Vec<(u32, u32)>,
     states: Vec<PixelState>,
-    words: DrawWords,
+    layout: TraceLayout,
     shader: LoadedProgram,
-    /// Copies of the targets with one row: a column per traced pixel, plus one for re-execution.
-    colors: Vec<(usize, Image)>,
-    depth: Option<usize>,
-    records: usize,
-    room: usize,
     /// `true` if a fragment exceeded the step budget.
     pub(in crate::machine) overrun: bool,
 }
@@ -68,64 +55,22 @@ impl<'a> GpuTracer<'a> {
         states: Vec<PixelState>,
         step_budget: Option<u32>,
     ) -> Result<Self, MachineError> {
-        let (memory, profile) = (&machine.memory, &machine.profile);
-        let mut card = match &memory.card {
+        let mut card = match &machine.memory.card {
             Some(card) => Card::new(Arc::clone(card.board.gpu()))?,
             None => Card::new(Arc::new(Gpu::open(None)?))?,
         };
-        let width = pixels.len() as u32 + 1;
-        let (mut targets, mut colors) = ([None; MAX_TARGETS], Vec::new());
-        for (slot, &id) in targets.iter_mut().zip(&call.targets) {
-            let format = memory.texture(id)?.format();
-            let image = Image::new(format, TextureKind::Rectangle, [width, 1, 1], 1)?;
-            let base = card.board.allocate(texture::image_size(&image))?;
-            *slot = Some(TargetPlace { format, base: base as u32, width });
-            colors.push((base, image));
-        }
-        let mut depth = None;
-        if let Some(id) = call.depth_buffer {
-            let base = card.board.allocate(width as usize)?;
-            depth = Some(DepthPlace { format: memory.depth(id)?.format(), base: base as u32, width });
-        }
-        let source = program(call.pixel_program);
-        let room = match source.instructions.iter().any(|i| i.opcode.info().class == OpcodeClass::Flow) {
-            true => FLOW_STEPS,
-            false => source.instructions.len() + INPUTS,
-        };
-        let mut words = DrawWords::new(&DrawState {
-            program: source,
-            rules: &profile.rules,
-            output: &call.output_state(),
-            output_rules: &output_rules(&profile.rules),
-            components: inputs_read(source),
-            written: colors_written(source),
-            targets,
-            depth,
-            step_budget,
-        });
-        let (shader, samplers) = load(&mut card, memory, profile, call, &mut words, &FOLLOW)?;
-        let records = card.board.allocate(pixels.len() * (HEAD + TRACE_WORDS * room))?;
+        let (layout, encoded) = TraceLayout::new(&mut card, machine, call, pixels.len(), step_budget)?;
+        let (shader, samplers) = encoded.load(card.board.gpu(), &FOLLOW)?;
         card.board.start(&shader, &samplers, COUNT_WORDS)?;
-        let depth = depth.map(|place| place.base as usize);
-        let pixels = pixels.to_vec();
-        let overrun = false;
-        let tracer = Self { card, machine, call, pixels, states, words, shader, colors, depth, records, room, overrun };
+        let tracer = Self { card, machine, call, pixels: pixels.to_vec(), states, layout, shader, overrun: false };
         tracer.send()?;
         Ok(tracer)
     }
 
     /// Uploads the current contents of the pixels' targets.
     fn send(&self) -> Result<(), MachineError> {
-        for (i, (base, image)) in self.colors.iter().enumerate() {
-            let mut image = image.clone();
-            for (x, state) in (0u32..).zip(&self.states) {
-                image.set_raw(0, 0, 0, x, state.colors[i].unwrap_or_default());
-            }
-            self.card.board.write(*base, &texture::image_words(&image))?;
-        }
-        if let Some(base) = self.depth {
-            let depths: Vec<u32> = self.states.iter().map(|state| state.depth.unwrap_or_default()).collect();
-            self.card.board.write(base, &depths)?;
+        for (base, words) in self.layout.contents(&self.states) {
+            self.card.board.write(base, &words)?;
         }
         Ok(())
     }
@@ -133,7 +78,7 @@ impl<'a> GpuTracer<'a> {
     /// Downloads the current contents of the pixels' targets.
     fn fetch(&self) -> Result<Vec<PixelState>, MachineError> {
         let mut states = self.states.clone();
-        for (i, (base, image)) in self.colors.iter().enumerate() {
+        for (i, (base, image)) in self.layout.colors.iter().enumerate() {
             let mut image = image.clone();
             let words = self.card.board.read(*base, texture::image_size(&image))?;
             texture::words_to_image(&words, &mut image)?;
@@ -141,7 +86,7 @@ impl<'a> GpuTracer<'a> {
                 state.colors[i] = Some(image.raw(0, 0, 0, x));
             }
         }
-        if let Some(base) = self.depth {
+        if let Some(base) = self.layout.depth {
             for (state, depth) in states.iter_mut().zip(self.card.board.read(base, self.pixels.len())?) {
                 state.depth = Some(depth);
             }
@@ -154,11 +99,14 @@ impl<'a> GpuTracer<'a> {
         &mut self,
         setups: &[&TriangleSetup],
     ) -> Result<Vec<Vec<TracedFragment>>, MachineError> {
-        let mut packed = Vec::with_capacity(setups.len() * self.words.setup_words());
-        setups.iter().for_each(|setup| self.words.setup(setup, &mut packed));
+        let mut packed = Vec::with_capacity(setups.len() * self.layout.words.setup_words());
+        setups.iter().for_each(|setup| self.layout.words.setup(setup, &mut packed));
         self.card.board.set_setups(&packed)?;
-        let mut progress: Vec<PixelProgress> =
-            self.pixels.iter().map(|&pixel| PixelProgress { triangles: near(setups, pixel), at: 0 }).collect();
+        let mut progress: Vec<PixelProgress> = self
+            .pixels
+            .iter()
+            .map(|&pixel| PixelProgress { triangles: near(setups.iter().copied(), pixel), at: 0 })
+            .collect();
         let mut out: Vec<Vec<TracedFragment>> = self.pixels.iter().map(|_| Vec::new()).collect();
         loop {
             let jobs: Vec<usize> =
@@ -179,7 +127,7 @@ impl<'a> GpuTracer<'a> {
     ) -> Result<(), MachineError> {
         let lists: Vec<_> = jobs.iter().map(|&p| (p, p, progress[p].at..progress[p].triangles.len())).collect();
         let words = self.run(&lists, progress, 0)?;
-        let size = HEAD + TRACE_WORDS * self.room;
+        let size = HEAD + TRACE_WORDS * self.layout.room;
         let after = self.fetch()?;
         for (&p, words) in jobs.iter().zip(words.chunks_exact(size)) {
             let Some(record) = Record::new(words) else { continue };
@@ -229,20 +177,19 @@ impl<'a> GpuTracer<'a> {
         progress: &[PixelProgress],
         skipped: usize,
     ) -> Result<Vec<u32>, MachineError> {
-        let (mut told, mut lists) = (Vec::new(), Vec::new());
-        for (p, column, range) in jobs {
-            let ((x, y), first) = (self.pixels[*p], JOB_WORDS * jobs.len() + lists.len());
-            told.extend([x, y, first as u32, range.len() as u32, *column as u32]);
-            lists.extend_from_slice(&progress[*p].triangles[range.clone()]);
-        }
-        told.append(&mut lists);
+        let job = |(p, column, range): &(usize, usize, Range<usize>)| PixelJob {
+            pixel: self.pixels[*p],
+            column: *column,
+            triangles: &progress[*p].triangles[range.clone()],
+        };
+        let told = job_words(&jobs.iter().map(job).collect::<Vec<_>>());
         let (registers, passes) = (self.shader.registers, draw::passes(self.card.board.gpu()));
-        let (records, room) = (self.records, self.room);
+        let (records, room) = (self.layout.records, self.layout.room);
         let mut dispatch =
             FollowDispatch { jobs: jobs.len(), registers, resumes: false, passes, records, room, skipped };
         let size = dispatch.record_words();
         loop {
-            let words = self.words.follow(&dispatch);
+            let words = self.layout.words.follow(&dispatch);
             let rows = (registers + EXTRA_ROWS) * jobs.len();
             self.card.board.dispatch(&self.shader, words, &told, [jobs.len() as u32, 1, 1], rows)?;
             let found = self.card.board.read(records, jobs.len() * size)?;
@@ -253,13 +200,4 @@ impl<'a> GpuTracer<'a> {
             dispatch.resumes = true;
         }
     }
-}
-
-/// Triangles whose bounds contain a pixel.
-fn near(setups: &[&TriangleSetup], (x, y): (u32, u32)) -> Vec<u32> {
-    let holds = |setup: &TriangleSetup| {
-        let b = &setup.bounds;
-        (b.x..b.x + b.width).contains(&x) && (b.y..b.y + b.height).contains(&y)
-    };
-    (0u32..).zip(setups).filter(|(_, setup)| holds(setup)).map(|(i, _)| i).collect()
 }

@@ -8,7 +8,6 @@ mod draw;
 mod follow;
 mod shader;
 
-pub(super) use draw::StepBudget;
 pub(super) use follow::GpuTracer;
 
 use super::MachineError;

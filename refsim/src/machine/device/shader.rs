@@ -2,14 +2,13 @@
 
 use super::Card;
 use crate::device::Profile;
-use crate::event::SAMPLERS;
-use crate::exec::gpu::{BINDINGS, Kernel, LoadedProgram};
+use crate::exec::gpu::{BINDINGS, Gpu, Kernel, LoadedProgram};
 use crate::exec::wgsl::kernel::DrawWords;
-use crate::exec::wgsl::program::{self, PixelShader};
-use crate::exec::wgsl::{follow, kernel, texture};
-use crate::exec::{PixelBindings, SamplerBinding, sample_rules};
+use crate::exec::wgsl::{follow, kernel, program, texture};
 use crate::machine::memory::Memory;
+use crate::machine::trace_layout::{EncodedProgram, VideoMemory};
 use crate::machine::{DrawCall, MachineError};
+use crate::texture::Image;
 
 /// Kernel that draws tiles.
 pub(super) const DRAW: Kernel = Kernel {
@@ -19,11 +18,17 @@ pub(super) const DRAW: Kernel = Kernel {
 };
 
 /// Kernel that traces pixels.
-pub(super) const FOLLOW: Kernel = Kernel {
-    entry: follow::ENTRY,
-    text: || follow::text() + &program::machine() + &texture::library(),
-    bindings: &BINDINGS,
-};
+pub(super) const FOLLOW: Kernel = Kernel { entry: follow::ENTRY, text: follow::module, bindings: &BINDINGS };
+
+impl VideoMemory for Card {
+    fn allocate(&mut self, words: usize) -> Result<usize, MachineError> {
+        Ok(self.board.allocate(words)?)
+    }
+
+    fn place_texture(&mut self, number: usize, image: &Image) -> Result<usize, MachineError> {
+        Ok(Self::place_texture(self, number, image)?)
+    }
+}
 
 /// Encodes and uploads the program and the samplers of a draw, and the textures they read.
 pub(super) fn load(
@@ -34,26 +39,15 @@ pub(super) fn load(
     words: &mut DrawWords,
     kernel: &Kernel,
 ) -> Result<(LoadedProgram, Vec<u32>), MachineError> {
-    let rules = sample_rules(&profile.rules);
-    let (bump, projections) = (call.bump, call.projections);
-    let mut bindings = PixelBindings { bump, projections, ..PixelBindings::new(call.pixel_constants) };
-    let mut samplers = Vec::with_capacity(SAMPLERS * texture::SAMPLER_WORDS);
-    for (slot, bound) in bindings.samplers.iter_mut().zip(&call.samplers) {
-        let mut first = 0;
-        if let Some(bound) = bound {
-            let image = memory.current(bound.texture)?;
-            first = card.place_texture(bound.texture.0, image)?;
-            *slot = Some(SamplerBinding { image, state: bound.state });
-        }
-        samplers.extend(texture::sampler_words(slot.as_ref(), &rules, first as u32));
+    let encoded = EncodedProgram::new(card, memory, profile, call, words, false)?;
+    encoded.load(card.board.gpu(), kernel)
+}
+
+impl EncodedProgram {
+    /// Compiles the kernel that executes the program; returns the sampler table too.
+    pub(super) fn load(self, gpu: &Gpu, kernel: &Kernel) -> Result<(LoadedProgram, Vec<u32>), MachineError> {
+        let pipeline = gpu.kernel(kernel, &self.parts)?;
+        let program = LoadedProgram { pipeline, code: self.code.words, registers: self.code.slots };
+        Ok((program, self.samplers))
     }
-    let traced = kernel.entry == follow::ENTRY;
-    let shader = PixelShader::new(call.pixel_program, &profile.rules, &bindings, traced);
-    let code = shader.microcode(Some(words.interpolation()))?;
-    let mut parts = words.parts_with(&code);
-    for &sampler in &code.samplers {
-        texture::parts(&samplers[sampler * texture::SAMPLER_WORDS..], &mut parts);
-    }
-    let pipeline = card.board.gpu().kernel(kernel, &parts)?;
-    Ok((LoadedProgram { pipeline, code: code.words, registers: code.slots }, samplers))
 }

@@ -126,7 +126,7 @@ impl Arithmetic {
             formats: formats.map(|(name, title, format)| column(name, title, &format)).into(),
             expected,
             native: NativeShader {
-                text: include_str!("assets/native.wgsl"),
+                text: concat!(include_str!("assets/native_operation.wgsl"), include_str!("assets/native.wgsl")),
                 constants: OPERATIONS
                     .map(|(operation, ..)| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()))
                     .concat(),

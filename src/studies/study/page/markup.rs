@@ -8,18 +8,22 @@ use crate::report::page_style;
 use crate::report::words::counted;
 
 /// Script of the page, in the order in which its parts need each other.
-const SCRIPT: [&str; 7] = [
+const SCRIPT: [&str; 11] = [
     include_str!("assets/helpers.js"),
     include_str!("assets/arithmetic.js"),
     include_str!("assets/native.js"),
     include_str!("assets/scene.js"),
     include_str!("assets/setup.js"),
     include_str!("assets/teapot.js"),
+    include_str!("assets/numbers.js"),
+    include_str!("assets/programs.js"),
+    include_str!("assets/stepper.js"),
+    include_str!("assets/playground.js"),
     include_str!("assets/main.js"),
 ];
 
-/// Renders the page around its data as JSON.
-pub(super) fn html(data: &PageData, json: &str) -> String {
+/// Renders the page around its data as JSON, and the emulator as base64.
+pub(super) fn html(data: &PageData, json: &str, emulator: Option<&str>) -> String {
     // A less-than sign could end the element.
     let json = json.replace('<', "\\u003c");
     let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPT.concat());
@@ -45,11 +49,16 @@ pub(super) fn html(data: &PageData, json: &str) -> String {
                     dl #adapter {}
                     (arithmetic())
                     (live(&data.teapot.verdicts))
+                    (programs())
                     (fixed_views(&data.teapot.views))
+                    (playground(emulator.is_some()))
                     (results())
                     p.provenance { "Crossbar " (data.version) ". The page loads nothing and sends nothing." }
                 }
                 script #data type="application/json" { (PreEscaped(json)) }
+                @if let Some(emulator) = emulator {
+                    script #emulator type="application/octet-stream" { (emulator) }
+                }
                 script { (PreEscaped(script)) }
             }
         }
@@ -105,6 +114,72 @@ fn live(verdicts: &[VerdictColor]) -> Markup {
     }
 }
 
+fn programs() -> Markup {
+    html! {
+        section aria-labelledby="programs" {
+            h2 #programs { "Programs, instruction by instruction" }
+            p {
+                "Pixel programs of the published systems at one pixel. Every step that the emulator made is stored in the page; \
+                 your GPU makes it again in whole numbers, and each bit is compared. Beside it runs the same program, from the \
+                 same inputs, in your GPU's own floats. Choose a pixel by mouse or arrow keys; arrow keys on the listing step."
+            }
+            div.stand {
+                div.chooser {
+                    canvas #pixels tabindex="0" role="application" aria-label="Pixels: arrow keys choose one" aria-describedby="pixel-said" {}
+                    p #pixel-said role="status" {}
+                    form #program-controls aria-label="Program and registers" {}
+                    p #about {}
+                    p #program-verdict role="status" {}
+                    p { button #save-case type="button" disabled { "Save as a case" } " for " code { "crossbar run --trace" } }
+                }
+                div #stepper tabindex="0" role="group" aria-label="Steps: arrow keys go back and forward" {
+                    div.steps {
+                        button #first type="button" disabled { "First" }
+                        button #back type="button" disabled { "Back" }
+                        button #forward type="button" disabled { "Forward" }
+                        button #last type="button" disabled { "Last" }
+                        button #parting type="button" disabled { "Where floats part" }
+                        output #step-of {}
+                    }
+                    ol #source aria-label="Source" {}
+                    p #parting-said role="status" {}
+                    (written())
+                    div.scroll {
+                        table {
+                            caption { "Registers after the step" }
+                            thead { tr { th scope="col" { "register" } @for c in ["x", "y", "z", "w"] { th scope="col" { (c) } } } }
+                            tbody #registers {}
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Table of the components that a step writes.
+fn written() -> Markup {
+    html! {
+        div.scroll {
+            table {
+                caption #written-caption {}
+                thead {
+                    tr {
+                        th rowspan="2" scope="col" { "register" }
+                        th colspan="2" scope="colgroup" { "emulator" }
+                        th scope="colgroup" { "your GPU" }
+                        th colspan="3" scope="colgroup" { "your GPU's own floats" }
+                    }
+                    tr {
+                        @for name in ["number", "bits", "bits", "number", "bits", "ULP apart"] { th scope="col" { (name) } }
+                    }
+                }
+                tbody #written {}
+            }
+        }
+    }
+}
+
 fn fixed_views(views: &[FixedView]) -> Markup {
     html! {
         section aria-labelledby="fixed" {
@@ -127,6 +202,53 @@ fn fixed_views(views: &[FixedView]) -> Markup {
                             }
                         }
                     }
+                }
+            }
+        }
+    }
+}
+
+/// A program of the visitor's own; without the emulator a paragraph that says how to get it.
+fn playground(has_emulator: bool) -> Markup {
+    html! {
+        section aria-labelledby="playground" {
+            h2 #playground { "Your own program" }
+            @if has_emulator {
+                p {
+                    "The emulator itself runs in this page: write a program in a language of Direct3D or OpenGL, choose a device \
+                     and a pixel. Texture coordinates 0 go from (0, 0) to (1, 1), 1 from -1 to 1; samplers 0 to 3 hold a \
+                     checkerboard, a gradient, normals and a ramp."
+                }
+                div.stand {
+                    div.chooser {
+                        canvas #play-picture tabindex="0" role="application" aria-label="Picture: arrow keys choose a pixel"
+                            aria-describedby="play-said" {}
+                        form #play-controls aria-label="Device and program" {}
+                        p { a #play-link href="#playground" { "Link to this program" } }
+                    }
+                    div.player {
+                        textarea #program-text rows="14" spellcheck="false" aria-label="Program" aria-describedby="remarks" {}
+                        ul #remarks role="status" {}
+                        p #play-said role="status" {}
+                        div.scroll {
+                            table {
+                                caption { "What each instruction writes" }
+                                thead {
+                                    tr {
+                                        @for name in ["line", "instruction", "register", "number", "bits", "exceptions"] {
+                                            th scope="col" { (name) }
+                                        }
+                                    }
+                                }
+                                tbody #play-trace {}
+                            }
+                        }
+                    }
+                }
+            } @else {
+                p {
+                    "This page was written without the emulator, which runs programs of your own. " code { "refsim/web/build" }
+                    " compiles it, and " code { "crossbar page --emulator target/web/refsim_web.wasm" } " writes it into the page."
                 }
             }
         }

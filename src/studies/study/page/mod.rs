@@ -8,19 +8,31 @@ mod encode;
 mod markup;
 mod operands;
 mod page_data;
+mod program_cases;
+mod programs;
 mod teapot;
 
 use self::page_data::PageData;
 use crate::report::ReportError;
 use crate::study::{ProgressFn, StudyError};
 
-/// Renders the page as one self-contained HTML file. `progress` is called with the name of each part before it starts.
+/// The first bytes of a WebAssembly module.
+const WASM: &[u8] = b"\0asm";
+
+/// Renders the page as one self-contained HTML file, with the emulator (`refsim/web`, compiled to WebAssembly) in it if
+/// given. `progress` is called with the name of each part before it starts.
 ///
 /// # Errors
-/// If the card refuses the pictures, or a picture cannot be encoded.
-pub fn page(progress: &mut ProgressFn<'_>) -> Result<String, StudyError> {
+/// If the card refuses the pictures, a picture cannot be encoded, or the emulator is no WebAssembly module.
+pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<String, StudyError> {
+    if emulator.is_some_and(|bytes| !bytes.starts_with(WASM)) {
+        let error = StudyError::new("page::emulator", "expected a WebAssembly module as the emulator");
+        return Err(error.with_help("name the file that `refsim/web/build` writes"));
+    }
+    let emulator = emulator.map(encode::packed).transpose();
+    let emulator = emulator.map_err(|error| ReportError::Encode { format: "gzip", reason: error.to_string() })?;
     let data = PageData::compute(progress)?;
     let json = serde_json::to_string(&data)
         .map_err(|error| ReportError::Encode { format: "JSON", reason: error.to_string() })?;
-    Ok(markup::html(&data, &json))
+    Ok(markup::html(&data, &json, emulator.as_deref()))
 }

@@ -287,7 +287,7 @@ fn texture_result(component: u32, lane: u32, value: u32) {
 
 // What an instruction wrote in the followed lane: its number, the components written, their values.
 fn vm_trace(at: u32) {
-    if (q_trace == 0u || (vm_active >> (q_trace - 1u) & 1u) == 0u) {
+    if (q_trace == 0u || ((vm_active >> (q_trace - 1u)) & 1u) == 0u) {
         return;
     }
     var mask = 0u;

@@ -22,7 +22,7 @@ const counted = (n, noun) => `${count(n)} ${noun}${n === 1 ? "" : "s"}`;
 const said = (text) => { at("status").textContent = text; };
 
 // What was found; shown as JSON.
-const FOUND = { page: `crossbar ${DATA.version}`, adapter: null, operations: [], native: [], teapot: [] };
+const FOUND = { page: `crossbar ${DATA.version}`, adapter: null, operations: [], native: [], programs: [], teapot: [] };
 const show = () => { at("json").value = JSON.stringify(FOUND, null, 1); };
 
 // Buffers of words on a device.
@@ -63,6 +63,16 @@ const run = (device, pipeline, buffers, x, y = 1) => {
   pass.dispatchWorkgroups(x, y);
   pass.end();
   device.queue.submit([encoder.finish()]);
+};
+
+// Obeys keys on an element, unless a modifier says that the browser is meant.
+const onKeys = (element, keys) => {
+  element.addEventListener("keydown", (event) => {
+    if (keys[event.key] && !event.ctrlKey && !event.metaKey && !event.altKey) {
+      event.preventDefault();
+      keys[event.key]();
+    }
+  });
 };
 
 // Lets the page show what it has.

@@ -106,17 +106,12 @@ const liveView = (gpu) => {
       redraw();
     };
   });
-  const keys = {
-    ArrowLeft: (c) => { c.turn -= TURN; }, ArrowRight: (c) => { c.turn += TURN; },
-    ArrowUp: (c) => { c.height += TURN; }, ArrowDown: (c) => { c.height -= TURN; },
-    "+": (c) => { c.distance /= 1.1; }, "-": (c) => { c.distance *= 1.1; },
-  };
-  canvas.onkeydown = (event) => {
-    if (keys[event.key] && !event.ctrlKey && !event.metaKey && !event.altKey) {
-      event.preventDefault();
-      look(keys[event.key]);
-    }
-  };
+  const looking = (change) => () => look(change);
+  onKeys(canvas, {
+    ArrowLeft: looking((c) => { c.turn -= TURN; }), ArrowRight: looking((c) => { c.turn += TURN; }),
+    ArrowUp: looking((c) => { c.height += TURN; }), ArrowDown: looking((c) => { c.height -= TURN; }),
+    "+": looking((c) => { c.distance /= 1.1; }), "-": looking((c) => { c.distance *= 1.1; }),
+  });
   canvas.onpointerdown = (event) => { canvas.setPointerCapture(event.pointerId); };
   canvas.onpointermove = (event) => {
     if (event.buttons === 1) { look((c) => { c.turn -= event.movementX / 150; c.height += event.movementY / 150; }); }
@@ -152,6 +147,8 @@ const openDevice = async () => {
 
 const begin = async () => {
   cellTable();
+  stepperControls();
+  await beginPlayground();
   at("vectors").disabled = false;
   at("vectors").onclick = () => save(`crossbar-${DATA.version}-vectors.txt`, vectorText());
   at("copy").disabled = false;
@@ -173,7 +170,7 @@ const begin = async () => {
   }
   if (!device) {
     at("live").parentElement.hidden = true;
-    end("without", "This browser has no WebGPU here, so nothing runs: the pictures below are the emulator's, stored in the page.");
+    end("without", "This browser has no WebGPU here, so nothing runs: the traces and pictures below are the emulator's, stored in the page.");
     return;
   }
   device.lost.then(({ message }) => end("lost", `The GPU is lost: ${message}. Load the page again.`));
@@ -183,9 +180,11 @@ const begin = async () => {
     await liveView(gpu);
     const wrong = await runArithmetic(device);
     await runNative(device);
+    const untrue = await runPrograms(device, showVariant);
     const different = await runFixedViews(gpu);
-    const pictures = different === 0 ? "every pixel of the fixed views has the emulator's bits" : `${different} fixed views differ`;
-    end(wrong + different === 0 ? "equal" : "different", `${count(wrong)} wrong results in whole numbers; ${pictures}.`);
+    const traces = untrue === 0 ? "every step of the programs has the emulator's bits" : `programs differ at ${counted(untrue, "pixel")}`;
+    const pictures = different === 0 ? "so has every pixel of the fixed views" : `${counted(different, "fixed view")} differ`;
+    end(wrong + untrue + different === 0 ? "equal" : "different", `${count(wrong)} wrong results in whole numbers; ${traces}; ${pictures}.`);
   } catch (error) {
     FOUND.error = String(error);
     end("failed", `The GPU or its driver refuses: ${error}`);

@@ -1,0 +1,32 @@
+//! Relation of a call's pixel program to the step budget of the device.
+
+use super::{DrawCall, Machine};
+use crate::exec::budget::enforced;
+use crate::exec::{FlowMap, ResolvedConstants, program};
+use crate::isa::Stage;
+
+/// Relation of a pixel program to its step budget.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StepBudget {
+    /// Every fragment exceeds it: the program has no flow control and is too long. The scalar executor counts its
+    /// steps.
+    Exceeded,
+    /// A fragment may exceed it; the value is the budget.
+    Enforced(u32),
+    /// No fragment can exceed it.
+    NeverExceeded,
+}
+
+impl Machine {
+    /// Classifies the pixel program of a call by its step budget.
+    pub(super) fn step_budget(&self, call: &DrawCall<'_>) -> StepBudget {
+        let (checked, source) = (call.pixel_program, program(call.pixel_program));
+        let constants = ResolvedConstants::pixel(source, &self.profile.rules, call.pixel_constants);
+        let budget = self.profile.limits.step_budget(Stage::Pixel);
+        match enforced(source, &FlowMap::new(source), &constants, budget) {
+            Some(budget) if checked.facts().has_flow => StepBudget::Enforced(budget),
+            Some(_) => StepBudget::Exceeded,
+            None => StepBudget::NeverExceeded,
+        }
+    }
+}

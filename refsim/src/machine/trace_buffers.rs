@@ -1,0 +1,128 @@
+//! Traces as the contents of buffers, for hosts of WebGPU that run the trace kernel themselves, such as a browser.
+
+use std::collections::BTreeMap;
+
+use super::step_budget::StepBudget;
+use super::trace_layout::{PixelJob, TraceLayout, VideoMemory, job_words, near};
+use super::{DrawCall, Machine, MachineError, PixelState, validate};
+use crate::exec::wgsl::follow::FollowDispatch;
+use crate::exec::wgsl::kernel::{COUNT_WORDS, EXTRA_ROWS};
+use crate::exec::wgsl::parts::Parts;
+use crate::exec::wgsl::texture;
+use crate::raster::TriangleSetup;
+use crate::texture::Image;
+
+/// Approximate limit of loop iterations per invocation, which some software adapters need.
+const PASSES: u32 = 16_000;
+
+/// A trace of pixels as the contents of the trace kernel's buffers, by binding. A dispatch of as many workgroups as
+/// there are pixels runs [`crate::exec::wgsl::follow::ENTRY`] of [`crate::exec::wgsl::follow::module`], reduced to
+/// [`TraceBuffers::parts`]. Then `video` holds a record per pixel ([`crate::exec::wgsl::follow::Record`]). While one is
+/// unfinished, the dispatch is repeated on the same buffers with 1 in word [`crate::exec::wgsl::kernel::RESUMES`] of
+/// `draw`.
+#[derive(Clone, Debug)]
+pub struct TraceBuffers {
+    /// Binding 0, parameters. The first eight words are the format of the registers.
+    pub draw: Vec<u32>,
+    /// Binding 1, set-ups of triangles.
+    pub setups: Vec<u32>,
+    /// Binding 2, pixels and their triangles.
+    pub tiles: Vec<u32>,
+    /// Binding 3, samplers.
+    pub samplers: Vec<u32>,
+    /// Binding 4, up to the records.
+    pub video: Vec<u32>,
+    /// Words per record, which follow in binding 4.
+    pub record_words: usize,
+    /// Binding 5, the program.
+    pub code: Vec<u32>,
+    /// Number of words of binding 6.
+    pub scratch_words: usize,
+    /// Number of words of binding 7, which are zero at first.
+    pub count_words: usize,
+    /// Parts of the module that the trace uses.
+    pub parts: Parts,
+}
+
+/// Video memory as words.
+#[derive(Default)]
+struct WordMemory {
+    words: Vec<u32>,
+    /// First words of the textures.
+    textures: BTreeMap<usize, usize>,
+}
+
+impl VideoMemory for WordMemory {
+    fn allocate(&mut self, words: usize) -> Result<usize, MachineError> {
+        let base = self.words.len();
+        self.words.resize(base + words, 0);
+        Ok(base)
+    }
+
+    fn place_texture(&mut self, number: usize, image: &Image) -> Result<usize, MachineError> {
+        if let Some(&base) = self.textures.get(&number) {
+            return Ok(base);
+        }
+        let base = self.allocate(0)?;
+        self.words.extend(texture::image_words(image));
+        self.textures.insert(number, base);
+        Ok(base)
+    }
+}
+
+impl Machine {
+    /// Encodes a trace of pixels, each up to the first triangle that covers it ([`Machine::trace_pixels`] follows all).
+    /// Records of programs with flow control have at most 256 steps.
+    ///
+    /// # Errors
+    /// As [`Machine::trace`], and [`MachineError::GpuProgram`].
+    pub fn trace_buffers(&self, call: &DrawCall<'_>, pixels: &[(u32, u32)]) -> Result<TraceBuffers, MachineError> {
+        let plan = validate::plan(&self.profile, &self.memory, call)?;
+        let states = pixels.iter().map(|&pixel| Ok(PixelState::of(&self.start(call, pixel)?.tile)));
+        let states = states.collect::<Result<Vec<_>, MachineError>>()?;
+        let budget = match self.step_budget(call) {
+            StepBudget::Enforced(budget) => Some(budget),
+            StepBudget::Exceeded | StepBudget::NeverExceeded => None,
+        };
+        let mut video = WordMemory::default();
+        let (mut layout, encoded) = TraceLayout::new(&mut video, self, call, pixels.len(), budget)?;
+        for (base, words) in layout.contents(&states) {
+            video.words[base..base + words.len()].copy_from_slice(&words);
+        }
+        video.words.truncate(layout.records);
+
+        let mut setups: Vec<TriangleSetup> = Vec::new();
+        self.rounds(call, &plan, |placed| {
+            setups.extend(placed.iter().map(|(.., setup)| setup.clone()));
+            Ok(())
+        })?;
+        let mut packed = Vec::with_capacity(setups.len() * layout.words.setup_words());
+        setups.iter().for_each(|setup| layout.words.setup(setup, &mut packed));
+        let lists: Vec<Vec<u32>> = pixels.iter().map(|&pixel| near(&setups, pixel)).collect();
+        let jobs: Vec<PixelJob<'_>> = (0..)
+            .zip(pixels.iter().zip(&lists))
+            .map(|(column, (&pixel, triangles))| PixelJob { pixel, column, triangles })
+            .collect();
+        let dispatch = FollowDispatch {
+            jobs: pixels.len(),
+            registers: encoded.code.slots,
+            resumes: false,
+            passes: PASSES,
+            records: layout.records,
+            room: layout.room,
+            skipped: 0,
+        };
+        Ok(TraceBuffers {
+            draw: layout.words.follow(&dispatch).to_vec(),
+            setups: packed,
+            tiles: job_words(&jobs),
+            samplers: encoded.samplers,
+            video: video.words,
+            record_words: dispatch.record_words(),
+            scratch_words: 4 * (encoded.code.slots + EXTRA_ROWS) * pixels.len(),
+            code: encoded.code.words,
+            count_words: COUNT_WORDS,
+            parts: encoded.parts,
+        })
+    }
+}

@@ -1,0 +1,179 @@
+//! Placement of what the trace kernel works on: textures, copies of the pixels' targets, and records.
+
+use std::ops::Range;
+
+use super::memory::Memory;
+use super::{DrawCall, Machine, MachineError, PixelState};
+use crate::device::Profile;
+use crate::event::SAMPLERS;
+use crate::exec::wgsl::follow::{HEAD, JOB_WORDS};
+use crate::exec::wgsl::kernel::{DepthPlace, DrawState, DrawWords};
+use crate::exec::wgsl::parts::Parts;
+use crate::exec::wgsl::program::{Microcode, PixelShader, TRACE_WORDS};
+use crate::exec::wgsl::target::TargetPlace;
+use crate::exec::wgsl::texture;
+use crate::exec::{PixelBindings, SamplerBinding, colors_written, inputs_read, output_rules, program, sample_rules};
+use crate::isa::OpcodeClass;
+use crate::output::MAX_TARGETS;
+use crate::raster::TriangleSetup;
+use crate::texture::{Image, TextureKind};
+
+/// Capacity of a record, in steps, for programs with flow control, whose number of steps is unbounded.
+const FLOW_STEPS: usize = 256;
+/// Maximum number of input registers recorded before the steps.
+const INPUTS: usize = 12;
+
+/// The kernels' buffer of textures, targets and records.
+pub(super) trait VideoMemory {
+    /// Allocates words; returns the first one.
+    fn allocate(&mut self, words: usize) -> Result<usize, MachineError>;
+
+    /// Ensures that texture `number` is there; returns its first word.
+    fn place_texture(&mut self, number: usize, image: &Image) -> Result<usize, MachineError>;
+}
+
+/// The pixel program of a draw, encoded for the kernels.
+pub(super) struct EncodedProgram {
+    pub(super) code: Microcode,
+    pub(super) samplers: Vec<u32>,
+    /// Parts of the kernel that the draw uses.
+    pub(super) parts: Parts,
+}
+
+impl EncodedProgram {
+    /// Encodes program and samplers, and places the textures that they read.
+    pub(super) fn new(
+        video: &mut impl VideoMemory,
+        memory: &Memory,
+        profile: &Profile,
+        call: &DrawCall<'_>,
+        words: &mut DrawWords,
+        traced: bool,
+    ) -> Result<Self, MachineError> {
+        let rules = sample_rules(&profile.rules);
+        let (bump, projections) = (call.bump, call.projections);
+        let mut bindings = PixelBindings { bump, projections, ..PixelBindings::new(call.pixel_constants) };
+        let mut samplers = Vec::with_capacity(SAMPLERS * texture::SAMPLER_WORDS);
+        for (slot, bound) in bindings.samplers.iter_mut().zip(&call.samplers) {
+            let mut first = 0;
+            if let Some(bound) = bound {
+                let image = memory.current(bound.texture)?;
+                first = video.place_texture(bound.texture.0, image)?;
+                *slot = Some(SamplerBinding { image, state: bound.state });
+            }
+            samplers.extend(texture::sampler_words(slot.as_ref(), &rules, first as u32));
+        }
+        let shader = PixelShader::new(call.pixel_program, &profile.rules, &bindings, traced);
+        let code = shader.microcode(Some(words.interpolation()))?;
+        let mut parts = words.parts_with(&code);
+        for &sampler in &code.samplers {
+            texture::parts(&samplers[sampler * texture::SAMPLER_WORDS..], &mut parts);
+        }
+        Ok(Self { code, samplers, parts })
+    }
+}
+
+/// Where a trace puts its data.
+pub(super) struct TraceLayout {
+    pub(super) words: DrawWords,
+    /// Copies of the targets with one row: a column per traced pixel, plus one for re-execution.
+    pub(super) colors: Vec<(usize, Image)>,
+    /// First word of the copy of the depth buffer.
+    pub(super) depth: Option<usize>,
+    /// First word of the records.
+    pub(super) records: usize,
+    /// Capacity of a record, in steps.
+    pub(super) room: usize,
+}
+
+impl TraceLayout {
+    /// Places all that a trace of so many pixels needs.
+    pub(super) fn new(
+        video: &mut impl VideoMemory,
+        machine: &Machine,
+        call: &DrawCall<'_>,
+        pixels: usize,
+        step_budget: Option<u32>,
+    ) -> Result<(Self, EncodedProgram), MachineError> {
+        let (memory, profile) = (&machine.memory, &machine.profile);
+        let width = pixels as u32 + 1;
+        let (mut targets, mut colors) = ([None; MAX_TARGETS], Vec::new());
+        for (slot, &id) in targets.iter_mut().zip(&call.targets) {
+            let format = memory.texture(id)?.format();
+            let image = Image::new(format, TextureKind::Rectangle, [width, 1, 1], 1)?;
+            let base = video.allocate(texture::image_size(&image))?;
+            *slot = Some(TargetPlace { format, base: base as u32, width });
+            colors.push((base, image));
+        }
+        let mut depth = None;
+        if let Some(id) = call.depth_buffer {
+            let base = video.allocate(width as usize)?;
+            depth = Some(DepthPlace { format: memory.depth(id)?.format(), base: base as u32, width });
+        }
+        let source = program(call.pixel_program);
+        let room = match source.instructions.iter().any(|i| i.opcode.info().class == OpcodeClass::Flow) {
+            true => FLOW_STEPS,
+            false => source.instructions.len() + INPUTS,
+        };
+        let mut words = DrawWords::new(&DrawState {
+            program: source,
+            rules: &profile.rules,
+            output: &call.output_state(),
+            output_rules: &output_rules(&profile.rules),
+            components: inputs_read(source),
+            written: colors_written(source),
+            targets,
+            depth,
+            step_budget,
+        });
+        let encoded = EncodedProgram::new(video, memory, profile, call, &mut words, true)?;
+        let records = video.allocate(pixels * (HEAD + TRACE_WORDS * room))?;
+        let depth = depth.map(|place| place.base as usize);
+        Ok((Self { words, colors, depth, records, room }, encoded))
+    }
+
+    /// Words of the pixels' targets, each with its first word in video memory.
+    pub(super) fn contents(&self, states: &[PixelState]) -> Vec<(usize, Vec<u32>)> {
+        let mut all = Vec::new();
+        for (i, (base, image)) in self.colors.iter().enumerate() {
+            let mut image = image.clone();
+            for (x, state) in (0u32..).zip(states) {
+                image.set_raw(0, 0, 0, x, state.colors[i].unwrap_or_default());
+            }
+            all.push((*base, texture::image_words(&image)));
+        }
+        if let Some(base) = self.depth {
+            all.push((base, states.iter().map(|state| state.depth.unwrap_or_default()).collect()));
+        }
+        all
+    }
+}
+
+/// A pixel to be followed: its place, its column in the copies of the targets, and its triangles.
+pub(super) struct PixelJob<'t> {
+    pub(super) pixel: (u32, u32),
+    pub(super) column: usize,
+    pub(super) triangles: &'t [u32],
+}
+
+/// The words of `tiles` for pixels.
+pub(super) fn job_words(jobs: &[PixelJob<'_>]) -> Vec<u32> {
+    let (mut told, mut lists) = (Vec::new(), Vec::new());
+    for PixelJob { pixel: (x, y), column, triangles } in jobs {
+        let first = JOB_WORDS * jobs.len() + lists.len();
+        told.extend([*x, *y, first as u32, triangles.len() as u32, *column as u32]);
+        lists.extend_from_slice(triangles);
+    }
+    told.append(&mut lists);
+    told
+}
+
+/// Triangles whose bounds contain a pixel.
+pub(super) fn near<'s>(setups: impl IntoIterator<Item = &'s TriangleSetup>, (x, y): (u32, u32)) -> Vec<u32> {
+    let range = |first: u32, count: u32| -> Range<u32> { first..first + count };
+    let holds = |setup: &TriangleSetup| {
+        let b = &setup.bounds;
+        range(b.x, b.width).contains(&x) && range(b.y, b.height).contains(&y)
+    };
+    (0u32..).zip(setups).filter(|(_, setup)| holds(setup)).map(|(i, _)| i).collect()
+}

@@ -1,0 +1,304 @@
+//! Programs instruction by instruction: what the scalar executor wrote at every pixel, and the buffers of the same
+//! trace for the visitor's GPU, by the number library and in the adapter's own floats.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use refsim::exec::FragmentFormats;
+use refsim::exec::wgsl::number::format_words;
+use refsim::exec::wgsl::parts::Parts;
+use refsim::exec::wgsl::{follow, kernel, program, texture};
+use refsim::machine::{ExecutorKind, FragmentTrace, TraceBuffers};
+use refsim::num::Format;
+use refsim::output::FragmentFate;
+use serde::Serialize;
+
+use super::encode::{base64, base64_words};
+use super::program_cases::{self, ProgramCase, SIDE};
+use crate::case::{Loaded, Setup};
+use crate::study::StudyError;
+
+/// Added to the word `special` of a format whose operations run in the adapter's own floats.
+const NATIVE: u32 = 2;
+/// Index of that word in the parameters of a draw, which begin with the register format.
+const SPECIAL_WORD: usize = 6;
+/// Format of the adapter's own floats.
+const SINGLE: &str = "e8m23";
+
+/// All that the page needs to step programs.
+#[derive(Debug, Serialize)]
+pub(super) struct PagePrograms {
+    side: u32,
+    /// Text that runs programs by the number library, and in the adapter's own floats.
+    shaders: [String; 2],
+    entry: &'static str,
+    /// Words of a record before its steps, words of a step, first word of a record with a fragment, and of one to be
+    /// continued.
+    record: [u32; 4],
+    /// Word of a draw that says that it continues.
+    resumes: usize,
+    /// Contents of buffers; each once.
+    buffers: Vec<String>,
+    programs: Vec<PageProgram>,
+}
+
+/// A program with its traces.
+#[derive(Debug, Serialize)]
+struct PageProgram {
+    name: &'static str,
+    title: &'static str,
+    about: &'static str,
+    source: Vec<String>,
+    /// The case file, before and after the line of its format.
+    case: [String; 2],
+    variants: Vec<Variant>,
+    /// The program in single precision, to be run in the adapter's own floats.
+    native: TraceJob,
+}
+
+/// A program in a register format.
+#[derive(Debug, Serialize)]
+struct Variant {
+    device: &'static str,
+    format: String,
+    /// The format that the case names; `None` for the device's own.
+    named: Option<&'static str>,
+    job: TraceJob,
+    /// Formats of values, by [`Entry::format`].
+    formats: Vec<ValueFormat>,
+    /// Entries of a pixel's trace: input registers, then instructions.
+    entries: Vec<Entry>,
+    /// Written values, by pixel, entry and component: little-endian patterns of the fewest bytes that hold the format.
+    values: String,
+    /// Outcome of each pixel's fragment, as in records.
+    fates: String,
+    /// The picture, red, green and blue per pixel.
+    picture: String,
+}
+
+#[derive(Debug, PartialEq, Serialize)]
+struct ValueFormat {
+    name: String,
+    words: [u32; 8],
+    width: u32,
+}
+
+/// An input register or an instruction that writes.
+#[derive(Debug, PartialEq, Eq, Serialize)]
+struct Entry {
+    /// Number in records: instructions, then input registers.
+    instruction: usize,
+    /// Line of the source, from 0; `None` for input registers.
+    line: Option<usize>,
+    mask: u8,
+    /// The components written, as the language names them.
+    names: Vec<String>,
+    format: usize,
+}
+
+/// Indices of a trace's buffers in [`PagePrograms::buffers`], and their sizes in words where they are longer.
+#[derive(Debug, Serialize)]
+struct TraceJob {
+    draw: usize,
+    setups: usize,
+    tiles: usize,
+    samplers: usize,
+    video: usize,
+    code: usize,
+    record_words: usize,
+    scratch_words: usize,
+    count_words: usize,
+}
+
+/// Buffers by contents.
+#[derive(Default)]
+struct Buffers {
+    all: Vec<String>,
+    known: BTreeMap<Vec<u32>, usize>,
+}
+
+impl PagePrograms {
+    /// Traces all programs by the scalar executor.
+    pub(super) fn compute() -> Result<Self, StudyError> {
+        let mut buffers = Buffers::default();
+        let mut parts = [Parts::default(), Parts::default()];
+        // The mark of the adapter's own format is a word of a format.
+        parts[1].add("HAS_FORMATS");
+        let mut programs = Vec::new();
+        for case in program_cases::all() {
+            let formats = [None].into_iter().chain(case.formats.map(Some));
+            let variants = formats
+                .map(|format| Variant::trace(&case, format, &mut buffers, &mut parts[0]))
+                .collect::<Result<Vec<_>, _>>()?;
+            let setup = setup(&case, Some(SINGLE))?;
+            let mut native = loaded(&setup)?.trace_buffers(&pixels())?;
+            native.draw[SPECIAL_WORD] += NATIVE;
+            parts[1].extend(&native.parts);
+            let native = buffers.job(native);
+            let source = setup.pixel_text.named_source().text().lines().map(str::to_owned).collect();
+            let (ProgramCase { name, title, about, .. }, texts) = (&case, case.parts());
+            programs.push(PageProgram { name, title, about, source, case: texts, variants, native });
+        }
+        let [exact, native] = parts;
+        Ok(Self {
+            side: SIDE,
+            shaders: [exact.of(&follow::module(), follow::ENTRY), native.of(&native_module(), follow::ENTRY)],
+            entry: follow::ENTRY,
+            record: [follow::HEAD as u32, program::TRACE_WORDS as u32, follow::FRAGMENT, follow::UNFINISHED],
+            resumes: kernel::RESUMES,
+            buffers: buffers.all,
+            programs,
+        })
+    }
+}
+
+/// The module of traces with the machine's arithmetic in the adapter's own floats.
+fn native_module() -> String {
+    let machine = ["short", "long", "dot"]
+        .into_iter()
+        .fold(program::machine(), |text, name| text.replace(&format!("n_{name}("), &format!("native_{name}(")));
+    let own = concat!(include_str!("assets/native_operation.wgsl"), include_str!("assets/native_program.wgsl"));
+    format!("{}{machine}{}const NATIVE: u32 = {NATIVE}u;\n{own}", follow::text(), texture::library())
+}
+
+fn pixels() -> Vec<(u32, u32)> {
+    (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))).collect()
+}
+
+fn setup(case: &ProgramCase, format: Option<&str>) -> Result<Setup, StudyError> {
+    let text = case.text(format);
+    Ok(Setup::from_bytes(&format!("{}.toml", case.name), text.as_bytes(), Path::new(""))?)
+}
+
+fn loaded(setup: &Setup) -> Result<Loaded<'_>, StudyError> {
+    Ok(Loaded::new(setup, ExecutorKind::Scalar)?)
+}
+
+impl Variant {
+    fn trace(
+        case: &ProgramCase,
+        format: Option<&'static str>,
+        buffers: &mut Buffers,
+        parts: &mut Parts,
+    ) -> Result<Self, StudyError> {
+        let setup = setup(case, format)?;
+        let mut loaded = loaded(&setup)?;
+        let pixels = pixels();
+        let traced = loaded.trace(&pixels)?;
+        let made = loaded.trace_buffers(&pixels)?;
+        loaded.draw()?;
+        let mut reader = TraceReader { setup: &setup, formats: Vec::new() };
+        let (mut entries, mut values, mut fates) = (Vec::new(), Vec::new(), Vec::new());
+        for (&(x, y), fragments) in pixels.iter().zip(&traced) {
+            let other = |what: &str| StudyError::new("page::trace", format!("{} at pixel {x}, {y}: {what}", case.name));
+            let [fragment] = fragments.as_slice() else { return Err(other("expected one fragment")) };
+            let (found, written) = reader.read(fragment);
+            if entries.is_empty() {
+                entries = found;
+            } else if entries != found {
+                return Err(other("expected the same steps at every pixel"));
+            }
+            values.extend(written);
+            fates.push(fate(fragment.shading.fate));
+        }
+        parts.extend(&made.parts);
+        let picture: Vec<u8> = loaded.targets()?.first().map_or_else(Vec::new, |image| {
+            pixels.iter().flat_map(|&(x, y)| [16, 8, 0].map(|shift| (image.raw(0, 0, y, x) >> shift) as u8)).collect()
+        });
+        Ok(Self {
+            device: case.device,
+            format: setup.profile.rules.format.to_string(),
+            named: format,
+            job: buffers.job(made),
+            formats: reader.formats,
+            entries,
+            values: base64(values),
+            fates: base64(fates),
+            picture: base64(picture),
+        })
+    }
+}
+
+/// Reads traces of one case.
+struct TraceReader<'s> {
+    setup: &'s Setup,
+    formats: Vec<ValueFormat>,
+}
+
+impl TraceReader<'_> {
+    /// The entries of a fragment, and the bytes of what they wrote.
+    fn read(&mut self, fragment: &FragmentTrace) -> (Vec<Entry>, Vec<u8>) {
+        let program = &self.setup.pixel;
+        let formats = FragmentFormats::new(&self.setup.profile.rules);
+        let mut bytes = Vec::new();
+        let first = program.instructions.len();
+        let inputs = fragment
+            .shading
+            .delivered
+            .iter()
+            .zip(first..)
+            .map(|((register, value), number)| (number, None, *register, 15, *value, formats.full));
+        let steps = fragment.shading.steps.iter().filter_map(|step| {
+            let instruction = program.instructions.get(step.instruction)?;
+            let register = instruction.destination?.register;
+            let line = self.setup.pixel_text.line(instruction.span).line - 1;
+            Some((step.instruction, Some(line), register, step.mask.0, step.value, formats.of_file(register.file)))
+        });
+        let all: Vec<_> = inputs.chain(steps).collect();
+        let entries = all
+            .into_iter()
+            .map(|(instruction, line, register, mask, value, format)| {
+                let written: Vec<usize> = (0..4).filter(|c| (mask >> c) & 1 == 1).collect();
+                let size = format.width().div_ceil(8) as usize;
+                bytes.extend(written.iter().flat_map(|&c| value[c].to_le_bytes().into_iter().take(size)));
+                let names = written.iter().map(|&c| self.setup.component(&register, c)).collect();
+                Entry { instruction, line, mask, names, format: self.index(&format) }
+            })
+            .collect();
+        (entries, bytes)
+    }
+
+    fn index(&mut self, format: &Format) -> usize {
+        let found = ValueFormat { name: format.to_string(), words: format_words(format), width: format.width() };
+        self.formats.iter().position(|known| *known == found).unwrap_or_else(|| {
+            self.formats.push(found);
+            self.formats.len() - 1
+        })
+    }
+}
+
+/// The word of an outcome in records.
+const fn fate(fate: FragmentFate) -> u8 {
+    match fate {
+        FragmentFate::KilledByShader => 1,
+        FragmentFate::AlphaFailed => 2,
+        FragmentFate::DepthFailed => 3,
+        FragmentFate::Passed => 4,
+        FragmentFate::OutsideTile => 0,
+    }
+}
+
+impl Buffers {
+    fn keep(&mut self, words: Vec<u32>) -> usize {
+        let all = &mut self.all;
+        *self.known.entry(words).or_insert_with_key(|words| {
+            all.push(base64_words(words.iter().copied()));
+            all.len() - 1
+        })
+    }
+
+    fn job(&mut self, made: TraceBuffers) -> TraceJob {
+        let TraceBuffers { record_words, scratch_words, count_words, .. } = made;
+        TraceJob {
+            draw: self.keep(made.draw),
+            setups: self.keep(made.setups),
+            tiles: self.keep(made.tiles),
+            samplers: self.keep(made.samplers),
+            video: self.keep(made.video),
+            code: self.keep(made.code),
+            record_words,
+            scratch_words,
+            count_words,
+        }
+    }
+}
