@@ -215,7 +215,7 @@ mod tests {
         let other = json!({ "device": "r300" });
         let found = asked(&json!({ "text": MODULATE, "device": "r200", "other": other, "pixel": [9, 4] }));
         assert_eq!(found["errors"], json!([]), "{found}");
-        assert_eq!(found["drawn"]["format"], "s3.12");
+        assert_eq!(found["drawn"]["format"], "s3.12:rdn");
         let picture = found["drawn"]["picture"].as_array().expect("a picture");
         assert_eq!(picture.len(), (3 * SIDE * SIDE) as usize);
         // White texels show the color: (s, t, 1 - s) at the center of pixel (9, 1).
