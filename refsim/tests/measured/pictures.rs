@@ -174,6 +174,6 @@ fn shown(hypotheses: &[(String, Values)]) -> Vec<usize> {
 fn bar(value: Value) -> Option<isize> {
     let off = |i: usize| isize::from(value.drawn[i]) - isize::from(value.measured[i]);
     let most = [0, 1, 2].map(off).into_iter().max_by_key(|off| off.unsigned_abs())?;
-    let length = LONGEST.min(PER_CODE * most.unsigned_abs()) as isize;
+    let length = LONGEST.min(PER_CODE * most.unsigned_abs()).cast_signed();
     (!value.right).then_some(most.signum() * length)
 }
