@@ -30,10 +30,10 @@ pub(super) fn per_instruction(
             "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
              Errors are in units in the last place of {minimum}, against the exact results of the same operands. Blame \
              is the share of the loss with all instructions in {} that comes when only this one is; regained is the \
-             share that goes when only this one is exact. The shares of blame sum to {}: errors add up, cancel or hide \
-             each other.",
+             share that goes when only this one is exact. The shares of blame sum to {}: {}.",
             blamed.bits,
             percent(sum),
+            additivity(sum),
             digits = family.curve.family.digits(),
         ));
     }
@@ -68,5 +68,16 @@ pub(super) fn per_instruction(
             FoundTable::from(table).unprinted(),
             "The refutation of the instruction most to blame; the table of all is beside the page.",
         );
+    }
+}
+
+/// Why shares of blame have this sum.
+fn additivity(sum: f64) -> &'static str {
+    match sum {
+        ..0.99 => "errors that are small alone add up, or one opens the way for another",
+        ..=1.01 => "errors add up",
+        _ => {
+            "more than all together, because errors cancel, or one hides another, as a clamp or a code of a target does"
+        }
     }
 }

@@ -73,6 +73,17 @@ fn a_product_of_powers_of_two_needs_no_mantissa() {
     assert_eq!(minima(&case(body, constants)), ["e3m1", "s2.2"]);
 }
 
+/// x^3 - x^2 + x/4 + 1/4 at 3/2 is 7/4. By Horner's rule the results are 1/2, 1 and 7/4; the powers are 9/4 and 27/8,
+/// which has four bits behind the first.
+#[test]
+fn horners_rule_needs_fewer_bits_than_powers() {
+    let constants = "c0 = [1.5, 1.5, 1.5, 1.5]\nc1 = [-1, -1, -1, -1]\nc2 = [0.25, 0.25, 0.25, 0.25]";
+    let horner = "mov r0, c0\nadd r1, r0, c1\nmad r1, r1, r0, c2\nmad r0, r1, r0, c2";
+    assert_eq!(minima(&case(horner, constants)), ["e2m2", "s1.2"]);
+    let powers = "mov r0, c0\nmul r1, r0, r0\nmul r2, r1, r0\nmad r2, r1, c1, r2\nmad r2, r0, c2, r2\nadd r0, r2, c2";
+    assert_eq!(minima(&case(powers, constants)), ["e2m4", "s2.3"]);
+}
+
 #[test]
 fn a_program_that_saturates_needs_its_integer_bits() {
     let body = "mov r0, c0\nadd r0, r0, c1\nsub r0, r0, c1";
