@@ -240,6 +240,7 @@ fn formats_of_a_program_are_replaced_together() {
     for index in [0, 4] {
         assert!(!together.set_instruction_formats(&program, [(1, first), (index, second)].into()));
     }
+    assert!(!together.set_instruction_formats(&program, [(1, "e8m0".parse().unwrap())].into()), "no registers' format");
     assert_eq!(together, before);
     assert!(together.set_instruction_formats(&program, [].into()));
     assert_eq!(together, running::ideal("fp32"));

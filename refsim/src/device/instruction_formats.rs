@@ -50,11 +50,12 @@ impl InstructionFormats {
         self.insert(digest, formats)
     }
 
-    /// Replaces the formats of a program's instructions. `false`, without effect, if one of them is not there or takes
-    /// none ([`takes_format`]), or if there are more than [`MAX_INSTRUCTION_FORMATS`].
+    /// Replaces the formats of a program's instructions. `false`, without effect, where [`Self::set`] would refuse one of
+    /// them.
     pub(super) fn set_all(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
-        formats.keys().all(|&index| program.instructions.get(index).is_some_and(takes_format))
-            && self.insert(program.digest(), formats)
+        formats.iter().all(|(&index, format)| {
+            program.instructions.get(index).is_some_and(takes_format) && format.for_registers().is_ok()
+        }) && self.insert(program.digest(), formats)
     }
 
     /// Replaces the formats of the program with this digest. `false`, without effect, if they are too many.

@@ -7,7 +7,7 @@ use refsim::device::Profile;
 use refsim::exec::{Constants, ResolvedConstants};
 use refsim::isa::{Program, Span};
 use refsim::machine::{ExecutorKind, FragmentTrace, MachineError};
-use refsim::num::FormatError;
+use refsim::num::{Format, FormatError};
 use refsim::texture::TexelFormat;
 use serde::{Deserialize, Serialize};
 
@@ -124,7 +124,8 @@ impl Side {
         let mut profile = Profile::named(&device.device).map_err(|error| refused(&error, "choose another device"))?;
         if let Some(format) = device.format.as_ref().filter(|format| !format.is_empty()) {
             let help = "for example `s3.12`, `fp24` or `e5m10:rtz`";
-            profile.set_format(format.parse().map_err(|error: FormatError| refused(&error, help))?);
+            let format = format.parse().and_then(Format::for_registers);
+            profile.set_format(format.map_err(|error: FormatError| refused(&error, help))?);
         }
         profile.limits.set_step_budget(STEP_BUDGET);
         let program = assemble(text).map_err(|found| {
@@ -240,9 +241,11 @@ mod tests {
         // A rule of the card.
         let found = asked(&json!({ "text": "ps_2_0\nmov oC0, c0\n", "device": "r200" }));
         assert_eq!(found["errors"][0]["line"], 1, "{found}");
-        for request in
-            [json!({ "text": "", "device": "nv99" }), json!({ "text": MODULATE, "device": "r200", "format": "s3" })]
-        {
+        for request in [
+            json!({ "text": "", "device": "nv99" }),
+            json!({ "text": MODULATE, "device": "r200", "format": "s3" }),
+            json!({ "text": MODULATE, "device": "r200", "format": "e8m0" }),
+        ] {
             assert_eq!(asked(&request)["errors"][0]["line"], 0);
         }
         assert!(answer("no JSON").contains("\"errors\":[{"));
