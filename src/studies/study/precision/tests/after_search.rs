@@ -24,7 +24,7 @@ fn holding_back(searched: &str, other: &str) -> Result<Precision, StudyError> {
 /// 1 + 2^-2 needs two mantissa bits, 1 + 2^-4 four.
 #[test]
 fn input_that_was_held_back_needs_so_many_bits_more() {
-    for (other, spare) in [(0.25, Some(0)), (0.125, Some(1)), (0.0625, Some(2)), (0.5f64.powi(9), None)] {
+    for (other, spare) in [(0.25, Some(0)), (0.125, Some(1)), (0.0625, Some(2)), (1.0 / 512.0, None)] {
         let study = holding_back(&sum(0.25), &sum(other)).expect("the same program");
         with_outcome(&study, |outcome, _| {
             let family = &outcome.families[0];
