@@ -50,8 +50,8 @@ impl InstructionFormats {
         self.insert(digest, formats)
     }
 
-    /// Replaces the formats of a program's instructions. `false`, without effect, where [`Self::set`] would refuse one of
-    /// them.
+    /// Replaces the formats of a program's instructions. `false`, without effect, where [`Self::set`] would refuse one
+    /// of them.
     pub(super) fn set_all(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
         formats.iter().all(|(&index, format)| {
             program.instructions.get(index).is_some_and(takes_format) && format.for_registers().is_ok()
@@ -81,8 +81,8 @@ impl InstructionFormats {
         self.0.iter().map(|(digest, formats)| (*digest, formats))
     }
 
-    /// Formats that change nothing in these programs: those of a program that is not among them, by its digest, and those
-    /// of an instruction that one of them does not have or that takes no format, by digest and index.
+    /// Formats that change nothing in these programs: those of a program that is not among them, by its digest, and
+    /// those of an instruction that one of them does not have or that takes no format, by digest and index.
     pub fn unused(&self, programs: &[&Program]) -> Vec<(u64, Option<usize>)> {
         let mut found = Vec::new();
         for (digest, formats) in self.iter() {

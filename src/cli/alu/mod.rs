@@ -13,7 +13,7 @@ use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 use self::operation::{AluOperation, Unit};
 use self::row::{RowOperation, RowUnit};
 use super::one_of::{OneOf, one_of};
-use super::{Out, Problem, Verdict};
+use super::{Out, Problem, Verdict, given};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -93,9 +93,9 @@ pub(super) struct Args {
     #[arg(long, default_value = "after", requires = "flags", value_parser = tininess())]
     tininess: Tininess,
 
-    /// The seed of stochastic rounding, `:rst`
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
+    /// The seed of stochastic rounding, `:rst` [default: 0]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
 
     /// Let roundToInt raise inexact where it changes the value
     #[arg(long, requires = "flags")]
@@ -123,6 +123,7 @@ fn blocks() -> OneOf<BlockFormat> {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    refuse_others(args)?;
     if let Some(unit) = row_unit(args)? {
         row::run(&unit, args.flags, io::stdin().lock(), out)?;
         return Ok(Verdict::Done);
@@ -134,6 +135,17 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
     let input = io::stdin().lock();
     if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
+}
+
+/// Refuses options that do not go with the operation or the formats.
+fn refuse_others(args: &Args) -> Result<(), Problem> {
+    if args.exact && args.op != AluOperation::RoundToInt {
+        return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
+    }
+    let by_chance = |format: &Format| matches!(format.rounding, Rounding::Stochastic(_));
+    let needs_seed = by_chance(&args.format) || args.to.as_ref().is_some_and(by_chance);
+    let seed = [("--seed", args.seed.is_some() && !needs_seed)];
+    given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")
 }
 
 fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
@@ -203,8 +215,6 @@ fn unit(args: &Args) -> Result<Unit, Problem> {
             ));
         }
     };
-    if args.exact && args.op != AluOperation::RoundToInt {
-        return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
-    }
-    Ok(Unit { op: args.op, env: args.format.tininess(args.tininess), to, exact: args.exact, seed: args.seed })
+    let seed = args.seed.unwrap_or_default();
+    Ok(Unit { op: args.op, env: args.format.tininess(args.tininess), to, exact: args.exact, seed })
 }

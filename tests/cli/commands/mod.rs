@@ -51,6 +51,10 @@ const NOT_RUN: &[(&str, &str)] = &[
         "reads a measurement of 35 MB, which is not part of the repository; tests/laws makes one",
     ),
     ("cpca precompute transfer-bird", "takes minutes; the other examples compute the same of a small model"),
+    (
+        "page --emulator",
+        "reads what refsim/web/build compiles, for which not every machine has the library; tests/page opens it where it is",
+    ),
     ("reproduce", "takes minutes; tests/papers runs every entry"),
     ("reproduce cpca-table-1 --full-size", "takes minutes; tests/papers runs the entry on reduced models"),
     ("reproduce --record", "takes an hour or two; tests/cli holds that what is recorded stays"),

@@ -26,8 +26,8 @@ use table::{TABLE, Tried};
 
 /// Options whose value here may be refused everywhere: it names something that this test cannot provide, or another
 /// model than that of the file.
-const NEVER_ACCEPTED: [&str; 8] =
-    ["--adapter", "--probe", "--merl", "--model", "--model-up", "--strict", "--crease", "--switch"];
+const NEVER_ACCEPTED: [&str; 9] =
+    ["--adapter", "--emulator", "--probe", "--merl", "--model", "--model-up", "--strict", "--crease", "--switch"];
 
 /// An option of the table.
 #[derive(Clone, Debug)]

@@ -45,8 +45,12 @@ pub(super) const TABLE: &[Tried] = &[
             "alu roundToInt --format fp16 --flags < 3E00",
             "alu convert --format fp16 --to fp32 < 3E01",
             "alu sqrt --format s1.3 < 18",
+            "alu dot --format fp16 < 6800 3C00 3C00 3C00",
+            "alu quantize --format fp32 --block mxfp4 < 3f9ccccd",
+            "alu mul --format e4m3fn:rst < 3B 3B",
         ],
-        options: "--format=bf16 --to=fp24 --verify --exhaustive@5 --flags --tininess=before@0,1,4,5 --exact",
+        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --exhaustive@5 --flags --tininess=before@0,1,4,5 \
+                  --exact --accumulator=fp32 --order=exact --block=mxfp6-e3m2 --seed=1",
     },
     Tried {
         bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],
@@ -391,5 +395,5 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 \
                   --costs=docs/examples/multiplier_area.csv --out=other",
     },
-    Tried { bases: &["page --out OUT"], options: "--out=other" },
+    Tried { bases: &["page --out OUT"], options: "--out=other --emulator=missing.wasm" },
 ];

@@ -69,6 +69,9 @@ pub(super) struct FormatBits {
     pub(super) digits: u8,
 }
 
+/// Formats of all instructions, in the order of their places; `None` computes in the registers' format.
+pub(super) type Assignment = Vec<Option<FormatBits>>;
+
 impl FormatBits {
     pub(super) const fn float(range: u8, digits: u8) -> Self {
         Self { family: FormatFamily::Float, range, digits }

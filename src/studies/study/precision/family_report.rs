@@ -2,10 +2,9 @@
 
 use super::bits::FormatFamily;
 use super::outcome::{FamilyOutcome, MOST_SPARE, Precision, PrecisionOutcome};
-use super::refutations;
-use super::report::number;
+use super::refutation_tables;
 use super::runs::Runs;
-use super::tables;
+use super::tables::{self, number};
 use crate::report::words::{counted, percent};
 use crate::report::{Findings, FoundTable};
 
@@ -60,10 +59,10 @@ pub(super) fn per_instruction(
         _ => {}
     }
     found.table(FoundTable::from(tables::refuted(mixed, runs)).csv(refuted_csv).field(refuted_csv).unprinted());
-    let traces = refutations::all(&family.refutations, runs);
+    let traces = refutation_tables::all(&family.refutations, runs);
     found.keep_table(FoundTable::from(traces).csv(traces_csv));
-    if let Some(trace) = refutations::most_blamed(&family.refutations, family) {
-        let table = refutations::table(refutations::title(trace, runs), trace, runs);
+    if let Some(trace) = refutation_tables::most_blamed(&family.refutations, family) {
+        let table = refutation_tables::table(refutation_tables::title(trace, runs), trace, runs);
         found.explained_table(
             FoundTable::from(table).unprinted(),
             "The refutation of the instruction most to blame; the table of all is beside the page.",

@@ -1,8 +1,8 @@
 //! Per instruction: the fewest bits, the error of its results, and its share of the loss.
 
-use super::bits::FormatBits;
+use super::bits::{Assignment, FormatBits};
 use super::curve::BitScan;
-use super::runs::{Assignment, RunError, Runs};
+use super::runs::{RunError, Runs};
 use super::subject::{InstructionPlace, InstructionResults};
 use super::ulps::{LocalError, local_error};
 

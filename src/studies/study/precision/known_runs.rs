@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-use super::runs::Assignment;
+use super::bits::Assignment;
 use super::subject::{PrecisionSubject, WorstPlace};
 use crate::io::read_limited;
 use crate::report::sha256;

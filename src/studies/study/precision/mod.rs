@@ -14,6 +14,7 @@ mod instructions;
 mod known_runs;
 mod outcome;
 mod pictures;
+mod refutation_tables;
 mod refutations;
 mod report;
 mod runs;

@@ -3,10 +3,9 @@
 use refsim::machine::ExecutorKind;
 
 use super::outcome::{FamilyOutcome, PrecisionOutcome};
-use super::report::number;
 use super::runs::Runs;
 use super::subject::ErrorMap;
-use super::tables;
+use super::tables::{self, number};
 use crate::report::{Findings, NamedPicture, false_color};
 use crate::study::StudyError;
 

@@ -5,8 +5,8 @@ use serde_json::json;
 use super::bits::FormatBits;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
+use super::tables::number;
 use super::{family_report, known_runs, pictures, tables};
-use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
 use crate::report::{Chart, Findings, FoundTable, NamedChart, Scale, Series, Verdict};
 use crate::shader::SourceLine;
@@ -113,11 +113,6 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
         let made = counted(runs.made, "run", "runs");
         found.conclusion(format!("The budget ended the study after {made}: what is found is the best so far."));
     }
-}
-
-/// Formats a value for sentences.
-pub(super) fn number(value: f64) -> String {
-    shown(value, Quantity::Error)
 }
 
 /// Chart of the curves, if they span an axis.

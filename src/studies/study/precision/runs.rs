@@ -7,16 +7,13 @@ use refsim::isa::Program;
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 
-use super::bits::FormatBits;
+use super::bits::{Assignment, FormatBits};
 use super::goal::Goal;
 use super::known_runs::KnownRuns;
 use super::subject::{
     InstructionPlace, InstructionResults, Measured, PrecisionSubject, StudiedProgram, WorstPlace, places,
 };
 use crate::study::{ProgressFn, StudyError};
-
-/// Formats of all instructions, in the order of [`places`]; `None` computes in the registers' format.
-pub(super) type Assignment = Vec<Option<FormatBits>>;
 
 /// End of a search.
 #[derive(Debug)]

@@ -2,10 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use super::bits::FormatBits;
+use super::bits::{Assignment, FormatBits};
 use super::costs::FormatCosts;
 use super::curve::BitScan;
-use super::runs::{Assignment, RunError, Runs};
+use super::runs::{RunError, Runs};
 use super::subject::WorstPlace;
 
 /// Bits of precision beyond those of the smallest uniform format from which a search starts: what a few instructions

@@ -136,8 +136,8 @@ pub trait PrecisionSubject {
         Ok(None)
     }
 
-    /// Results of all instructions that are executed for a pixel, fragment by fragment in the order of execution; `None`
-    /// if the subject has no traces.
+    /// Results of all instructions that are executed for a pixel, fragment by fragment in the order of execution;
+    /// `None` if the subject has no traces.
     ///
     /// # Errors
     /// If the device cannot run the programs.

@@ -5,8 +5,14 @@ use super::instructions::InstructionNeeds;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
 use super::search::MixedFormats;
+use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
 use crate::shader::SourceLine;
+
+/// Formats a value for sentences.
+pub(super) fn number(value: f64) -> String {
+    shown(value, Quantity::Error)
+}
 
 /// Source line of an instruction.
 pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {

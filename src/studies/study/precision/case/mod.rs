@@ -54,8 +54,8 @@ impl CaseSubject {
         Ok(Self { title, executors, measures, exact, setup, held_back: None })
     }
 
-    /// Holds back a case: the formats that were searched on this case are tried on it, on the device of this one. `name`
-    /// is where it comes from.
+    /// Holds back a case: the formats that were searched on this case are tried on it, on the device of this one.
+    /// `name` is where it comes from.
     ///
     /// # Errors
     /// If it has another pixel program, if this one's device cannot draw it, or if it lacks a measure of this one.

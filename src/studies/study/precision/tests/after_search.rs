@@ -1,4 +1,4 @@
-//! What follows a search: input that was held back, traces of refutations, pictures of errors, runs for the next search.
+//! Tests of the steps after a search: held-back input, traces, pictures of errors, runs for the next one.
 
 use std::cell::Cell;
 use std::fmt::Debug;
@@ -50,9 +50,9 @@ fn a_refutation_has_its_trace() {
         let mixed = family.mixed.as_ref().expect("some");
         let missing = mixed.refuted.iter().filter(|refuted| refuted.worst.is_none()).count();
         assert_eq!((family.refutations.len(), missing), (mixed.refuted.len(), 0));
-        let all = refutations::all(&family.refutations, runs);
-        let trace = refutations::most_blamed(&family.refutations, family).expect("one");
-        let table = refutations::table("one".to_owned(), trace, runs);
+        let all = refutation_tables::all(&family.refutations, runs);
+        let trace = refutation_tables::most_blamed(&family.refutations, family).expect("one");
+        let table = refutation_tables::table("one".to_owned(), trace, runs);
         // Of the sum with one bit of mantissa: 1.25 is halfway between 1 and 1.5.
         let texts: Vec<Vec<String>> =
             table.rows().iter().map(|row| row.iter().map(|cell| cell.text()).collect()).collect();
