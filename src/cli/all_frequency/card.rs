@@ -97,6 +97,8 @@ impl Args {
             given::refuse(of_products, "`--way products` and `sums`, found `--way colors`", "leave it out")?;
             return Ok(ProductPlace::Vertices(VertexColors::Bytes));
         }
+        let without = [("--partial", self.partial && profile.rules.partial.is_none())];
+        given::refuse(without, "cards with a partial precision", "choose one with `--device`, or leave it out")?;
         let has = |format: &TexelFormat| profile.limits.texture_formats.iter().any(|name| name == format.name());
         let fractions = [TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm].into_iter().find(has);
         Ok(ProductPlace::Pixels(ProductOptions {

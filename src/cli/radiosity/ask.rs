@@ -55,6 +55,9 @@ pub(super) fn methods(args: &Args) -> Result<Vec<SolveMethod>, Problem> {
         let help = "add `--solver card`, or leave it out";
         return Err(Problem::usage("`--sweep` turns the switches of the card", help));
     }
+    if !on_card && args.factors != FactorsArg::Hemicube {
+        given::refuse(args.card.given(), "methods on a card", "add `--solver card`, or leave it out")?;
+    }
     let packings = if args.packing.is_empty() { &[Packing::Rgb][..] } else { &args.packing };
     let storages = if args.storage.is_empty() { &[Storage::Fp32][..] } else { &args.storage };
     let mut methods: Vec<SolveMethod> = Vec::new();

@@ -24,10 +24,20 @@ use crate::crossbar_in;
 use crate::tree::{self, command_of};
 use table::{TABLE, Tried};
 
-/// Options whose value here may be refused everywhere: it names something that this test cannot provide, or another
-/// model than that of the file.
-const NEVER_ACCEPTED: [&str; 9] =
-    ["--adapter", "--emulator", "--probe", "--merl", "--model", "--model-up", "--strict", "--crease", "--switch"];
+/// Options whose value here may be refused everywhere: it names something that this test cannot provide, another model
+/// than that of the file, or a precision that the card does not have.
+const NEVER_ACCEPTED: [&str; 10] = [
+    "--adapter",
+    "--emulator",
+    "--partial",
+    "--probe",
+    "--merl",
+    "--model",
+    "--model-up",
+    "--strict",
+    "--crease",
+    "--switch",
+];
 
 /// An option of the table.
 #[derive(Clone, Debug)]

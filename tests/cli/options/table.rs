@@ -134,7 +134,10 @@ pub(super) const TABLE: &[Tried] = &[
             eye!()
         ),
     },
-    Tried { bases: &["reproduce equation-11 --out OUT"], options: "--list --full-size --out=other --record=other" },
+    Tried {
+        bases: &["reproduce equation-11 --out OUT"],
+        options: "--list same:--full-size --out=other --record=other",
+    },
     Tried {
         bases: &["run docs/examples/product.toml --out OUT"],
         options: "--out=other same:--executor=batch --adapter=x --step-budget=1 --trace=0,0",
