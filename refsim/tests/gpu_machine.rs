@@ -376,7 +376,7 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
 /// The buffers of a trace give the first fragment of each pixel, in more than one dispatch if it takes long.
 fn buffers_of_a_trace_run_elsewhere(gpu: &Arc<Gpu>) {
     let profile = Profile::named("r300").unwrap();
-    let reads = "texld r1, r0, s0\nmad r0, r1, c0, r0\n".repeat(4);
+    let reads = "texld r1, r0, s0\nmad r0, r1, c0, r0\n".repeat(3);
     let program = checked(&format!("ps_2_0\ndcl t0\ndcl_2d s0\nmov r0, t0\n{reads}mov oC0, r0"), &profile);
     let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]]);
     let mut machine = Machine::new(profile.clone(), ExecutorKind::Scalar);
