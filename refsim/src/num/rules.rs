@@ -36,7 +36,7 @@ pub enum Rounding {
     /// cut off, as an integer, and this word together are `2^32` or more. Over all words that is as often as the
     /// fraction says. The word belongs to one operation ([`super::random_word`]); operations of several roundings use
     /// it for each.
-    /// Devices refuse it ([`Format::for_registers`]).
+    /// Devices refuse it ([`super::Format::for_registers`]).
     Stochastic(u32),
 }
 
