@@ -31,14 +31,17 @@ pub fn takes_format(instruction: &Instruction) -> bool {
         && destination.register.file != RegisterFile::Address
 }
 
+/// Returns `true` if a program has this instruction and it can have a format of its own.
+fn takes(program: &Program, index: usize) -> bool {
+    program.instructions.get(index).is_some_and(takes_format)
+}
+
 impl InstructionFormats {
     /// Gives an instruction a format, or takes it away. `false`, without effect, if there is no such instruction, if it
     /// takes none ([`takes_format`]) or not this one ([`Format::for_registers`]), or if its program would have more
     /// than [`MAX_INSTRUCTION_FORMATS`].
     pub(super) fn set(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
-        if !program.instructions.get(index).is_some_and(takes_format)
-            || format.is_some_and(|f| f.for_registers().is_err())
-        {
+        if !takes(program, index) || format.is_some_and(|f| f.for_registers().is_err()) {
             return false;
         }
         let digest = program.digest();
@@ -53,9 +56,8 @@ impl InstructionFormats {
     /// Replaces the formats of a program's instructions. `false`, without effect, where [`Self::set`] would refuse one
     /// of them.
     pub(super) fn set_all(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
-        formats.iter().all(|(&index, format)| {
-            program.instructions.get(index).is_some_and(takes_format) && format.for_registers().is_ok()
-        }) && self.insert(program.digest(), formats)
+        formats.iter().all(|(&index, format)| takes(program, index) && format.for_registers().is_ok())
+            && self.insert(program.digest(), formats)
     }
 
     /// Replaces the formats of the program with this digest. `false`, without effect, if they are too many.
@@ -91,8 +93,8 @@ impl InstructionFormats {
                 found.push((digest, None));
                 continue;
             };
-            let takes = |index: &usize| program.instructions.get(*index).is_some_and(takes_format);
-            found.extend(formats.keys().filter(|index| !takes(index)).map(|index| (digest, Some(*index))));
+            let idle = formats.keys().filter(|&&index| !takes(program, index));
+            found.extend(idle.map(|index| (digest, Some(*index))));
         }
         found
     }

@@ -32,6 +32,28 @@ pub(super) trait VideoMemory {
     fn place_texture(&mut self, number: usize, image: &Image) -> Result<usize, MachineError>;
 }
 
+/// Parameters of a draw into places of the buffer, for the kernels.
+pub(super) fn draw_words(
+    profile: &Profile,
+    call: &DrawCall<'_>,
+    targets: [Option<TargetPlace>; MAX_TARGETS],
+    depth: Option<DepthPlace>,
+    step_budget: Option<u32>,
+) -> DrawWords {
+    let source = program(call.pixel_program);
+    DrawWords::new(&DrawState {
+        program: source,
+        rules: &profile.rules,
+        output: &call.output_state(),
+        output_rules: &output_rules(&profile.rules),
+        components: inputs_read(source),
+        written: colors_written(source),
+        targets,
+        depth,
+        step_budget,
+    })
+}
+
 /// The pixel program of a draw, encoded for the kernels.
 pub(super) struct EncodedProgram {
     pub(super) code: Microcode,
@@ -115,17 +137,7 @@ impl TraceLayout {
             true => FLOW_STEPS,
             false => source.instructions.len() + INPUTS,
         };
-        let mut words = DrawWords::new(&DrawState {
-            program: source,
-            rules: &profile.rules,
-            output: &call.output_state(),
-            output_rules: &output_rules(&profile.rules),
-            components: inputs_read(source),
-            written: colors_written(source),
-            targets,
-            depth,
-            step_budget,
-        });
+        let mut words = draw_words(profile, call, targets, depth, step_budget);
         let encoded = EncodedProgram::new(video, memory, profile, call, &mut words, true)?;
         let records = video.allocate(pixels * (HEAD + TRACE_WORDS * room))?;
         let depth = depth.map(|place| place.base as usize);

@@ -137,12 +137,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
 }
 
+/// Returns `true` if results depend on random words.
+fn by_chance(format: &Format) -> bool {
+    matches!(format.rounding, Rounding::Stochastic(_))
+}
+
 /// Refuses options that do not go with the operation or the formats.
 fn refuse_others(args: &Args) -> Result<(), Problem> {
     if args.exact && args.op != AluOperation::RoundToInt {
         return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
     }
-    let by_chance = |format: &Format| matches!(format.rounding, Rounding::Stochastic(_));
     let needs_seed = by_chance(&args.format) || args.to.as_ref().is_some_and(by_chance);
     let seed = [("--seed", args.seed.is_some() && !needs_seed)];
     given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")
@@ -187,7 +191,7 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
         ));
     }
     let formats = [args.format, args.accumulator.unwrap_or(args.format)];
-    if formats.iter().any(|format| matches!(format.rounding, Rounding::Stochastic(_))) {
+    if formats.iter().any(by_chance) {
         return Err(Problem::usage(
             "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
             "take another rounding, or round each number on a line of its own",

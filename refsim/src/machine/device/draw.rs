@@ -8,13 +8,14 @@ use crate::exec::batch::BatchExecutor;
 use crate::exec::budget::enforced;
 use crate::exec::gpu::{AdapterKind, Gpu, GpuError, LoadedProgram};
 use crate::exec::wgsl::kernel::{
-    COUNT_WORDS, CUT, DepthPlace, DrawDispatch, DrawState, DrawWords, EXTRA_ROWS, INVOCATIONS, OVERRUN, UNFINISHED,
+    COUNT_WORDS, CUT, DepthPlace, DrawDispatch, DrawWords, EXTRA_ROWS, INVOCATIONS, OVERRUN, UNFINISHED,
 };
 use crate::exec::wgsl::target::TargetPlace;
-use crate::exec::{FlowMap, ResolvedConstants, colors_written, inputs_read, output_rules, program};
+use crate::exec::{FlowMap, ResolvedConstants, inputs_read, program};
 use crate::isa::Stage;
 use crate::machine::memory::Memory;
 use crate::machine::step_budget::StepBudget;
+use crate::machine::trace_layout::draw_words;
 use crate::machine::validate::Plan;
 use crate::machine::validate::ROUND;
 use crate::machine::vertices::{VertexStage, set_up};
@@ -180,18 +181,7 @@ impl Card {
                 held.drawn_into();
             }
         }
-        let source = program(call.pixel_program);
-        Ok(DrawWords::new(&DrawState {
-            program: source,
-            rules: &profile.rules,
-            output: &call.output_state(),
-            output_rules: &output_rules(&profile.rules),
-            components: inputs_read(source),
-            written: colors_written(source),
-            targets,
-            depth,
-            step_budget,
-        }))
+        Ok(draw_words(profile, call, targets, depth, step_budget))
     }
 
     /// Draws a group of triangles.
