@@ -2,13 +2,15 @@
 
 use std::cmp::Reverse;
 
-use super::{Tally, TeapotRow};
+use super::{FormatLimits, Tally, TeapotRow};
 use crate::report::digits::count;
 use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
 
 /// Maximum number of names in a sentence; further ones are counted.
-const MAX_NAMES: usize = 4;
+pub(super) const MAX_NAMES: usize = 4;
+/// Maximum number of different warnings; of more, their range is said.
+const MAX_WARNINGS: usize = 2;
 
 impl Tally {
     /// Number of rays with a wrong result.
@@ -23,7 +25,8 @@ pub(super) type CountUnit = [&'static str; 2];
 /// Adds verdict, worst row, seams and tally to the findings.
 pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUnit) {
     let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows)];
-    sentences.into_iter().flatten().chain(limits(rows)).for_each(|sentence| found.conclusion(sentence));
+    let limited: Vec<(&str, FormatLimits)> = rows.iter().map(|row| (label(row), row.limits)).collect();
+    sentences.into_iter().flatten().chain(limits(&limited)).for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
     let right = [format!("row right in every {}", unit[0]), format!("rows right in every {}", unit[0])];
     found.tally(rows_with(|t| t.wrong() == 0), right.each_ref().map(String::as_str), Tone::Good);
@@ -32,20 +35,53 @@ pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUni
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 
-/// Warnings about formats with too few bits, each once, with the rows that they apply to.
-fn limits(rows: &[TeapotRow]) -> Vec<String> {
+/// Warnings about formats with too few bits, each once, with the rows that they apply to; of many different ones, their
+/// range.
+fn limits(rows: &[(&str, FormatLimits)]) -> Vec<String> {
     let mut warnings: Vec<(String, Vec<&str>)> = Vec::new();
-    for (row, warning) in rows.iter().filter_map(|row| Some((row, row.limits.warning()?))) {
+    for (name, warning) in rows.iter().filter_map(|(name, limits)| Some((*name, limits.warning()?))) {
         match warnings.iter_mut().find(|(known, _)| *known == warning) {
-            Some((_, rows)) => rows.push(label(row)),
-            None => warnings.push((warning, vec![label(row)])),
+            Some((_, rows)) => rows.push(name),
+            None => warnings.push((warning, vec![name])),
         }
     }
-    let names = |rows: &[&str]| match rows.len() {
+    if warnings.len() > MAX_WARNINGS {
+        return limit_ranges(rows);
+    }
+    warnings.into_iter().map(|(warning, rows)| format!("{}: {warning}.", names(&rows))).collect()
+}
+
+/// Range of each kind of loss over the rows that have it.
+fn limit_ranges(rows: &[(&str, FormatLimits)]) -> Vec<String> {
+    let with = |has: fn(&FormatLimits) -> bool| -> (Vec<&str>, Vec<FormatLimits>) {
+        rows.iter().filter(|(_, limits)| has(limits)).copied().unzip()
+    };
+    let mut said = Vec::new();
+    let (labels, limits) = with(FormatLimits::triangles_vanish);
+    if !labels.is_empty() {
+        let below = range(&limits, |limits| limits.bits.below_step);
+        let names = names(&labels);
+        said.push(format!("{names}: no bits left: n of {below} triangles is below one step of the card's format."));
+    }
+    let (labels, limits) = with(FormatLimits::t_is_coarse);
+    if !labels.is_empty() {
+        let [hits, values] = [range(&limits, |limits| limits.hits), range(&limits, |limits| limits.t_values)];
+        said.push(format!("{}: no bits left: t of {hits} hits has {values} different values.", names(&labels)));
+    }
+    said
+}
+
+/// Smallest and largest of some counts, or the one that all are.
+fn range(limits: &[FormatLimits], of: fn(&FormatLimits) -> u64) -> String {
+    let (least, most) = limits.iter().map(of).fold((u64::MAX, 0), |(least, most), n| (least.min(n), most.max(n)));
+    if least == most { count(most) } else { format!("{} to {}", count(least), count(most)) }
+}
+
+fn names(rows: &[&str]) -> String {
+    match rows.len() {
         0..=MAX_NAMES => listed(rows),
         more => counted(more as u64, "row", "rows"),
-    };
-    warnings.into_iter().map(|(warning, rows)| format!("{}: {warning}.", names(&rows))).collect()
+    }
 }
 
 /// Sentence on the rows that are correct everywhere.
@@ -100,4 +136,30 @@ fn seams(rows: &[TeapotRow]) -> Option<String> {
 
 fn label(row: &TeapotRow) -> &str {
     &row.configuration.label
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ray_engine::BitsLeft;
+
+    fn limits_of(below_step: u64, hits: u64, t_values: u64) -> FormatLimits {
+        let bits = BitsLeft { triangles: 100, below_step, fixed_point: true };
+        FormatLimits { bits, hits, t_values }
+    }
+
+    #[test]
+    fn few_warnings_are_said_each_and_many_by_their_range() {
+        let mut rows = vec![("a", limits_of(0, 1000, 9)), ("b", limits_of(0, 1000, 9)), ("c", limits_of(0, 1000, 900))];
+        assert_eq!(limits(&rows), ["a and b: no bits left: t of 1,000 hits has 9 different values."]);
+        rows.extend([("d", limits_of(30, 1100, 50)), ("e", limits_of(30, 1100, 900))]);
+        let said = limits(&rows);
+        assert_eq!(
+            said,
+            [
+                "d and e: no bits left: n of 30 triangles is below one step of the card's format.",
+                "a, b and d: no bits left: t of 1,000 to 1,100 hits has 9 to 50 different values.",
+            ]
+        );
+    }
 }

@@ -35,6 +35,17 @@ impl FormatLimits {
         Self { bits, hits: hits.iter().flatten().count() as u64, t_values: t.len() as u64 }
     }
 
+    /// Returns `true` if many triangles have a normal below one step of the format.
+    pub fn triangles_vanish(&self) -> bool {
+        self.bits.share() >= MUCH
+    }
+
+    /// Returns `true` if many hits share a value of t. In a float format few values mean that the surface is flat and
+    /// faces the rays.
+    pub fn t_is_coarse(&self) -> bool {
+        self.bits.fixed_point && self.hits >= SOME_HITS && self.t_values * HITS_PER_VALUE <= self.hits
+    }
+
     /// Warning, if the format keeps too little.
     pub fn warning(&self) -> Option<String> {
         let below = format!(
@@ -48,9 +59,7 @@ impl FormatLimits {
             counted(self.hits, "hit", "hits"),
             counted(self.t_values, "value", "different values")
         );
-        // In a float format few values mean that the surface is flat and faces the rays.
-        let few = self.bits.fixed_point && self.hits >= SOME_HITS && self.t_values * HITS_PER_VALUE <= self.hits;
-        let said = match (self.bits.share() >= MUCH, few) {
+        let said = match (self.triangles_vanish(), self.t_is_coarse()) {
             (true, true) => format!("{below}, and {values}"),
             (true, false) => below,
             (false, true) => values,

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use serde_json::{Map, Value, json};
 
-use super::conclusion::conclude;
+use super::conclusion::{MAX_NAMES, conclude};
 use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
 use crate::picture::{ChannelUnit, Picture, PictureError, RgbImage, Samples};
 use crate::report::words::{counted, listed};
@@ -115,10 +115,14 @@ fn same_bits(groups: &[Group<'_>]) -> Value {
 }
 
 impl Group<'_> {
-    /// Phrase on the other rows: `, and the same bits with a, b and c`
+    /// Sentence on the other rows, which the tables name: `. The same bits with a and b`
     fn others(&self) -> String {
         let names: Vec<String> = self.same.iter().map(|row| called(row)).collect();
-        if names.is_empty() { String::new() } else { format!(". The same bits with {}", names.join(", ")) }
+        match names.len() {
+            0 => String::new(),
+            1..=MAX_NAMES => format!(". The same bits with {}", listed(&names)),
+            _ => format!(". The same bits in {} other rows", names.len()),
+        }
     }
 }
 

@@ -47,16 +47,16 @@ pub(super) enum TableMaterial {
 }
 
 impl TableModel {
-    /// Builds the mesh; a reduced one has some 500 to 800 vertices.
+    /// Builds the mesh; a reduced one has some hundred vertices, for a run that judges nothing.
     fn mesh(self, size: ModelSize) -> Result<Mesh, StudyError> {
         let built =
             |model: TransferModel, coarser: u32| model.mesh(if size == ModelSize::Printed { 1 } else { coarser });
         Ok(match self {
-            Self::Bunny => built(TransferModel::Bunny, 4),
-            Self::Tweety => built(TransferModel::Tweety, 8),
-            Self::Buddha => built(TransferModel::Buddha, 8),
+            Self::Bunny => built(TransferModel::Bunny, 8),
+            Self::Tweety => built(TransferModel::Tweety, 12),
+            Self::Buddha => built(TransferModel::Buddha, 12),
             Self::Teapot => {
-                let rate = if size == ModelSize::Printed { 40 } else { 5 };
+                let rate = if size == ModelSize::Printed { 40 } else { 3 };
                 crate::geom::teapot::teapot(rate).map_err(|e| failed(HOST)(&e))?
             }
         })
