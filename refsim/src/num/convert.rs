@@ -3,7 +3,7 @@
 use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::Format;
-use super::round::{infinite, round_quotient};
+use super::round::{from_parts, infinite, round_quotient};
 use super::rules::Denormals;
 use super::unpack::{Unpacked, nan_bits, unpack};
 
@@ -23,6 +23,24 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
         Unpacked::Finite { sign, sig, exp, den } => round_quotient(&to, sign, sig, exp, den.into()),
     }
 }
+
+/// Rounds a host double once into a format, by its rules; NaN and infinities as [`convert`] has them.
+pub fn from_f64(to: impl Into<Env>, x: f64) -> Outcome {
+    let to = to.into();
+    let (sign, field, fraction) = (x.is_sign_negative(), (x.to_bits() >> 52 & 0x7ff) as i32, x.to_bits() & FRACTION);
+    if x.is_nan() {
+        let bad = to.format.canonical_nan().is_none();
+        return Outcome::new(nan_bits(&to.format), if bad { Flags::INVALID } else { Flags::empty() });
+    }
+    if x.is_infinite() {
+        return infinite(&to.format, sign);
+    }
+    let sig = if field == 0 { fraction } else { fraction | (FRACTION + 1) };
+    from_parts(to, sign, sig.into(), field.max(1) - 1075, false)
+}
+
+/// The stored significand of a double.
+const FRACTION: u64 = (1 << 52) - 1;
 
 /// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits, but for
 /// normalized ones, which are rounded to the nearest; NaN and infinities are preserved.

@@ -66,7 +66,7 @@ mod sum;
 mod transcendental;
 mod unpack;
 
-pub use convert::{power_of_two, to_f64};
+pub use convert::{from_f64, power_of_two, to_f64};
 pub use env::{Env, Tininess};
 pub use flags::{Flags, Outcome};
 pub use format::{Format, FormatKind};

@@ -29,11 +29,18 @@ pub enum OracleError {
 /// Judge of first hits by exact arithmetic.
 #[derive(Debug)]
 pub struct Oracle<'a> {
-    mesh: &'a Mesh,
     tracer: Tracer<'a>,
     sides: Sides,
     tolerance: Tolerance,
     nearby_ulps: u32,
+}
+
+impl Oracle<'static> {
+    /// Creates an oracle like [`Oracle::new`], over a mesh that it keeps.
+    #[must_use]
+    pub fn owning(mesh: Mesh, sides: Sides, tolerance: Tolerance) -> Self {
+        Self { tracer: Tracer::owning(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
+    }
 }
 
 /// Default of [`Oracle::with_nearby_ulps`]. A single-precision test that subtracts the origin from a vertex, shears and
@@ -44,7 +51,33 @@ impl<'a> Oracle<'a> {
     /// Creates an oracle over a mesh. `sides` determines whether backs can be hit, `tolerance` the allowed error of t.
     #[must_use]
     pub fn new(mesh: &'a Mesh, sides: Sides, tolerance: Tolerance) -> Self {
-        Self { mesh, tracer: Tracer::new(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
+        Self { tracer: Tracer::new(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
+    }
+
+    /// Mesh that is judged.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh {
+        self.tracer.mesh()
+    }
+
+    /// Returns the exact first hit of a ray.
+    #[must_use]
+    pub fn first_hit(&self, ray: &Ray) -> Option<NearestHit> {
+        self.tracer.nearest(ray, self.sides)
+    }
+
+    /// Judges the hit of one ray, which is the one numbered `place` and has an aim if known; returns the exact first
+    /// hit, and what is wrong with the one found.
+    #[must_use]
+    pub fn judge_one(
+        &self,
+        place: usize,
+        ray: &impl JudgedRay,
+        found: Option<Hit>,
+    ) -> (Option<NearestHit>, Option<Disagreement>) {
+        let nearest = self.first_hit(ray.as_ref());
+        let wrong = self.disagreement((place, ray.aim()), ray.as_ref(), nearest.clone(), found);
+        (nearest, wrong)
     }
 
     /// Sets the maximum distance of nearby rays in ULPs; the default is 8. A missed surface is a
@@ -172,10 +205,10 @@ impl<'a> Oracle<'a> {
         nearest: Option<NearestHit>,
         found: Option<Hit>,
     ) -> Option<Disagreement> {
-        let corners = found.and_then(|hit| self.mesh.corners(hit.triangle));
+        let corners = found.and_then(|hit| self.mesh().corners(hit.triangle));
         let meets = |sides| exact::intersect(ray, &corners?, sides);
         let candidate = Candidate { triangle: found.map(|hit| hit.triangle), t: found.map_or(0.0, |hit| hit.t) };
-        let verdict = classify(self.mesh, nearest.as_ref(), candidate).verdict;
+        let verdict = classify(self.mesh(), nearest.as_ref(), candidate).verdict;
         let t_ulps = found.zip(nearest.as_ref()).and_then(|(hit, nearest)| ulps(nearest.t.to_f32(), hit.t));
         let right_t = |nearest: &NearestHit, hit: Hit| self.tolerance.allows(hit.t, &nearest.t, t_ulps);
         // Behind the first by less than the tolerance of t.
@@ -221,7 +254,7 @@ impl<'a> Oracle<'a> {
         };
         let shown = found.filter(|_| corners.is_some()).map(|hit| hit.triangle);
         let shown = shown.or_else(|| nearest.as_ref().map(|nearest| nearest.triangle));
-        let corners = shown.and_then(|triangle| self.mesh.corners(triangle));
+        let corners = shown.and_then(|triangle| self.mesh().corners(triangle));
         let expected = nearest.map(|nearest| Expected { triangles: nearest.ties, t: nearest.t });
         let (origin, direction) = (ray.origin(), ray.direction());
         Some(Disagreement {
@@ -254,7 +287,7 @@ impl<'a> Oracle<'a> {
         use DisagreementKind::{FalseHit, Silhouette, WrongNeighbour, WrongTriangle};
         let touches = |ray: &Ray, nearest: Option<&NearestHit>| {
             let ties = |nearest: &NearestHit| {
-                passes_corner_at(self.mesh, ray, hit.triangle, nearest.t.to_f64(), self.nearby_ulps)
+                passes_corner_at(self.mesh(), ray, hit.triangle, nearest.t.to_f64(), self.nearby_ulps)
             };
             nearest.is_some_and(|nearest| self.passes_contact(ray, nearest, hit) || ties(nearest)).then_some(*ray)
         };
@@ -269,7 +302,7 @@ impl<'a> Oracle<'a> {
 
     fn passes_contact(&self, ray: &Ray, nearest: &NearestHit, hit: Hit) -> bool {
         let pairs = nearest.ties.iter().map(|&right| [right, hit.triangle]);
-        pairs.into_iter().any(|pair| passes_contact(self.mesh, ray, pair, self.nearby_ulps))
+        pairs.into_iter().any(|pair| passes_contact(self.mesh(), ray, pair, self.nearby_ulps))
     }
 
     /// Searches for a nearby ray for which a hit is correct; returns the kind of error then.
@@ -299,7 +332,7 @@ impl<'a> Oracle<'a> {
         }
         let triangles = nearest.and_then(|nearest| nearest.ties.first().copied()).into_iter();
         let triangles = triangles.chain(found.map(|hit| hit.triangle));
-        let corners: Vec<_> = triangles.filter_map(|id| self.mesh.corners(id)).flatten().collect();
+        let corners: Vec<_> = triangles.filter_map(|id| self.mesh().corners(id)).flatten().collect();
         let ts = nearest.map(|nearest| nearest.t.to_f64()).into_iter().chain(found.map(|hit| hit.t.into()));
         let first = ts.fold(f64::INFINITY, |first, t| if t.abs() < first { t.abs() } else { first });
         let right = moved(ray, corners, first, self.nearby_ulps).find(&mut is_right);

@@ -14,7 +14,7 @@ use super::{
     run::setup_memory,
     view::bad_format,
 };
-use crate::case::{self, Overrides, Scope, Setup, Side, device_named};
+use crate::case::{self, ComparedSides, Overrides, Scope, Setup, Side, device_named};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -173,11 +173,12 @@ pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict>
     ];
     let comparison = case::compare(&sides[0], &sides[1], args.scope(setups[0].size)?)?;
     out.outlive_reader();
-    let shown = show::ShownComparison { case: &args.case, sides: &sides, comparison: &comparison };
+    let case = args.case.display().to_string();
+    let compared = ComparedSides { case: &case, sides: &sides, comparison: &comparison };
     if out.json() {
-        out.document(&shown.document())?;
+        out.document(&compared.document())?;
     } else {
-        shown.print(out)?;
+        show::ShownComparison(compared).print(out)?;
     }
     Ok(Verdict::held(comparison.equal()))
 }

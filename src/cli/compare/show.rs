@@ -1,26 +1,18 @@
-//! A comparison as text and as JSON.
+//! A comparison as text.
 
-use std::{path::Path, sync::Arc};
+use std::sync::Arc;
 
 use miette::{Diagnostic, SourceSpan};
-use serde_json::{Value, json};
 
-use super::super::{
-    Out,
-    words::{fate, letters},
-};
+use super::super::Out;
 use crate::{
-    case::{Comparison, First, Setup, Side},
-    compare::{Compared, FragmentPass, Operand, SurfaceDifference, TraceDifference, TraceStage},
+    case::{ComparedSides, Comparison, First, Setup, pass_text},
+    compare::{Compared, Operand, SurfaceDifference, TraceDifference},
     report::{Cell, SourceText, Table, visible::visible_line},
 };
 
-/// A comparison with its sides.
-pub(super) struct ShownComparison<'a> {
-    pub(super) case: &'a Path,
-    pub(super) sides: &'a [Side<'a>; 2],
-    pub(super) comparison: &'a Comparison,
-}
+/// A comparison as tables.
+pub(super) struct ShownComparison<'a>(pub(super) ComparedSides<'a>);
 
 /// An instruction, quoted.
 #[derive(Debug, thiserror::Error, Diagnostic)]
@@ -37,15 +29,6 @@ struct Quote {
 
 fn ulps_cell(values: &Compared) -> Cell {
     values.ulps.map_or_else(|| "none".into(), Cell::from)
-}
-
-fn pass_text(pass: &FragmentPass) -> String {
-    let part = if pass.part > 0 { format!(", part {}", pass.part) } else { String::new() };
-    format!("instance {}, triangle {}{part}", pass.instance, pass.triangle)
-}
-
-fn pass_json(pass: &FragmentPass) -> Value {
-    json!({ "index": pass.index, "instance": pass.instance, "triangle": pass.triangle, "part": pass.part })
 }
 
 fn values_table(values: &[Compared]) -> Table {
@@ -84,19 +67,14 @@ fn surfaces_table(surfaces: &[SurfaceDifference]) -> Table {
 
 impl ShownComparison<'_> {
     fn setup(&self) -> &Setup {
-        self.sides[0].setup
-    }
-
-    fn draw_name(&self) -> String {
-        let stem = || self.case.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        self.setup().title.clone().unwrap_or_else(stem)
+        self.0.sides[0].setup
     }
 
     pub(super) fn print(&self, out: &mut Out) -> miette::Result<()> {
         if let Some(title) = &self.setup().title {
             out.line(visible_line(title))?;
         }
-        for (name, side) in ["left ", "right"].into_iter().zip(self.sides) {
+        for (name, side) in ["left ", "right"].into_iter().zip(self.0.sides) {
             let profile = &side.setup.profile;
             let executor = side.executor.kind().name();
             out.line(format_args!(
@@ -110,7 +88,7 @@ impl ShownComparison<'_> {
                 ))?;
             }
         }
-        let comparison = self.comparison;
+        let comparison = self.0.comparison;
         out.line("")?;
         out.table(&surfaces_table(&comparison.surfaces))?;
         if !comparison.counts.is_empty() {
@@ -131,8 +109,8 @@ impl ShownComparison<'_> {
     }
 
     fn verdict(&self) -> String {
-        let Comparison { pixels, different, followed, counts, .. } = self.comparison;
-        if self.comparison.equal() {
+        let Comparison { pixels, different, followed, counts, .. } = self.0.comparison;
+        if self.0.comparison.equal() {
             let steps = match followed[0] {
                 0 => String::new(),
                 1 => ", and everything written at the pixel".to_owned(),
@@ -152,7 +130,7 @@ impl ShownComparison<'_> {
 
     fn print_first(&self, first: &First, out: &mut Out) -> miette::Result<()> {
         let [x, y] = first.pixel;
-        let place = format!("first difference: draw {} `{}`", first.draw, self.draw_name());
+        let place = format!("first difference: draw {} `{}`", first.draw, self.0.draw_name());
         let Some(difference) = &first.difference else {
             out.line(format_args!("{place}, pixel {x}, {y}"))?;
             out.line("no step on the way of its fragments differs: the draw of a side departs from its own trace")?;
@@ -175,7 +153,7 @@ impl ShownComparison<'_> {
     }
 
     fn print_difference(&self, difference: &TraceDifference, out: &mut Out) -> miette::Result<()> {
-        let (text, instruction) = self.stage(difference);
+        let (text, instruction) = self.0.stage(difference);
         match instruction.and_then(|index| self.quote(index, text.clone())) {
             Some(quote) => out.finding(&quote)?,
             None => out.line(text)?,
@@ -197,47 +175,6 @@ impl ShownComparison<'_> {
         Ok(())
     }
 
-    /// The stage in words, and the instruction it is about.
-    fn stage(&self, difference: &TraceDifference) -> (String, Option<usize>) {
-        let name = difference.values.first().map_or("nothing", |v| v.name.as_str());
-        match &difference.stage {
-            TraceStage::Vertex { corner } => {
-                (format!("stage: vertices: {name} of corner {corner} of the triangle, before set-up"), None)
-            }
-            TraceStage::Coverage { left, right } => {
-                let side = |pass: &Option<FragmentPass>| pass.as_ref().map_or("none".to_owned(), pass_text);
-                let sides = format!("{} on the left, {} on the right", side(left), side(right));
-                (format!("stage: coverage, from the set-up of triangles: {sides}"), None)
-            }
-            TraceStage::Input => (format!("stage: interpolation of {name}, before the program"), None),
-            TraceStage::Delivered => {
-                (format!("stage: input register {name}, the interpolated value in the register format"), None)
-            }
-            TraceStage::Instruction { index } => (format!("instruction {index} writes another {name}"), Some(*index)),
-            TraceStage::Mask { index, left, right } => {
-                let sides = format!("`{}` on the left, `{}` on the right", letters(*left), letters(*right));
-                (format!("instruction {index} writes other components, by its predicate: {sides}"), Some(*index))
-            }
-            TraceStage::Flow { left, right } => {
-                let side = |next: &Option<usize>| next.map_or("the end".to_owned(), |i| format!("instruction {i}"));
-                let sides = format!("{} on the left, {} on the right", side(left), side(right));
-                (format!("stage: flow control: what runs next is {sides}"), left.or(*right))
-            }
-            TraceStage::Output { instruction } => {
-                let text = format!("stage: what the program leaves behind: {name}");
-                (text, *instruction)
-            }
-            TraceStage::Test { left, right } => {
-                let sides = format!("the fragment {} on the left and {} on the right", fate(*left), fate(*right));
-                (format!("stage: output tests, after equal results of the program: {sides}"), None)
-            }
-            TraceStage::Merge => {
-                let text = "stage: output merge (quantising, blending, masking), after equal results of the program";
-                (format!("{text}: {name}"), None)
-            }
-        }
-    }
-
     fn quote(&self, index: usize, message: String) -> Option<Quote> {
         let instruction = self.setup().pixel.instructions.get(index)?;
         let text = &self.setup().pixel_text;
@@ -248,102 +185,4 @@ impl ShownComparison<'_> {
             label: format!("line {}", text.line(instruction.span).line),
         })
     }
-
-    pub(super) fn document(&self) -> Value {
-        let comparison = self.comparison;
-        json!({
-            "case": self.case.display().to_string(),
-            "title": self.setup().title,
-            "version": env!("CARGO_PKG_VERSION"),
-            "left": side_json(&self.sides[0]),
-            "right": side_json(&self.sides[1]),
-            "equal": comparison.equal(),
-            "pixels": comparison.pixels,
-            "different": comparison.different,
-            "surfaces": comparison.surfaces,
-            "counts": comparison.counts,
-            "followed": { "pixels": comparison.followed[0], "different": comparison.followed[1] },
-            "first": comparison.first.as_ref().map(|first| self.first_json(first)),
-        })
-    }
-
-    fn first_json(&self, first: &First) -> Value {
-        json!({
-            "draw": { "index": first.draw, "name": self.draw_name() },
-            "pixel": first.pixel,
-            "difference": first.difference.as_ref().map(|difference| self.difference_json(difference)),
-        })
-    }
-
-    fn difference_json(&self, difference: &TraceDifference) -> Value {
-        let (text, instruction) = self.stage(difference);
-        let mut value = json!({
-            "pass": pass_json(&difference.pass),
-            "passes": difference.passes,
-            "stage": stage_name(&difference.stage),
-            "text": text,
-            "instruction": instruction.map(|index| self.instruction_json(index)),
-            "values": difference.values,
-            "operands": difference.operands.iter().map(|operand| {
-                json!({ "differs": operand.differs, "values": operand.values })
-            }).collect::<Vec<_>>(),
-        });
-        match &difference.stage {
-            TraceStage::Vertex { corner } => value["corner"] = (*corner).into(),
-            TraceStage::Coverage { left, right } => {
-                value["left"] = json!(left.as_ref().map(pass_json));
-                value["right"] = json!(right.as_ref().map(pass_json));
-            }
-            TraceStage::Mask { left, right, .. } => {
-                (value["left"], value["right"]) = (letters(*left).into(), letters(*right).into());
-            }
-            TraceStage::Flow { left, right } => {
-                value["left"] = json!(left.map(|index| self.instruction_json(index)));
-                value["right"] = json!(right.map(|index| self.instruction_json(index)));
-            }
-            TraceStage::Test { left, right } => {
-                (value["left"], value["right"]) = (fate(*left).into(), fate(*right).into());
-            }
-            _ => {}
-        }
-        if let Some(later) = &difference.instruction {
-            value["later"] = self.difference_json(later);
-        }
-        value
-    }
-
-    fn instruction_json(&self, index: usize) -> Value {
-        let setup = self.setup();
-        let line = setup.pixel.instructions.get(index).map(|i| setup.pixel_text.line(i.span));
-        json!({ "index": index, "source": line })
-    }
-}
-
-/// The stage in one word.
-const fn stage_name(stage: &TraceStage) -> &'static str {
-    match stage {
-        TraceStage::Vertex { .. } => "vertices",
-        TraceStage::Coverage { .. } => "coverage",
-        TraceStage::Input => "interpolation",
-        TraceStage::Delivered => "input",
-        TraceStage::Instruction { .. } => "instruction",
-        TraceStage::Mask { .. } => "predicate",
-        TraceStage::Flow { .. } => "flow",
-        TraceStage::Output { .. } => "output",
-        TraceStage::Test { .. } => "test",
-        TraceStage::Merge => "merge",
-    }
-}
-
-fn side_json(side: &Side<'_>) -> Value {
-    let profile = &side.setup.profile;
-    let switches: serde_json::Map<String, Value> =
-        profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
-    json!({
-        "executor": side.executor.kind().name(),
-        "device": profile.name,
-        "format": profile.rules.format.to_string(),
-        "switches": switches,
-        "left_out": side.setup.left_out,
-    })
 }

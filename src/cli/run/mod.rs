@@ -6,12 +6,12 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use refsim::machine::{Executor, ExecutorKind};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::executor::{DeviceExecutor, GpuArgs};
 use super::{MemoryError, Out, Problem, error, memory, pixel, study, view};
 use crate::{
-    case::{self, CaseOutcome, Found, Overrides, PixelTrace, ProbeResult, Setup},
+    case::{self, CaseOutcome, Overrides, PixelTrace, ProbeResult, Setup, Traced},
     io::atomic::FileSet,
     report::{Cell, Findings, Table, Verdict},
 };
@@ -65,7 +65,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     setup_memory(&setup)?;
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;
-    let traced = traced.as_ref().map(|trace| trace::Traced {
+    let traced = traced.as_ref().map(|trace| Traced {
         setup: &setup,
         trace,
         knows_flags: executor.kind() == ExecutorKind::Scalar,
@@ -82,7 +82,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let verdict = study::show(&found, out)?;
     if let (Some(traced), false) = (traced, out.json()) {
         out.line("")?;
-        traced.print(out)?;
+        trace::ShownTrace(traced).print(out)?;
     }
     Ok(verdict)
 }
@@ -114,34 +114,10 @@ fn name(case: &Path) -> Cow<'_, str> {
 
 fn counts(outcome: &CaseOutcome) -> Table {
     let mut table = Table::new("Counts", &["count", "number"]);
-    for (name, number) in count_list(outcome) {
+    for (name, number) in outcome.counts() {
         table.push([Cell::from(name), number.into()]);
     }
     table
-}
-
-fn count_list(outcome: &CaseOutcome) -> Vec<(&'static str, u64)> {
-    let (events, slots) = (&outcome.events, &outcome.slots);
-    let mut list = vec![
-        ("vertices", events.vertices),
-        ("vertex instructions", events.vertex_instructions),
-        ("triangles assembled", events.primitives.assembled),
-        ("triangles rasterised", events.primitives.rasterised),
-        ("fragments generated", events.fragments.generated),
-        ("fragments shaded", events.fragments.shaded),
-        ("fragments killed", events.fragments.killed),
-        ("alpha test failed", events.fragments.alpha_failed),
-        ("depth test failed", events.fragments.depth_failed),
-        ("fragments passed", events.fragments.passed),
-        ("texture reads", events.fragments.total_fetches()),
-        ("texture slots a fragment", slots.texture),
-        ("arithmetic slots a fragment", slots.arithmetic),
-        ("shader slots", slots.total),
-        ("bytes read", events.bytes.read()),
-        ("bytes written", events.bytes.written()),
-    ];
-    list.extend(slots.cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
-    list
 }
 
 fn probes(results: &[ProbeResult]) -> Table {
@@ -161,24 +137,11 @@ fn probes(results: &[ProbeResult]) -> Table {
 }
 
 fn findings(setup: &Setup, args: &Args, outcome: &CaseOutcome, written: &[PathBuf]) -> Findings {
-    let document: serde_json::Map<String, Value> =
-        count_list(outcome).into_iter().map(|(name, number)| (name.replace(' ', "_"), number.into())).collect();
-    let switches: serde_json::Map<String, Value> =
-        setup.profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
     let format = setup.profile.rules.format;
     let mut found = Findings::new(setup.title.clone().unwrap_or_default());
-    found.fields(json!({
-        "case": args.case.display().to_string(),
-        "title": setup.title,
-        "version": env!("CARGO_PKG_VERSION"),
-        "device": setup.profile.name,
-        "format": format.to_string(),
-        "switches": switches,
-        "files": written.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
-        "counts": document,
-        "probes": outcome.probes.iter().map(probe_json).collect::<Vec<_>>(),
-        "passed": outcome.passed(),
-    }));
+    found.fields(outcome.document(setup));
+    found.field("case", json!(args.case.display().to_string()));
+    found.field("files", json!(written.iter().map(|path| path.display().to_string()).collect::<Vec<_>>()));
     found.conclude(Verdict::held(outcome.passed()));
     setup.title.iter().for_each(|title| found.introduce(title.clone()));
     found.introduce(format!("device {}, pixel registers {format}", setup.profile.name));
@@ -190,25 +153,4 @@ fn findings(setup: &Setup, args: &Args, outcome: &CaseOutcome, written: &[PathBu
         found.print(format!("{passed} passed, {} failed", outcome.probes.len() - passed));
     }
     found
-}
-
-fn probe_json(result: &ProbeResult) -> Value {
-    let found = match &result.found {
-        Found::Color(channels) => json!(channels.map(number_json)),
-        Found::Raw(channels) => json!(channels),
-        Found::Depth(depth) => number_json(*depth),
-    };
-    json!({
-        "pixel": result.probe.pixel,
-        "target": result.probe.target,
-        "expected": result.probe.expected.to_string(),
-        "tolerance": result.probe.tolerance,
-        "found": found,
-        "passed": result.passed,
-    })
-}
-
-/// JSON has no infinity and no NaN.
-fn number_json(number: f64) -> Value {
-    if number.is_finite() { number.into() } else { number.to_string().into() }
 }

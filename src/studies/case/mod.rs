@@ -6,6 +6,7 @@
 //! the place in it. docs/cases.md describes the format.
 
 mod binder;
+mod compared;
 mod constants;
 mod device;
 mod error;
@@ -21,10 +22,12 @@ mod stages;
 mod state;
 mod texels;
 mod trace;
+mod traced;
 mod value;
 mod vertices;
 
 pub use binder::Overrides;
+pub use compared::{ComparedSides, pass_text};
 pub use device::{device_named, meant};
 pub use error::{CaseError, CaseWarning};
 pub use fixed_function::StateTable;
@@ -36,5 +39,6 @@ pub use setup::Setup;
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
 pub use texels::CaseTexture;
 pub use trace::{PixelTrace, trace};
+pub use traced::{TraceRow, Traced, fate, flag_names, letters};
 pub use value::{Constant, Exactly, Mipmaps, Number, OneOrMany};
 pub use vertices::Vertices;

@@ -8,6 +8,7 @@ use refsim::{
     texture::{Image, SignedTexelMinimum},
 };
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::state::{Expected, Probe};
 
@@ -52,6 +53,30 @@ pub struct ProbeResult {
     pub found: Found,
     /// `true` if it is as expected.
     pub passed: bool,
+}
+
+impl ProbeResult {
+    /// Document for programs.
+    pub fn document(&self) -> Value {
+        let found = match &self.found {
+            Found::Color(channels) => json!(channels.map(number_json)),
+            Found::Raw(channels) => json!(channels),
+            Found::Depth(depth) => number_json(*depth),
+        };
+        json!({
+            "pixel": self.probe.pixel,
+            "target": self.probe.target,
+            "expected": self.probe.expected.to_string(),
+            "tolerance": self.probe.tolerance,
+            "found": found,
+            "passed": self.passed,
+        })
+    }
+}
+
+/// JSON has no infinity and no NaN.
+fn number_json(number: f64) -> Value {
+    if number.is_finite() { number.into() } else { number.to_string().into() }
 }
 
 /// Evaluates a probe on the target that it names, or on the depth buffer.

@@ -9,6 +9,7 @@ use refsim::{
     texture::{ChannelClass, ChannelValue, Image, SignedTexelMinimum},
 };
 use serde::Serialize;
+use serde_json::{Map, Value, json};
 
 use super::{CaseError, Loaded, ProbeResult, Setup, probe};
 use crate::{
@@ -47,6 +48,50 @@ impl CaseOutcome {
     /// Returns `true` if every probe passed.
     pub fn passed(&self) -> bool {
         self.probes.iter().all(|result| result.passed)
+    }
+
+    /// Counts of the draw, by name.
+    pub fn counts(&self) -> Vec<(&'static str, u64)> {
+        let (events, slots) = (&self.events, &self.slots);
+        let mut list = vec![
+            ("vertices", events.vertices),
+            ("vertex instructions", events.vertex_instructions),
+            ("triangles assembled", events.primitives.assembled),
+            ("triangles rasterised", events.primitives.rasterised),
+            ("fragments generated", events.fragments.generated),
+            ("fragments shaded", events.fragments.shaded),
+            ("fragments killed", events.fragments.killed),
+            ("alpha test failed", events.fragments.alpha_failed),
+            ("depth test failed", events.fragments.depth_failed),
+            ("fragments passed", events.fragments.passed),
+            ("texture reads", events.fragments.total_fetches()),
+            ("texture slots a fragment", slots.texture),
+            ("arithmetic slots a fragment", slots.arithmetic),
+            ("shader slots", slots.total),
+            ("bytes read", events.bytes.read()),
+            ("bytes written", events.bytes.written()),
+        ];
+        list.extend(slots.cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
+        list
+    }
+
+    /// Document for programs: the device with its switches, counts, probes.
+    pub fn document(&self, setup: &Setup) -> Value {
+        let counts: Map<String, Value> =
+            self.counts().into_iter().map(|(name, number)| (name.replace(' ', "_"), number.into())).collect();
+        let profile = &setup.profile;
+        let switches: Map<String, Value> =
+            profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
+        json!({
+            "title": setup.title,
+            "version": env!("CARGO_PKG_VERSION"),
+            "device": profile.name,
+            "format": profile.rules.format.to_string(),
+            "switches": switches,
+            "counts": counts,
+            "probes": self.probes.iter().map(ProbeResult::document).collect::<Vec<_>>(),
+            "passed": self.passed(),
+        })
     }
 }
 

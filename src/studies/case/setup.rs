@@ -124,7 +124,15 @@ impl Setup {
     /// # Errors
     /// As [`Setup::read`].
     pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
-        Self::bound(name, bytes, folder, &Overrides::default())
+        Self::from_bytes_with(name, bytes, folder, &Overrides::default())
+    }
+
+    /// Like [`Setup::from_bytes`], with replacements for the case's device settings.
+    ///
+    /// # Errors
+    /// As [`Setup::read`].
+    pub fn from_bytes_with(name: &str, bytes: &[u8], folder: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
+        Self::bound(name, bytes, folder, overrides)
     }
 
     /// Name of a component of a pixel register in program syntax.

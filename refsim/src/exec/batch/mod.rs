@@ -19,5 +19,6 @@ mod vertex;
 
 pub use executor::BatchExecutor;
 pub use lanes::{SimdLevel, convert, evaluate, exact_dot};
+pub use run::ArrayOperation;
 pub use tile::{BatchTiles, BatchTracer, TileRound};
 pub use vertex::{AttributeRows, BatchVertices, Instances, Surfaces, VertexRows};

@@ -6,6 +6,8 @@
 //! widened interval is empty or starts beyond a t that some certain hit does not exceed. So the tree affects the time,
 //! but not the result.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -22,7 +24,7 @@ const CHUNK: usize = 256;
 /// Mesh with a bounding volume hierarchy for many exact queries.
 #[derive(Debug, Clone)]
 pub struct Tracer<'a> {
-    mesh: &'a Mesh,
+    mesh: Cow<'a, Mesh>,
     nodes: Vec<BoxNode>,
     /// Triangle ids in the order of the leaves.
     order: Vec<u32>,
@@ -51,9 +53,20 @@ struct Probe {
     inverse: DVec3,
 }
 
+impl Tracer<'static> {
+    /// Builds the tree of [`Tracer::new`] over a mesh that it keeps.
+    pub fn owning(mesh: Mesh) -> Self {
+        Self::over(Cow::Owned(mesh))
+    }
+}
+
 impl<'a> Tracer<'a> {
     /// Builds the tree: each node is split at the median centre along its widest axis, so that its depth is bounded.
     pub fn new(mesh: &'a Mesh) -> Self {
+        Self::over(Cow::Borrowed(mesh))
+    }
+
+    fn over(mesh: Cow<'a, Mesh>) -> Self {
         let corners: Vec<_> = mesh.iter_corners().collect();
         let mut items: Vec<(u32, DVec3)> =
             (0..).zip(&corners).map(|(id, triangle)| (id, triangle.iter().map(|&corner| wide(corner)).sum())).collect();
@@ -64,6 +77,11 @@ impl<'a> Tracer<'a> {
         let order: Vec<u32> = items.iter().map(|&(id, _)| id).collect();
         let corners = order.iter().map(|&id| corners[id as usize]).collect();
         Self { mesh, nodes, order, corners }
+    }
+
+    /// Mesh of the tree.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
     }
 
     /// Returns the first hit of a ray, equal to [`super::nearest`].
@@ -96,7 +114,7 @@ impl<'a> Tracer<'a> {
                 }
             }
         }
-        shortlist.settle(self.mesh, ray, sides)
+        shortlist.settle(&self.mesh, ray, sides)
     }
 
     /// Returns the first hits of many rays, in parallel; the result does not depend on the number of threads.

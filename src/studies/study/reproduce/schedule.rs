@@ -43,11 +43,15 @@ pub fn reproduce(
         while let Some(group) = next() {
             let shared = Shared::new(models);
             for (at, entry) in group {
-                // Nobody listens any more only if `progress` panicked.
-                let _ = sender.send(EntryEvent::Begun(entry.id));
+                // Nobody listens any more only if `progress` has unwound: nothing more is computed.
+                if sender.send(EntryEvent::Begun(entry.id)).is_err() {
+                    return;
+                }
                 let found = record::findings(&entry, &shared);
                 let failed = found.is_err();
-                let _ = sender.send(EntryEvent::Ended(at, Box::new(found)));
+                if sender.send(EntryEvent::Ended(at, Box::new(found))).is_err() {
+                    return;
+                }
                 if failed {
                     break;
                 }

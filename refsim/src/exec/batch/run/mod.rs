@@ -6,8 +6,10 @@
 //!   level selection; `leveled`: several levels; `address`: coordinates to texels; `corners`: weighted sums
 //!   and interpolation; `component`: sources of components; `channel`: texel values.
 //! - `flow`: programs with flow control.
+//! - `array`: one operation on arrays of any length.
 
 mod address;
+mod array;
 mod channel;
 mod component;
 mod corners;
@@ -25,6 +27,7 @@ mod steps;
 mod stored;
 mod table;
 
+pub use array::ArrayOperation;
 pub(crate) use fetch::{BatchTexture, TextureTables};
 pub(crate) use flow::{FlowObserver, FlowRun, fill_plan, first_lanes};
 pub(crate) use slots::Slots;

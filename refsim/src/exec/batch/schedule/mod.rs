@@ -10,6 +10,6 @@ mod fuse;
 mod straight;
 
 pub(crate) use block::{BatchStep, FetchDetail, FetchStep, ResultSlots, StepBlock, schedule};
-pub(crate) use code::{LaneCode, LaneOp};
+pub(crate) use code::{LaneCode, LaneOp, OPERANDS};
 pub(crate) use flow::{FlowPlan, PlannedInstruction};
 pub(crate) use straight::{StraightPlan, StraightProgram};

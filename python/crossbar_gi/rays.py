@@ -1,0 +1,273 @@
+"""Exact first hits of rays on a mesh, other people's hits held against them, and rays on which intersectors differ.
+
+Everything is decided in exact arithmetic on float32 values: vertices, origins and directions of other types are
+rounded to float32 first, and the answer is that of the rounded ones. ``t`` counts in multiples of a ray's direction as
+given, which need not have unit length.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+
+
+class Kind(IntEnum):
+    """Verdict on a hit. docs/examples/foreign_intersector.md describes each."""
+
+    #: The exact answer, with t within the tolerance.
+    RIGHT = 0
+    #: A triangle id that the mesh does not have.
+    NO_SUCH_TRIANGLE = 1
+    #: No hit where there is a surface: a hole.
+    LEAK = 2
+    #: A triangle behind the first one, which was missed: a hole through which something else is seen.
+    LEAK_THROUGH = 3
+    #: A hit where the ray hits nothing.
+    FALSE_HIT = 4
+    #: A triangle hit from behind, where only fronts count.
+    BACK_FACE = 5
+    #: A triangle unrelated to the right one.
+    WRONG_TRIANGLE = 6
+    #: A triangle that shares an edge or a vertex with the right one.
+    WRONG_NEIGHBOUR = 7
+    #: The right triangle, at a t beyond the tolerance.
+    T_OFF = 8
+    #: Right for a ray whose direction differs by a few ULPs, beside a silhouette: rounding.
+    SILHOUETTE = 9
+    #: Right for a ray whose origin differs by a few ULPs: rounding.
+    START = 10
+    #: A triangle behind the first one by no more than the tolerance: rounding.
+    NEAR_TIE = 11
+
+    @property
+    def is_leak(self) -> bool:
+        """True if an existing surface was missed, for this ray and every nearby one."""
+        return self in (Kind.LEAK, Kind.LEAK_THROUGH)
+
+
+class Aim(IntEnum):
+    """What a hard ray is aimed at."""
+
+    #: Not known.
+    UNKNOWN = 0
+    #: From outside at a point of a shared edge.
+    EDGE = 1
+    #: From outside at a vertex.
+    VERTEX = 2
+    #: Along an axis; the other two components are +0 or -0.
+    AXIS = 3
+    #: In the plane of a triangle.
+    PLANE = 4
+    #: From a point of a surface.
+    SURFACE = 5
+    #: From far away, a thousand to a million sizes of the mesh, at a point of an edge.
+    FAR = 6
+
+
+#: One verdict: the ``Kind`` and ``Aim``, True if rounding explains it, the exact first triangle (-1 for none), the
+#: number of triangles at that t, the exact t (NaN for none), and how many steps of float32 the t found is away from it
+#: (-1 where one is missing or not finite).
+VERDICT = np.dtype(
+    [
+        ("kind", np.uint8),
+        ("aim", np.uint8),
+        ("rounding", np.bool_),
+        ("triangle", np.int32),
+        ("ties", np.uint32),
+        ("t", np.float64),
+        ("ulps", np.int64),
+    ]
+)
+
+#: An exact first hit: the smallest id of its triangles (-1 for none), how many there are, and t (NaN for none).
+HIT = np.dtype([("triangle", np.int32), ("ties", np.uint32), ("t", np.float64)])
+
+
+class HardRays(NamedTuple):
+    """Rays on which intersectors differ."""
+
+    #: Shape (n, 3), float32.
+    origins: NDArray[np.float32]
+    #: Shape (n, 3), float32, not normalised.
+    directions: NDArray[np.float32]
+    #: Shape (n,), codes of :class:`Aim`.
+    aims: NDArray[np.uint8]
+
+
+def _rows(what: str, array: ArrayLike) -> NDArray[np.float32]:
+    """Finite float32 of shape (n, 3)."""
+    given = np.asarray(array)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError(f"expected {what} of shape (n, 3), found {given.shape}")
+    if given.dtype.kind not in "fiu":
+        raise ValueError(f"expected numbers as {what}, found an array of {given.dtype}")
+    with np.errstate(over="ignore"):
+        rows = np.ascontiguousarray(given, dtype=np.float32)
+    finite = np.isfinite(rows)
+    if not finite.all():
+        row, axis = np.argwhere(~finite)[0]
+        raise ValueError(f"expected finite {what}, found {given[row, axis]} in {what}[{row}, {axis}] (as float32)")
+    return rows
+
+
+def _faces(array: ArrayLike, vertices: int) -> NDArray[np.uint32]:
+    given = np.asarray(array)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError(f"expected faces of shape (m, 3), found {given.shape}")
+    if given.dtype.kind not in "iu":
+        raise ValueError(f"expected faces as integers, found an array of {given.dtype}")
+    wrong = (given < 0) | (given >= vertices)
+    if wrong.any():
+        row, corner = np.argwhere(wrong)[0]
+        found = given[row, corner]
+        raise ValueError(f"expected indices below {vertices} (counted from 0), found {found} in faces[{row}, {corner}]")
+    return np.ascontiguousarray(given, dtype=np.uint32)
+
+
+class Oracle:
+    """A mesh with a tree over it; :func:`oracle` makes one."""
+
+    def __init__(self, native: _native.Oracle) -> None:
+        self._native = native
+
+    def first_hits(self, origins: ArrayLike, directions: ArrayLike) -> NDArray[Any]:
+        """The exact first hit of each ray.
+
+        Args:
+            origins: Shape (n, 3), in the unit of the mesh.
+            directions: Shape (n, 3), of any length but zero.
+
+        Returns:
+            Structured array :data:`HIT` of shape (n,).
+
+        Raises:
+            ValueError: on another shape, a number that is not finite, or a direction of zero.
+        """
+        triangle, ties, t = self._native.first_hits(_rows("origins", origins), _rows("directions", directions))
+        hits = np.empty(len(t), dtype=HIT)
+        hits["triangle"], hits["ties"], hits["t"] = triangle, ties, t
+        return hits
+
+    def judge(
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        triangle: ArrayLike,
+        t: ArrayLike,
+        aims: ArrayLike | None = None,
+    ) -> NDArray[Any]:
+        """Hold the first hits that somebody found against the exact ones.
+
+        Args:
+            origins: Shape (n, 3).
+            directions: Shape (n, 3).
+            triangle: Shape (n,), integers: the triangle found, negative for none.
+            t: Shape (n,): its t, in multiples of the ray's direction; any value where there is no triangle. A t that is
+                NaN or infinite is judged as wrong.
+            aims: Shape (n,), those of :func:`hard_rays`, if known.
+
+        Returns:
+            Structured array :data:`VERDICT` of shape (n,).
+
+        Raises:
+            ValueError: on another shape, a ray that is not finite, or a direction of zero.
+        """
+        rays, triangles, ts, codes = self._found(origins, directions, triangle, t, aims)
+        kinds, aim_codes, rounding, hits, ulps = self._native.judge(rays, triangles, ts, codes)
+        verdicts = np.empty(len(kinds), dtype=VERDICT)
+        verdicts["kind"], verdicts["aim"], verdicts["rounding"], verdicts["ulps"] = kinds, aim_codes, rounding, ulps
+        verdicts["triangle"], verdicts["ties"], verdicts["t"] = hits
+        return verdicts
+
+    def report(
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        triangle: ArrayLike,
+        t: ArrayLike,
+        aims: ArrayLike | None = None,
+    ) -> str:
+        """What :meth:`judge` found, in words: counts, and the ten worst rays with their triangles, to the last bit.
+
+        Raises:
+            ValueError: as :meth:`judge`.
+        """
+        rays, triangles, ts, codes = self._found(origins, directions, triangle, t, aims)
+        return self._native.report(rays, triangles, ts, codes)
+
+    @staticmethod
+    def _found(
+        origins: ArrayLike, directions: ArrayLike, triangle: ArrayLike, t: ArrayLike, aims: ArrayLike | None
+    ) -> tuple[
+        tuple[NDArray[np.float32], NDArray[np.float32]], NDArray[np.int64], NDArray[np.float32], NDArray[np.uint8]
+    ]:
+        triangles, codes = np.asarray(triangle), np.asarray([] if aims is None else aims)
+        if triangles.dtype.kind not in "iu":
+            raise ValueError(f"expected triangles as integers, found an array of {triangles.dtype}")
+        with np.errstate(over="ignore"):
+            ts = np.ascontiguousarray(t, dtype=np.float32)
+        for name, array in (("triangle", triangles), ("t", ts), ("aims", codes)):
+            if array.ndim != 1:
+                raise ValueError(f"expected {name} of shape (n,), found {array.shape}")
+        rays = (_rows("origins", origins), _rows("directions", directions))
+        ids = np.ascontiguousarray(triangles, dtype=np.int64)
+        return rays, ids, ts, np.ascontiguousarray(codes, dtype=np.uint8)
+
+
+def oracle(
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    *,
+    sides: str = "both",
+    ulps: int = 4,
+    absolute: float = 0.0,
+    nearby_ulps: int = 8,
+) -> Oracle:
+    """A judge of first hits on a mesh: ``oracle(mesh.vertices, mesh.faces)`` of a trimesh mesh.
+
+    Args:
+        vertices: Shape (n, 3), rounded to float32.
+        faces: Shape (m, 3), integers: the corners of each triangle, counted from 0. Triangles without area are never
+            hit.
+        sides: ``"both"``, or ``"front"``: only where the corners run counter-clockwise.
+        ulps: Steps of float32 that t may be off. 2**32 - 1: any t.
+        absolute: Distance that t may be off besides, in multiples of the direction.
+        nearby_ulps: A missed surface is no leak if the miss is right for a ray within so many ULPs; 0: always a leak.
+
+    Raises:
+        ValueError: on another shape, a coordinate that is not finite, or an index beyond the vertices.
+    """
+    points = _rows("vertices", vertices)
+    if not 0 <= ulps < 2**32 or not 0 <= nearby_ulps < 2**16:
+        raise ValueError(f"expected ulps of 0 to 2**32 - 1 and nearby_ulps below 2**16, found {ulps} and {nearby_ulps}")
+    return Oracle(_native.Oracle(points, _faces(faces, len(points)), sides, (ulps, absolute), nearby_ulps))
+
+
+def hard_rays(vertices: ArrayLike, faces: ArrayLike, n: int, seed: int = 0) -> HardRays:
+    """Rays on which intersectors differ, spread over a mesh: ``n // 6`` of each :class:`Aim`, at most.
+
+    Args:
+        vertices: Shape (n, 3).
+        faces: Shape (m, 3).
+        n: Number of rays; fewer come where the mesh has fewer edges, vertices or triangles to aim at.
+        seed: The same seed gives the same rays.
+
+    Raises:
+        ValueError: as :func:`oracle`; if ``n`` is below 6.
+    """
+    if n < 6 or seed < 0:
+        raise ValueError(f"expected 6 rays or more and a seed of 0 or more, found {n} and {seed}")
+    points = _rows("vertices", vertices)
+    origins, directions, aims = _native.hard_rays(points, _faces(faces, len(points)), n // 6, seed)
+    return HardRays(origins.reshape(-1, 3), directions.reshape(-1, 3), aims)
+
+
+def counts(verdicts: NDArray[Any]) -> dict[Kind, int]:
+    """How often each kind occurs among verdicts of :meth:`Oracle.judge`, the worst first, those that occur."""
+    numbers = np.bincount(verdicts["kind"], minlength=len(Kind))
+    return {kind: int(numbers[kind]) for kind in Kind if numbers[kind]}

@@ -1,0 +1,78 @@
+"""The studies of Crossbar as lists of records, which ``pandas.DataFrame`` takes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import _native
+from .cards import SHADER_SIZE, CaseLike, _read
+
+#: The systems whose programs :func:`precision` studies besides cases.
+SYSTEMS = ("ray-engine", "radiosity", "subsurface", "cpca", "all-frequency", "bi-scale")
+
+
+def entries() -> list[dict[str, str]]:
+    """What :func:`reproduce` can reproduce: ``id`` and ``title`` of each table or figure."""
+    return [{"id": name, "title": title} for name, title in _native.entries()]
+
+
+def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
+    """The papers' printed values with ours, judged by bounds that were stated beforehand.
+
+    Args:
+        ids: Entries by :func:`entries`; without any all of them, which takes minutes.
+        full_size: Models as large as the papers': an hour or two.
+
+    Returns:
+        One dictionary for each printed figure, as in rows.csv of ``crossbar reproduce``: ``entry``, ``printed``,
+        ``ours``, ``verdict`` and others.
+
+    Raises:
+        ValueError: on an id that does not exist.
+    """
+    document = json.loads(_native.reproduce(list(ids), full_size))
+    rows: list[dict[str, Any]] = document["rows"]
+    return rows
+
+
+def precision(
+    case: CaseLike,
+    *,
+    goal: str | None = None,
+    families: Sequence[str] = ("float", "fixed"),
+    budget: int = 10_000,
+    device: str | None = None,
+    switches: Mapping[str, str] | None = None,
+    table: str = "curve",
+) -> list[dict[str, Any]]:
+    """Search the fewest bits with which a pixel program meets a goal.
+
+    Args:
+        case: A case as for :func:`crossbar_gi.run`, or one of :data:`SYSTEMS`.
+        goal: ``MEASURE<=NUMBER``, ``"flip<=0.01"`` for example; by default each code within one (docs/precision.md).
+        families: ``"float"``, ``"fixed"`` or both.
+        budget: Runs of the program after which the best so far is taken.
+        device: A device in place of the case's.
+        switches: Switches of the device, for a case.
+        table: Which table: ``"curve"`` (the measures by format), ``"formats"`` (of cards), ``"measures"``,
+            ``"switches"``, or another that the document has.
+
+    Returns:
+        The rows of the table, a dictionary each.
+
+    Raises:
+        ValueError: if the case or the goal is refused, or the document has no such table.
+    """
+    if isinstance(case, str) and case in SYSTEMS:
+        text = _native.precision(None, (case, device), goal, list(families), budget)
+    else:
+        read = _read(case, device, None, switches or {}, None, {}, SHADER_SIZE, "bgra8")
+        text = _native.precision(read, (None, None), goal, list(families), budget)
+    document = json.loads(text)
+    tables = {name: value for name, value in document.items() if isinstance(value, list)}
+    if table not in tables:
+        raise ValueError(f"expected one of the tables {', '.join(sorted(tables))}, found {table!r}")
+    rows: list[dict[str, Any]] = tables[table]
+    return rows

@@ -1,0 +1,201 @@
+//! Cases on emulated cards.
+
+use std::path::Path;
+
+use crossbar::case::{self, ComparedSides, Loaded, Overrides, Scope, Setup, Side, Traced, device_named};
+use numpy::ndarray::{Array2, Array3};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
+use pyo3::prelude::*;
+use refsim::event::Event;
+use refsim::machine::ExecutorKind;
+use refsim::num::{Format, FormatError};
+use refsim::texture::{Image, TargetRounding, TextureKind};
+use refsim::timing::replay::{Options, replay};
+use refsim::timing::{Level, Model};
+use serde_json::{Value, json};
+
+use crate::error::{refused, value_error};
+
+/// Case bound to a device, with the inputs that replace its own.
+#[pyclass(frozen, module = "crossbar_gi._native")]
+pub(crate) struct Case {
+    pub(crate) setup: Setup,
+    pub(crate) name: String,
+}
+
+/// What a draw leaves: a document, the targets, the depth buffer.
+type Drawn<'py> = (String, Vec<Bound<'py, PyArray3<f64>>>, Option<Bound<'py, PyArray2<f64>>>);
+
+fn executor(name: &str) -> PyResult<ExecutorKind> {
+    match name {
+        "scalar" => Ok(ExecutorKind::Scalar),
+        "batch" => Ok(ExecutorKind::Batch),
+        other => Err(value_error(format!("expected the executor \"scalar\" or \"batch\", found \"{other}\""))),
+    }
+}
+
+#[pymethods]
+impl Case {
+    /// Reads the case of a file, or of a text whose paths are relative to `folder`.
+    #[new]
+    fn new(
+        source: (&str, Option<&str>),
+        device: Option<&str>,
+        format: Option<&str>,
+        switches: Vec<(String, String)>,
+        step_budget: Option<u32>,
+    ) -> PyResult<Self> {
+        let (source, folder) = source;
+        let format = format.map(|text| text.parse::<Format>().and_then(Format::for_registers)).transpose();
+        let overrides = Overrides {
+            device: device.map(device_named).transpose().map_err(|error| refused(&error))?,
+            format: format.map_err(|error: FormatError| refused(&error))?,
+            switches,
+            step_budget,
+        };
+        let (read, name) = match folder {
+            Some(folder) => {
+                let name = "the case";
+                (Setup::from_bytes_with(name, source.as_bytes(), Path::new(folder), &overrides), name)
+            }
+            None => (Setup::read_with(Path::new(source), &overrides), source),
+        };
+        Ok(Self { setup: read.map_err(|error| refused(&error))?, name: name.to_owned() })
+    }
+
+    /// The case with some constants of its pixel program and some textures replaced.
+    fn with_inputs(
+        &self,
+        constants: Vec<(usize, [f64; 4])>,
+        textures: Vec<(usize, PyReadonlyArray3<'_, f32>)>,
+    ) -> PyResult<Self> {
+        let mut setup = self.setup.clone();
+        let float = &mut setup.pixel_constants.float;
+        for (index, value) in constants {
+            if index >= 256 {
+                return Err(value_error(format!("expected a constant from c0 to c255, found c{index}")));
+            }
+            float.resize(float.len().max(index + 1), [0; 4]);
+            // To nearest even, as a case's numbers.
+            float[index] = value.map(|number| (number as f32).to_bits());
+        }
+        for (slot, texels) in textures {
+            let Some(bound) = setup.textures.get_mut(&slot) else {
+                return Err(value_error(format!("expected a texture that the case binds, found t{slot}")));
+            };
+            bound.image = image(&bound.image, slot, &texels)?;
+        }
+        Ok(Self { setup, name: self.name.clone() })
+    }
+
+    /// Warnings on the case, in words.
+    fn warnings(&self) -> Vec<String> {
+        self.setup.warnings.iter().map(ToString::to_string).collect()
+    }
+
+    /// Draws.
+    fn run<'py>(&self, py: Python<'py>, executor_name: &str) -> PyResult<Drawn<'py>> {
+        let kind = executor(executor_name)?;
+        let drawn = py.detach(|| {
+            let outcome = case::run(&self.setup, kind)?;
+            let mut loaded = Loaded::recording(&self.setup, kind, None)?;
+            loaded.draw()?;
+            let minimum = self.setup.profile.rules.signed_texel_minimum;
+            let numbers = |target: &Image| {
+                let (height, width) = (target.height(), target.width());
+                Array3::from_shape_fn((height as usize, width as usize, 4), |(y, x, channel)| {
+                    target.texel(0, 0, y as u32, x as u32, minimum).to_f64()[channel]
+                })
+            };
+            let targets: Vec<Array3<f64>> = loaded.targets()?.into_iter().map(numbers).collect();
+            let depth = loaded.depth()?.map(|surface| {
+                let [width, height] = self.setup.size.map(|side| side as usize);
+                Array2::from_shape_fn((height, width), |(y, x)| {
+                    let stored = surface.get(x as u32, y as u32).unwrap_or_default();
+                    f64::from(f32::from_bits(surface.format().to_format(stored, Format::FP32)))
+                })
+            });
+            let mut document = outcome.document(&self.setup);
+            document["modelled"] = modelled(&self.setup, &loaded.take_log());
+            Ok((document.to_string(), targets, depth))
+        });
+        let (document, targets, depth) = drawn.map_err(|error: case::CaseError| refused(&error))?;
+        let targets = targets.into_iter().map(|target| target.into_pyarray(py)).collect();
+        Ok((document, targets, depth.map(|depth| depth.into_pyarray(py))))
+    }
+
+    /// What every instruction wrote at a pixel, as JSON.
+    fn trace(&self, py: Python<'_>, x: u32, y: u32, executor_name: &str) -> PyResult<String> {
+        let kind = executor(executor_name)?;
+        let [width, height] = self.setup.size;
+        if x >= width || y >= height {
+            let found = format!("expected a pixel within {width}x{height}, found column {x}, row {y}");
+            return Err(value_error(found));
+        }
+        let trace = py.detach(|| case::trace(&self.setup, kind, [x, y])).map_err(|error| refused(&error))?;
+        let traced = Traced { setup: &self.setup, trace: &trace, knows_flags: kind == ExecutorKind::Scalar };
+        Ok(traced.document().to_string())
+    }
+}
+
+/// A texture's picture replaced by an array of its size: red, green, blue, alpha as singles.
+fn image(old: &Image, slot: usize, texels: &PyReadonlyArray3<'_, f32>) -> PyResult<Image> {
+    if !matches!(old.kind(), TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle) || old.levels().len() > 1 {
+        let sentence = format!("t{slot}: arrays replace 1d, 2d and rectangle textures of one level, not this one");
+        return Err(value_error(sentence));
+    }
+    let view = texels.as_array();
+    let &[height, width, channels] = view.shape() else { return Err(value_error("expected three axes")) };
+    if channels != 4 || height == 0 || width == 0 {
+        let sentence = format!("t{slot}: expected texels of shape (height, width, 4), found {:?}", view.shape());
+        return Err(value_error(sentence));
+    }
+    let values: Vec<[u32; 4]> =
+        view.rows().into_iter().map(|texel| [0, 1, 2, 3].map(|channel| f32::to_bits(texel[channel]))).collect();
+    let extents = [width, height, 1].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+    Image::from_values(old.format(), old.kind(), extents, Format::FP32, &values, TargetRounding::Nearest)
+        .map_err(|error| value_error(format!("t{slot}: {error}")))
+}
+
+/// Time on the card in microseconds by model; null where the device lacks a figure.
+fn modelled(setup: &Setup, log: &[Event]) -> Value {
+    let time = |level: Level| {
+        let model = Model::new(level, &setup.profile).ok()?;
+        let run = replay(log, &model, &Options::of(level)).ok()?;
+        Some(run.timeline.makespan().0 as f64 / 1e6)
+    };
+    json!({ "rates_us": time(Level::Rates), "pipeline_us": time(Level::Pipeline) })
+}
+
+/// One case on two sides, as JSON: `pixel` is followed whether or not it differs, `registers` follows all.
+#[pyfunction]
+#[pyo3(signature = (left, right, executors, pixel, registers))]
+pub(crate) fn compare(
+    py: Python<'_>,
+    left: &Case,
+    right: &Case,
+    executors: (&str, &str),
+    pixel: Option<[u32; 2]>,
+    registers: bool,
+) -> PyResult<String> {
+    let sides = [
+        Side { setup: &left.setup, executor: executor(executors.0)?.into() },
+        Side { setup: &right.setup, executor: executor(executors.1)?.into() },
+    ];
+    let [width, height] = left.setup.size;
+    if right.setup.size != left.setup.size || right.setup.targets.len() != left.setup.targets.len() {
+        return Err(value_error("expected one case on both sides, found targets of other sizes or numbers"));
+    }
+    if let Some([x, y]) = pixel.filter(|[x, y]| *x >= width || *y >= height) {
+        let found = format!("expected a pixel within {width}x{height}, found column {x}, row {y}");
+        return Err(value_error(found));
+    }
+    let scope = match pixel {
+        Some(pixel) => Scope::Pixel(pixel),
+        None if registers => Scope::Registers,
+        None => Scope::Results,
+    };
+    let comparison = py.detach(|| case::compare(&sides[0], &sides[1], scope)).map_err(|error| refused(&error))?;
+    let compared = ComparedSides { case: &left.name, sides: &sides, comparison: &comparison };
+    Ok(compared.document().to_string())
+}

@@ -1,0 +1,38 @@
+//! The compiled part of the Python package `crossbar_gi`: loops over arrays, and the library's studies as documents.
+//!
+//! What users see is written in Python beside it (`crossbar_gi/`): shapes, broadcasting, names. Functions here take
+//! arrays of one type in the order of C, and return arrays, or documents as JSON.
+//!
+//! - `operand`: arrays of the shape of a result, block by block; `signals`: work without the interpreter's lock that
+//!   Ctrl-C ends; `error`: errors of the library as Python's.
+//! - `numbers`: number formats; `oracle`: exact hits; `cases`: cases on cards; `studies`: studies and pictures.
+
+mod cases;
+mod error;
+mod numbers;
+mod operand;
+mod oracle;
+mod signals;
+mod studies;
+
+use pyo3::prelude::*;
+
+/// Compiled part of `crossbar_gi`.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::cases::{Case, compare};
+    #[pymodule_export]
+    use crate::numbers::{compute, compute_patterns, dot, format_facts, from_patterns, to_patterns};
+    #[pymodule_export]
+    use crate::oracle::{Oracle, aims, hard_rays, kinds};
+    #[pymodule_export]
+    use crate::studies::{diff, entries, precision, reproduce};
+
+    use super::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,59 @@
+//! Arrays of the shape of a result, element by element in the order of C.
+
+use numpy::ndarray::{ArrayViewD, Axis};
+use numpy::{Element, PyReadonlyArrayDyn};
+
+/// Elements of an operand: all in a row, one for all, or anywhere in memory.
+pub(crate) enum Operand<'a, T> {
+    All(&'a [T]),
+    One([T; 1]),
+    Strided(ArrayViewD<'a, T>),
+}
+
+impl<'a, T: Element + Copy> Operand<'a, T> {
+    /// An array of the result's shape, or of one element.
+    pub(crate) fn new(array: &'a PyReadonlyArrayDyn<'_, T>) -> Self {
+        let view = array.as_array();
+        // Not the array's own slice, which it has in the order of Fortran, too.
+        match (view.to_slice(), view.first()) {
+            (_, Some(&one)) if view.len() == 1 => Self::One([one]),
+            (Some(all), _) => Self::All(all),
+            (None, _) => Self::Strided(view),
+        }
+    }
+
+    /// `length` elements from `start` on, or the one; those of strided operands are collected in the buffer.
+    pub(crate) fn part<'b>(&'b self, start: usize, length: usize, buffer: &'b mut Vec<T>) -> &'b [T] {
+        match self {
+            Self::All(all) => all.get(start..start + length).unwrap_or_default(),
+            Self::One(one) => one,
+            Self::Strided(view) => {
+                collect(view, start, length, buffer);
+                buffer
+            }
+        }
+    }
+}
+
+/// Collects elements row by row.
+fn collect<T: Copy>(view: &ArrayViewD<'_, T>, start: usize, length: usize, buffer: &mut Vec<T>) {
+    buffer.clear();
+    let columns = view.shape().last().copied().unwrap_or(1).max(1);
+    let mut column = start % columns;
+    for row in start / columns.. {
+        let mut line = view.view();
+        let mut rest = row;
+        // The last but one axis counts fastest.
+        while line.ndim() > 1 {
+            let axis = line.ndim() - 2;
+            let side = line.len_of(Axis(axis)).max(1);
+            line = line.index_axis_move(Axis(axis), rest % side);
+            rest /= side;
+        }
+        buffer.extend(line.iter().skip(column).take(length - buffer.len()));
+        column = 0;
+        if buffer.len() >= length || line.is_empty() {
+            return;
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Studies as documents, and how two pictures differ.
+
+use std::str::FromStr;
+
+use crossbar::case::device_named;
+use crossbar::picture::metrics::{ScreenPicture, flip, ssim};
+use crossbar::picture::{ChannelUnit, Picture, PictureError, Samples};
+use crossbar::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, KnownRuns, PaperSystem, Precision};
+use crossbar::study::reproduce::{ENTRIES, ModelSize, Parameters, choose};
+use crossbar::study::{Study as _, StudyError};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray2, PyReadonlyArray3};
+use pyo3::prelude::*;
+
+use crate::cases::Case;
+use crate::error::{refused, value_error};
+use crate::signals;
+
+/// Names and titles of the entries of the reproduction.
+#[pyfunction]
+pub(crate) fn entries() -> Vec<(&'static str, &'static str)> {
+    ENTRIES.iter().map(|entry| (entry.id, entry.title)).collect()
+}
+
+/// Document of some entries of the reproduction, as JSON.
+#[pyfunction]
+pub(crate) fn reproduce(py: Python<'_>, ids: Vec<String>, full_size: bool) -> PyResult<String> {
+    let models = if full_size { ModelSize::Printed } else { ModelSize::Reduced };
+    let entries = choose(&ids).map_err(|error| refused(&error))?;
+    let study = Parameters { entries, models };
+    let found = signals::study(py, |progress| Ok(study.findings(progress)?.plain_document().to_string()))?;
+    found.map_err(|error: StudyError| refused(&error))
+}
+
+/// Document of a search for the fewest bits, of a case, or of a system on a device, as JSON.
+#[pyfunction]
+pub(crate) fn precision(
+    py: Python<'_>,
+    case: Option<&Case>,
+    system: (Option<&str>, Option<&str>),
+    goal: Option<&str>,
+    families: Vec<String>,
+    budget: u64,
+) -> PyResult<String> {
+    let family = |name: &String| match name.as_str() {
+        "float" => Ok(FormatFamily::Float),
+        "fixed" => Ok(FormatFamily::Fixed),
+        other => Err(value_error(format!("expected the family \"float\" or \"fixed\", found \"{other}\""))),
+    };
+    let families = families.iter().map(family).collect::<PyResult<Vec<_>>>()?;
+    let goal = goal.map(Goal::from_str).transpose().map_err(|error| value_error(error.to_string()))?;
+    let (system, device) = system;
+    let system = system.map(PaperSystem::from_str).transpose();
+    let system = system.map_err(|_| value_error("expected a system, found another name"))?;
+    let profile = system.map(|system| device_named(device.unwrap_or(system.card()))).transpose();
+    let profile = profile.map_err(|error| refused(&error))?;
+    let found = signals::study(py, |progress| {
+        let subject = match (case, system.zip(profile)) {
+            (Some(case), _) => Box::new(CaseSubject::new(case.setup.clone(), &case.name)?),
+            (None, Some((system, profile))) => system.subject(profile)?,
+            (None, None) => return Err(StudyError::new("crossbar::precision", "expected a case or a system")),
+        };
+        let (costs, known) = (FormatCosts::default(), KnownRuns::default());
+        let study = Precision { subject, goal, families, budget, costs, known };
+        Ok(study.findings(progress)?.plain_document().to_string())
+    })?;
+    found.map_err(|error: StudyError| refused(&error))
+}
+
+/// SSIM (none of pictures smaller than its window), mean and largest FLIP, and FLIP of each pixel.
+type Difference<'py> = (Option<f64>, f64, f64, Bound<'py, PyArray2<f64>>);
+
+/// Compares two pictures of shape (height, width, 3) as an observer sees them.
+#[pyfunction]
+pub(crate) fn diff<'py>(
+    py: Python<'py>,
+    pictures: (PyReadonlyArray3<'py, f32>, PyReadonlyArray3<'py, f32>),
+    is_srgb: bool,
+    exposure_ppd: (f64, f64),
+) -> PyResult<Difference<'py>> {
+    let unit = if is_srgb { ChannelUnit::Srgb } else { ChannelUnit::Linear };
+    let (exposure, ppd) = exposure_ppd;
+    let shape = pictures.0.as_array().shape().to_vec();
+    let pictures = [picture(&pictures.0, unit)?, picture(&pictures.1, unit)?];
+    let found = py.detach(|| {
+        let screens = [ScreenPicture::new(&pictures[0], exposure)?, ScreenPicture::new(&pictures[1], exposure)?];
+        Ok(flip(&screens[0], &screens[1], ppd).map(|map| (ssim(&screens[0], &screens[1]), map)))
+    });
+    let refuse = |error: PictureError| value_error(error.to_string());
+    let Some((ssim, map)) = found.map_err(refuse)? else {
+        return Err(value_error("expected two pictures of one size, with a positive number of pixels per degree"));
+    };
+    let errors = Array2::from_shape_vec((shape[0], shape[1]), map.errors).map_err(|e| value_error(e.to_string()))?;
+    Ok((ssim, map.mean, map.maximum, errors.into_pyarray(py)))
+}
+
+fn picture(array: &PyReadonlyArray3<'_, f32>, unit: ChannelUnit) -> PyResult<Picture> {
+    let view = array.as_array();
+    let &[height, width, 3] = view.shape() else {
+        return Err(value_error(format!("expected a picture of shape (height, width, 3), found {:?}", view.shape())));
+    };
+    let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+    let mut picture = Picture::new(side(width), side(height));
+    for (place, name) in ["R", "G", "B"].into_iter().enumerate() {
+        let samples = view.iter().skip(place).step_by(3).copied().collect();
+        let refuse = |error: PictureError| value_error(error.to_string());
+        picture = picture.with(name, unit, Samples::Float(samples)).map_err(refuse)?;
+    }
+    Ok(picture)
+}

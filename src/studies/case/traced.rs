@@ -1,0 +1,199 @@
+//! A traced pixel as rows of named values, and as a document.
+
+use refsim::{
+    exec::{FragmentFormats, Step, inputs_read},
+    isa::{Mask, Program, Register, RegisterFile},
+    machine::FragmentTrace,
+    num::{Flags, Format},
+    output::FragmentFate,
+    raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT},
+    texture::ChannelClass,
+};
+use serde_json::{Map, Value, json};
+
+use super::{PixelTrace, Setup};
+use crate::{compare::Number, report::Table};
+
+/// A trace with the case that it is of.
+#[derive(Clone, Copy, Debug)]
+pub struct Traced<'a> {
+    /// Case.
+    pub setup: &'a Setup,
+    /// Trace of the pixel.
+    pub trace: &'a PixelTrace,
+    /// `true` if the executor reports exceptions of instructions.
+    pub knows_flags: bool,
+}
+
+/// A named value.
+#[derive(Clone, Debug)]
+pub struct TraceRow {
+    /// Name of the register's component, in program syntax.
+    pub name: String,
+    /// Value.
+    pub number: Number,
+}
+
+impl TraceRow {
+    fn new(program: &Program, register: &Register, component: usize, format: Format, bits: u32) -> Self {
+        Self { name: crate::compare::component(program, register, component), number: Number { format, bits } }
+    }
+
+    fn json(&self) -> Value {
+        json!({ "name": self.name, "value": self.number.decimal(), "bits": self.number.hex() })
+    }
+}
+
+/// Names of exceptions: `divide by zero`.
+pub fn flag_names(flags: Flags) -> Vec<String> {
+    flags.iter_names().map(|(name, _)| name.to_lowercase().replace('_', " ")).collect()
+}
+
+impl Traced<'_> {
+    fn format(&self) -> Format {
+        self.setup.profile.rules.format
+    }
+
+    /// The program's inputs from the rasteriser, as far as they can be read, and the depth.
+    pub fn interpolated(&self, fragment: &FragmentTrace) -> Vec<TraceRow> {
+        let reads = inputs_read(&self.setup.pixel);
+        let input = &fragment.shading.input;
+        let sets = input.t.iter().enumerate().map(|(n, t)| (RegisterFile::Texture, n, TEXCOORD_COMPONENT, t));
+        let position = [(RegisterFile::WindowPosition, 0, POSITION_COMPONENT, &input.position)];
+        let colors = input.v.iter().enumerate().map(|(n, v)| (RegisterFile::Input, n, COLOR_COMPONENT, v));
+        let mut rows: Vec<TraceRow> = colors
+            .chain(sets)
+            .chain(position)
+            .filter(|(_, n, first, _)| reads.has(first + 4 * n))
+            .flat_map(|(file, n, _, value)| {
+                let register = Register::new(file, n as u16);
+                (0..4).map(move |c| TraceRow::new(&self.setup.pixel, &register, c, Format::FP32, value[c]))
+            })
+            .collect();
+        if reads.has(FOG_COMPONENT) {
+            let number = Number { format: Format::FP32, bits: input.fog };
+            rows.push(TraceRow { name: "fog".to_owned(), number });
+        }
+        rows.push(TraceRow { name: "depth".to_owned(), number: Number { format: Format::FP32, bits: input.depth } });
+        rows
+    }
+
+    /// The inputs as the program reads them.
+    pub fn delivered(&self, fragment: &FragmentTrace) -> Vec<TraceRow> {
+        let registers = fragment.shading.delivered.iter();
+        registers
+            .flat_map(|(r, value)| (0..4).map(|c| TraceRow::new(&self.setup.pixel, r, c, self.format(), value[c])))
+            .collect()
+    }
+
+    /// Results of a step, component by component; truth values of predicates are 0 and 1.
+    pub fn written(&self, step: &Step) -> Vec<TraceRow> {
+        let instruction = self.setup.pixel.instructions.get(step.instruction);
+        let Some(destination) = instruction.and_then(|i| i.destination) else { return Vec::new() };
+        let file = destination.register.file;
+        let truth = file == RegisterFile::Predicate;
+        let format = FragmentFormats::new(&self.setup.profile.rules).of_file(file);
+        let shown = |c: usize| {
+            let one = if step.value[c] != 0 { self.format().one() } else { 0 };
+            TraceRow::new(&self.setup.pixel, &destination.register, c, format, if truth { one } else { step.value[c] })
+        };
+        step.mask.components().map(shown).collect()
+    }
+
+    /// The fragment's depth, if the program decides one, and the targets before and after.
+    pub fn stored(&self, fragment: &FragmentTrace) -> Table {
+        let mut table = Table::new("Targets", &["surface", "before", "after"]);
+        let (before, after) = (&fragment.before, &fragment.after);
+        for (n, format) in self.setup.targets.iter().enumerate() {
+            let digits = 2 * format.bytes();
+            let shown = |raw: Option<u128>| {
+                let raw = raw.unwrap_or_default();
+                let channels = format.record().stored().iter().map(|channel| {
+                    let bits = channel.code(raw);
+                    match channel.class {
+                        ChannelClass::Float(format) => Number { format, bits }.decimal(),
+                        _ => bits.to_string(),
+                    }
+                });
+                format!("{} (0x{raw:0digits$x})", channels.collect::<Vec<_>>().join(", "))
+            };
+            table.push([
+                format!("target {n} {format}").into(),
+                shown(before.colors[n]).into(),
+                shown(after.colors[n]).into(),
+            ]);
+        }
+        if let Some((format, ..)) = self.setup.depth {
+            let shown = |stored: Option<u32>| {
+                let stored = stored.unwrap_or_default();
+                let single = Number { format: Format::FP32, bits: format.to_format(stored, Format::FP32) };
+                format!("{} (0x{stored:x})", single.decimal())
+            };
+            table.push([format!("depth {format}").into(), shown(before.depth).into(), shown(after.depth).into()]);
+        }
+        table
+    }
+
+    /// Document for programs.
+    pub fn document(&self) -> Value {
+        let mut document = json!({
+            "draw": 0,
+            "pixel": self.trace.pixel,
+            "passes": self.trace.fragments.iter().map(|fragment| self.pass_json(fragment)).collect::<Vec<_>>(),
+        });
+        if self.trace.fragments.is_empty() {
+            document["nearest"] = json!(self.trace.nearest);
+        }
+        document
+    }
+
+    fn pass_json(&self, fragment: &FragmentTrace) -> Value {
+        let rows = |rows: Vec<TraceRow>| rows.iter().map(TraceRow::json).collect::<Vec<_>>();
+        let shading = &fragment.shading;
+        json!({
+            "instance": fragment.instance,
+            "triangle": fragment.triangle,
+            "part": fragment.part,
+            "interpolated": rows(self.interpolated(fragment)),
+            "inputs": rows(self.delivered(fragment)),
+            "steps": shading.steps.iter().map(|step| self.step_json(step)).collect::<Vec<_>>(),
+            "killed": shading.output.killed,
+            "depth": shading.output.depth.map(|depth| {
+                let number = Number { format: depth.format, bits: depth.bits };
+                json!({ "value": number.decimal(), "bits": number.hex(), "format": depth.format.to_string() })
+            }),
+            "fate": fate(shading.fate),
+            "surfaces": self.stored(fragment).json(),
+        })
+    }
+
+    fn step_json(&self, step: &Step) -> Value {
+        let mut out = Map::new();
+        out.insert("instruction".to_owned(), step.instruction.into());
+        if let Some(instruction) = self.setup.pixel.instructions.get(step.instruction) {
+            out.insert("source".to_owned(), json!(self.setup.pixel_text.line(instruction.span)));
+            out.insert("register".to_owned(), instruction.destination.map(|d| d.register.to_string()).into());
+        }
+        out.insert("mask".to_owned(), letters(step.mask).into());
+        out.insert("written".to_owned(), self.written(step).iter().map(TraceRow::json).collect());
+        let flags = self.knows_flags.then(|| flag_names(step.flags));
+        out.insert("flags".to_owned(), flags.map_or(Value::Null, |flags| json!(flags)));
+        Value::Object(out)
+    }
+}
+
+/// The stage at which a fragment ended.
+pub const fn fate(fate: FragmentFate) -> &'static str {
+    match fate {
+        FragmentFate::KilledByShader => "is killed by the program",
+        FragmentFate::AlphaFailed => "fails the alpha test",
+        FragmentFate::DepthFailed => "fails the depth test",
+        FragmentFate::Passed => "passes",
+        FragmentFate::OutsideTile => "lies outside",
+    }
+}
+
+/// The components of a mask: `xz`.
+pub fn letters(mask: Mask) -> String {
+    mask.components().map(|c| ['x', 'y', 'z', 'w'][c]).collect()
+}
