@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::memory::{self, MemoryNeed};
 use super::number;
 use super::study::{self, StudyArgs};
-use super::{Out, Problem, view};
+use super::{CommandLine, Out, Problem, view};
 use crate::io::PictureFile;
 use crate::picture::metrics::{DEFAULT_PPD, MAX_PPD, MIN_PPD};
 use crate::report::Verdict;
@@ -85,7 +85,7 @@ fn ppd(text: &str) -> Result<f64, String> {
     if fits { Ok(number) } else { Err(format!("expected {MIN_PPD} to {MAX_PPD} pixels per degree, found `{text}`")) }
 }
 
-pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     out.outlive_reader();
     study::run(args, command_line, out)
 }

@@ -15,6 +15,7 @@ use super::shown::{MAX_SHOWN, ShownError};
 use crate::case::{CaseError, meant};
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
+use crate::split::PartError;
 
 /// Columns of tables and errors that go to a file or pipe, so that their text does not depend on a terminal.
 pub(super) const PLAIN_WIDTH: usize = 100;
@@ -37,6 +38,10 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Memory(#[from] MemoryError),
+    /// A part of the work that cannot be written, or parts that do not fit.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Part(#[from] PartError),
     /// A signal ended the work before its files were there.
     #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
     #[diagnostic(code(crossbar::interrupted), help("work does not resume: the same command starts from the beginning"))]
@@ -149,7 +154,7 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
 }
 
 /// A usage error for machines: clap's sentence and its help.
-fn usage_problem(error: &clap::Error) -> Problem {
+pub(super) fn usage_problem(error: &clap::Error) -> Problem {
     let text = visible(&error.render().to_string()).into_owned();
     let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
     let joined = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -8,6 +8,7 @@ use refsim::num::Format;
 use super::executor::{DeviceExecutor, GpuArgs};
 use super::memory::MemoryNeed;
 use super::model_name;
+use super::part::PartArgs;
 use super::scene_name::EyeArgs;
 use super::size::Size;
 use super::study::StudyArgs;
@@ -71,6 +72,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "F")]
     format: Vec<String>,
 
+    #[command(flatten)]
+    part: PartArgs,
+
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/leaky-teapot")]
     out: PathBuf,
@@ -106,6 +110,10 @@ impl StudyArgs for Args {
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)
+    }
+
+    fn part(&self) -> Option<PartArgs> {
+        Some(self.part)
     }
 
     fn inputs(&self) -> Vec<&Path> {

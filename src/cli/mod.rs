@@ -26,6 +26,7 @@ mod man;
 mod materials;
 mod measure;
 mod memory;
+mod merge;
 mod model_file;
 mod model_name;
 mod moved;
@@ -34,6 +35,7 @@ mod one_of;
 mod out;
 mod outputs;
 mod page;
+mod part;
 mod pixel;
 mod precision;
 mod progress;
@@ -61,6 +63,9 @@ use bytesize::ByteSize;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::report::Verdict;
+use crate::split::PartSet;
+
+use resolved::CommandLine;
 
 pub use error::{OutputError, Problem};
 pub use memory::{LimitSource, MemoryError};
@@ -143,6 +148,7 @@ enum Command {
     Man(man::Args),
     Materials(materials::Args),
     Measure(measure::Args),
+    Merge(merge::Args),
     Page(page::Args),
     Precision(precision::Args),
     Radiosity(radiosity::Args),
@@ -160,7 +166,7 @@ pub fn program() -> clap::Command {
 }
 
 /// A parsed command line, the same line with its defaults, and the check that its options go together.
-type Parsed = (Cli, String, Result<(), Problem>);
+type Parsed = (Cli, CommandLine, Result<(), Problem>);
 
 fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
     let mut program = moved::with_old_name(program());
@@ -231,7 +237,17 @@ pub fn main() -> ExitCode {
     }
 }
 
-fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+/// Obeys the command of parts, whose results take the place of its work.
+fn merge(args: &merge::Args, out: &mut Out) -> miette::Result<Verdict> {
+    let parts: PartSet = args.open()?;
+    args.require_divisible(&program(), &parts)?;
+    let (cli, mut command_line, fits) = parse(&args.command(&parts)).map_err(|error| error::usage_problem(&error))?;
+    fits?;
+    command_line.parts = Some(parts);
+    obey(cli.command, &command_line, out)
+}
+
+fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     match command {
         Command::AllFrequency(args) => all_frequency::run(&args, command_line, out),
         Command::Alu(args) => alu::run(&args, out),
@@ -248,6 +264,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Man(args) => man::run(&args, program(), out),
         Command::Materials(args) => materials::run(&args, out),
         Command::Measure(args) => study::run(&args, command_line, out),
+        Command::Merge(args) => merge(&args, out),
         Command::Page(args) => page::run(&args, out),
         Command::Precision(args) => study::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),

@@ -62,8 +62,10 @@ pub(super) fn choose(matches: &ArgMatches) -> Result<(), Problem> {
         let options = [("--model-up", up.is_some()), ("--strict", strict)];
         given::refuse(options, "a model's file, found none", "name a model, or leave it out")?;
     }
-    // Set once: there is one command line.
-    OPTIONS.set(ModelOptions { up, strict }).ok();
+    if named_by.is_some() {
+        // Set once: one command reads models, that of the line or that whose parts are merged.
+        OPTIONS.set(ModelOptions { up, strict }).ok();
+    }
     Ok(())
 }
 

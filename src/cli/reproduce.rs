@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::memory::MemoryNeed;
 use super::study::{self, StudyArgs};
 use super::version::COMMIT;
-use super::{Out, Problem, ProgressBar};
+use super::{CommandLine, Out, Problem, ProgressBar};
 use crate::io::atomic::{FileSet, write_file};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 use crate::study::reproduce::{ENTRIES, EntryRecord, ModelSize, Parameters, RecordMade, SmokeRun, choose, sized};
@@ -65,7 +65,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     match &args.record {
         Some(folder) => record(args, folder, out),
         None if args.list => list(out),

@@ -1,42 +1,77 @@
 //! The command line as it was obeyed: every option that decides what is found, defaults filled in.
 
+use std::ffi::{OsStr, OsString};
 use std::fmt::Write as _;
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
-/// Options that change no result: where it goes, who computes the same bits, what is told on the way.
-const WITHOUT_EFFECT: [&str; 8] =
-    ["out", "executor", "adapter", "json", "threads", "all_errors", "memory_limit", "help"];
+use crate::split::PartSet;
+
+/// Options that change no result: where it goes, who computes the same bits and which of them, what is told on the way.
+const WITHOUT_EFFECT: [&str; 9] =
+    ["out", "executor", "adapter", "json", "threads", "all_errors", "memory_limit", "help", "part"];
+
+/// A command line as it was obeyed.
+#[derive(Debug)]
+pub(super) struct CommandLine {
+    /// For a reader.
+    pub(super) text: String,
+    /// Arguments that say the same to the parser.
+    pub(super) arguments: Vec<OsString>,
+    /// Parts that were computed before, if the command is obeyed by `crossbar merge`.
+    pub(super) parts: Option<PartSet>,
+}
 
 /// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. A
 /// default that a given option replaces is left out.
-pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> String {
-    let (mut text, mut command, mut matches) = (program.get_name().to_owned(), program, matches);
+pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLine {
+    let mut line = CommandLine { text: program.get_name().to_owned(), arguments: Vec::new(), parts: None };
+    let (mut command, mut matches) = (program, matches);
     while let Some((name, inner)) = matches.subcommand() {
         // Writing to a string cannot fail.
-        let _ = write!(text, " {name}");
-        let Some(found) = command.find_subcommand(name) else { return text };
+        let _ = write!(line.text, " {name}");
+        line.arguments.push(name.into());
+        let Some(found) = command.find_subcommand(name) else { return line };
         (command, matches) = (found, inner);
     }
     if std::ptr::eq(command, program) {
-        return text;
+        return line;
     }
     let (positional, options): (Vec<&Arg>, Vec<&Arg>) = command.get_arguments().partition(|arg| arg.is_positional());
+    let mut last = Vec::new();
     for arg in positional.into_iter().chain(options) {
         if WITHOUT_EFFECT.contains(&arg.get_id().as_str()) || replaced(command, arg, matches) {
             continue;
         }
         for value in values(arg, matches) {
+            let shown = value.as_deref().map(OsStr::to_string_lossy);
             // Writing to a string cannot fail.
-            let _ = match (arg.get_long(), value) {
-                (Some(long), Some(value)) => write!(text, " --{long} {value}"),
-                (Some(long), None) => write!(text, " --{long}"),
-                (None, value) => write!(text, " {}", value.unwrap_or_default()),
+            let _ = match (arg.get_long(), shown) {
+                (Some(long), Some(value)) => write!(line.text, " --{long} {value}"),
+                (Some(long), None) => write!(line.text, " --{long}"),
+                (None, value) => write!(line.text, " {}", value.unwrap_or_default()),
             };
+            match (arg.get_long(), value) {
+                (Some(long), Some(value)) => line.arguments.push(joined(&format!("--{long}="), &value)),
+                (Some(long), None) => line.arguments.push(format!("--{long}").into()),
+                (None, Some(value)) if value.as_encoded_bytes().starts_with(b"-") => last.push(value),
+                (None, value) => line.arguments.extend(value),
+            }
         }
     }
-    text
+    // The parser takes them for options anywhere else.
+    if !last.is_empty() {
+        line.arguments.push("--".into());
+        line.arguments.extend(last);
+    }
+    line
+}
+
+fn joined(before: &str, value: &OsStr) -> OsString {
+    let mut joined = OsString::from(before);
+    joined.push(value);
+    joined
 }
 
 /// Returns `true` if the argument has its default only, and another one that was given excludes it.
@@ -47,15 +82,14 @@ fn replaced(command: &Command, arg: &Arg, matches: &ArgMatches) -> bool {
 }
 
 /// The values of each occurrence; of a flag that was given `None`, once.
-fn values(arg: &Arg, matches: &ArgMatches) -> Vec<Option<String>> {
+fn values(arg: &Arg, matches: &ArgMatches) -> Vec<Option<OsString>> {
     let id = arg.get_id().as_str();
     if matches!(arg.get_action(), ArgAction::SetTrue) {
         return matches.get_flag(id).then_some(None).into_iter().collect();
     }
-    let raw: Vec<String> =
-        matches.get_raw(id).into_iter().flatten().map(|value| value.to_string_lossy().into_owned()).collect();
+    let raw: Vec<OsString> = matches.get_raw(id).into_iter().flatten().map(OsStr::to_owned).collect();
     match arg.get_value_delimiter() {
-        Some(delimiter) if !raw.is_empty() => vec![Some(raw.join(&delimiter.to_string()))],
+        Some(delimiter) if !raw.is_empty() => vec![Some(raw.join(OsStr::new(&delimiter.to_string())))],
         _ => raw.into_iter().map(Some).collect(),
     }
 }
@@ -71,7 +105,7 @@ mod tests {
         let mut program = Cli::command();
         program.build();
         let matches = program.clone().try_get_matches_from(arguments).expect("arguments that are fine");
-        command_line(&program, &matches)
+        command_line(&program, &matches).text
     }
 
     #[test]

@@ -9,9 +9,11 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::memory::MemoryNeed;
-use super::{Out, Problem, ProgressBar, view};
+use super::part::{self, PartArgs};
+use super::{CommandLine, Out, Problem, ProgressBar, view};
 use crate::io::atomic::FileSet;
 use crate::report::{Findings, Provenance, Verdict, sha256};
+use crate::split::{Computed, SplitRun};
 use crate::study::Study;
 
 /// The options of a study's command.
@@ -27,6 +29,11 @@ pub(super) trait StudyArgs {
 
     /// Where its files go; `None` if there are to be none.
     fn folder(&self) -> Option<&Path>;
+
+    /// Its `--part`, if its work can be split.
+    fn part(&self) -> Option<PartArgs> {
+        None
+    }
 
     /// The files that it reads.
     fn inputs(&self) -> Vec<&Path>;
@@ -44,7 +51,7 @@ pub(super) trait StudyArgs {
 }
 
 /// Runs a study; `command_line` is what its findings come from.
-pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(need) = args.memory()? {
         need.require()?;
     }
@@ -52,12 +59,20 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
     if let Some(need) = args.memory_of(&study) {
         need.require()?;
     }
+    let split = match (args.part(), args.folder()) {
+        (Some(part), Some(out)) => part.split(command_line, out)?,
+        _ => SplitRun::Whole,
+    };
     // Before the long work, so that a folder that cannot be written is found out at once.
-    let folder = args.folder().map(|folder| FileSet::by(A::COMMAND, folder)).transpose().map_err(Problem::from)?;
+    let folder = args.folder().filter(|_| !split.is_part());
+    let folder = folder.map(|folder| FileSet::by(A::COMMAND, folder)).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
-    let mut found = study.findings(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    let mut found = match study.findings_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
+        Computed::Whole(found) => found,
+        Computed::Part(written) => return show(&part::findings(&written), out),
+    };
     drop(bar);
-    let provenance = study.provenance(with_inputs(Provenance::new(command_line), &args.inputs()));
+    let provenance = study.provenance(with_inputs(Provenance::new(&command_line.text), &args.inputs()));
     if let Some(folder) = folder {
         view::write_folder(folder, &found.take_files(&provenance)?)?;
     }
@@ -101,15 +116,15 @@ pub(super) fn written_arrays(found: &mut Findings, written: Option<&[PathBuf]>, 
 /// Prints the introduction, each table, and the other lines with the page of a folder; empty lines part them.
 fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Result<()> {
     let mut is_first = found.introduction().is_empty();
-    let mut part = |out: &mut Out| if std::mem::take(&mut is_first) { Ok(()) } else { out.line("") };
+    let mut apart = |out: &mut Out| if std::mem::take(&mut is_first) { Ok(()) } else { out.line("") };
     found.introduction().iter().try_for_each(|line| out.sentence(line))?;
     for table in found.printed_tables() {
-        part(out)?;
+        apart(out)?;
         out.titled_table(table)?;
     }
     let lines: Vec<&String> = found.conclusions().iter().chain(found.printed_lines()).collect();
     if !lines.is_empty() || folder.is_some() {
-        part(out)?;
+        apart(out)?;
     }
     lines.into_iter().try_for_each(|line| out.sentence(line))?;
     if let Some(folder) = folder {

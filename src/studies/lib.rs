@@ -8,4 +8,5 @@ use crossbar_systems::{all_frequency, bi_scale, cpca, radiosity, ray_engine, ren
 pub mod case;
 pub mod report;
 pub mod shader;
+pub mod split;
 pub mod study;

@@ -26,6 +26,7 @@ mod models;
 mod moved;
 mod options;
 mod page;
+mod parts;
 mod precision;
 mod program;
 mod radiosity;

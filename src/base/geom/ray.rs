@@ -1,5 +1,6 @@
 //! Rays and hits.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Half-line `origin + t * direction`, t >= 0, with the f32 values as given: the direction is never renormalised.
@@ -63,7 +64,7 @@ impl AsRef<Self> for Ray {
 }
 
 /// First hit of a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hit {
     /// Id of the triangle: its index in the mesh.
     pub triangle: u32,

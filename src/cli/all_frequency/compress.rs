@@ -10,11 +10,13 @@ use crate::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
 use crate::cli::one_of::variants;
+use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Problem, ProgressBar, memory, view};
+use crate::cli::{CommandLine, Problem, ProgressBar, memory, view};
 use crate::io::ReadError;
 use crate::report::{Cell, Findings, Table};
+use crate::split::Computed;
 use crate::study::prt::{CompressionTally, KeptSegments, SegmentTally, SegmentedCompression};
 use crate::transfer::clustering::CpcaMethod;
 use crate::transfer::file::MeshDigest;
@@ -76,15 +78,18 @@ pub(super) struct Args {
     scale: ScaleOf,
 
     /// Keep finished segments in this folder, and take those that it has
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "part")]
     resume: Option<PathBuf>,
+
+    #[command(flatten)]
+    part: PartArgs,
 
     /// The file to write
     #[arg(long, value_name = "Y.prt")]
     out: PathBuf,
 }
 
-pub(super) fn run(args: &Args) -> miette::Result<Findings> {
+pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     view::require_file(&args.signal, 3, "name a smaller file")?;
     let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.signal, &args.model)?;
     let Some(maps) = &file.visibility else {
@@ -114,7 +119,12 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         kept: kept.transpose()?,
     };
     let bar = ProgressBar::new("", 1).quicker("more `--points-per-cluster` or fewer `--iterations`");
-    let (coded, tally) = compression.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    let split = args.part.split(command_line, &args.out)?;
+    let (coded, tally) =
+        match compression.run_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
+            Computed::Whole(found) => found,
+            Computed::Part(written) => return Ok(part::findings(&written)),
+        };
     drop(bar);
     let census = SegmentCensus::new(&vertices, maps, &LinearBasis::new(file.hats));
     let raw = compression.raw_bytes();

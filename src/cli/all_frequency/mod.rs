@@ -12,7 +12,7 @@ mod precompute;
 mod render;
 mod show;
 
-use super::{Out, Verdict, study};
+use super::{CommandLine, Out, Verdict, study};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,12 +51,12 @@ enum Verb {
     Card(card::Args),
 }
 
-pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
         Verb::Factor(args) => return study::run(args, command_line, out),
         Verb::Lighting(args) => lighting::run(args)?,
-        Verb::Precompute(args) => precompute::run(args)?,
-        Verb::Compress(args) => compress::run(args)?,
+        Verb::Precompute(args) => precompute::run(args, command_line)?,
+        Verb::Compress(args) => compress::run(args, command_line)?,
         Verb::Error(args) => error::run(args)?,
         Verb::Show(args) => show::run(args)?,
         Verb::Render(args) => return study::run(args, command_line, out),

@@ -9,16 +9,18 @@ use crate::all_frequency::factor::ProductFactors;
 use crate::all_frequency::file::save_all_frequency;
 use crate::cli::model_name::transfer_model_help;
 use crate::cli::one_of::{OneOf, one_of};
+use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{Problem, ProgressBar, memory};
+use crate::cli::{CommandLine, Problem, ProgressBar, memory};
 use crate::geom::Mesh;
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
 use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
+use crate::split::Computed;
 use crate::study::prt::{FoundSight, SightOfModel};
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::VISIBILITY_BYTES;
@@ -71,19 +73,22 @@ pub(super) struct Args {
     #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
     tangents: TangentsArg,
 
+    #[command(flatten)]
+    part: PartArgs,
+
     /// The file to write
     #[arg(long, value_name = "X.prt")]
     out: PathBuf,
 }
 
-pub(super) fn run(args: &Args) -> miette::Result<Findings> {
+pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let (tangents, path) = (args.tangents.0, args.out.as_path());
     let reflectance =
         args.factors.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
     let model = load(&args.model, tangents)?;
     let vertices = vertices(&model, tangents)?;
     let below = u64::from(args.ground.unwrap_or(0)).pow(2);
-    let count = vertices.len() as u64 + below;
+    let count = args.part.share(vertices.len() as u64 + below);
     let what = format_args!("visibility of {count} vertices, {VISIBILITY_BYTES} bytes each");
     let help = "name a model of fewer vertices, or a smaller ground";
     memory::require(what, (VISIBILITY_BYTES + 200) as u64 * count + RAYS + 100 * model.mesh.len() as u64, help)?;
@@ -96,7 +101,12 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         reflectance,
         ground: ground.as_ref().map(|ground| &ground.vertices),
     };
-    let (found, below) = sight.run(&mut |what, done, of| bar.show(what.to_owned(), done, of)).map_err(refused)?;
+    let split = args.part.split(command_line, path)?;
+    let found = match sight.run(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
+        Computed::Whole(found) => found,
+        Computed::Part(written) => return Ok(part::findings(&written)),
+    };
+    let (found, below) = found;
     save_all_frequency(&found.file, path).map_err(Problem::from)?;
     let [ground_path, ground_mesh] = ["ground.prt", "ground.obj"].map(|ending| path.with_extension(ending));
     if let (Some(ground), Some(below)) = (&ground, &below) {

@@ -14,7 +14,7 @@ mod texture_args;
 mod textures;
 mod vertex_errors;
 
-use super::{Out, Verdict, study};
+use super::{CommandLine, Out, Verdict, study};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -53,9 +53,9 @@ enum Verb {
     Card(card::Args),
 }
 
-pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
-        Verb::Precompute(args) => precompute::run(args)?,
+        Verb::Precompute(args) => precompute::run(args, command_line)?,
         Verb::Bicluster(args) => bicluster::run(args)?,
         Verb::Multiply(args) => multiply::run(args)?,
         Verb::Compare(args) => compare::run(args)?,

@@ -10,13 +10,15 @@ use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
 use crate::bi_scale::transfer::transfer_matrix;
 use crate::cli::model_name::transfer_model_help;
 use crate::cli::one_of::{OneOf, one_of, variants};
+use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{Problem, ProgressBar, memory};
+use crate::cli::{CommandLine, Problem, ProgressBar, memory};
 use crate::geom::Sides;
 use crate::report::Findings;
+use crate::split::Computed;
 use crate::tracer::HostTracer;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
@@ -69,6 +71,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "T.mtx")]
     matrix: Option<PathBuf>,
 
+    #[command(flatten)]
+    part: PartArgs,
+
     /// The file to write
     #[arg(long, value_name = "X.prt")]
     out: PathBuf,
@@ -80,7 +85,7 @@ impl Args {
     }
 }
 
-pub(super) fn run(args: &Args) -> miette::Result<Findings> {
+pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
@@ -90,12 +95,18 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     // Entries of rows, at most one per texel of a hemisphere and some below it; the maps; what is written.
     let bytes = (8 * LIGHT_TEXELS / 2 + sampling.directions().directions().len() / 8 + 400) as u64;
     let what = format_args!("transfer of {} vertices, about {bytes} bytes each", vertices.len());
-    memory::require(what, bytes * vertices.len() as u64, "name a model of fewer vertices")?;
+    memory::require(what, bytes * args.part.share(vertices.len() as u64), "name a model of fewer vertices")?;
     let bar = ProgressBar::new("visibility", 1).quicker("fewer `--samples` or `--directions`");
-    let all: Vec<u32> = (0..vertices.len() as u32).collect();
-    let mut caster = HostTracer::new(&model.mesh, Sides::Both);
-    let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
-    let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut show).map_err(refused)?;
+    let maps = args.part.split(command_line, path)?.compute("vertices", vertices.len(), |range| {
+        let range: Vec<u32> = range.map(|vertex| vertex as u32).collect();
+        let mut caster = HostTracer::new(&model.mesh, Sides::Both);
+        let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
+        VisibilityMaps::trace_sampled(&vertices, &range, sampling, &mut caster, &mut show).map_err(refused)
+    });
+    let maps = match maps? {
+        Computed::Whole(maps) => maps,
+        Computed::Part(written) => return Ok(part::findings(&written)),
+    };
     let matrix = transfer_matrix(&vertices, &maps, &directions).map_err(|error| {
         Problem::usage(error.to_string(), "name a model of fewer vertices, or ask for fewer `--directions`")
     })?;

@@ -12,7 +12,7 @@ mod precompute_values;
 mod render;
 mod show;
 
-use super::{Out, Verdict, study};
+use super::{CommandLine, Out, Verdict, study};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -49,9 +49,9 @@ enum Verb {
     Card(card::Args),
 }
 
-pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
-        Verb::Precompute(args) => precompute::run(args)?,
+        Verb::Precompute(args) => precompute::run(args, command_line)?,
         Verb::Compress(args) => compress::run(args)?,
         Verb::Error(args) => error::run(args)?,
         Verb::Show(args) => show::run(args)?,

@@ -8,13 +8,15 @@ use super::precompute_values::{IncidentArg, KindArg, RowsArg};
 use crate::cli::materials::published;
 use crate::cli::model_name::{Model, transfer_model_help};
 use crate::cli::one_of::{OneOf, one_of};
+use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
 use crate::cli::words::{counted, measured};
-use crate::cli::{Problem, ProgressBar, given, memory, number};
+use crate::cli::{CommandLine, Problem, ProgressBar, given, memory, number};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
 use crate::report::Findings;
+use crate::split::Computed;
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 use crate::subsurface::Dipole;
 use crate::transfer::Vertices;
@@ -107,6 +109,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "SHARE", value_parser = number::positive, requires = "bounces")]
     bounce_tolerance: Option<f64>,
 
+    #[command(flatten)]
+    part: PartArgs,
+
     /// The file to write
     #[arg(long, value_name = "X.prt")]
     out: PathBuf,
@@ -125,7 +130,7 @@ fn least_squares() -> OneOf<bool> {
     one_of([("least-squares", nearest, true), ("zero-hemisphere", integrals, false)])
 }
 
-pub(super) fn run(args: &Args) -> miette::Result<Findings> {
+pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let exit = exit(args)?;
     let scatterer = scatterer(args)?;
     let model = load(&args.model, args.tangents.0)?;
@@ -145,7 +150,11 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     };
     require_memory(args, &precomputation)?;
     let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");
-    let found = precomputation.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    let split = args.part.split(command_line, &args.out)?;
+    let found = match precomputation.run_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
+        Computed::Whole(found) => found,
+        Computed::Part(written) => return Ok(part::findings(&written)),
+    };
     save_prt(&found.file, &args.out).map_err(Problem::from)?;
     drop(bar);
     Ok(findings(args, &vertices, &found))
@@ -212,7 +221,8 @@ fn require_memory(args: &Args, precomputation: &Precomputation<'_>) -> Result<()
         ExitRadiance::Diffuse => 1,
         ExitRadiance::Glossy { basis, .. } => basis.len(),
     };
-    let (points, channels) = (precomputation.vertices.len() as u64, precomputation.channels.len() as u64);
+    let (points, channels) =
+        (args.part.share(precomputation.vertices.len() as u64), precomputation.channels.len() as u64);
     let matrix = 4 * rows as u64 * u64::from(args.order).pow(2);
     let directions = (u64::from(args.degree) / 2 + 1) * (u64::from(args.degree) + 2);
     // Matrices of all channels, and once more together; of a bounce those before and after; blocked rays at 16 bytes.

@@ -11,7 +11,7 @@ use super::args::{Args, Renderer, SMALLER};
 use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
+use crate::cli::{CommandLine, MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
@@ -24,7 +24,7 @@ use crate::tracer::Caster;
 /// The random seed where none is given.
 const SEED: u64 = 1;
 
-pub(super) fn run(args: &Args, asked: &LitScene, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     args.light.refuse_others(Some(renderer))?;
     check_lights(renderer, &asked.scene)?;
@@ -44,7 +44,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &str, out: &mut O
     let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
     let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
     findings.table(FoundTable::from(rays(&picture)).unprinted());
-    let mut provenance = study::with_inputs(Provenance::new(command_line), &scene_name::named_file(&args.scene));
+    let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     provenance.seed = Some(args.light.seed.unwrap_or(SEED));
     provenance.profiles.extend(device);
     report(args, &picture, engine.as_ref(), &mut findings);

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::executor::Decider;
 use super::size::Size;
-use super::{Out, Problem, memory, model_file, scene_name, study, view};
+use super::{CommandLine, Out, Problem, memory, model_file, scene_name, study, view};
 use crate::case::device_named;
 use crate::geom::Mesh;
 use crate::geom::exact::Tracer;
@@ -28,7 +28,7 @@ pub(super) use args::Args;
 /// Bytes per pixel of a picture by eye rays: rays, hits, layers and the files of them.
 const PER_PIXEL: u64 = 200;
 
-pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(asked) = scene::lit(args)? {
         return light::run(args, &asked, command_line, out);
     }
@@ -40,7 +40,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     let need = memory::of_pixels(width, height, PER_PIXEL, 0);
     memory::require(format_args!("a picture of {} pixels", args.size), need, SMALLER)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
-    let mut provenance = study::with_inputs(Provenance::new(command_line), &scene_name::named_file(&args.scene));
+    let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
         None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), args.sides),

@@ -5,6 +5,7 @@ pub mod atomic;
 pub mod cube_map;
 pub mod error;
 pub mod gltf;
+mod inputs;
 pub mod irradiances;
 pub mod light_sources;
 mod lines;
@@ -28,6 +29,7 @@ pub use atomic::{FileSet, WriteError, write_file};
 pub use cube_map::{CubeTableError, load_cube_table, parse_cube_table, write_cube_table};
 pub use error::{FilePlace, ModelError, ReadError};
 pub use gltf::parse_gltf;
+pub use inputs::files_read;
 pub use irradiances::{IrradiancesError, load_irradiances, parse_irradiances};
 pub use light_sources::{LightSourceRow, LightSourcesError, load_light_sources, parse_light_sources};
 pub use matrix_market::{
@@ -59,6 +61,7 @@ const MAX_DEVICE_BYTES: u64 = 1 << 20;
 /// than [`MAX_DEVICE_BYTES`] is an error.
 pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
     let file = File::open(path)?;
+    inputs::note(path);
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
     let left = if is_device { MAX_DEVICE_BYTES } else { u64::MAX };
     Ok(Bounded { file, left }.take(limit.saturating_add(1)))

@@ -8,6 +8,7 @@ use refsim::device::DeviceError;
 
 use crate::picture::PictureError;
 use crate::report::ReportError;
+use crate::split::PartError;
 
 /// Error of a study: a sentence of its own or a library's error, with a code for programs and what to do.
 ///
@@ -158,6 +159,7 @@ pub(in crate::study) use library_errors;
 
 library_errors! {
     DeviceError;
+    PartError;
     PictureError;
     ReportError;
 }

@@ -19,6 +19,7 @@ pub mod subsurface;
 pub mod timeline_trace;
 
 use crate::report::{Findings, Provenance};
+use crate::split::{Computed, SplitRun};
 
 pub use error::StudyError;
 
@@ -32,6 +33,15 @@ pub trait Study {
     /// # Errors
     /// If the input does not suit the study, or a library refuses it.
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError>;
+
+    /// The same where the study's items can be split: of all of them, of those of a part, or out of parts. Without such
+    /// items, [`Self::findings`].
+    ///
+    /// # Errors
+    /// Those of [`Self::findings`], and [`PartError`](crate::split::PartError).
+    fn findings_split(&self, _: &SplitRun, progress: &mut ProgressFn<'_>) -> Result<Computed<Findings>, StudyError> {
+        self.findings(progress).map(Computed::Whole)
+    }
 
     /// Adds the devices, switches and seed that are used.
     fn provenance(&self, provenance: Provenance) -> Provenance;

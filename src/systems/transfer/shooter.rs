@@ -1,6 +1,7 @@
 //! Generation of the rays of a vertex, and classification of their hits.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::origins::RayOrigin;
 use super::packets::PacketedRule;
@@ -16,7 +17,7 @@ use refsim::exec::batch::SimdLevel;
 const MAX_REACH: f64 = (1_u128 << 126) as f64;
 
 /// The end of a blocked ray on the front of a triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct FrontHit {
     /// The ray's direction, by its index in the rule.
     pub(crate) direction: u32,

@@ -51,6 +51,7 @@ const NOT_RUN: &[(&str, &str)] = &[
         "reads a measurement of 35 MB, which is not part of the repository; tests/laws makes one",
     ),
     ("cpca precompute transfer-bird", "takes minutes; the other examples compute the same of a small model"),
+    ("merge", "reads the parts that other commands write; tests/cli/parts.rs merges those of every command"),
     (
         "page --emulator",
         "reads what refsim/web/build compiles, for which not every machine has the library; tests/page opens it where it is",

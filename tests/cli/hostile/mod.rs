@@ -63,6 +63,7 @@ const COMMANDS: &[&str] = &[
     "man nowhere",
     "materials nowhere",
     "measure nowhere.csv --device r200",
+    "merge nowhere.part --out x",
     "precision nowhere.toml",
     "radiosity nowhere.obj",
     "render nowhere.obj",

@@ -266,6 +266,8 @@ fn inputs() -> &'static Path {
             "all-frequency precompute square.obj --factors factors --out glossy_sight.prt",
             "all-frequency compress glossy_sight.prt --model square.obj --vectors 3 --out glossy.prt",
             "bi-scale precompute docs/examples/court.obj --directions 2 --out court.prt",
+            "bi-scale precompute docs/examples/court.obj --directions 2 --part 1/2 --out court_1.part",
+            "bi-scale precompute docs/examples/court.obj --directions 2 --part 2/2 --out court_2.part",
             "bi-scale texture plain --size 2 --directions 4 --views 2 --out plain.npy",
         ] {
             let ran = crossbar_in(folder.path(), &line.split(' ').collect::<Vec<_>>(), "");

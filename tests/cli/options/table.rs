@@ -90,7 +90,7 @@ pub(super) const TABLE: &[Tried] = &[
             "leaky-teapot --mesh odd.obj --rays rays.csv --rays-per-edge 0 --format fp16 --out OUT",
         ],
         options: concat!(
-            "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --out=other \
+            "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --part=1/1 --out=other \
              --rays-per-edge=2@0,1 --seed=2@0 --sides=both --all-pairs same:--executor=scalar --adapter=x --model-up=y \
              --strict",
             eye!()
@@ -175,8 +175,8 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--kind=glossy@0 --order=3 --rows=9 --exit=zero-hemisphere --incident=zero-hemisphere \
                   --incident-order=2 --brdf=lambert:0.3 --material=marble@4 --mm-per-unit=2@4 --channels=rgb \
-                  --tangents=1,2,3@1,2,3 --degree=20 --bounces=2 --bounce-tolerance=0.9 --out=other.prt --model-up=y \
-                  --strict@3",
+                  --tangents=1,2,3@1,2,3 --degree=20 --bounces=2 --bounce-tolerance=0.9 --part=1/2 --out=other.prt \
+                  --model-up=y --strict@3",
     },
     Tried {
         bases: &[
@@ -261,7 +261,8 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency precompute docs/examples/room.obj --out OUT.prt",
             "all-frequency precompute odd.obj --out OUT.prt",
         ],
-        options: "--factors=factors --ground=3 --hats=one --tangents=1,2,3 --out=other.prt --model-up=y --strict@1",
+        options: "--factors=factors --ground=3 --hats=one --tangents=1,2,3 --part=1/2 --out=other.prt --model-up=y \
+                  --strict@1",
     },
     Tried {
         bases: &[
@@ -270,8 +271,8 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency compress docs/examples/step_all.prt --model odd.obj --out OUT.prt",
         ],
         options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --method=static@0 --iterations=1@0 --seed=2@0 \
-                  --bits=8@0 --weight-bits=8@0 --scale=segment@0 --resume=kept@0 --out=other.prt@0 --model-up=y \
-                  --strict@1",
+                  --bits=8@0 --weight-bits=8@0 --scale=segment@0 --resume=kept@0 --part=1/2@0 --out=other.prt@0 \
+                  --model-up=y --strict@1",
     },
     Tried {
         bases: &[
@@ -320,7 +321,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale precompute odd.obj --directions 2 --out OUT.prt",
         ],
         options: "--directions=3 --horizon=normal@0 --samples=1@0 --crease=10@0 --tangents=1,2,3@0 --matrix=other.mtx \
-                  --out=other.prt --model-up=y --strict@1",
+                  --part=2/3 --out=other.prt --model-up=y --strict@1",
     },
     Tried {
         bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.prt"],
@@ -389,6 +390,7 @@ pub(super) const TABLE: &[Tried] = &[
             picture!("1")
         ),
     },
+    Tried { bases: &["merge court_2.part court_1.part --out OUT.prt"], options: "--out=other.prt" },
     Tried {
         bases: &["measure docs/examples/measured.csv --device nv25"],
         options: "--device=nv20 --switch=rounding=rtz",

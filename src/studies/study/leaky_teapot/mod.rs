@@ -11,7 +11,10 @@ mod outcome;
 mod pixel_verdict;
 mod report;
 
+use std::ops::Range;
+
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::shade::TeapotShader;
 use super::{ProgressFn, Study};
@@ -23,7 +26,9 @@ use crate::geom::{Mesh, Ray};
 use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{Crossbar, EngineError};
 use crate::report::{Findings, Provenance};
+use crate::split::{Computed, SplitRun};
 use crate::study::StudyError;
+use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 
 pub use format_limits::FormatLimits;
@@ -68,21 +73,86 @@ impl JudgedRays {
     }
 }
 
+/// Hits of the rays of a configuration: the listed or the camera's, those aimed at edges, those aimed at vertices.
+#[derive(Debug, Serialize, Deserialize)]
+struct ConfigurationHits {
+    view: Vec<Option<Hit>>,
+    edges: Vec<Option<Hit>>,
+    vertices: Vec<Option<Hit>>,
+}
+
+/// Rays that are aimed at edges and at vertices; none if the rays have no common origin or none are asked for.
+fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
+    let eye = parameters.view.common_origin().filter(|_| parameters.rays_per_edge > 0);
+    let rays = |aimed: Vec<Aimed>| aimed.into_iter().map(|aimed| aimed.ray).collect();
+    let (mesh, count) = (&parameters.mesh, parameters.rays_per_edge);
+    let edges = eye.map(|eye| rays(aimed_at_edges(mesh, eye, count, parameters.seed)));
+    let vertices = eye.map(|eye| rays(aimed_at_vertices(mesh, eye)));
+    [edges, vertices].map(Option::unwrap_or_default)
+}
+
+/// The hits of a configuration's card.
+fn hits(
+    parameters: &Parameters,
+    crossbar: &Crossbar,
+    [edges, vertices]: [&[Ray]; 2],
+) -> Result<ConfigurationHits, EngineError> {
+    let Parameters { mesh, sides, .. } = parameters;
+    let list = |rays: &[Ray]| match rays {
+        [] => Ok(Vec::new()),
+        rays => crossbar.intersect_list(mesh, rays, *sides),
+    };
+    let view = match parameters.listed {
+        None => crossbar.intersect(mesh, &parameters.view, *sides)?.hits,
+        Some(_) => list(parameters.rays())?,
+    };
+    Ok(ConfigurationHits { view, edges: list(edges)?, vertices: list(vertices)? })
+}
+
 /// Traces all configurations. `progress` is called with the label of each before it starts.
 ///
 /// # Errors
 /// If a configuration has no intersection program, or the card refuses the work.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<TeapotOutcome, EngineError> {
+    let aimed = aimed(parameters);
+    let found = of_range(parameters, &aimed, 0..parameters.configurations.len(), progress)?;
+    judged(parameters, aimed, found, progress)
+}
+
+fn crossbar(parameters: &Parameters, configuration: &Configuration) -> Crossbar {
+    Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.all_pairs)
+}
+
+/// The hits of a range of the configurations.
+fn of_range(
+    parameters: &Parameters,
+    [edges, vertices]: &[Vec<Ray>; 2],
+    range: Range<usize>,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Vec<ConfigurationHits>, EngineError> {
+    let steps = range.len() as u64 + 1;
+    let configurations = (0..).zip(&parameters.configurations[range]);
+    let found = configurations.map(|(done, configuration)| {
+        progress(&configuration.label, done, steps);
+        hits(parameters, &crossbar(parameters, configuration), [edges, vertices])
+    });
+    found.collect()
+}
+
+/// Holds the hits of all configurations against exact ones.
+fn judged(
+    parameters: &Parameters,
+    aimed: [Vec<Ray>; 2],
+    found: Vec<ConfigurationHits>,
+    progress: &mut ProgressFn<'_>,
+) -> Result<TeapotOutcome, EngineError> {
     let Parameters { mesh, sides, .. } = parameters;
     let (width, height) = (parameters.view.width(), parameters.view.height());
-    let steps = parameters.configurations.len() as u64 + 1;
-    progress("exact arithmetic", 0, steps);
+    let steps = parameters.configurations.len() as u64;
+    progress("exact arithmetic", steps, steps + 1);
     let tracer = Tracer::new(mesh);
     let view = JudgedRays::new(&tracer, parameters.rays().to_vec(), *sides);
-    let eye = parameters.view.common_origin().filter(|_| parameters.rays_per_edge > 0);
-    let aim = |aimed: Vec<Aimed>| JudgedRays::new(&tracer, aimed.into_iter().map(|a| a.ray).collect(), *sides);
-    let edges = eye.map(|eye| aim(aimed_at_edges(mesh, eye, parameters.rays_per_edge, parameters.seed)));
-    let vertices = eye.map(|eye| aim(aimed_at_vertices(mesh, eye)));
+    let [edges, vertices] = aimed.map(|rays| JudgedRays::new(&tracer, rays, *sides));
 
     let shader = TeapotShader::new(mesh);
     let pixels = parameters.view.rays().len();
@@ -90,24 +160,15 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
     exact.resize(pixels, None);
     let exact_picture = shader.picture(&parameters.view, &exact);
     let mut rows = Vec::new();
-    for (done, configuration) in (1..).zip(&parameters.configurations) {
-        progress(&configuration.label, done, steps);
-        let crossbar =
-            Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.all_pairs);
-        let mut hits = match parameters.listed {
-            None => crossbar.intersect(mesh, &parameters.view, *sides)?.hits,
-            Some(_) => crossbar.intersect_list(mesh, &view.rays, *sides)?,
-        };
-        let limits = FormatLimits::new(crossbar.bits_left(mesh, &view.rays, *sides)?, &hits);
+    for (configuration, found) in parameters.configurations.iter().zip(found) {
+        let ConfigurationHits { view: mut hits, edges: edge_hits, vertices: vertex_hits } = found;
+        let bits_left = crossbar(parameters, configuration).bits_left(mesh, &view.rays, *sides)?;
+        let limits = FormatLimits::new(bits_left, &hits);
         let (mut verdicts, tally) = view.judge(mesh, &hits);
         hits.resize(pixels, None);
         verdicts.resize(pixels, HitVerdict::Right);
         let triangles: Vec<Option<u32>> = hits.iter().map(|h| h.map(|h| h.triangle)).collect();
         let picture = shader.picture(&parameters.view, &triangles);
-        let aimed = |judged: &Option<JudgedRays>| -> Result<Tally, EngineError> {
-            let Some(judged) = judged else { return Ok(Tally::default()) };
-            Ok(judged.judge(mesh, &crossbar.intersect_list(mesh, &judged.rays, *sides)?).1)
-        };
         rows.push(TeapotRow {
             configuration: configuration.clone(),
             tally,
@@ -121,8 +182,8 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
             picture,
             t: hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t)).collect(),
             triangle: triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
-            edges: aimed(&edges)?,
-            vertices: aimed(&vertices)?,
+            edges: edges.judge(mesh, &edge_hits).1,
+            vertices: vertices.judge(mesh, &vertex_hits).1,
             limits,
         });
     }
@@ -137,6 +198,21 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         Ok(report::findings(self, run(self, progress)?)?)
+    }
+
+    fn findings_split(
+        &self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<Findings>, StudyError> {
+        let aimed = aimed(self);
+        let of_range = |range| Ok::<_, StudyError>(of_range(self, &aimed, range, progress)?);
+        match split.compute("configurations", self.configurations.len(), of_range)? {
+            Computed::Part(part) => Ok(Computed::Part(part)),
+            Computed::Whole(found) => {
+                Ok(Computed::Whole(report::findings(self, judged(self, aimed, found, progress)?)?))
+            }
+        }
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {

@@ -14,6 +14,7 @@ mod fine_view;
 mod interpolate;
 mod light_picture;
 mod lit_view;
+mod parts;
 mod precompute;
 mod render;
 mod stored_ways;

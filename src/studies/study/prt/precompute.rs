@@ -1,9 +1,13 @@
 //! From a model to the transfer of its vertices.
 
+use std::ops::Range;
+
+use super::parts::VertexTransfer;
 use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::sphere::{DirectionRule, MAX_ORDER};
+use crate::split::{Computed, SplitRun};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, fresnel_transmittance};
 use crate::tracer::HostTracer;
@@ -74,24 +78,87 @@ pub struct Precomputed {
     pub bounces: Vec<Vec<f64>>,
 }
 
+/// How the materials of a channel answer light.
+struct ChannelResponses {
+    of_materials: Vec<Response>,
+    /// Light that passes into the medium below the surface, with its dipole.
+    entering: Option<(Vec<Response>, Dipole)>,
+}
+
 impl Precomputation<'_> {
     /// Traces the rays and computes the matrices.
     ///
     /// # Errors
     /// If the mesh or a material does not suit the transfer, or its numbers exceed f32.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
+        let (rule, responses) = self.prepare()?;
+        let found = self.of_range(0..self.vertices.len(), &rule, &responses, progress)?;
+        self.whole(found, rule, &responses)
+    }
+
+    /// The same, with the rays and matrices of direct light of all vertices, of those of a part, or of parts. What
+    /// needs all vertices is not split: bounces, and light that scatters below the surface.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`], and [`PartError`](crate::split::PartError).
+    pub fn run_split(
+        &self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<Precomputed>, StudyError> {
+        let (rule, responses) = self.prepare()?;
+        let of_range = |range| self.of_range(range, &rule, &responses, progress);
+        match split.compute("vertices", self.vertices.len(), of_range)? {
+            Computed::Whole(found) => Ok(Computed::Whole(self.whole(found, rule, &responses)?)),
+            Computed::Part(part) => Ok(Computed::Part(part)),
+        }
+    }
+
+    /// The rule of directions, and the responses of each channel.
+    fn prepare(&self) -> Result<(DirectionRule, Vec<ChannelResponses>), StudyError> {
         self.check()?;
+        let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
+        let responses = self.channels.iter().map(|(channel, brdfs)| self.responses(&rule, *channel, brdfs));
+        let responses = responses.collect::<Result<_, _>>()?;
+        Ok((rule, responses))
+    }
+
+    /// The rays and matrices of direct light of a range of vertices.
+    fn of_range(
+        &self,
+        range: Range<usize>,
+        rule: &DirectionRule,
+        responses: &[ChannelResponses],
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<VertexTransfer, StudyError> {
         let steps = 1 + self.channels.len() as u64;
         progress("rays", 0, steps);
-        let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
         let mut tracer = HostTracer::new(self.mesh, Sides::Both);
         let keep_hits = self.bounces != Bounces::Count(0);
-        let mut rays = TracedRays::trace(self.vertices, rule, &mut tracer, keep_hits)?;
+        let rays = TracedRays::trace_range(self.vertices, range, rule.clone(), &mut tracer, keep_hits)?;
         let mut channels = Vec::new();
-        for ((channel, brdfs), step) in self.channels.iter().zip(1..) {
+        for (responses, step) in responses.iter().zip(1..) {
             progress("transfer", step, steps);
-            channels.push(self.channel(&rays, *channel, brdfs)?);
+            let direct = |responses: &[Response]| Transfer::direct(self.vertices, &rays, responses, self.order);
+            let entering = responses.entering.as_ref().map(|(responses, _)| direct(responses)).transpose()?;
+            channels.push((direct(&responses.of_materials)?, entering.unwrap_or_default()));
         }
+        let answers = rays.into_answers();
+        Ok(VertexTransfer { answers: if keep_hits { answers } else { answers.counts_only() }, channels })
+    }
+
+    /// The transfer out of what was found at all vertices.
+    fn whole(
+        &self,
+        found: VertexTransfer,
+        rule: DirectionRule,
+        responses: &[ChannelResponses],
+    ) -> Result<Precomputed, StudyError> {
+        let VertexTransfer { answers, channels: direct } = found;
+        let (counts, directions) = (answers.counts.clone(), rule.len());
+        let rays = TracedRays::of(rule, answers);
+        let channels = responses.iter().zip(direct).map(|(responses, direct)| self.channel(&rays, responses, direct));
+        let channels = channels.collect::<Result<Vec<Transfer>, _>>()?;
         let basis = channels.first().map_or(&ExitBasis::Radiance, Transfer::basis);
         let meaning = PrtMeaning::Transfer {
             channels: channels.len() as u32,
@@ -105,12 +172,8 @@ impl Precomputation<'_> {
         let bounces = channels.iter().map(|transfer| transfer.bounces.clone()).collect();
         let transfer = Some(together(channels)?);
         let mesh = Some(MeshDigest::new(self.vertices));
-        Ok(Precomputed {
-            file: PrtFile { meaning, mesh, transfer, clustering: None, superclusters: None, provenance: None },
-            directions: rays.rule().len(),
-            counts: std::mem::take(&mut rays.counts),
-            bounces,
-        })
+        let file = PrtFile { meaning, mesh, transfer, clustering: None, superclusters: None, provenance: None };
+        Ok(Precomputed { file, directions, counts, bounces })
     }
 
     fn check(&self) -> Result<(), StudyError> {
@@ -132,22 +195,42 @@ impl Precomputation<'_> {
         }
     }
 
-    fn channel(&self, rays: &TracedRays, channel: usize, brdfs: &[Brdf]) -> Result<Transfer, TransferError> {
+    fn responses(
+        &self,
+        rule: &DirectionRule,
+        channel: usize,
+        brdfs: &[Brdf],
+    ) -> Result<ChannelResponses, TransferError> {
         let views = DirectionRule::hemisphere(BRDF_DEGREE);
         let response = |brdf: &Brdf| match (&self.exit, *brdf) {
-            (ExitRadiance::Diffuse, Brdf::Lambert { albedo }) => Response::diffuse(albedo, rays.rule()),
-            (ExitRadiance::Diffuse, _) => Response::diffuse(0.0, rays.rule()),
+            (ExitRadiance::Diffuse, Brdf::Lambert { albedo }) => Response::diffuse(albedo, rule),
+            (ExitRadiance::Diffuse, _) => Response::diffuse(0.0, rule),
             (ExitRadiance::Glossy { basis, least_squares, incident }, brdf) => {
-                Response::glossy(&brdf, basis, *least_squares, *incident, rays.rule(), &views)
+                Response::glossy(&brdf, basis, *least_squares, *incident, rule, &views)
             }
         };
-        let responses: Vec<Response> = brdfs.iter().map(response).collect::<Result<_, _>>()?;
-        let mut transfer = Transfer::new(self.vertices, rays, &responses, self.order, self.bounces)?;
-        if let Some(Scatterer { dipoles, options }) = &self.scatterer {
-            let dipole = &dipoles[channel];
-            let entering = Response::entering(|cosine| fresnel_transmittance(dipole.eta(), cosine), rays.rule());
-            let entering = vec![entering; brdfs.len()];
-            let entering = Transfer::new(self.vertices, rays, &entering, self.order, Bounces::Count(0))?;
+        let of_materials = brdfs.iter().map(response).collect::<Result<_, _>>()?;
+        let entering = self.scatterer.as_ref().map(|scatterer| {
+            let dipole = scatterer.dipoles[channel];
+            let entering = Response::entering(|cosine| fresnel_transmittance(dipole.eta(), cosine), rule);
+            (vec![entering; brdfs.len()], dipole)
+        });
+        Ok(ChannelResponses { of_materials, entering })
+    }
+
+    /// The transfer of a channel out of direct light on the surface, and of that which enters below it.
+    fn channel(
+        &self,
+        rays: &TracedRays,
+        responses: &ChannelResponses,
+        (direct, entering): (Vec<f32>, Vec<f32>),
+    ) -> Result<Transfer, TransferError> {
+        let whole = |responses: &[Response], direct: Vec<f32>, bounces: Bounces| {
+            Transfer::with_bounces(self.vertices, rays, responses, self.order, (direct, bounces))
+        };
+        let mut transfer = whole(&responses.of_materials, direct, self.bounces)?;
+        if let (Some((of_entering, dipole)), Some(Scatterer { options, .. })) = (&responses.entering, &self.scatterer) {
+            let entering = whole(of_entering, entering, Bounces::Count(0))?;
             transfer.add(&Transfer::scattered(self.vertices, &entering, |r| dipole.r_d(r), *options)?)?;
         }
         Ok(transfer)

@@ -1,6 +1,7 @@
 //! Quantised (coded) transfer of a mesh.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::quantise::{quantise, step};
 use super::{CodeOptions, CodeOptionsError, ScaleOf, SparseRows};
@@ -8,7 +9,7 @@ use crate::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
 use crate::transfer::clustering::Clustering;
 
 /// The transfer of one lighting segment, coded.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CodedSegment {
     /// The segment's index, from 0.
     pub segment: usize,

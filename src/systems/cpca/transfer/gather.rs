@@ -70,7 +70,7 @@ impl<'a> TransferGather<'a> {
         &self.materials[(self.vertices.materials()[vertex] as usize).min(self.materials.len() - 1)]
     }
 
-    /// Direct light: shadows alone.
+    /// Direct light at the vertices whose rays were traced: shadows alone.
     pub(super) fn direct(&self) -> Vec<f32> {
         self.each(|vertex, into| {
             let local = self.local_direct(vertex);
@@ -138,10 +138,12 @@ impl<'a> TransferGather<'a> {
         }
     }
 
-    /// A matrix per vertex, each computed by itself.
+    /// A matrix per vertex whose rays were traced, each computed by itself.
     fn each(&self, compute: impl Fn(usize, &mut [f32]) + Sync) -> Vec<f32> {
-        let mut values = vec![0.0; self.vertices.len() * self.size()];
-        values.par_chunks_exact_mut(self.size()).enumerate().for_each(|(vertex, into)| compute(vertex, into));
+        let range = self.rays.range();
+        let mut values = vec![0.0; range.len() * self.size()];
+        let of_vertices = values.par_chunks_exact_mut(self.size()).enumerate();
+        of_vertices.for_each(|(at, into)| compute(range.start + at, into));
         values
     }
 }

@@ -1,6 +1,9 @@
 //! The rays of all vertices: blocked or not, and their hits.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
@@ -13,7 +16,7 @@ const SHADOW_BLOCK: usize = 1024;
 const BLOCK: usize = 64;
 
 /// Numbers of rays, and vertices with defects.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TransferCounts {
     /// Number of rays: vertices times directions.
     pub rays: u64,
@@ -33,10 +36,32 @@ pub struct TransferCounts {
     pub unclear: Vec<u32>,
 }
 
+impl TransferCounts {
+    /// Adds the counts of other vertices, which follow.
+    fn append(&mut self, next: Self) {
+        self.rays += next.rays;
+        self.traced += next.traced;
+        self.blocked += next.blocked;
+        self.below_horizon += next.below_horizon;
+        self.from_behind += next.from_behind;
+        self.dark.extend(next.dark);
+        self.buried.extend(next.buried);
+        self.unclear.extend(next.unclear);
+    }
+}
+
 /// The results of one ray per vertex and direction of a hemisphere rule in the vertex's local frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TracedRays {
     rule: DirectionRule,
+    answers: RayAnswers,
+}
+
+/// The results without the rule.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RayAnswers {
+    /// The vertices whose rays were traced.
+    range: Range<usize>,
     /// Number of 64-bit words per vertex.
     words: usize,
     blocked: Vec<u64>,
@@ -44,6 +69,27 @@ pub struct TracedRays {
     keeps_hits: bool,
     /// Numbers of rays, and vertices with defects.
     pub counts: TransferCounts,
+}
+
+impl RayAnswers {
+    /// The vertices.
+    pub fn range(&self) -> Range<usize> {
+        self.range.clone()
+    }
+
+    /// The same without the results of single rays: counts alone.
+    #[must_use]
+    pub fn counts_only(self) -> Self {
+        Self { blocked: Vec::new(), hits: Vec::new(), ..self }
+    }
+
+    /// Appends the results of the vertices that follow.
+    pub fn append(&mut self, next: Self) {
+        self.range.end = next.range.end;
+        self.blocked.extend(next.blocked);
+        self.hits.extend(next.hits);
+        self.counts.append(next.counts);
+    }
 }
 
 impl TracedRays {
@@ -62,27 +108,63 @@ impl TracedRays {
         caster: &mut dyn Caster,
         keep_hits: bool,
     ) -> Result<Self, TransferError> {
+        Self::trace_range(vertices, 0..vertices.len(), rule, caster, keep_hits)
+    }
+
+    /// [`Self::trace`] from the vertices of a range alone, with the same results.
+    ///
+    /// # Errors
+    /// As [`Self::trace`].
+    ///
+    /// # Panics
+    /// If the range has vertices that do not exist.
+    pub fn trace_range(
+        vertices: &Vertices,
+        range: Range<usize>,
+        rule: DirectionRule,
+        caster: &mut dyn Caster,
+        keep_hits: bool,
+    ) -> Result<Self, TransferError> {
+        assert!(range.end <= vertices.len(), "vertices of the mesh");
         let words = rule.len().div_ceil(64);
-        let mut traced = Self {
-            words,
-            blocked: vec![0; words * vertices.len()],
-            hits: Vec::new(),
-            keeps_hits: keep_hits,
-            counts: TransferCounts { rays: (vertices.len() * rule.len()) as u64, ..TransferCounts::default() },
-            rule,
-        };
+        let counts = TransferCounts { rays: (range.len() * rule.len()) as u64, ..TransferCounts::default() };
+        let blocked = vec![0; words * range.len()];
+        let answers = RayAnswers { words, blocked, hits: Vec::new(), keeps_hits: keep_hits, counts, range };
+        let mut traced = Self { rule, answers };
         let occluders = Occluders::new(vertices);
         let origins = origins(vertices, &occluders);
-        traced.counts.unclear = (0..).zip(&origins).filter(|(_, origin)| !origin.is_clear).map(|(at, _)| at).collect();
+        let range = traced.answers.range();
+        let unclear = range.clone().filter(|&vertex| !origins[vertex].is_clear);
+        traced.answers.counts.unclear = unclear.map(|vertex| vertex as u32).collect();
         let shooter = Shooter::new(vertices, &traced.rule, &origins, &occluders);
         traced.shadows(&shooter, caster)?;
         traced.hits(&shooter, caster)?;
         Ok(traced)
     }
 
+    /// Rays of a rule, with the results of [`Self::into_answers`].
+    pub fn of(rule: DirectionRule, answers: RayAnswers) -> Self {
+        Self { rule, answers }
+    }
+
+    /// The results without the rule.
+    pub fn into_answers(self) -> RayAnswers {
+        self.answers
+    }
+
     /// The rule whose directions were traced.
     pub fn rule(&self) -> &DirectionRule {
         &self.rule
+    }
+
+    /// The vertices whose rays were traced.
+    pub fn range(&self) -> Range<usize> {
+        self.answers.range()
+    }
+
+    /// Numbers of rays, and vertices with defects.
+    pub fn counts(&self) -> &TransferCounts {
+        &self.answers.counts
     }
 
     /// True if the ray of a vertex in a direction is blocked.
@@ -91,62 +173,67 @@ impl TracedRays {
     /// If there is no such vertex or direction.
     pub fn is_blocked(&self, vertex: usize, direction: usize) -> bool {
         assert!(direction < self.rule.len(), "a direction of the rule");
-        self.blocked[vertex * self.words + direction / 64] >> (direction % 64) & 1 != 0
+        self.words(vertex)[direction / 64] >> (direction % 64) & 1 != 0
     }
 
     /// The number of vertices.
     pub fn vertex_count(&self) -> usize {
-        self.blocked.len() / self.words
+        self.answers.range.len()
     }
 
     /// True if [`Self::trace`] was called with `keep_hits`.
     pub fn keeps_hits(&self) -> bool {
-        self.keeps_hits
+        self.answers.keeps_hits
     }
 
     /// The hits of a vertex's rays on front faces.
     pub(crate) fn front_hits(&self, vertex: usize) -> &[FrontHit] {
-        self.hits.get(vertex).map_or(&[], Vec::as_slice)
+        self.answers.hits.get(vertex - self.answers.range.start).map_or(&[], Vec::as_slice)
     }
 
     /// The blocked directions of a vertex, in increasing order.
     pub(crate) fn blocked_directions(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
-        let words = &self.blocked[vertex * self.words..(vertex + 1) * self.words];
-        words.iter().enumerate().flat_map(|(word, &bits)| ones(bits).map(move |bit| 64 * word + bit))
+        self.words(vertex).iter().enumerate().flat_map(|(word, &bits)| ones(bits).map(move |bit| 64 * word + bit))
+    }
+
+    /// A bit per direction of a vertex, set if it is blocked.
+    fn words(&self, vertex: usize) -> &[u64] {
+        let RayAnswers { range, words, blocked, .. } = &self.answers;
+        &blocked[(vertex - range.start) * words..(vertex - range.start + 1) * words]
     }
 
     fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
-        for (first, blocked) in (0..).step_by(SHADOW_BLOCK).zip(self.blocked.chunks_mut(SHADOW_BLOCK * self.words)) {
+        let RayAnswers { range, words, blocked, counts, .. } = &mut self.answers;
+        let words = *words;
+        for (first, blocked) in range.clone().step_by(SHADOW_BLOCK).zip(blocked.chunks_mut(SHADOW_BLOCK * words)) {
             let asked: Vec<VertexRays> = blocked
-                .par_chunks_mut(self.words)
+                .par_chunks_mut(words)
                 .enumerate()
                 .map_init(Vec::new, |waiting, (at, bits)| shooter.shadow_rays(first + at, waiting, bits))
                 .collect();
             let rays: Vec<Ray> = asked.iter().flat_map(|asked| &asked.rays).copied().collect();
             let mut answers = caster.occluded(&rays)?.into_iter();
-            self.counts.traced += rays.len() as u64;
-            for (bits, asked) in blocked.chunks_mut(self.words).zip(&asked) {
+            counts.traced += rays.len() as u64;
+            for (bits, asked) in blocked.chunks_mut(words).zip(&asked) {
                 for (&direction, is_blocked) in asked.directions.iter().zip(answers.by_ref()) {
                     bits[direction as usize / 64] |= u64::from(is_blocked) << (direction % 64);
                 }
-                self.counts.below_horizon += asked.below_horizon;
+                counts.below_horizon += asked.below_horizon;
             }
         }
-        let total = self.blocked.par_iter().map(|bits| u64::from(bits.count_ones())).sum();
-        self.counts.blocked = total;
+        counts.blocked = blocked.par_iter().map(|bits| u64::from(bits.count_ones())).sum();
         let all = self.rule.len() as u32;
-        let blocked =
-            self.blocked.chunks(self.words).map(|bits| bits.iter().map(|word| word.count_ones()).sum::<u32>());
-        self.counts.dark =
-            (0..).zip(blocked).filter(|&(_, blocked)| blocked == all).map(|(vertex, _)| vertex).collect();
+        let of_vertex = blocked.chunks(words).map(|bits| bits.iter().map(|word| word.count_ones()).sum::<u32>());
+        let dark = range.clone().zip(of_vertex).filter(|&(_, blocked)| blocked == all);
+        counts.dark = dark.map(|(vertex, _)| vertex as u32).collect();
         Ok(())
     }
 
     /// Finds the hits of blocked rays: of all vertices if hits are kept, otherwise of dark ones, to find those buried.
     fn hits(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
-        let wanted: Vec<u32> = match self.keeps_hits {
-            true => (0..self.vertex_count() as u32).collect(),
-            false => self.counts.dark.clone(),
+        let wanted: Vec<u32> = match self.keeps_hits() {
+            true => self.range().map(|vertex| vertex as u32).collect(),
+            false => self.counts().dark.clone(),
         };
         for block in wanted.chunks(BLOCK) {
             let asked: Vec<(Vec<u32>, Vec<Ray>)> = block
@@ -162,13 +249,14 @@ impl TracedRays {
                 .zip(&answered)
                 .map(|((directions, rays), hits)| shooter.front_hits(directions, rays, hits))
                 .collect();
+            let RayAnswers { counts, hits, keeps_hits, .. } = &mut self.answers;
             for (&vertex, (front, behind)) in block.iter().zip(found) {
-                if self.counts.dark.binary_search(&vertex).is_ok() && 2 * behind > self.rule.len() as u64 {
-                    self.counts.buried.push(vertex);
+                if counts.dark.binary_search(&vertex).is_ok() && 2 * behind > self.rule.len() as u64 {
+                    counts.buried.push(vertex);
                 }
-                if self.keeps_hits {
-                    self.counts.from_behind += behind;
-                    self.hits.push(front);
+                if *keeps_hits {
+                    counts.from_behind += behind;
+                    hits.push(front);
                 }
             }
         }
@@ -211,7 +299,7 @@ mod tests {
             let rule = DirectionRule::hemisphere(if number < 30 { 31 } else { 13 });
             let traced = TracedRays::trace(&vertices, rule, &mut caster, false).expect("traced");
             // A few hundredths for clutter, almost none for models.
-            assert!(20 * traced.counts.traced < traced.counts.rays, "mesh {number}: {:?}", traced.counts);
+            assert!(20 * traced.counts().traced < traced.counts().rays, "mesh {number}: {:?}", traced.counts());
             let occluders = Occluders::new(&vertices);
             let origins = origins(&vertices, &occluders);
             let shooter = Shooter::new(&vertices, traced.rule(), &origins, &occluders);

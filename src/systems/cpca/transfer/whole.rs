@@ -52,29 +52,71 @@ impl Transfer {
         light_order: usize,
         bounces: Bounces,
     ) -> Result<Self, TransferError> {
+        check_bounces(vertices, rays, bounces)?;
+        let direct = Self::direct(vertices, rays, responses, light_order)?;
+        Self::with_bounces(vertices, rays, responses, light_order, (direct, bounces))
+    }
+
+    /// The matrices of direct light at the vertices of a range, those whose rays were traced: each is computed by
+    /// itself, and the same for every range. Concatenated, row by row.
+    ///
+    /// # Errors
+    /// [`TransferError`] as of [`Self::new`].
+    pub fn direct(
+        vertices: &Vertices,
+        rays: &TracedRays,
+        responses: &[Response],
+        light_order: usize,
+    ) -> Result<Vec<f32>, TransferError> {
         if let Some((triangle, material)) = unknown_material(vertices, responses) {
             return Err(TransferError::Material { triangle, material, responses: responses.len() });
         }
-        check(vertices, rays, responses, light_order, bounces)?;
-        let gather = TransferGather::new(vertices, rays, responses, light_order);
-        let direct = gather.direct();
-        let whole = squares(&direct, gather.size());
-        let (most, least) = match bounces {
-            Bounces::Count(count) => (count, 0.0),
-            Bounces::Tolerance { share, most } => (most, share * share * whole),
+        check(rays, responses, light_order)?;
+        if rays.range().end > vertices.len() {
+            differ("vertices of rays", [vertices.len(), rays.range().end])?;
+        }
+        Ok(TransferGather::new(vertices, rays, responses, light_order).direct())
+    }
+
+    /// The transfer of all vertices out of [`Self::direct`], with bounces. Without these the results of single rays are
+    /// not needed.
+    ///
+    /// # Errors
+    /// [`TransferError`] as of [`Self::new`], and if there is not one matrix per vertex.
+    pub fn with_bounces(
+        vertices: &Vertices,
+        rays: &TracedRays,
+        responses: &[Response],
+        light_order: usize,
+        (direct, bounces): (Vec<f32>, Bounces),
+    ) -> Result<Self, TransferError> {
+        check(rays, responses, light_order)?;
+        check_bounces(vertices, rays, bounces)?;
+        let (basis, columns) = (responses[0].basis().clone(), function_count(light_order));
+        let size = basis.len() * columns;
+        differ("numbers", [vertices.len() * size, direct.len()])?;
+        let most = match bounces {
+            Bounces::Count(most) | Bounces::Tolerance { most, .. } => most,
         };
-        let mut last = if most > 0 { direct.clone() } else { Vec::new() };
-        let (mut total, mut added) = (direct, Vec::new());
+        if most == 0 {
+            return Ok(Self { basis, columns, values: direct, bounces: Vec::new() });
+        }
+        let gather = TransferGather::new(vertices, rays, responses, light_order);
+        let whole = squares(&direct, size);
+        let least = match bounces {
+            Bounces::Count(_) => 0.0,
+            Bounces::Tolerance { share, .. } => share * share * whole,
+        };
+        let (mut last, mut total, mut added) = (direct.clone(), direct, Vec::new());
         for _ in 0..most {
-            last = gather.bounce(&last, responses[0].basis());
+            last = gather.bounce(&last, &basis);
             total.par_iter_mut().zip(&last).for_each(|(total, more)| *total += more);
-            let now = squares(&last, gather.size());
+            let now = squares(&last, size);
             added.push(if whole > 0.0 { (now / whole).sqrt() } else { 0.0 });
             if now <= least {
                 break;
             }
         }
-        let (basis, columns) = (responses[0].basis().clone(), function_count(light_order));
         Ok(Self { basis, columns, values: total, bounces: added })
     }
 
@@ -92,7 +134,8 @@ impl Transfer {
         exit: Option<&Self>,
     ) -> Result<Self, TransferError> {
         let responses = [Response::incident(basis, inverse, rays.rule())];
-        check(vertices, rays, &responses, light_order, Bounces::Count(u32::from(exit.is_some())))?;
+        check(rays, &responses, light_order)?;
+        check_bounces(vertices, rays, Bounces::Count(u32::from(exit.is_some())))?;
         let gather = TransferGather::new(vertices, rays, &responses, light_order);
         let mut values = gather.direct();
         let columns = function_count(light_order);
@@ -196,18 +239,11 @@ fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, Trans
     }
 }
 
-fn check(
-    vertices: &Vertices,
-    rays: &TracedRays,
-    responses: &[Response],
-    light_order: usize,
-    bounces: Bounces,
-) -> Result<(), TransferError> {
+fn check(rays: &TracedRays, responses: &[Response], light_order: usize) -> Result<(), TransferError> {
     if !(1..=MAX_ORDER).contains(&light_order) {
         let (what, expected) = ("the order of the light", "an order from 1 to 10");
         return Err(TransferError::OutOfRange { what, expected, found: light_order as f64 });
     }
-    differ("vertices of rays", [vertices.len(), rays.vertex_count()])?;
     for response in responses {
         differ("directions", [rays.rule().len(), response.direction_count()])?;
         if responses[0].basis().functions() != response.basis().functions() {
@@ -215,6 +251,12 @@ fn check(
             return Err(TransferError::ExitBases { found });
         }
     }
+    Ok(())
+}
+
+/// Checks that rays of all vertices were traced, with hits if there are bounces.
+fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: Bounces) -> Result<(), TransferError> {
+    differ("vertices of rays", [vertices.len(), rays.vertex_count()])?;
     match bounces {
         Bounces::Tolerance { share, .. } if !(share > 0.0 && share.is_finite()) => {
             let (what, expected) = ("the tolerance of bounces", "a finite number above 0");

@@ -1,9 +1,13 @@
 //! Visibility maps: one bit per vertex and fine direction.
 
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
 use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections};
 
 /// The directions in which visibility is sampled, and the horizon.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct VisibilitySampling {
     /// m: 2^m x 2^m directions in each of the light's texels, 0 to 2.
     pub log2_samples: u32,
@@ -34,7 +38,19 @@ impl VisibilitySampling {
 }
 
 /// The horizon that limits the view of a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::EnumIter,
+    strum::EnumMessage,
+)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Horizon {
     /// The plane of its normal, and the triangles around it.
@@ -48,7 +64,7 @@ pub enum Horizon {
 pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 
 /// Numbers of directions, and vertices with defects.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct VisibilityCounts {
     /// Directions above the horizon of their vertex's normal.
     pub above: u64,
@@ -62,9 +78,20 @@ pub struct VisibilityCounts {
     pub unclear: Vec<u32>,
 }
 
+impl VisibilityCounts {
+    /// Adds the counts of other vertices, which follow.
+    fn append(&mut self, next: Self) {
+        self.above += next.above;
+        self.below_triangles += next.below_triangles;
+        self.traced += next.traced;
+        self.visible += next.visible;
+        self.unclear.extend(next.unclear);
+    }
+}
+
 /// The visibility q_p of some vertices: one bit per vertex and fine direction, 1 where it sees the light. Directions
 /// below the vertex's horizon are 0.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct VisibilityMaps {
     sampling: VisibilitySampling,
     vertices: Vec<u32>,
@@ -108,6 +135,25 @@ impl VisibilityMaps {
         let lower = |vertex: &mut u32| *vertex = vertex.checked_sub(first).expect("a vertex of the second mesh");
         self.vertices.iter_mut().chain(&mut self.counts.unclear).for_each(lower);
         self
+    }
+
+    /// Appends the maps of other vertices in the same sampling.
+    ///
+    /// # Panics
+    /// If the sampling is another.
+    pub fn append(&mut self, next: Self) {
+        assert_eq!(self.sampling, next.sampling, "maps of one sampling");
+        self.vertices.extend(next.vertices);
+        self.words.extend(next.words);
+        self.counts.append(next.counts);
+    }
+
+    /// True if these are maps of the vertices of a range, in order, and complete.
+    pub fn are_of(&self, range: &Range<usize>) -> bool {
+        let vertices = self.vertices.iter().map(|&vertex| vertex as usize);
+        self.sampling.log2_samples <= VisibilitySampling::default().log2_samples
+            && vertices.eq(range.clone())
+            && self.words.len() == range.len() * self.sampling.words()
     }
 
     /// All words, map by map.

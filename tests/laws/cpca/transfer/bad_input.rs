@@ -18,9 +18,9 @@ fn buried_vertices_are_listed() {
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(10), &mut caster(&mesh), false).expect("traced");
     // The inner box sees back faces of the outer one.
-    assert_eq!(rays.counts.dark, (0..24).collect::<Vec<u32>>());
-    assert_eq!(rays.counts.buried, rays.counts.dark);
-    assert_eq!(rays.counts.below_horizon, 0);
+    assert_eq!(rays.counts().dark, (0..24).collect::<Vec<u32>>());
+    assert_eq!(rays.counts().buried, rays.counts().dark);
+    assert_eq!(rays.counts().below_horizon, 0);
     let response = Response::diffuse(1.0, rays.rule()).expect("a response");
     let transfer = Transfer::new(&vertices, &rays, &[response], 2, Bounces::Count(0)).expect("t_p");
     assert!((0..24).all(|vertex| transfer.of(vertex) == [0.0; 4]));
@@ -36,7 +36,7 @@ fn rays_into_the_surface_are_counted() {
     for (normal, share) in [([0.0, 0.0, -1.0], 1.0), ([1.0, 0.0, 0.0], 0.5)] {
         let tilted = mesh.clone().with_normals(vec![normal; 4]).expect("normals");
         let vertices = Vertices::new(&tilted, Tangents::Any).expect("vertices");
-        let counts = trace(&tilted, &vertices, 11).counts;
+        let counts = trace(&tilted, &vertices, 11).counts().clone();
         assert_eq!(counts.below_horizon as f64, share * counts.rays as f64);
         assert_eq!((counts.blocked, counts.dark.len() == 4), (counts.below_horizon, share == 1.0));
     }
@@ -50,7 +50,7 @@ fn corners_that_no_origin_is_clear_of_are_listed() {
     soup.quad(DVec3::ZERO, DVec3::Y, DVec3::X);
     let mesh = soup.flat();
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
-    assert_eq!(trace(&mesh, &vertices, 5).counts.unclear.len(), 8);
+    assert_eq!(trace(&mesh, &vertices, 5).counts().unclear.len(), 8);
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn where_nothing_is_lost_everything_looks_like_the_sky() {
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     assert_eq!(vertices.len(), 20);
     let rays = trace(&mesh, &vertices, 12);
-    assert_eq!((rays.counts.from_behind, &rays.counts.dark[..]), (0, &[][..]));
+    assert_eq!((rays.counts().from_behind, &rays.counts().dark[..]), (0, &[][..]));
     let light = uniform(25);
     let white = Response::diffuse(1.0, rays.rule()).expect("a response");
     let exit = ExitBasis::of_order(5);
@@ -102,7 +102,7 @@ fn half_of_white_is_a_series_that_can_be_summed() {
     let mesh = soup.flat();
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     let rays = trace(&mesh, &vertices, 12);
-    assert_eq!((rays.counts.dark.len(), rays.counts.buried.len(), vertices.len()), (24, 0, 24));
+    assert_eq!((rays.counts().dark.len(), rays.counts().buried.len(), vertices.len()), (24, 0, 24));
     let response = Response::diffuse(0.5, rays.rule()).expect("a response");
     let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(3)).expect("t_p");
     assert!(transfer.clone().into_values().iter().all(|&value| value == 0.0));

@@ -35,7 +35,7 @@ fn a_long_wall_shadows_as_the_formula_says() {
         // The wall's rim passes between directions: of each of 512 azimuths, at most one cosine-weighted step in z.
         let found = transfer.radiance(0, DVec3::Z, &uniform(1));
         close(found, expected, 2e-3, "irradiance over pi");
-        assert!(rays.counts.buried.is_empty() && rays.counts.unclear.is_empty());
+        assert!(rays.counts().buried.is_empty() && rays.counts().unclear.is_empty());
     }
 }
 
@@ -98,7 +98,7 @@ fn at_the_foot_of_a_wall_half_of_the_sky_is_seen() {
     // 32 azimuths, half of them towards the wall.
     let (transfer, rays) = diffuse(&mesh, 31, 3);
     close(transfer.radiance(foot, DVec3::Z, &uniform(9)), 0.5, 1e-7, "half of the sky");
-    assert!(rays.counts.unclear.is_empty() && rays.counts.below_horizon == 0);
+    assert!(rays.counts().unclear.is_empty() && rays.counts().below_horizon == 0);
 }
 
 /// A wall all around, inside of radius 1, as high as `sine` of its elevation above the horizon says.

@@ -27,7 +27,7 @@ fn lambert_is_the_diffuse_path() {
     let mesh = step();
     let (vertices, lambert) = (vertices(&mesh), Brdf::Lambert { albedo: 0.8 });
     let rays = trace(&mesh, &vertices, 24);
-    assert!(rays.counts.blocked > 0);
+    assert!(rays.counts().blocked > 0);
     for bounces in [0, 3] {
         let diffuse = Response::diffuse(0.8, rays.rule()).expect("a response");
         let diffuse = Transfer::new(&vertices, &rays, &[diffuse], 5, Bounces::Count(bounces)).expect("t_p");
@@ -72,7 +72,7 @@ fn unoccluded_transfer_is_the_brdf_turned() {
     let mesh = convex();
     let vertices = vertices(&mesh);
     let rays = trace(&mesh, &vertices, 8);
-    assert_eq!((rays.counts.blocked, rays.rule().len()), (0, 45), "the least rule for order 5");
+    assert_eq!((rays.counts().blocked, rays.rule().len()), (0, 45), "the least rule for order 5");
     let views = DirectionRule::hemisphere(40);
     for exit in [ExitBasis::of_order(5), ExitBasis::without_1_0(5).expect("24 functions")] {
         let response = glossy(&WARD, &exit, ORDER_5, rays.rule());

@@ -63,7 +63,7 @@ fn turning_mesh_tangents_and_light_changes_nothing() {
         let all = rays.rule().len() * before.vertex_count();
         assert!(1000 * differ < all, "{differ} of {all} rays differ");
     }
-    assert!(rays.counts.blocked > 0 && response.basis().len() == 16);
+    assert!(rays.counts().blocked > 0 && response.basis().len() == 16);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn threads_change_no_bit() {
             let bounces = Bounces::Tolerance { share: 1e-3, most: 5 };
             let transfer = Transfer::new(&vertices, &rays, &[response], 6, bounces).expect("M_p");
             let bits: Vec<u32> = transfer.clone().into_values().into_iter().map(f32::to_bits).collect();
-            (bits, rays.counts, transfer.bounces)
+            (bits, rays.counts().clone(), transfer.bounces)
         })
     };
     let one = of(1);

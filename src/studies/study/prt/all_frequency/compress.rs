@@ -1,11 +1,15 @@
 //! Transfer computed, compressed and coded, one segment of the light at a time.
 
+use std::ops::Range;
 use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
+use crate::split::{Computed, Concatenate, SplitRun};
 use crate::study::{ProgressFn, StudyError};
 use crate::transfer::clustering::CpcaError;
 use crate::transfer::grid::Segmentation;
@@ -15,6 +19,28 @@ use crate::transfer::{TransferError, Vertices};
 
 use super::kept::KeptSegments;
 use super::tally::{CompressionTally, SegmentTally};
+
+/// Finished segments of a range: the code and errors of each, or nothing where transfer is 0.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct FinishedSegments {
+    segments: Vec<Option<(CodedSegment, SegmentTally)>>,
+    /// How many were finished before.
+    kept: usize,
+}
+
+impl Concatenate for FinishedSegments {
+    fn are_of(&self, range: &Range<usize>) -> bool {
+        let is = |(segment, found): (usize, &Option<(CodedSegment, SegmentTally)>)| {
+            found.as_ref().is_none_or(|(coded, _)| coded.segment == segment)
+        };
+        self.segments.len() == range.len() && range.clone().zip(&self.segments).all(is)
+    }
+
+    fn append(&mut self, next: Self) {
+        self.segments.extend(next.segments);
+        self.kept += next.kept;
+    }
+}
 
 /// Transfer to be compressed, and options.
 #[derive(Debug)]
@@ -47,25 +73,53 @@ impl SegmentedCompression<'_> {
     /// # Errors
     /// If transfer cannot be computed, compressed or coded, or finished segments cannot be kept or taken.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
-        let hats = LinearBasis::new(self.hats);
-        let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
-        let mut tally = CompressionTally::default();
-        let count = Segmentation::Quarters.count();
-        let mut segments = Vec::new();
-        for segment in 0..count {
-            progress("segments", segment as u64, count as u64);
-            let kept = self.kept.as_ref().map(|kept| kept.load(segment)).transpose()?.flatten();
-            tally.kept += usize::from(kept.is_some());
-            let finished = match kept {
-                Some(kept) => kept,
-                None => self.computed(segment, || transfer.segment(segment))?,
-            };
-            if let Some((coded, of_segment)) = finished {
-                tally.segments.push(of_segment);
-                segments.push(coded);
+        let found = self.of_range(0..Segmentation::Quarters.count(), progress)?;
+        Ok(self.whole(found))
+    }
+
+    /// The same of all segments, of those of a part, or out of parts.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`], and [`PartError`](crate::split::PartError).
+    pub fn run_split(
+        &self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<(CodedTransfer, CompressionTally)>, StudyError> {
+        let of_range = |range| self.of_range(range, progress);
+        let found = match split.compute("segments", Segmentation::Quarters.count(), of_range)? {
+            Computed::Whole(found) => found,
+            Computed::Part(part) => return Ok(Computed::Part(part)),
+        };
+        let (coded, tally) = self.whole(found);
+        match coded.fault() {
+            None => Ok(Computed::Whole((coded, tally))),
+            Some(fault) => {
+                let what = format!("expected the segments of this transfer, found a contradiction in the {fault}");
+                Err(StudyError::new("crossbar::prt::segments", what).with_help("compute all parts anew"))
             }
         }
-        Ok((self.coded(segments), tally))
+    }
+
+    fn of_range(&self, range: Range<usize>, progress: &mut ProgressFn<'_>) -> Result<FinishedSegments, StudyError> {
+        let hats = LinearBasis::new(self.hats);
+        let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
+        let mut found = FinishedSegments::default();
+        for segment in range.clone() {
+            progress("segments", (segment - range.start) as u64, range.len() as u64);
+            let kept = self.kept.as_ref().map(|kept| kept.load(segment)).transpose()?.flatten();
+            found.kept += usize::from(kept.is_some());
+            found.segments.push(match kept {
+                Some(kept) => kept,
+                None => self.computed(segment, || transfer.segment(segment))?,
+            });
+        }
+        Ok(found)
+    }
+
+    fn whole(&self, found: FinishedSegments) -> (CodedTransfer, CompressionTally) {
+        let (segments, tallies) = found.segments.into_iter().flatten().unzip();
+        (self.coded(segments), CompressionTally { segments: tallies, kept: found.kept })
     }
 
     fn coded(&self, segments: Vec<CodedSegment>) -> CodedTransfer {

@@ -1,15 +1,20 @@
 //! Visibility at the vertices of a model.
 
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-use crate::study::ProgressFn;
+use crate::split::{Computed, Concatenate, SplitRun};
+use crate::study::{ProgressFn, StudyError};
 use crate::tracer::HostTracer;
+use crate::transfer::Vertices;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
-use crate::transfer::{TransferError, Vertices};
 
 /// A model whose visibility is wanted.
 #[derive(Debug)]
@@ -35,29 +40,62 @@ pub struct FoundSight {
     pub census: SegmentCensus,
 }
 
+/// Visibility at the vertices of a range, those of the model before those of the ground.
+#[derive(Debug, Serialize, Deserialize)]
+struct SightRange {
+    /// Number of the model's vertices in all ranges.
+    of_model: usize,
+    model: VisibilityMaps,
+    ground: VisibilityMaps,
+}
+
+impl Concatenate for SightRange {
+    fn are_of(&self, range: &Range<usize>) -> bool {
+        let [model, ground] = parted(range, self.of_model);
+        self.model.are_of(&model) && self.ground.are_of(&ground)
+    }
+
+    fn append(&mut self, next: Self) {
+        self.model.append(next.model);
+        self.ground.append(next.ground);
+    }
+}
+
+/// The vertices of a range that are below a number, and those from there on.
+fn parted(range: &Range<usize>, at: usize) -> [Range<usize>; 2] {
+    [range.start.min(at)..range.end.min(at), range.start.max(at)..range.end.max(at)]
+}
+
 impl SightOfModel<'_> {
-    /// Casts the rays: the model's, then the ground's.
+    /// Casts the rays: the model's, then the ground's; or those of a part.
     ///
     /// # Errors
-    /// [`TransferError`].
-    pub fn run(self, progress: &mut ProgressFn<'_>) -> Result<(FoundSight, Option<FoundSight>), TransferError> {
-        let mut done = |done: usize, of: usize| progress("visibility", done as u64, of as u64);
-        let count = self.vertices.len() as u32;
-        let mut tracer = HostTracer::new(self.scene, Sides::Both);
-        let Some(ground) = self.ground else {
-            let all: Vec<u32> = (0..count).collect();
-            let maps = VisibilityMaps::trace(self.vertices, &all, &mut tracer, &mut done)?;
-            return Ok((self.found(self.vertices, maps, self.reflectance.clone()), None));
+    /// [`TransferError`], and those of parts.
+    pub fn run(
+        self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<(FoundSight, Option<FoundSight>)>, StudyError> {
+        let count = self.vertices.len();
+        let joined = self.ground.map(|ground| self.vertices.joined(ground));
+        let vertices = joined.as_ref().unwrap_or(self.vertices);
+        let found = split.compute("vertices", vertices.len(), |range| {
+            let mut tracer = HostTracer::new(self.scene, Sides::Both);
+            let mut maps = |of: Range<usize>| {
+                let of: Vec<u32> = of.map(|vertex| vertex as u32).collect();
+                let mut done = |done: usize, of: usize| progress("visibility", done as u64, of as u64);
+                VisibilityMaps::trace(vertices, &of, &mut tracer, &mut done)
+            };
+            let [model, ground] = parted(&range, count);
+            Ok::<_, StudyError>(SightRange { of_model: count, model: maps(model)?, ground: maps(ground)? })
+        })?;
+        let SightRange { model, ground, .. } = match found {
+            Computed::Whole(found) => found,
+            Computed::Part(part) => return Ok(Computed::Part(part)),
         };
-        let vertices = self.vertices.joined(ground);
-        let mut maps = |of: std::ops::Range<u32>| {
-            let of: Vec<u32> = of.collect();
-            VisibilityMaps::trace(&vertices, &of, &mut tracer, &mut done)
-        };
-        let of_model = maps(0..count)?;
-        let below = maps(count..vertices.len() as u32)?.counted_from(count);
-        let below = self.found(ground, below, Reflectance::Diffuse);
-        Ok((self.found(self.vertices, of_model, self.reflectance.clone()), Some(below)))
+        let below =
+            self.ground.map(|vertices| self.found(vertices, ground.counted_from(count as u32), Reflectance::Diffuse));
+        Ok(Computed::Whole((self.found(self.vertices, model, self.reflectance.clone()), below)))
     }
 
     fn found(&self, vertices: &Vertices, maps: VisibilityMaps, reflectance: Reflectance) -> FoundSight {

@@ -1,7 +1,9 @@
 //! Errors and sizes of transfer after compression and coding.
 
+use serde::{Deserialize, Serialize};
+
 /// Error and size of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SegmentTally {
     /// The segment.
     pub segment: usize,

@@ -1,0 +1,64 @@
+//! `crossbar merge`: the parts of a run, put together.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use super::{memory, version};
+use crate::split::{PartError, PartSet};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar cpca precompute docs/examples/step.obj --part 1/2 --out step_1.part
+      the first half of the work of a command; `--part 2/2` is the other, on another machine perhaps
+  crossbar merge step_1.part step_2.part --out step.prt
+      both, in any order: the file that one run of the command writes
+
+The parts hold their command, which is obeyed with their results in the place of its own work: what comes out is that of \
+one run, byte for byte, but for `--out`. Run it where the paths of the command's input lead to the same files. Refused \
+are parts that are missing or given twice, parts of other commands, inputs or programs, and parts that are not as they \
+were written. docs/scaling.md says which commands split, and what it brings.";
+
+/// Put the parts of a run together, as `--part` of other commands writes them
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// The parts, all of them, in any order
+    #[arg(value_name = "PART", required = true)]
+    parts: Vec<PathBuf>,
+
+    /// The file or folder that the parts' command writes to its `--out`
+    #[arg(long, value_name = "X")]
+    out: PathBuf,
+}
+
+impl Args {
+    /// Opens the parts, which must be of this program.
+    pub(super) fn open(&self) -> miette::Result<PartSet> {
+        // What the command itself takes, it counts itself.
+        let lengths = self.parts.iter().filter_map(|path| Some(std::fs::metadata(path).ok()?.len()));
+        memory::require("reading the largest part", 2 * lengths.max().unwrap_or(0), "make more and smaller parts")?;
+        Ok(PartSet::open(&self.parts, &version::program()?)?)
+    }
+
+    /// The command of the parts, as arguments of the program.
+    pub(super) fn command(&self, parts: &PartSet) -> Vec<OsString> {
+        let mut out = OsString::from("--out=");
+        out.push(&self.out);
+        let words = parts.command().arguments.iter().map(OsString::from);
+        std::iter::once(OsString::from("crossbar")).chain(words).chain([out]).collect()
+    }
+
+    /// Refuses a command without `--part`: its parts were not written by this program.
+    pub(super) fn require_divisible(&self, program: &clap::Command, parts: &PartSet) -> Result<(), PartError> {
+        let mut command = program;
+        for word in &parts.command().arguments {
+            let Some(found) = command.find_subcommand(word) else { break };
+            command = found;
+        }
+        if command.get_arguments().any(|arg| arg.get_id() == "part") {
+            return Ok(());
+        }
+        let path = self.parts.first().map_or(Path::new(""), PathBuf::as_path).into();
+        Err(PartError::Indivisible { path, command: parts.command().line() })
+    }
+}

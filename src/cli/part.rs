@@ -1,0 +1,63 @@
+//! `--part`: one part of a command's work, for `crossbar merge`.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use super::resolved::CommandLine;
+use super::version;
+use super::words::counted;
+use crate::report::Findings;
+use crate::split::{PartError, PartNumber, SplitCommand, SplitRun, WrittenPart};
+
+/// The option of commands whose work can be split.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct PartArgs {
+    /// Compute only part K of N, and write it to --out; `crossbar merge` puts all parts together
+    #[arg(long, value_name = "K/N", requires = "out")]
+    part: Option<PartNumber>,
+}
+
+impl PartArgs {
+    /// How the command's items are computed: all of them, those of the part, whose file is `out`, or none.
+    ///
+    /// # Errors
+    /// [`PartError`] for an argument that is not UTF-8, or a program that cannot be told from others.
+    pub(super) fn split(self, line: &CommandLine, out: &Path) -> Result<SplitRun, PartError> {
+        match (&line.parts, self.part) {
+            (Some(parts), _) => Ok(SplitRun::Merge(parts.clone())),
+            (None, None) => Ok(SplitRun::Whole),
+            (None, Some(part)) => {
+                let utf8 = |argument: &std::ffi::OsString| {
+                    let found = || PartError::Name { found: argument.display().to_string() };
+                    argument.to_str().map(str::to_owned).ok_or_else(found)
+                };
+                let arguments = line.arguments.iter().map(utf8).collect::<Result<_, _>>()?;
+                let command = SplitCommand { program: version::program()?, arguments };
+                Ok(SplitRun::Part { part, command, path: out.into() })
+            }
+        }
+    }
+
+    /// Of so many items those that are computed, for counts of memory.
+    pub(super) fn share(self, items: u64) -> u64 {
+        self.part.map_or(items, |part| items.div_ceil(u64::from(part.of())))
+    }
+}
+
+/// Findings of a command that computed a part.
+pub(super) fn findings(written: &WrittenPart) -> Findings {
+    let WrittenPart { part, items, count, range, path, bytes } = written;
+    let mut found = Findings::new("Part");
+    found.fields(json!({
+        "part": part.number(), "of": part.of(), "items": items, "count": count, "first": range.start,
+        "computed": range.len(), "bytes": bytes, "out": path,
+    }));
+    let of = format!("of {} {items}", counted(*count));
+    found.print(match range.len() {
+        0 => format!("part      {part}: none {of}"),
+        computed => format!("part      {part}: {} {of}, from number {} on", counted(computed), counted(range.start)),
+    });
+    found.print(format!("written   {}, {} bytes", path.display(), counted(*bytes as usize)));
+    found
+}

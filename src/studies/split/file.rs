@@ -1,0 +1,144 @@
+//! The file of a part.
+//!
+//! A line that names the layout, a line of JSON ([`PartHeader`]), the results in postcard's encoding, and at the end
+//! the SHA-256 of all before it, 32 bytes. Numbers keep their bits.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+
+use super::error::PartError;
+use super::number::PartNumber;
+use crate::io::{files_read, write_file};
+use crate::report::sha256;
+
+/// The first line, without the version.
+const MAGIC: &str = "crossbar part, version ";
+/// The version of the layout.
+const VERSION: u32 = 1;
+/// Bytes of the digest at the end.
+const DIGEST: usize = 32;
+
+/// The command that is split, and the program that runs it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SplitCommand {
+    /// The program: version, and commit or digest.
+    pub program: String,
+    /// The arguments without the program's name: defaults filled in, without options that change no result, without
+    /// `--part` and `--out`.
+    pub arguments: Vec<String>,
+}
+
+impl SplitCommand {
+    /// The command as a line.
+    pub fn line(&self) -> String {
+        format!("crossbar {}", self.arguments.join(" "))
+    }
+}
+
+/// Description of a part: the run that it is a part of, and its place in it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PartHeader {
+    /// The command.
+    pub command: SplitCommand,
+    /// Which part of how many.
+    pub part: PartNumber,
+    /// The SHA-256 of every file that was read, by its path as it was opened.
+    pub inputs: BTreeMap<String, String>,
+    /// The items that are split, in the plural.
+    pub items: String,
+    /// Their number in all parts.
+    pub count: u64,
+    /// Length of this part's results in the file.
+    bytes: u64,
+}
+
+impl PartHeader {
+    /// A header for results that are still to be encoded.
+    pub(super) fn new(
+        command: SplitCommand,
+        part: PartNumber,
+        inputs: BTreeMap<String, String>,
+        (items, count): (&str, usize),
+    ) -> Self {
+        Self { command, part, inputs, items: items.to_owned(), count: count as u64, bytes: 0 }
+    }
+
+    /// Writes a part, whole or not at all, and returns the length of the file.
+    pub(super) fn write(mut self, results: &[u8], path: &Path) -> Result<u64, PartError> {
+        self.bytes = results.len() as u64;
+        let mut head = format!("{MAGIC}{VERSION}\n").into_bytes();
+        // Text and numbers are always written.
+        serde_json::to_writer(&mut head, &self).map_err(|reason| unreadable(path, reason.into()))?;
+        head.push(b'\n');
+        let digest = Sha256::new().chain_update(&head).chain_update(results).finalize();
+        write_file(path, |file: &mut dyn io::Write| {
+            file.write_all(&head)?;
+            file.write_all(results)?;
+            file.write_all(&digest)
+        })?;
+        Ok((head.len() + results.len() + DIGEST) as u64)
+    }
+
+    /// Reads a part, and checks that it is whole: its header, and its results as they are encoded.
+    ///
+    /// # Errors
+    /// [`PartError`] if it cannot be read, is no part, or is not as it was written.
+    pub(super) fn read(path: &Path) -> Result<(Self, Vec<u8>), PartError> {
+        let mut bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
+        let other = || PartError::NotAPart { path: path.into() };
+        let mut lines = bytes.splitn(3, |&byte| byte == b'\n');
+        let (Some(first), Some(second)) = (lines.next(), lines.next()) else { return Err(other()) };
+        let version = first.strip_prefix(MAGIC.as_bytes()).ok_or_else(other)?;
+        if version != VERSION.to_string().as_bytes() {
+            let found = String::from_utf8_lossy(version).chars().take(20).collect();
+            return Err(PartError::Layout { path: path.into(), expected: VERSION, found });
+        }
+        let digested = |bytes: &[u8]| {
+            let (contents, digest) = bytes.split_at(bytes.len().saturating_sub(DIGEST));
+            Sha256::digest(contents).as_slice() == digest
+        };
+        let damaged = || PartError::Digest { path: path.into() };
+        // A damaged header says nothing of the length that can be relied on.
+        let header: Self = serde_json::from_slice(second).map_err(|_| damaged())?;
+        let start = (first.len() + second.len() + 2) as u64;
+        let (expected, found) = (start.saturating_add(header.bytes).saturating_add(DIGEST as u64), bytes.len() as u64);
+        if found != expected {
+            return Err(PartError::Length { path: path.into(), expected, found });
+        }
+        let part = header.part;
+        if !digested(&bytes) || PartNumber::new(part.number(), part.of()).is_none() {
+            return Err(damaged());
+        }
+        bytes.truncate(bytes.len() - DIGEST);
+        bytes.drain(..start as usize);
+        Ok((header, bytes))
+    }
+}
+
+/// The digests of all files that were read so far, by their paths.
+///
+/// # Errors
+/// [`PartError`] for what cannot be read a second time, and for names that are not UTF-8.
+pub(super) fn inputs_read() -> Result<BTreeMap<String, String>, PartError> {
+    let digest = |path: std::path::PathBuf| {
+        let Some(name) = path.to_str() else {
+            return Err(PartError::Name { found: path.display().to_string() });
+        };
+        // Opening a pipe would wait for who writes to it.
+        if !path.is_file() {
+            return Err(PartError::NotAFile { path });
+        }
+        let digest = File::open(&path).and_then(sha256).map_err(|source| unreadable(&path, source))?;
+        Ok((name.to_owned(), digest))
+    };
+    files_read().into_iter().map(digest).collect()
+}
+
+fn unreadable(path: &Path, source: io::Error) -> PartError {
+    PartError::Unreadable { path: path.into(), source }
+}

@@ -1,0 +1,88 @@
+//! Which part of how many.
+
+use std::fmt;
+use std::ops::Range;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// Most parts of a run.
+const MAX_PARTS: u32 = 1_000_000;
+
+/// Part K of N: 1 to N.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PartNumber {
+    number: u32,
+    of: u32,
+}
+
+impl PartNumber {
+    /// Part `number` of `of`; `None` unless `number` is from 1 to `of`, and `of` at most a million.
+    pub fn new(number: u32, of: u32) -> Option<Self> {
+        (1 <= number && number <= of && of <= MAX_PARTS).then_some(Self { number, of })
+    }
+
+    /// The part's number, from 1.
+    pub fn number(self) -> u32 {
+        self.number
+    }
+
+    /// The number of parts.
+    pub fn of(self) -> u32 {
+        self.of
+    }
+
+    /// The part's items among `count`: ranges of all parts follow each other, and their lengths differ by one at most.
+    /// Of more parts than items some have none.
+    pub fn range(self, count: usize) -> Range<usize> {
+        // At most `count`, so it fits.
+        let end = |number: u32| (count as u128 * u128::from(number) / u128::from(self.of)) as usize;
+        end(self.number - 1)..end(self.number)
+    }
+}
+
+impl fmt::Display for PartNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", self.number, self.of)
+    }
+}
+
+impl FromStr for PartNumber {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let both = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+        both.and_then(|(number, of)| Self::new(number, of)).ok_or_else(|| {
+            format!("expected K/N with K from 1 to N and N at most {MAX_PARTS}, as in 2/8, found `{text}`")
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_item_is_in_one_part() {
+        for count in [0, 1, 2, 3, 24, 1000, usize::MAX] {
+            for of in [1, 2, 3, 7, 24, 25, 1001] {
+                let ranges = (1..=of).map(|number| PartNumber::new(number, of).expect("a part").range(count));
+                let mut next = 0;
+                for range in ranges {
+                    assert_eq!(range.start, next, "{count} items in {of} parts");
+                    assert!(range.len().abs_diff(count / of as usize) <= 1, "{count} items in {of} parts: {range:?}");
+                    next = range.end;
+                }
+                assert_eq!(next, count);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_part_is_refused() {
+        for text in ["", "1", "0/2", "3/2", "-1/2", "1/0", "1/2/3", "a/b", "1/1000001", "1 / 2"] {
+            assert!(text.parse::<PartNumber>().is_err(), "{text}");
+        }
+        assert_eq!("2/8".parse(), Ok(PartNumber { number: 2, of: 8 }));
+    }
+}

@@ -1,0 +1,150 @@
+//! The one place of a command where its items are computed, divided or taken from parts.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::error::PartError;
+use super::file::{PartHeader, SplitCommand, inputs_read};
+use super::number::PartNumber;
+use super::set::PartSet;
+use crate::io::FileSet;
+
+/// Results of consecutive items, which are stored with their bits and put together in order.
+pub trait Concatenate: Serialize + DeserializeOwned {
+    /// True if these are results of the items of a range, and complete. What is false here is refused, not merged.
+    fn are_of(&self, range: &Range<usize>) -> bool;
+
+    /// Appends the results of the items that follow.
+    fn append(&mut self, next: Self);
+}
+
+impl<T: Serialize + DeserializeOwned> Concatenate for Vec<T> {
+    fn are_of(&self, range: &Range<usize>) -> bool {
+        self.len() == range.len()
+    }
+
+    fn append(&mut self, next: Self) {
+        self.extend(next);
+    }
+}
+
+/// How a command's items are computed.
+#[derive(Clone, Debug, Default)]
+pub enum SplitRun {
+    /// All of them.
+    #[default]
+    Whole,
+    /// Those of a part, which is written to a file.
+    Part {
+        /// The part.
+        part: PartNumber,
+        /// The command that it is a part of.
+        command: SplitCommand,
+        /// The file.
+        path: PathBuf,
+    },
+    /// None: they are in these parts.
+    Merge(PartSet),
+}
+
+/// A part that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenPart {
+    /// Which part of how many.
+    pub part: PartNumber,
+    /// The items that are split, in the plural.
+    pub items: &'static str,
+    /// Number of items of all parts.
+    pub count: usize,
+    /// The items of this part.
+    pub range: Range<usize>,
+    /// The file.
+    pub path: PathBuf,
+    /// Its length.
+    pub bytes: u64,
+}
+
+/// Results of all items; or only a part of them was computed, which is in its file.
+#[derive(Clone, Debug)]
+pub enum Computed<T> {
+    /// Of all items: the command goes on.
+    Whole(T),
+    /// Of a part: the command ends.
+    Part(WrittenPart),
+}
+
+impl SplitRun {
+    /// True if a part is computed, and the command's own results are not.
+    pub fn is_part(&self) -> bool {
+        matches!(self, Self::Part { .. })
+    }
+
+    /// Computes `count` items by `compute`, which takes a range of them; or those of a part, and writes them; or takes
+    /// all from parts. What is computed must depend on the item and on what was read and said before, and on nothing
+    /// else. A command calls this once.
+    ///
+    /// # Errors
+    /// Those of `compute`, and [`PartError`] if a part cannot be written or parts do not fit.
+    pub fn compute<T: Concatenate, E: From<PartError>>(
+        &self,
+        items: &'static str,
+        count: usize,
+        compute: impl FnOnce(Range<usize>) -> Result<T, E>,
+    ) -> Result<Computed<T>, E> {
+        match self {
+            Self::Whole => compute(0..count).map(Computed::Whole),
+            Self::Merge(parts) => Ok(Computed::Whole(merged(parts, items, count)?)),
+            Self::Part { part, command, path } => {
+                let header = PartHeader::new(command.clone(), *part, inputs_read()?, (items, count));
+                require_writable(path)?;
+                let range = part.range(count);
+                let results = compute(range.clone())?;
+                let contents = || PartError::Contents { path: path.clone(), items, count: range.len() };
+                let bytes = postcard::to_stdvec(&results).map_err(|_| contents())?;
+                drop(results);
+                let bytes = header.write(&bytes, path)?;
+                let written = WrittenPart { part: *part, items, count, range, path: path.clone(), bytes };
+                Ok(Computed::Part(written))
+            }
+        }
+    }
+}
+
+/// Finds out before long work that a file cannot be written.
+fn require_writable(path: &Path) -> Result<(), PartError> {
+    match path.parent() {
+        // A device or a pipe has no file beside it.
+        Some(folder) if path.is_file() || !path.exists() => Ok(drop(FileSet::new(folder)?)),
+        _ => Ok(()),
+    }
+}
+
+/// The results of all parts.
+fn merged<T: Concatenate>(parts: &PartSet, items: &'static str, count: usize) -> Result<T, PartError> {
+    parts.check_inputs(&inputs_read()?)?;
+    let mut whole: Option<T> = None;
+    for (path, opened) in parts.parts() {
+        let (header, bytes) = PartHeader::read(path)?;
+        // The file may have been replaced since the set was opened.
+        if header != *opened {
+            return Err(PartError::Digest { path: path.clone() });
+        }
+        let range = header.part.range(count);
+        let contents = || PartError::Contents { path: path.clone(), items, count: range.len() };
+        if header.items != items || header.count != count as u64 {
+            return Err(contents());
+        }
+        let (next, rest) = postcard::take_from_bytes::<T>(&bytes).map_err(|_| contents())?;
+        if !next.are_of(&range) || !rest.is_empty() {
+            return Err(contents());
+        }
+        match &mut whole {
+            Some(whole) => whole.append(next),
+            None => whole = Some(next),
+        }
+    }
+    whole.ok_or(PartError::Empty)
+}
