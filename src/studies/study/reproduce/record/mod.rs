@@ -38,11 +38,14 @@ pub(super) const RECORDS: &[(&str, &str)] = records![
     "cpca-figure-2",
     "cpca-figures-3-4",
     "cpca-figure-6",
+    "cpca-figure-7",
     "cpca-figure-8",
     "cpca-figure-9",
     "cpca-figure-10",
     "cpca-coherence",
     "bi-scale-figure-8",
+    "bi-scale-figure-6",
+    "bi-scale-table-1",
 ];
 
 /// Returns the record of an entry that the program contains.
