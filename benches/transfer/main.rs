@@ -33,7 +33,7 @@ fn main() {
     for (name, mesh) in [("bird", TransferModel::Bird.mesh(1)), ("buddha", TransferModel::FoldedBuddha.mesh(1))] {
         let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
         let rays = trace(&mesh, &vertices);
-        group.throughput(Throughput::Elements(rays.counts.rays));
+        group.throughput(Throughput::Elements(rays.counts().rays));
         group.bench_function(BenchmarkId::new("shadow rays", name), |bench| {
             bench.iter(|| black_box(trace(&mesh, &vertices)));
         });

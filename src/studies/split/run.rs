@@ -117,7 +117,7 @@ impl SplitRun {
 fn require_writable(path: &Path) -> Result<(), PartError> {
     match path.parent() {
         // A device or a pipe has no file beside it.
-        Some(folder) if path.is_file() || !path.exists() => Ok(drop(FileSet::new(folder)?)),
+        Some(folder) if path.is_file() || !path.exists() => FileSet::new(folder).map(drop).map_err(PartError::from),
         _ => Ok(()),
     }
 }
