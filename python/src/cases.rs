@@ -23,7 +23,7 @@ pub(crate) struct Case {
     pub(crate) name: String,
 }
 
-/// What a draw leaves: a document, the targets, the depth buffer.
+/// Result of a draw: a document, the targets, the depth buffer.
 type Drawn<'py> = (String, Vec<Bound<'py, PyArray3<f64>>>, Option<Bound<'py, PyArray2<f64>>>);
 
 fn executor(name: &str) -> PyResult<ExecutorKind> {
@@ -124,7 +124,7 @@ impl Case {
         Ok((document, targets, depth.map(|depth| depth.into_pyarray(py))))
     }
 
-    /// What every instruction wrote at a pixel, as JSON.
+    /// Trace of a pixel, as JSON.
     fn trace(&self, py: Python<'_>, x: u32, y: u32, executor_name: &str) -> PyResult<String> {
         let kind = executor(executor_name)?;
         let [width, height] = self.setup.size;

@@ -39,7 +39,7 @@ fn parse(text: &str) -> PyResult<Format> {
 /// the definition, one number after the other.
 #[derive(Clone)]
 enum Computation {
-    Rows(ArrayOperation),
+    Rows(Box<ArrayOperation>),
     Single { format: Format, operation: Option<Op>, seed: u64 },
 }
 
@@ -54,7 +54,7 @@ impl Computation {
             Some(operation) => ArrayOperation::new(format, operation),
             None => ArrayOperation::rounding(format),
         };
-        Ok(rows.map_or(Self::Single { format, operation, seed }, Self::Rows))
+        Ok(rows.map_or(Self::Single { format, operation, seed }, |rows| Self::Rows(Box::new(rows))))
     }
 
     /// Numbers to numbers.

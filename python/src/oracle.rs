@@ -283,7 +283,6 @@ fn t_ulps(nearest: Option<&crossbar::geom::NearestHit>, hit: Option<Hit>) -> i64
 
 /// Origins, directions and codes of aims of at most `each` hard rays of each aim.
 #[pyfunction]
-#[expect(clippy::type_complexity, reason = "three columns")]
 pub(crate) fn hard_rays<'py>(
     py: Python<'py>,
     vertices: PyReadonlyArray2<'_, f32>,

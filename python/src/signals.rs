@@ -46,7 +46,7 @@ pub(crate) fn fill_quickly<T: Send, S>(
 
 /// Runs a study without the lock. A signal ends it at its next step, by unwinding.
 pub(crate) fn study<R: Send>(py: Python<'_>, work: impl FnOnce(&mut ProgressFn<'_>) -> R + Send) -> PyResult<R> {
-    /// What unwinds; nothing is printed.
+    /// Payload of the unwinding; nothing is printed.
     struct Interrupted;
     py.detach(|| {
         let mut signal = None;

@@ -14,7 +14,7 @@ pub struct ComparedSides<'a> {
     pub case: &'a str,
     /// Left and right side.
     pub sides: &'a [Side<'a>; 2],
-    /// What differs.
+    /// Result of the comparison.
     pub comparison: &'a Comparison,
 }
 
