@@ -1,6 +1,6 @@
 //! Executors that can be shared by several machines.
 
-use super::{ExecutorKind, Machine, MachineError};
+use super::{DrawWatcher, ExecutorKind, Machine, MachineError};
 use crate::device::Profile;
 use crate::exec::batch::BatchExecutor;
 #[cfg(feature = "wgpu")]
@@ -25,6 +25,13 @@ pub enum Executor {
         /// The GPU.
         gpu: Arc<Gpu>,
     },
+    /// An executor with somebody who watches every draw of its machines.
+    Watched {
+        /// The executor.
+        executor: Box<Executor>,
+        /// Called before and after each draw of its machines.
+        watcher: Arc<dyn DrawWatcher>,
+    },
 }
 
 impl Executor {
@@ -34,7 +41,14 @@ impl Executor {
             Self::Kind { kind, .. } => *kind,
             #[cfg(feature = "wgpu")]
             Self::Gpu { .. } => ExecutorKind::Wgpu,
+            Self::Watched { executor, .. } => executor.kind(),
         }
+    }
+
+    /// This executor, with a watcher of every draw of the machines that it makes from now on.
+    #[must_use]
+    pub fn watched(&self, watcher: Arc<dyn DrawWatcher>) -> Self {
+        Self::Watched { executor: Box::new(self.clone()), watcher }
     }
 
     /// Creates a machine that uses this executor.
@@ -46,6 +60,9 @@ impl Executor {
             Self::Kind { kind, batch } => Ok(Machine { batch: batch.clone(), ..Machine::new(profile, *kind) }),
             #[cfg(feature = "wgpu")]
             Self::Gpu { gpu } => Machine::with_gpu(profile, Arc::clone(gpu)),
+            Self::Watched { executor, watcher } => {
+                Ok(Machine { watcher: Some(Arc::clone(watcher)), ..executor.machine(profile)? })
+            }
         }
     }
 }

@@ -42,6 +42,7 @@ pub use pixel_state::PixelState;
 pub use trace::FragmentTrace;
 pub use trace_buffers::TraceBuffers;
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
 use crate::device::Profile;
@@ -52,6 +53,30 @@ use recorder::Recorder;
 use tiles::{executor, tile_draw};
 use validate::Plan;
 
+/// Called before and after each draw of a machine ([`Executor::watched`]): for studies that look into passes of
+/// code which creates its machines itself. Watchers see the machine and cannot change it, so that values and counts
+/// are those of a machine without one.
+pub trait DrawWatcher: Debug + Send + Sync {
+    /// Called before a draw that the machine accepts, with the targets as earlier draws left them:
+    /// [`Machine::trace`] follows pixels through the draw.
+    ///
+    /// # Errors
+    /// An error ends the draw before anything is drawn.
+    fn before(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
+        let _ = (machine, call);
+        Ok(())
+    }
+
+    /// Called after a draw: [`Machine::read_back`] has its targets.
+    ///
+    /// # Errors
+    /// An error is that of the draw, which has been drawn.
+    fn after(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
+        let _ = (machine, call);
+        Ok(())
+    }
+}
+
 /// An emulated card.
 #[derive(Debug)]
 pub struct Machine {
@@ -61,6 +86,7 @@ pub struct Machine {
     pool: Option<rayon::ThreadPool>,
     memory: Memory,
     recorder: Recorder,
+    watcher: Option<Arc<dyn DrawWatcher>>,
 }
 
 impl Machine {
@@ -73,6 +99,7 @@ impl Machine {
             pool: None,
             memory: Memory::default(),
             recorder: Recorder::default(),
+            watcher: None,
         }
     }
 
@@ -114,11 +141,17 @@ impl Machine {
     /// If the call is invalid for the machine or the device; nothing has been drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
+        if let Some(watcher) = &self.watcher {
+            watcher.before(self, call)?;
+        }
         let (events, traffic) = match &self.recorder.observer {
             Some(_) => self.shade_observed(call, &plan).map(|(events, traffic)| (events, Some(traffic)))?,
             None => (self.shade(call, &plan)?, None),
         };
         self.note_draw(call, &plan, &events, traffic.as_ref());
+        if let Some(watcher) = &self.watcher {
+            watcher.after(self, call)?;
+        }
         Ok(events)
     }
 

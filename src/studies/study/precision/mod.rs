@@ -19,6 +19,7 @@ mod refutations;
 mod report;
 mod runs;
 mod search;
+mod steps;
 mod subject;
 mod switches;
 mod systems;
@@ -37,7 +38,8 @@ pub use goal::{Goal, GoalError, GoalRelation};
 pub use known_runs::KnownRuns;
 pub use outcome::Precision;
 pub use subject::{
-    ErrorMap, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StepResult, StudiedProgram, WorstPlace,
+    ErrorMap, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
+    StepResult, StudiedProgram, WorstPlace,
 };
 pub use systems::PaperSystem;
 

@@ -17,14 +17,18 @@ pub(super) fn most_blamed<'t>(traces: &'t [RefutationTrace], family: &FamilyOutc
 /// Title of the table of one trace.
 pub(super) fn title(trace: &RefutationTrace, runs: &Runs<'_>) -> String {
     let [line, text] = named_line(trace.refuted.place, runs).map(|cell| cell.text());
-    let [column, row] = trace.pixel;
+    let [column, row] = trace.traced.pixel;
     format!("Pixel {column}, {row} with line {line}, {text}, in {}", trace.refuted.bits)
 }
 
 /// Columns of a trace.
-const COLUMNS: &str = "line instruction component exact mixed one_bit_less one_bit_less_differs";
+const COLUMNS: &str = "fragment line instruction component exact mixed one_bit_less one_bit_less_differs";
 
-/// Table of one trace: a row for each component of each step that all three runs execute.
+/// Rows of a trace from which on it has only those whose result differs with one bit less.
+const LONG: usize = 1000;
+
+/// Table of one trace: a row for each component of each step that all three runs execute; of more than [`LONG`] only
+/// those in which the last two differ.
 pub(super) fn table(title: String, trace: &RefutationTrace, runs: &Runs<'_>) -> Table {
     let mut table = Table::of(title, COLUMNS);
     rows(trace, runs).for_each(|row| table.push(row));
@@ -36,7 +40,7 @@ pub(super) fn all(traces: &[RefutationTrace], runs: &Runs<'_>) -> Table {
     let mut table = Table::of("Traces of refutations", &format!("refuted_line format column row {COLUMNS}"));
     for trace in traces {
         let [refuted_line, _] = named_line(trace.refuted.place, runs);
-        let [column, row] = trace.pixel;
+        let [column, row] = trace.traced.pixel;
         let place = [refuted_line, trace.refuted.bits.to_string().into(), column.into(), row.into()];
         rows(trace, runs).for_each(|row| table.push(place.iter().cloned().chain(row)));
     }
@@ -44,18 +48,25 @@ pub(super) fn all(traces: &[RefutationTrace], runs: &Runs<'_>) -> Table {
 }
 
 fn rows(trace: &RefutationTrace, runs: &Runs<'_>) -> impl Iterator<Item = Vec<Cell>> {
-    aligned(&trace.steps).map(|(exact, [mixed, less])| {
+    let steps = aligned(&trace.traced.steps);
+    let is_long = steps.clone().count() > LONG;
+    let is_shown = move |[mixed, less]: [f64; 2]| !is_long || mixed.to_bits() != less.to_bits();
+    steps.filter(move |(_, results)| is_shown(*results)).map(|(exact, [mixed, less])| {
         let [line, text] = line_cells(exact.program, exact.instruction, runs);
         let component = ["r", "g", "b", "a"][usize::from(exact.component)];
         let values = [exact.value, mixed, less].map(|value| digits::exact(value).into());
         let differs = less.to_bits() != mixed.to_bits();
-        [line, text, component.into()].into_iter().chain(values).chain([differs.into()]).collect()
+        [exact.fragment.into(), line, text, component.into()]
+            .into_iter()
+            .chain(values)
+            .chain([differs.into()])
+            .collect()
     })
 }
 
 /// Steps that are the same instruction's in all three runs, up to the first that are not: another way was taken there.
-fn aligned([exact, mixed, less]: &[Vec<StepResult>; 3]) -> impl Iterator<Item = (StepResult, [f64; 2])> {
-    let place = |step: &StepResult| (step.program, step.instruction, step.component);
+fn aligned([exact, mixed, less]: &[Vec<StepResult>; 3]) -> impl Iterator<Item = (StepResult, [f64; 2])> + Clone {
+    let place = |step: &StepResult| (step.fragment, step.program, step.instruction, step.component);
     exact
         .iter()
         .zip(mixed.iter().zip(less))

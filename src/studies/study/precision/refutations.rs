@@ -3,35 +3,31 @@
 use super::bits::Assignment;
 use super::runs::Runs;
 use super::search::{MixedFormats, RefutedFormat};
-use super::subject::{StepResult, WorstPlace};
+use super::subject::{PixelSteps, RefutingDevices, WorstPlace};
 use crate::study::StudyError;
 
-/// Results of the instructions at the worst pixel of a refutation.
+/// Results of the instructions at the pixel that tells of a refutation.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RefutationTrace {
     pub(super) refuted: RefutedFormat,
-    /// Column and row.
-    pub(super) pixel: [u32; 2],
-    /// Results of the exact run, with the mixed formats, and with one bit less.
-    pub(super) steps: [Vec<StepResult>; 3],
+    pub(super) traced: PixelSteps,
 }
 
 /// Traces each format that was refuted, as far as the subject has traces.
 pub(super) fn traces(mixed: &MixedFormats, runs: &Runs<'_>) -> Result<Vec<RefutationTrace>, StudyError> {
     let mut found = Vec::new();
     let formats: Assignment = mixed.formats.iter().copied().map(Some).collect();
+    let device = |assignment: &Assignment| runs.device(runs.subject.profile(), assignment);
+    let Some((exact, enough)) = device(&vec![None; formats.len()]).zip(device(&formats)) else { return Ok(found) };
     for refuted in &mixed.refuted {
         let Some(WorstPlace { pixel: Some(pixel), .. }) = refuted.worst else { continue };
         let mut less = formats.clone();
         less[refuted.place] = Some(refuted.bits);
-        let exact = vec![None; formats.len()];
-        let steps = |assignment: &Assignment| match runs.device(runs.subject.profile(), assignment) {
-            Some(device) => runs.subject.steps(&device, pixel),
-            None => Ok(None),
-        };
-        if let [Some(exact), Some(mixed), Some(less)] = [steps(&exact)?, steps(&formats)?, steps(&less)?] {
-            found.push(RefutationTrace { refuted: refuted.clone(), pixel, steps: [exact, mixed, less] });
-        }
+        let Some(less) = device(&less) else { continue };
+        let program = runs.places[refuted.place].program;
+        let devices = RefutingDevices { exact: &exact, mixed: &enough, less: &less, program };
+        let traced = runs.subject.steps(devices, pixel)?;
+        found.extend(traced.map(|traced| RefutationTrace { refuted: refuted.clone(), traced }));
     }
     Ok(found)
 }

@@ -67,6 +67,8 @@ pub struct ErrorMap {
 /// Result of one component of an executed instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepResult {
+    /// Number of the fragment within its trace, from 0.
+    pub fragment: u32,
     /// Index of the program.
     pub program: usize,
     /// Index of the instruction.
@@ -75,6 +77,35 @@ pub struct StepResult {
     pub component: u8,
     /// The result.
     pub value: f64,
+}
+
+/// Three devices that differ in the formats of instructions.
+#[derive(Clone, Copy, Debug)]
+pub struct RefutingDevices<'a> {
+    /// That of the exact run.
+    pub exact: &'a Profile,
+    /// That of the formats that meet the goal.
+    pub mixed: &'a Profile,
+    /// That with one bit less in one instruction, which misses it.
+    pub less: &'a Profile,
+    /// Index of that instruction's program.
+    pub program: usize,
+}
+
+impl<'a> RefutingDevices<'a> {
+    /// The devices, in the order of [`PixelSteps::steps`].
+    pub fn all(self) -> [&'a Profile; 3] {
+        [self.exact, self.mixed, self.less]
+    }
+}
+
+/// Results of all instructions that are executed for a pixel, fragment by fragment in the order of execution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelSteps {
+    /// Column and row in the target.
+    pub pixel: [u32; 2],
+    /// Those of the exact run, with the mixed formats, and with one bit less.
+    pub steps: [Vec<StepResult>; 3],
 }
 
 impl Measured {
@@ -136,13 +167,13 @@ pub trait PrecisionSubject {
         Ok(None)
     }
 
-    /// Results of all instructions that are executed for a pixel, fragment by fragment in the order of execution;
-    /// `None` if the subject has no traces.
+    /// Follows a pixel on three devices: `worst`, that of the largest error of the last of them, or a pixel of an
+    /// earlier pass or another ray if that one tells nothing of the program; `None` if the subject has no traces.
     ///
     /// # Errors
-    /// If the device cannot run the programs.
-    fn steps(&self, profile: &Profile, pixel: [u32; 2]) -> Result<Option<Vec<StepResult>>, StudyError> {
-        let _ = (profile, pixel);
+    /// If a device cannot run the programs.
+    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
+        let _ = (devices, worst);
         Ok(None)
     }
 

@@ -6,15 +6,15 @@ mod errors;
 use std::fmt::Debug;
 
 use refsim::device::Profile;
-use refsim::exec::FragmentFormats;
 use refsim::machine::{ExecutorKind, FragmentTrace};
-use refsim::num::to_f64;
 
 use super::executors::SubjectExecutors;
 use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
+use super::steps::step_results;
 use super::subject::{
-    ErrorMap, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, StepResult, StudiedProgram, WorstPlace,
+    ErrorMap, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
+    StepResult, StudiedProgram, WorstPlace,
 };
 use crate::case::{Loaded, Setup, trace};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
@@ -136,9 +136,15 @@ impl PrecisionSubject for CaseSubject {
         self.held_back.as_deref().map(measure).transpose()
     }
 
-    fn steps(&self, profile: &Profile, pixel: [u32; 2]) -> Result<Option<Vec<StepResult>>, StudyError> {
-        let fragments = trace(&self.setup.on_device(profile.clone())?, &self.executors.batch, pixel)?.fragments;
-        Ok(Some(fragments.iter().flat_map(|fragment| self.step_results(profile, fragment)).collect()))
+    fn steps(&self, devices: RefutingDevices<'_>, pixel: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
+        let mut steps = [const { Vec::new() }; 3];
+        for (steps, device) in steps.iter_mut().zip(devices.all()) {
+            let fragments = trace(&self.setup.on_device(device.clone())?, &self.executors.batch, pixel)?.fragments;
+            let results =
+                (0..).zip(&fragments).flat_map(|(number, fragment)| self.results_of(device, number, fragment));
+            steps.extend(results);
+        }
+        Ok(Some(PixelSteps { pixel, steps }))
     }
 
     fn results(&self, profile: &Profile) -> Result<Option<Vec<InstructionResults>>, StudyError> {
@@ -152,7 +158,7 @@ impl PrecisionSubject for CaseSubject {
         let mut results = InstructionResults::new();
         // The first result of each instruction of a fragment.
         for (number, fragment) in (0..).zip(traces.iter().flatten()) {
-            for step in self.step_results(profile, fragment) {
+            for step in self.results_of(profile, number, fragment) {
                 results.entry(step.instruction).or_default().entry((number, step.component)).or_insert(step.value);
             }
         }
@@ -187,22 +193,7 @@ impl CaseSubject {
         WorstPlace { text, pixel: Some([x as u32, y as u32]) }
     }
 
-    /// Results of the instructions of a fragment that write registers, component by component.
-    fn step_results(&self, profile: &Profile, fragment: &FragmentTrace) -> Vec<StepResult> {
-        let formats = FragmentFormats::new(&profile.rules);
-        let mut results = Vec::new();
-        for step in &fragment.shading.steps {
-            let instruction = self.setup.pixel.instructions.get(step.instruction);
-            let Some(destination) = instruction.and_then(|instruction| instruction.destination) else { continue };
-            let format = formats.of_file(destination.register.file);
-            let components = (0..4_u8).filter(|&component| step.mask.contains(usize::from(component)));
-            results.extend(components.map(|component| StepResult {
-                program: 0,
-                instruction: step.instruction,
-                component,
-                value: to_f64(&format, step.value[usize::from(component)]),
-            }));
-        }
-        results
+    fn results_of(&self, profile: &Profile, number: u32, fragment: &FragmentTrace) -> Vec<StepResult> {
+        step_results(profile, (0, &self.setup.pixel), (number, fragment))
     }
 }

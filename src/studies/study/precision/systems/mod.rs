@@ -14,6 +14,7 @@ mod run;
 mod subsurface;
 #[cfg(test)]
 mod tests;
+mod watchers;
 
 use refsim::device::Profile;
 

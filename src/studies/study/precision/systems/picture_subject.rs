@@ -1,18 +1,21 @@
 //! Systems whose values are compared with those of their own exact run.
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
+use refsim::isa::Program;
+use refsim::machine::{DrawWatcher, ExecutorKind};
 
 use super::programs::PixelPrograms;
 use super::run::{SystemInput, SystemRun};
+use super::watchers::{DifferentTexel, FollowedDraws, FollowedPixel, KeptTargets};
 use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{
-    ErrorMap, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram, WorstPlace,
+    ErrorMap, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, StudiedProgram, WorstPlace,
 };
 
 const MEASURES: [PrecisionMeasure; 5] = [
@@ -123,12 +126,14 @@ impl PrecisionSubject for SystemSubject {
         let found = self.run.values(SystemInput::Searched, profile, self.executors.of(executor))?;
         let SystemErrors { values, worst, off } = errors(&found, &self.exact);
         let worst = worst.map(|at| {
+            let [width, _] = self.target_size();
+            let pixel = [at as u32 % width, at as u32 / width];
             let place = match self.run.size() {
-                Some([width, _]) => format!("pixel {}, {}", at as u32 % width, at as u32 / width),
+                Some(_) => format!("pixel {}, {}", pixel[0], pixel[1]),
                 None => format!("{} {at}", self.run.unit()),
             };
             let [ours, exact] = [found[at], self.exact[at]].map(|rgb| rgb.map(|value| value as f32));
-            WorstPlace { text: format!("{place}: {ours:?}, not {exact:?}"), pixel: None }
+            WorstPlace { text: format!("{place}: {ours:?}, not {exact:?}"), pixel: Some(pixel) }
         });
         let shown = self.run.size().filter(|_| wanted.is_none());
         let errors = shown.map(|[width, _]| ErrorMap { width, unit: "255ths", values: off });
@@ -139,6 +144,50 @@ impl PrecisionSubject for SystemSubject {
         let found = self.run.values(SystemInput::HeldBack, profile, &self.executors.batch)?;
         let values = errors(&found, &self.exact_held_back).values;
         Ok(Some(Measured { values, ..Measured::default() }))
+    }
+
+    /// Follows the worst pixel or patch through the passes into it. Where the refuted instruction's program is none of
+    /// theirs, the texel of that program's targets which one bit less changes most.
+    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
+        let followed = self.followed(devices, worst, FollowedDraws::IntoTargets(self.target_size()))?;
+        let Some(program) = self.programs.get(devices.program).map(Program::digest) else { return Ok(None) };
+        if followed.steps[2].iter().any(|step| step.program == devices.program) {
+            return Ok(Some(followed));
+        }
+        let kept = |device: &Profile| {
+            let targets = KeptTargets::new(program);
+            self.watched(device, targets.clone()).map(|()| targets)
+        };
+        let [mixed, less] = [kept(devices.mixed)?, kept(devices.less)?];
+        let Some(DifferentTexel { draw, pixel }) = less.most_different(&mixed) else { return Ok(Some(followed)) };
+        self.followed(devices, pixel, FollowedDraws::Draw(program, draw)).map(Some)
+    }
+}
+
+impl SystemSubject {
+    /// Width and height of the target with the values: a picture, or a texel per patch.
+    fn target_size(&self) -> [u32; 2] {
+        self.run.size().unwrap_or([self.exact.len() as u32, 1])
+    }
+
+    /// Runs the search's input with a watcher.
+    fn watched(&self, device: &Profile, watcher: Arc<dyn DrawWatcher>) -> Result<(), StudyError> {
+        self.run.values(SystemInput::Searched, device, &self.executors.batch.watched(watcher)).map(|_| ())
+    }
+
+    fn followed(
+        &self,
+        devices: RefutingDevices<'_>,
+        pixel: [u32; 2],
+        draws: FollowedDraws,
+    ) -> Result<PixelSteps, StudyError> {
+        let mut steps = [const { Vec::new() }; 3];
+        for (steps, device) in steps.iter_mut().zip(devices.all()) {
+            let followed = FollowedPixel::new(pixel, draws);
+            self.watched(device, followed.clone())?;
+            *steps = followed.steps(device, &self.programs, |_| true);
+        }
+        Ok(PixelSteps { pixel, steps })
     }
 }
 

@@ -1,17 +1,20 @@
 //! The Ray Engine: eye rays on the teapot, judged by exact arithmetic.
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 use refsim::device::Profile;
 use refsim::isa::Version;
-use refsim::machine::{Executor, ExecutorKind};
+use refsim::machine::{DrawWatcher, Executor, ExecutorKind, FragmentTrace};
 
 use super::programs::PixelPrograms;
 use super::run::at_most;
-use crate::geom::Mesh;
+use super::watchers::{FollowedDraws, FollowedPixel};
+use crate::geom::classify::HitVerdict;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
+use crate::geom::{Hit, Mesh};
 use crate::picture::rgb8;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
@@ -19,7 +22,9 @@ use crate::study::StudyError;
 use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram, WorstPlace};
+use crate::study::precision::subject::{
+    Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, StudiedProgram, WorstPlace,
+};
 
 /// Quads along a side of a patch.
 const TESSELLATION: u32 = 4;
@@ -94,12 +99,25 @@ impl RayEngineSubject {
         let mut pixels = judged.pixels(&verdicts);
         let picture = is_pictured.then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
         let worst = pixels.position(|verdict| verdict.rank() > 0);
-        let worst = worst.map(|at| WorstPlace {
-            text: format!("ray at pixel {}, {}", at as u32 % SIDE, at as u32 / SIDE),
-            pixel: None,
+        let worst = worst.map(|at| {
+            let [x, y] = pixel_of(at);
+            WorstPlace { text: format!("ray at pixel {x}, {y}"), pixel: Some([x, y]) }
         });
         Ok(Measured { values, worst, picture, errors: None })
     }
+
+    /// Hits of the rays of the search. With a watcher, all rays are in one target.
+    fn hits(&self, device: &Profile, watcher: Option<Arc<dyn DrawWatcher>>) -> Result<Vec<Option<Hit>>, StudyError> {
+        let batch = &self.executors.batch;
+        let executor = watcher.clone().map_or_else(|| batch.clone(), |watcher| batch.watched(watcher));
+        let crossbar = Crossbar::new(device.clone(), executor).all_pairs(watcher.is_some());
+        Ok(crossbar.intersect(&self.mesh, &self.views[0].0, Sides::Front)?.hits)
+    }
+}
+
+/// Column and row of a ray.
+fn pixel_of(at: usize) -> [u32; 2] {
+    [at as u32 % SIDE, at as u32 / SIDE]
 }
 
 impl PrecisionSubject for RayEngineSubject {
@@ -130,6 +148,30 @@ impl PrecisionSubject for RayEngineSubject {
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
         self.measured(&self.views[0], profile, self.executors.of(executor), wanted.is_none())
+    }
+
+    /// Follows the first ray that goes wrong with one bit less and not before, or `worst` if there is none, on the
+    /// triangle that it hits exactly and those that it hits on the three devices.
+    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
+        let judged = &self.views[0].1;
+        let [exact, mixed, less] = devices.all();
+        let hits = [self.hits(exact, None)?, self.hits(mixed, None)?, self.hits(less, None)?];
+        let [_, before, after] = hits.each_ref().map(|hits| judged.judge(&self.mesh, hits).0);
+        let is_wrong = |verdict: &HitVerdict| *verdict != HitVerdict::Right;
+        let broken = after.iter().zip(&before).position(|(after, before)| is_wrong(after) && !is_wrong(before));
+        let ray = broken.unwrap_or(worst[1] as usize * SIDE as usize + worst[0] as usize);
+        let found = hits.iter().map(|hits| hits.get(ray).copied().flatten().map(|hit| hit.triangle));
+        let triangles: Vec<u32> = found.chain([judged.exact_triangle(ray)]).flatten().collect();
+        let mut steps = [const { Vec::new() }; 3];
+        let (pixel, size) = (pixel_of(ray), FollowedDraws::IntoTargets([SIDE; 2]));
+        for (steps, device) in steps.iter_mut().zip(devices.all()) {
+            let followed = FollowedPixel::new(pixel, size);
+            self.hits(device, Some(followed.clone()))?;
+            // An instance per triangle, in their order.
+            let is_near = |fragment: &FragmentTrace| triangles.contains(&(fragment.instance as u32));
+            *steps = followed.steps(device, &self.programs, is_near);
+        }
+        Ok(Some(PixelSteps { pixel, steps }))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {

@@ -1,12 +1,13 @@
 //! Each system as a subject.
 
+use refsim::isa::{OpcodeClass, Program};
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 use strum::IntoEnumIterator as _;
 
 use super::*;
 use crate::study::precision::runs::exact;
-use crate::study::precision::subject::places;
+use crate::study::precision::subject::{InstructionPlace, Measured, PixelSteps, RefutingDevices, WorstPlace, places};
 
 fn device(system: PaperSystem) -> Profile {
     Profile::named(system.card()).expect("a card")
@@ -42,5 +43,39 @@ fn each_system_is_run_with_formats_of_its_instructions() {
         let found = value(&coarse, ExecutorKind::Batch);
         assert!(!goal.met(found), "{system:?}: four bits give {found}");
         assert_eq!(value(&coarse, ExecutorKind::Scalar), found, "{system:?}: executors");
+        for (program, studied) in programs.iter().enumerate() {
+            let mut own = places.iter().filter(|place| place.program == program).rev();
+            let traced = own.any(|place| is_traced(&*subject, &exact, studied.program, place));
+            // A program of one move fills the depth buffer alone.
+            let fills_depth = studied.program.instructions.len() == 1;
+            assert!(traced || fills_depth, "{system:?}: no instruction of program {program} changes anything");
+        }
     }
+}
+
+/// Follows a pixel with one instruction in a coarse format: what differs first is that instruction, or a texture with
+/// results of it. Returns `false` if the instruction changes nothing.
+fn is_traced(subject: &dyn PrecisionSubject, exact: &Profile, program: &Program, place: &InstructionPlace) -> bool {
+    let mut less = exact.clone();
+    let format: Format = "e8m2".parse().expect("a format");
+    assert!(place.instructions().all(|at| less.set_instruction_format(program, at, Some(format))));
+    let measured = |device: &Profile| subject.measure(device, ExecutorKind::Batch, None).expect("it runs");
+    let Measured { values, worst, .. } = measured(&less);
+    let Some(WorstPlace { pixel: Some(worst), .. }) = worst.filter(|_| values != measured(exact).values) else {
+        return false;
+    };
+    let devices = RefutingDevices { exact, mixed: exact, less: &less, program: place.program };
+    let PixelSteps { steps: [right, mixed, less], .. } =
+        subject.steps(devices, worst).expect("it runs").expect("systems have traces");
+    let title = subject.title();
+    assert!(!right.is_empty() && right == mixed, "{title}: the same device has the same steps");
+    assert!(less.iter().any(|step| step.program == place.program), "{title}: the program is not followed");
+    let first = mixed.iter().zip(&less).find(|(mixed, less)| mixed != less);
+    let (first, _) = first.unwrap_or_else(|| panic!("{title}, {place:?}: nothing differs"));
+    let is_refuted = first.program == place.program && place.instructions().any(|at| at == first.instruction);
+    let texts = subject.programs();
+    let instruction = &texts[first.program].program.instructions[first.instruction];
+    let is_read = instruction.opcode.info().class == OpcodeClass::Texture;
+    assert!(is_refuted || is_read, "{title}, {place:?}: {first:?} differs first");
+    true
 }

@@ -57,7 +57,7 @@ fn a_refutation_has_its_trace() {
         let texts: Vec<Vec<String>> =
             table.rows().iter().map(|row| row.iter().map(|cell| cell.text()).collect()).collect();
         assert_eq!(texts.len(), 3 * 4, "three instructions of four components: {texts:?}");
-        assert_eq!(texts[4][1..], ["add r0, r0, c1", "r", "1.25", "1.25", "1", "yes"]);
+        assert_eq!(texts[4][2..], ["add r0, r0, c1", "r", "1.25", "1.25", "1", "yes"]);
         assert_eq!(all.rows().len(), family.refutations.len() * texts.len());
     });
     let mut found = study.findings(&mut |_, _, _| {}).expect("it runs");
