@@ -96,12 +96,12 @@ fn switches_reach_the_formats() {
     let mut r300 = Profile::named("r300").unwrap();
     assert_eq!(r300.rules.format, "e7m16:ftz".parse().unwrap());
     assert_eq!(r300.rules.texkill_components, TexkillComponents::Four);
-    r300.set_format(Format::FP16);
+    r300.set_format(Format::FP16).unwrap();
     let denormals = r300.switches().iter().find(|s| s.name == "denormals").unwrap();
     assert_eq!(denormals.current, "keep");
     // Floats cannot wrap, whatever the switch of the fixed-point card.
     let mut r200 = Profile::named("r200").unwrap();
-    r200.set_format(Format::FP24);
+    r200.set_format(Format::FP24).unwrap();
     assert!(matches!(r200.set_switch("overflow", "wrap"), Err(DeviceError::SwitchValue { .. })));
     assert_eq!(r200.rules.format, Format::FP24);
 }
@@ -117,7 +117,7 @@ fn nv2x_clamps_results_and_not_sums() {
             card.set_switch("registers", registers).unwrap();
             assert_eq!((card.rules.format, card.rules.result_range), (format.parse().unwrap(), ResultRange::One));
         }
-        card.set_format(Format::FP16);
+        card.set_format(Format::FP16).unwrap();
         assert_eq!(card.rules.result_range, ResultRange::Format);
         let range = card.figures().into_iter().find(|r| r.key == "rules.result-range").unwrap();
         assert_eq!(range.value, "format");

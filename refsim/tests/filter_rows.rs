@@ -242,7 +242,7 @@ fn quads(read: &Read) -> Vec<Vertex> {
 fn drawn(read: &Read, (kind, level): (ExecutorKind, Option<SimdLevel>)) -> Vec<u8> {
     let mut profile = Profile::named("ideal-fp32").unwrap();
     // Coordinates are computed in single precision whatever the register format is.
-    profile.set_format(read.register.parse::<Format>().unwrap());
+    profile.set_format(read.register.parse::<Format>().unwrap()).unwrap();
     profile.rules.filter_fraction_bits = read.weight_bits;
     profile.rules.lod_fraction_bits = read.lod_bits;
     profile.rules.signed_texel_minimum = read.minimum;

@@ -142,7 +142,7 @@ proptest! {
             }
         }
         if let Some(format) = registers {
-            profile.set_format(format.parse().unwrap());
+            profile.set_format(format.parse().unwrap()).unwrap();
         }
         let program = assemble("ps_2_0\ndcl t0\nmul r0, t0, t0 ; a comment\nadd r0,  r0, t0\nmov oC0, r0").unwrap();
         for (index, format) in formats {

@@ -125,7 +125,7 @@ type Drawn = Result<(Vec<u8>, Vec<u32>, DrawEvents), MachineError>;
 
 fn drawn(fine: &SmallTriangles, kind: ExecutorKind, threads: usize, budget: Option<u32>) -> Drawn {
     let mut profile = Profile::named("ideal-fp32").unwrap();
-    profile.set_format(fine.register.parse::<Format>().unwrap());
+    profile.set_format(fine.register.parse::<Format>().unwrap()).unwrap();
     profile.rules.iterator_format = fine.iterators.parse().unwrap();
     if let Some(steps) = budget {
         profile.limits.set_step_budget(steps);

@@ -135,7 +135,7 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
     let mut profile = profile("ideal-fp32");
     let formats = family.formats();
     let name = formats[(seed % formats.len() as u64) as usize];
-    profile.set_format(format(name));
+    profile.set_format(format(name)).expect("a format of registers");
     profile.name = format!("ideal-{name}");
     let rules = &mut profile.rules;
     if group.has(Group::Arithmetic) {

@@ -1,6 +1,6 @@
 //! Errors of looking up devices, switches and their values.
 
-use crate::num::FormatError;
+use crate::num::{Format, FormatError};
 
 /// A device, switch or value does not exist. Lists are separated by spaces.
 #[non_exhaustive]
@@ -30,11 +30,22 @@ pub enum DeviceError {
     #[error("profile `{device}`: {problem}")]
     #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]
     Profile { device: String, problem: String },
+    /// Registers cannot have a number format.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Format(#[from] FormatError),
     /// A device file is malformed.
     #[error("device file: {problem}")]
     #[diagnostic(
         code(device::file),
-        help("a device file names a `device`, and may have `format`, `[switches]` and `[programs.DIGEST]`")
+        help(
+            "a device file names a `device`, and may have `format`, `accumulator`, `[switches]`, `[storage]` and \
+             `[programs.DIGEST]`"
+        )
     )]
     File { problem: String },
+    /// A storage or the sums of dot products cannot have this format on the device.
+    #[error("{what} of device `{device}`, whose registers are {registers}: expected {expected}, found {found}")]
+    #[diagnostic(code(device::storage), help("`crossbar alu {found}` shows the numbers of a format"))]
+    StorageFormat { device: String, registers: Format, what: &'static str, expected: &'static str, found: Format },
 }

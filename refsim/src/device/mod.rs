@@ -9,6 +9,7 @@
 //!
 //! In addition there is `ideal-<format>` for any number format: without limits or timing, and with the rules of r300.
 
+mod accumulator;
 mod device_file;
 mod error;
 mod figure;
@@ -17,8 +18,10 @@ mod limits;
 mod profile;
 mod program_log;
 mod rules;
+mod storage_formats;
 mod switch;
 
+pub(crate) use accumulator::PRODUCTS;
 pub use error::DeviceError;
 pub use figure::{Confidence, FigureRow, MeasuredCounts};
 pub use instruction_formats::{InstructionFormats, MAX_INSTRUCTION_FORMATS, takes_format};
@@ -30,4 +33,6 @@ pub use rules::{
     ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
     TexelValues, TexkillComponents, WeightRounding,
 };
+pub(crate) use storage_formats::MAX_PROGRAM_FORMATS;
+pub use storage_formats::{Storage, StorageFormats};
 pub use switch::Switch;

@@ -14,9 +14,10 @@ use super::rules::{
     ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
     TexelValues, TexkillComponents, WeightRounding,
 };
+use super::storage_formats::StorageFormats;
 use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name};
 use crate::isa::Version;
-use crate::num::{DotOrder, Format};
+use crate::num::{DotOrder, Format, FormatError};
 
 /// The cards, by release date.
 const CARDS: [(&str, &str); 8] = [
@@ -124,11 +125,10 @@ impl Profile {
             return Self::from_toml(name, text);
         }
         if let Some(format) = name.strip_prefix("ideal-") {
-            let parsed = format.parse().and_then(Format::for_registers);
-            let format = parsed.map_err(|source| DeviceError::IdealFormat { name: name.to_owned(), source })?;
             let mut profile = Self::from_toml("ideal", IDEAL)?;
             profile.name = name.to_owned();
-            profile.set_format(format);
+            let set = format.parse().and_then(|format| profile.set_format(format));
+            set.map_err(|source| DeviceError::IdealFormat { name: name.to_owned(), source })?;
             return Ok(profile);
         }
         Err(DeviceError::UnknownDevice { name: name.chars().take(60).collect(), known: Self::all_names().join(" ") })
@@ -208,13 +208,19 @@ impl Profile {
     }
 
     /// Replaces the format of pixel registers and pixel arithmetic with all its rules, for parameter sweeps. Also
-    /// disables `_pp` and clamps results to the format's own range only. The format must be one for registers
-    /// ([`Format::for_registers`]).
-    pub fn set_format(&mut self, format: Format) {
-        self.rules.format = format;
+    /// disables `_pp`, clamps results to the format's own range only, and drops the formats of storages and of sums,
+    /// which were chosen for the other registers.
+    ///
+    /// # Errors
+    /// If registers cannot have the format ([`Format::for_registers`]); the profile is unchanged.
+    pub fn set_format(&mut self, format: Format) -> Result<(), FormatError> {
+        self.rules.format = format.for_registers()?;
         self.rules.result_range = ResultRange::Format;
         self.rules.partial = None;
+        self.rules.storage = StorageFormats::default();
+        self.rules.accumulator = None;
         self.refresh_format_switches();
+        Ok(())
     }
 
     /// Updates the switches that depend on the format to show the new one.
@@ -390,6 +396,8 @@ fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
         texel_values: TexelValues::Fractions,
         missing_channels: MissingChannels::Direct3d,
         border_storage: BorderStorage::Texel,
+        storage: StorageFormats::default(),
+        accumulator: None,
     };
     for name in RULES {
         let figure = figures.get(name).ok_or_else(|| format!("rules.{name} is missing"))?;

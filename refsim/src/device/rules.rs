@@ -1,5 +1,6 @@
 //! Arithmetic rules of a device, resolved to plain values for the executors.
 
+use super::storage_formats::StorageFormats;
 use crate::num::{DotOrder, Format};
 
 /// Defines an enumeration whose variants have names in profiles, switches and reports.
@@ -285,4 +286,9 @@ pub struct Rules {
     pub missing_channels: MissingChannels,
     /// Storage of border colors.
     pub border_storage: BorderStorage,
+    /// Formats of storages of pixel programs; no card has any ([`super::Profile::set_storage_format`]).
+    pub storage: StorageFormats,
+    /// Format of the sums of dot products in pixel programs, if not that of the operation; no card has one
+    /// ([`super::Profile::set_accumulator`]).
+    pub accumulator: Option<Format>,
 }

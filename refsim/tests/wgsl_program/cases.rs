@@ -47,7 +47,8 @@ pub(crate) fn ideal(format: &str) -> Profile {
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     let profile = known.entry(format.to_owned()).or_insert_with(|| {
         let mut profile = Profile::named("ideal-fp32").unwrap_or_else(|e| panic!("{e}"));
-        profile.set_format(format.parse().unwrap_or_else(|e| panic!("{format}: {e}")));
+        let set = format.parse().and_then(|format| profile.set_format(format));
+        set.unwrap_or_else(|e| panic!("{format}: {e}"));
         profile
     });
     profile.clone()

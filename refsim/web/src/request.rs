@@ -124,8 +124,8 @@ impl Side {
         let mut profile = Profile::named(&device.device).map_err(|error| refused(&error, "choose another device"))?;
         if let Some(format) = device.format.as_ref().filter(|format| !format.is_empty()) {
             let help = "for example `s3.12`, `fp24` or `e5m10:rtz`";
-            let format = format.parse().and_then(Format::for_registers);
-            profile.set_format(format.map_err(|error: FormatError| refused(&error, help))?);
+            let set = format.parse::<Format>().and_then(|format| profile.set_format(format));
+            set.map_err(|error: FormatError| refused(&error, help))?;
         }
         profile.limits.set_step_budget(STEP_BUDGET);
         let program = assemble(text).map_err(|found| {

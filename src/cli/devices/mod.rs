@@ -121,6 +121,16 @@ fn instructions(profile: &Profile) -> FoundTable {
     table.into()
 }
 
+/// The formats of storages and sums of a device file.
+fn storages(profile: &Profile) -> FoundTable {
+    let mut table = Table::new("Formats of storages and sums", &["storage", "format"]);
+    let storages = profile.rules.storage.iter().map(|(storage, format)| (storage.name(), format));
+    for (name, format) in storages.chain(profile.rules.accumulator.map(|format| ("accumulator", format))) {
+        table.push([name.into(), format.to_string().into()]);
+    }
+    table.into()
+}
+
 /// Everything about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
@@ -138,6 +148,7 @@ fn one(profile: &Profile) -> Findings {
         figures.push([row.key.into(), value, row.unit.into(), confidence.into(), row.source.into()]);
     }
     found.table(figures);
+    found.table(storages(profile).field("storages"));
     found.table(instructions(profile).field("instructions"));
     let title = "Switches: open questions of the hardware. Set one in a case file under [switches].";
     let mut switches = Table::new(title, &["switch", "now", "values", "confidence", "decides", "source"]);

@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use refsim::{device::Profile, num::Format};
+use refsim::{
+    device::{DeviceError, Profile},
+    num::Format,
+};
 use toml::Spanned;
 
 use super::{CaseError, error::CaseText, value::Number};
@@ -26,7 +29,7 @@ impl Overrides {
     /// Applies format and switches to a profile.
     pub(super) fn apply(&self, profile: &mut Profile) -> Result<(), CaseError> {
         if let Some(format) = self.format {
-            profile.set_format(format);
+            profile.set_format(format).map_err(|error| CaseError::from(DeviceError::from(error)))?;
         }
         for (name, value) in &self.switches {
             profile.set_switch(name, value).map_err(CaseError::from)?;

@@ -44,7 +44,7 @@ impl Configuration {
     /// If there is no such device.
     pub fn device_in_format(name: &str, format: Format) -> Result<Self, DeviceError> {
         let mut configuration = Self::device(name)?;
-        configuration.profile.set_format(format);
+        configuration.profile.set_format(format)?;
         configuration.label = file_name(&format!("{name}-{format}"));
         Ok(configuration)
     }

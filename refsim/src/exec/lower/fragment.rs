@@ -174,10 +174,11 @@ impl Translator<'_> {
             None => arith(instruction.precision()),
         };
         let raw = self.fragment_raw(instruction, k);
-        let to = of_file(destination.register.file);
+        let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
         raw.map(|x| {
             let clamped = if destination.saturate { self.make.unary(k, Op::Saturate, x) } else { x };
-            self.make.convert(k, to, clamped)
+            let left = self.make.convert(k, to, clamped);
+            self.make.stored(to, storage, left)
         })
     }
 
@@ -237,10 +238,11 @@ impl Translator<'_> {
             let k = self.arith(instruction);
             texel = self.through(k, texel);
         }
-        let to = of_file(destination.register.file);
+        let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
         texel.map(|x| {
             let clamped = if destination.saturate { self.make.unary(Arith::Main, Op::Saturate, x) } else { x };
-            self.make.convert(Arith::Main, to, clamped)
+            let left = self.make.convert(Arith::Main, to, clamped);
+            self.make.stored(to, storage, left)
         })
     }
 

@@ -4,7 +4,7 @@
 
 use super::interpreter::{ArithmeticUnit, Interpreter};
 use super::registers::{Components, LANES};
-use crate::device::TexcrdOverflow;
+use crate::device::{Storage, TexcrdOverflow};
 use crate::exec::{Observer, Projection, TextureRead};
 use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Version};
 use crate::num::{Format, Overflow, ops};
@@ -243,8 +243,14 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         out
     }
 
-    /// Reads a texel for one lane and counts the read. An unbound sampler returns (0, 0, 0, 1).
+    /// Reads a texel for one lane, rounded to the format of texels, and counts the read. An unbound sampler returns
+    /// (0, 0, 0, 1).
     pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {
+        let (format, storage) = (self.prepared.format, self.prepared.rules.storage.of(Storage::Texels));
+        self.sampled(stage, lane, coordinates, detail).map(|x| self.full.stored(format, storage, x))
+    }
+
+    fn sampled(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {
         let prepared = self.prepared;
         if self.covered >> lane & 1 == 1
             && let Some(count) = self.fetches.get_mut(stage)

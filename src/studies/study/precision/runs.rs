@@ -183,7 +183,8 @@ impl<'a> Runs<'a> {
 /// instructions.
 pub(super) fn exact<'p>(given: &Profile, programs: impl IntoIterator<Item = &'p Program>) -> Profile {
     let mut device = given.clone();
-    device.set_format(Format::FP32.with_specials(given.rules.format.specials));
+    let single = Format::FP32.with_specials(given.rules.format.specials);
+    device.set_format(single).expect("single precision is a format of registers");
     for program in programs {
         device.set_instruction_formats(program, BTreeMap::new());
     }

@@ -52,7 +52,7 @@ fn profile((name, switches): (&str, &[(&str, &str)])) -> Profile {
     let mut profile = Profile::named(name).expect("a profile");
     for (switch, value) in switches {
         match *switch {
-            "format" => profile.set_format(value.parse().expect("a format")),
+            "format" => profile.set_format(value.parse().expect("a format")).expect("a format of registers"),
             _ => profile.set_switch(switch, value).expect("a switch"),
         }
     }
