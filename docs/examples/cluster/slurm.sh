@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../../.."
 CROSSBAR=$(realpath "${1:-target/release/crossbar}")
 shift || true
-COMMAND=${*:-all-frequency precompute docs/examples/court.obj --ground 24}
+COMMAND=${*:-all-frequency precompute docs/examples/court.obj --ground 96}
 PARTS=6
 export CROSSBAR COMMAND PARTS
 
