@@ -26,8 +26,8 @@ def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
         full_size: Models as large as the papers': an hour or two.
 
     Returns:
-        One dictionary for each printed figure, as in rows.csv of ``crossbar reproduce``: ``entry``, ``printed``,
-        ``ours``, ``verdict`` and others.
+        One dictionary for each printed figure, as in rows.csv of ``crossbar reproduce``: ``entry``, ``figure``,
+        ``ours``, ``low`` and ``high`` (the bound), ``verdict`` and others.
 
     Raises:
         ValueError: on an id that does not exist.
