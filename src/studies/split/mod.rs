@@ -2,8 +2,8 @@
 //!
 //! A command reaches its independent items (vertices, segments, rows) in one place, [`SplitRun::compute`]. An ordinary
 //! run computes all of them there. A part computes a range and writes it to a file, with a [`PartHeader`] that says
-//! which run it is a part of. A merge reads the parts of a [`PartSet`] instead of computing, and goes on as an ordinary run does.
-//! So what is merged is what one run writes, byte for byte. docs/decisions/0031-parts-of-a-run.md says why.
+//! which run it is a part of. A merge reads the parts of a [`PartSet`] instead of computing, and goes on as an ordinary
+//! run does. So what is merged is what one run writes, byte for byte. docs/decisions/0031-parts-of-a-run.md says why.
 
 mod error;
 mod file;

@@ -225,7 +225,7 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca card docs/examples/step_small.prt --model odd.obj --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--window=hann@0 --weights=unorm8@0 --map=8@0 --map-format=rgba8s@0 --vertex=vs_1_1@0 --alone@0 --out=other@0",
+            "--window=hann@0 --weights=unorm8@0 --map=8@0 --map-format=rgba8s@0 same:--vertex=vs_1_1@0 --alone@0 --out=other@0",
             card!("r350"),
             picture!("1")
         ),
