@@ -70,7 +70,7 @@ impl SightOfModel<'_> {
     /// Casts the rays: the model's, then the ground's; or those of a part.
     ///
     /// # Errors
-    /// [`TransferError`], and those of parts.
+    /// [`TransferError`](crate::transfer::TransferError) and [`PartError`](crate::split::PartError), as a study's error.
     pub fn run(
         self,
         split: &SplitRun,
