@@ -64,7 +64,7 @@ fn seeds(suite: &Suite) -> std::ops::Range<u64> {
     if let Some(seed) = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()) {
         return seed..seed + 1;
     }
-    0..if std::env::var_os("CROSSBAR_FULL").is_some() { 63 * suite.seeds } else { suite.seeds }
+    0..if std::env::var_os("CROSSBAR_FULL").is_some() { 105 * suite.seeds } else { suite.seeds }
 }
 
 /// Runs a suite, by default in its short form.
