@@ -2,54 +2,19 @@
 
 #[path = "common/legal.rs"]
 mod legal;
+#[path = "common/quads.rs"]
+mod quads;
 #[path = "common/running.rs"]
 mod running;
 
 use proptest::{collection::vec, prelude::*, sample::select};
+use quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
 use refsim::asm::assemble;
 use refsim::device::{MAX_INSTRUCTION_FORMATS, Profile, takes_format};
-use refsim::exec::scalar::PixelProgram;
-use refsim::exec::{Constants, FragmentResult, NoObserver, PixelBindings};
-use refsim::isa::{Opcode, Program, Version};
+use refsim::exec::Constants;
+use refsim::isa::{Opcode, Program};
 use refsim::num::{Format, ops};
-use refsim::raster::FragmentInput;
 use running::run_with_coordinates;
-
-const PS_2: [Version; 3] = [Version::Ps2_0, Version::Ps2A, Version::Ps2B];
-
-/// Formats whose numbers are all numbers of fp32.
-const WITHIN_FP32: [&str; 8] =
-    ["fp16:rup", "e5m2", "e4m3fn:sat", "fp24:ftz", "s3.12:rod", "s0.7:wrap", "e2m1fn", "e5m2fnuz"];
-
-fn number() -> impl Strategy<Value = u32> {
-    prop_oneof![
-        4 => (-2000i32..2000).prop_map(|n| (n as f32 / 512.0).to_bits()),
-        1 => any::<u32>(),
-        1 => select(vec![0u32, 0x8000_0000, 1, 0x7f7f_ffff, 0x7f80_0000, 0xff80_0000, 0x7fc0_0000, 0x3f80_0000]),
-    ]
-}
-
-fn vectors(count: usize) -> impl Strategy<Value = Vec<[u32; 4]>> {
-    vec(prop::array::uniform4(number()), count)
-}
-
-/// The results of a program on a quad, without textures.
-fn results(program: Program, profile: &Profile, data: &[[u32; 4]], host: &Constants) -> Option<[FragmentResult; 4]> {
-    let checked = running::ready(program, profile).ok()?;
-    let bindings = PixelBindings::new(host);
-    let inputs: [FragmentInput; 4] = std::array::from_fn(|lane| {
-        let mut input = FragmentInput::default();
-        for set in 0..8 {
-            input.t[set] = data[(lane + 3 * set) % data.len()];
-        }
-        for color in 0..2 {
-            input.v[color] = data[(2 * lane + color) % data.len()];
-        }
-        input
-    });
-    let prepared = PixelProgram::new(&checked, &profile.rules, &bindings);
-    Some(prepared.run(&inputs, 0b1111, &mut [0; 16], &mut NoObserver).0)
-}
 
 /// Gives every instruction that takes one a format.
 fn assign(profile: &mut Profile, program: &Program, format: Format) {
@@ -93,8 +58,8 @@ proptest! {
                 destination.partial_precision = true;
             }
         }
-        if let Some(expected) = results(text, &hinted, &data, &host) {
-            prop_assert_eq!(Some(expected), results(program, &mixed, &data, &host));
+        if let Some(expected) = results(text, &hinted, &inputs(&data), &host) {
+            prop_assert_eq!(Some(expected), results(program, &mixed, &inputs(&data), &host));
         }
     }
 
@@ -115,8 +80,8 @@ proptest! {
         let format: Format = own.parse().unwrap();
         let mut mixed = running::ideal("fp32");
         assign(&mut mixed, &program, format);
-        let uniform = results(program.clone(), &running::ideal(own), &data, &host).expect("it runs on ideal devices");
-        let mixed = results(program, &mixed, &data, &host).expect("it runs on ideal devices");
+        let uniform = results(program.clone(), &running::ideal(own), &inputs(&data), &host).expect("it runs on ideal devices");
+        let mixed = results(program, &mixed, &inputs(&data), &host).expect("it runs on ideal devices");
         let wide = |x: u32| ops::convert(&format, Format::FP32, x).bits;
         for (a, b) in uniform.iter().zip(&mixed) {
             prop_assert_eq!(a.colors.map(|c| c.map(wide)), b.colors);
