@@ -10,11 +10,12 @@ use refsim::event::{
 };
 use refsim::exec::Constants;
 use refsim::isa::Opcode;
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::machine::{DrawCall, DrawWatcher, Executor, ExecutorKind, Machine, MachineError, VertexSource};
 use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState, WriteMask};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use running::{bits, checked};
+use std::sync::Arc;
 
 fn triangle() -> [Vertex; 3] {
     [[-1.0, 1.0], [1.0, 1.0], [-1.0, -1.0]]
@@ -29,6 +30,40 @@ fn a_machine_that_was_not_asked_writes_nothing() {
     let (fence, _) = machine.read_back_async(target).unwrap();
     machine.finish_fence(fence);
     assert_eq!(machine.take_log(), []);
+}
+
+/// Reads the target back around each draw, and traces one of its pixels.
+#[derive(Debug)]
+struct Looks;
+
+impl DrawWatcher for Looks {
+    fn before(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
+        machine.trace(call, (0, 0)).map(|fragments| assert_eq!(fragments.len(), 1))
+    }
+
+    fn after(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
+        machine.read_back(call.targets[0]).map(|image| assert_eq!(image.width(), 8))
+    }
+}
+
+#[test]
+fn what_a_watcher_reads_is_not_written_down() {
+    let logs = [Executor::from(ExecutorKind::Batch), Executor::from(ExecutorKind::Batch).watched(Arc::new(Looks))];
+    let [without, with] = logs.map(|executor| {
+        let profile = Profile::named("r200").unwrap();
+        let program = checked("ps_1_4\nmov r0, c0", &profile);
+        let mut machine = executor.machine(profile).unwrap();
+        machine.record(true);
+        let target = machine.create_target(TexelFormat::Bgra8, 8, 8).unwrap();
+        let (vertices, host) = (triangle(), Constants::default());
+        let triangles = VertexSource::Transformed(&vertices);
+        let call = DrawCall::new(triangles, Primitive::TriangleList, &program, &host, target);
+        machine.draw(&call).unwrap();
+        machine.draw(&call).unwrap();
+        machine.take_log()
+    });
+    assert_eq!(with, without);
+    assert!(with.iter().any(|event| matches!(event, Event::Draw(_))), "still recording");
 }
 
 #[test]

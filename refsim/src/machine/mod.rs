@@ -141,18 +141,26 @@ impl Machine {
     /// If the call is invalid for the machine or the device; nothing has been drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
-        if let Some(watcher) = &self.watcher {
-            watcher.before(self, call)?;
-        }
+        self.watch(|watcher, machine| watcher.before(machine, call))?;
         let (events, traffic) = match &self.recorder.observer {
             Some(_) => self.shade_observed(call, &plan).map(|(events, traffic)| (events, Some(traffic)))?,
             None => (self.shade(call, &plan)?, None),
         };
         self.note_draw(call, &plan, &events, traffic.as_ref());
-        if let Some(watcher) = &self.watcher {
-            watcher.after(self, call)?;
-        }
+        self.watch(|watcher, machine| watcher.after(machine, call))?;
         Ok(events)
+    }
+
+    /// Calls the watcher, whose read-backs are none of the log.
+    fn watch(
+        &mut self,
+        call: impl FnOnce(&dyn DrawWatcher, &Self) -> Result<(), MachineError>,
+    ) -> Result<(), MachineError> {
+        let Some(watcher) = self.watcher.clone() else { return Ok(()) };
+        let is_recording = std::mem::replace(&mut self.recorder.on, false);
+        let seen = call(&*watcher, self);
+        self.recorder.on = is_recording;
+        seen
     }
 
     /// Executes a checked call.

@@ -8,6 +8,7 @@ use refsim::device::DeviceError;
 
 use crate::picture::PictureError;
 use crate::report::ReportError;
+use crate::shader::ShaderError;
 use crate::split::PartError;
 
 /// Error of a study: a sentence of its own or a library's error, with a code for programs and what to do.
@@ -162,6 +163,7 @@ library_errors! {
     PartError;
     PictureError;
     ReportError;
+    ShaderError;
 }
 
 #[cfg(test)]

@@ -3,8 +3,7 @@
 use super::bits::{Assignment, FormatBits};
 use super::curve::BitScan;
 use super::runs::{RunError, Runs};
-use super::subject::{InstructionPlace, InstructionResults};
-use super::ulps::{LocalError, local_error};
+use super::ulps::LocalError;
 
 /// Findings on one instruction, in one family of formats.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -89,30 +88,5 @@ pub(super) fn fewest_bits(
     };
     needs.alone = scan(*family.digit_bits(range).end(), None)?;
     needs.in_company = scan(digits, Some(minimum))?;
-    Ok(())
-}
-
-/// Results of the exact run by program; `None` if the subject has no traces.
-pub(super) fn exact_results(runs: &mut Runs<'_>) -> Result<Option<Vec<InstructionResults>>, RunError> {
-    runs.step("ranges");
-    let device = runs.uniform_device(runs.subject.profile(), None);
-    runs.results(&device)
-}
-
-/// Finds the error of one instruction's results against the exact ones of the same operands.
-pub(super) fn local(
-    needs: &mut InstructionNeeds,
-    place: usize,
-    minimum: FormatBits,
-    exact: &[InstructionResults],
-    runs: &mut Runs<'_>,
-) -> Result<(), RunError> {
-    let InstructionPlace { program, at, .. } = runs.places[place];
-    let Some(device) = runs.device(runs.subject.profile(), &runs.alone(place, minimum)) else { return Ok(()) };
-    let rounded = runs.results(&device)?;
-    let of = |all: &[InstructionResults]| all.get(program)?.get(&at).cloned();
-    if let (Some(rounded), Some(exact)) = (rounded.as_deref().and_then(of), of(exact)) {
-        needs.local = local_error(minimum, &exact, &rounded);
-    }
     Ok(())
 }

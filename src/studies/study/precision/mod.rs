@@ -18,6 +18,7 @@ mod refutation_tables;
 mod refutations;
 mod report;
 mod runs;
+mod sampled;
 mod search;
 mod steps;
 mod subject;
@@ -38,8 +39,8 @@ pub use goal::{Goal, GoalError, GoalRelation};
 pub use known_runs::KnownRuns;
 pub use outcome::Precision;
 pub use subject::{
-    ErrorMap, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
-    StepResult, StudiedProgram, WorstPlace,
+    ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
+    RefutingDevices, RoundedInstruction, SampledResults, StepResult, StudiedProgram, WorstPlace,
 };
 pub use systems::PaperSystem;
 

@@ -6,14 +6,15 @@ use super::bits::{FormatBits, FormatFamily};
 use super::costs::FormatCosts;
 use super::curve::Curve;
 use super::goal::Goal;
-use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, exact_results, fewest_bits, local};
+use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
 use super::known_runs::KnownRuns;
 use super::refutations::{self, RefutationTrace};
 use super::runs::{RunError, Runs};
+use super::sampled::sample_results;
 use super::search::{MixedFormats, search};
-use super::subject::{InstructionResults, Measured, PrecisionSubject};
+use super::subject::{Measured, PrecisionSubject};
 use super::switches::{SwitchRow, sensitivity};
-use super::ulps::{ResultRange, range_of};
+use super::ulps::ResultRange;
 use crate::names::did_you_mean;
 use crate::report::words::listed;
 use crate::study::{ProgressFn, StudyError};
@@ -165,14 +166,9 @@ impl Precision {
             let value = runs.value(&runs.uniform(bits))?;
             outcome.named.push((name, bits, value));
         }
-        let exact = exact_results(runs)?;
-        let range =
-            |results: &[InstructionResults], program: usize, at: usize| Some(range_of(results.get(program)?.get(&at)?));
-        if let Some(exact) = &exact {
-            outcome.ranges = runs.places.iter().map(|place| range(exact, place.program, place.at)).collect();
-        }
+        sample_results(runs, outcome)?;
         for family in &mut outcome.families {
-            family.run(exact.as_deref(), &self.costs, runs)?;
+            family.run(&self.costs, runs)?;
         }
         runs.step("open switches");
         let at_curve = |curve: &Curve| curve.minimum.map(|minimum| FormatBits { range: curve.range, ..minimum });
@@ -226,12 +222,7 @@ impl FamilyOutcome {
     }
 
     /// Finds what each instruction needs, and the mixed formats.
-    fn run(
-        &mut self,
-        exact: Option<&[InstructionResults]>,
-        costs: &FormatCosts,
-        runs: &mut Runs<'_>,
-    ) -> Result<(), RunError> {
+    fn run(&mut self, costs: &FormatCosts, runs: &mut Runs<'_>) -> Result<(), RunError> {
         let Some(minimum) = self.curve.minimum else { return Ok(()) };
         let blamed = blamed_format(minimum, runs)?;
         self.blamed = Some(blamed);
@@ -245,9 +236,6 @@ impl FamilyOutcome {
         runs.step("bits per instruction");
         for (place, needs) in self.needs.iter_mut().enumerate() {
             fewest_bits(needs, place, minimum, self.curve.range, runs)?;
-            if let Some(exact) = exact {
-                local(needs, place, minimum, exact, runs)?;
-            }
         }
         Ok(())
     }

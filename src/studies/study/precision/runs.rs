@@ -11,7 +11,8 @@ use super::bits::{Assignment, FormatBits};
 use super::goal::Goal;
 use super::known_runs::KnownRuns;
 use super::subject::{
-    InstructionPlace, InstructionResults, Measured, PrecisionSubject, StudiedProgram, WorstPlace, places,
+    InstructionPlace, Measured, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
+    places,
 };
 use crate::study::{ProgressFn, StudyError};
 
@@ -163,10 +164,11 @@ impl<'a> Runs<'a> {
         self.subject.measure(device, executor, None)
     }
 
-    /// Results of instructions.
-    pub(super) fn results(&mut self, device: &Profile) -> Result<Option<Vec<InstructionResults>>, RunError> {
+    /// Results of all instructions in the exact run, and of those that are rounded: one run.
+    pub(super) fn results(&mut self, rounded: &[RoundedInstruction]) -> Result<SampledResults, RunError> {
         self.spend()?;
-        Ok(self.subject.results(device)?)
+        let exact = self.uniform_device(self.subject.profile(), None);
+        Ok(self.subject.results(&exact, rounded)?)
     }
 
     fn spend(&mut self) -> Result<(), RunError> {

@@ -6,7 +6,7 @@ use refsim::isa::Program;
 use refsim::machine::FragmentTrace;
 use refsim::num::to_f64;
 
-use super::subject::StepResult;
+use super::subject::{InstructionResults, RoundedInstruction, StepResult};
 
 /// Results of the instructions of a fragment that write registers, component by component; `program` has its index
 /// among the subject's, `fragment` its number within the trace.
@@ -29,6 +29,32 @@ pub(super) fn step_results(
             component,
             value: to_f64(&format, step.value[usize::from(component)]),
         }));
+    }
+    results
+}
+
+/// Device of the exact run with the format of one instruction.
+pub(super) fn with_rounded(exact: &Profile, program: &Program, rounded: RoundedInstruction) -> Profile {
+    let mut device = exact.clone();
+    // Formats of searches are formats of registers, and one is not too many: it is taken.
+    device.set_instruction_format(program, rounded.instruction, Some(rounded.format));
+    device
+}
+
+/// First result of each wanted instruction in each fragment. Fragments are numbered from `first`.
+pub(super) fn first_results<'t>(
+    profile: &Profile,
+    program: &Program,
+    (first, fragments): (u32, impl IntoIterator<Item = &'t FragmentTrace>),
+    is_wanted: impl Fn(usize) -> bool,
+) -> InstructionResults {
+    let mut results = InstructionResults::new();
+    for (number, fragment) in (first..).zip(fragments) {
+        for step in step_results(profile, (0, program), (number, fragment)) {
+            if is_wanted(step.instruction) {
+                results.entry(step.instruction).or_default().entry((number, step.component)).or_insert(step.value);
+            }
+        }
     }
     results
 }

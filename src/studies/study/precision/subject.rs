@@ -6,6 +6,7 @@ use std::fmt::Debug;
 use refsim::device::{Profile, takes_format};
 use refsim::isa::Program;
 use refsim::machine::ExecutorKind;
+use refsim::num::Format;
 use serde::{Deserialize, Serialize};
 
 use super::goal::Goal;
@@ -115,9 +116,31 @@ impl Measured {
     }
 }
 
-/// Results of the instructions of one program: by the index of the instruction, the first result of each traced
-/// fragment and component. Both numbers are the same in every run of a subject.
-pub type InstructionResults = BTreeMap<usize, BTreeMap<(u32, u8), f64>>;
+/// Results of one instruction: by the number of the fragment and the component, the first in that fragment.
+pub type FragmentResults = BTreeMap<(u32, u8), f64>;
+
+/// Results of the instructions of one program, by the index of the instruction.
+pub type InstructionResults = BTreeMap<usize, FragmentResults>;
+
+/// Instruction that has a format of its own while all others are exact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoundedInstruction {
+    /// Index of the program.
+    pub program: usize,
+    /// Index of the instruction.
+    pub instruction: usize,
+    /// Its format.
+    pub format: Format,
+}
+
+/// Results of instructions, of the same fragments in each of its fields.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SampledResults {
+    /// Of the exact run, by program.
+    pub exact: Vec<InstructionResults>,
+    /// Of each rounded instruction, in draws whose input is that of the exact run.
+    pub rounded: Vec<FragmentResults>,
+}
 
 /// Pixel programs with their input, run on a device again and again in other number formats.
 ///
@@ -157,14 +180,14 @@ pub trait PrecisionSubject {
         Ok(None)
     }
 
-    /// Results of the instructions of each program on a device, of a sample of fragments that is the same on every
-    /// device; `None` if the subject has no traces.
+    /// Results of instructions of a sample of fragments: of all in the exact run, and of rounded ones; empty if the
+    /// subject has no traces.
     ///
     /// # Errors
     /// If the device cannot run the programs.
-    fn results(&self, profile: &Profile) -> Result<Option<Vec<InstructionResults>>, StudyError> {
-        let _ = profile;
-        Ok(None)
+    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
+        let _ = (exact, rounded);
+        Ok(SampledResults::default())
     }
 
     /// Follows a pixel on three devices: `worst`, that of the largest error of the last of them, or a pixel of an

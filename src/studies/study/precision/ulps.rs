@@ -1,10 +1,9 @@
 //! Ranges of results, and errors in units in the last place.
 
-use std::collections::BTreeMap;
-
 use refsim::num::power_of_two;
 
 use super::bits::{FormatBits, FormatFamily};
+use super::subject::FragmentResults;
 
 /// Error of an instruction's results, in units in the last place of its format.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,11 +33,16 @@ fn exponent(value: f64) -> Option<i32> {
 }
 
 /// Range of results.
-pub(super) fn range_of(results: &BTreeMap<(u32, u8), f64>) -> ResultRange {
-    let mut exponents = results.values().filter_map(|value| exponent(*value));
-    let first = exponents.next();
-    let ends = |first: i32| exponents.fold([first; 2], |[low, high], e| [low.min(e), high.max(e)]);
-    ResultRange { exponents: first.map(ends), not_finite: results.values().any(|value| !value.is_finite()) }
+pub(super) fn range_of<'r>(results: impl IntoIterator<Item = &'r f64>) -> ResultRange {
+    let mut range = ResultRange { exponents: None, not_finite: false };
+    for value in results {
+        range.not_finite |= !value.is_finite();
+        if let Some(e) = exponent(*value) {
+            let [low, high] = range.exponents.unwrap_or([e; 2]);
+            range.exponents = Some([low.min(e), high.max(e)]);
+        }
+    }
+    range
 }
 
 /// Unit in the last place of a format at a value: the distance of its neighbors there.
@@ -53,15 +57,15 @@ fn unit(bits: FormatBits, value: f64) -> f64 {
     }
 }
 
-/// Median and largest error of results in a format against exact ones; `None` without a common result.
+/// Errors of results in a format against exact ones, of those that both have.
 ///
 /// A finite result that should be infinite or NaN, or the reverse, has an infinite error.
-pub(super) fn local_error(
+pub(super) fn errors_of<'r>(
     bits: FormatBits,
-    exact: &BTreeMap<(u32, u8), f64>,
-    rounded: &BTreeMap<(u32, u8), f64>,
-) -> Option<LocalError> {
-    let error = |(key, exact): (&(u32, u8), &f64)| {
+    exact: &'r FragmentResults,
+    rounded: &'r FragmentResults,
+) -> impl Iterator<Item = f64> + 'r {
+    exact.iter().filter_map(move |(key, exact)| {
         let rounded = rounded.get(key)?;
         let equal = exact == rounded || (exact.is_nan() && rounded.is_nan());
         let error = (exact - rounded).abs() / unit(bits, *exact);
@@ -72,8 +76,12 @@ pub(super) fn local_error(
         } else {
             error
         })
-    };
-    let mut errors: Vec<f64> = exact.iter().filter_map(error).collect();
+    })
+}
+
+/// Median and largest of errors; `None` without any.
+pub(super) fn local_error(errors: impl Iterator<Item = f64>) -> Option<LocalError> {
+    let mut errors: Vec<f64> = errors.collect();
     errors.sort_by(f64::total_cmp);
     // Of an even number the lower one, which is one of the errors.
     let median = *errors.get(errors.len().checked_sub(1)? / 2)?;
@@ -84,21 +92,21 @@ pub(super) fn local_error(
 mod tests {
     use super::*;
 
-    fn results(values: &[f64]) -> BTreeMap<(u32, u8), f64> {
+    fn results(values: &[f64]) -> FragmentResults {
         (0..).zip(values).map(|(n, value)| ((n, 0), *value)).collect()
     }
 
     #[test]
     fn ranges_are_binary_exponents() {
-        let range = range_of(&results(&[0.0, -0.75, 8.0, 15.9, f64::NAN, f64::from(f32::from_bits(1))]));
+        let range = range_of(&[0.0, -0.75, 8.0, 15.9, f64::NAN, f64::from(f32::from_bits(1))]);
         assert_eq!(range, ResultRange { exponents: Some([-149, 3]), not_finite: true });
-        assert_eq!(range_of(&results(&[0.0])), ResultRange { exponents: None, not_finite: false });
+        assert_eq!(range_of(&[0.0]), ResultRange { exponents: None, not_finite: false });
     }
 
     #[test]
     fn errors_are_in_units_of_the_format() {
         let error = |bits, exact: &[f64], rounded: &[f64]| {
-            local_error(bits, &results(exact), &results(rounded)).map(|e| [e.median, e.largest])
+            local_error(errors_of(bits, &results(exact), &results(rounded))).map(|e| [e.median, e.largest])
         };
         assert_eq!(error(FormatBits::float(8, 2), &[1.0, 1.125, 8.0], &[1.0, 1.25, 12.0]), Some([0.5, 2.0]));
         assert_eq!(error(FormatBits::fixed(3, 4), &[1.0, 7.5], &[1.0, 7.96875]), Some([0.0, 7.5]));

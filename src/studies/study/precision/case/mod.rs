@@ -6,15 +6,15 @@ mod errors;
 use std::fmt::Debug;
 
 use refsim::device::Profile;
-use refsim::machine::{ExecutorKind, FragmentTrace};
+use refsim::machine::ExecutorKind;
 
 use super::executors::SubjectExecutors;
 use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
-use super::steps::step_results;
+use super::steps::{first_results, step_results, with_rounded};
 use super::subject::{
     ErrorMap, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
-    StepResult, StudiedProgram, WorstPlace,
+    RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
 };
 use crate::case::{Loaded, Setup, trace};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
@@ -140,29 +140,21 @@ impl PrecisionSubject for CaseSubject {
         let mut steps = [const { Vec::new() }; 3];
         for (steps, device) in steps.iter_mut().zip(devices.all()) {
             let fragments = trace(&self.setup.on_device(device.clone())?, &self.executors.batch, pixel)?.fragments;
-            let results =
-                (0..).zip(&fragments).flat_map(|(number, fragment)| self.results_of(device, number, fragment));
-            steps.extend(results);
+            let program = (0, &*self.setup.pixel);
+            steps.extend((0..).zip(&fragments).flat_map(|fragment| step_results(device, program, fragment)));
         }
         Ok(Some(PixelSteps { pixel, steps }))
     }
 
-    fn results(&self, profile: &Profile) -> Result<Option<Vec<InstructionResults>>, StudyError> {
-        let setup = self.setup.on_device(profile.clone())?;
-        let loaded = Loaded::new(&setup, &self.executors.batch)?;
-        let [width, height] = self.setup.size;
-        let count = width as usize * height as usize;
-        let step = count.div_ceil(TRACED).max(1);
-        let pixels: Vec<(u32, u32)> = (0..count as u32).step_by(step).map(|at| (at % width, at / width)).collect();
-        let traces = loaded.trace(&pixels)?;
-        let mut results = InstructionResults::new();
-        // The first result of each instruction of a fragment.
-        for (number, fragment) in (0..).zip(traces.iter().flatten()) {
-            for step in self.results_of(profile, number, fragment) {
-                results.entry(step.instruction).or_default().entry((number, step.component)).or_insert(step.value);
-            }
-        }
-        Ok(Some(vec![results]))
+    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
+        let all = self.sampled(exact, |_| true)?;
+        let of = |rounded: &RoundedInstruction| {
+            let device = with_rounded(exact, &self.setup.pixel, *rounded);
+            let mut found = self.sampled(&device, |instruction| instruction == rounded.instruction)?;
+            Ok(found.remove(&rounded.instruction).unwrap_or_default())
+        };
+        let rounded = rounded.iter().map(of).collect::<Result<_, StudyError>>()?;
+        Ok(SampledResults { exact: vec![all], rounded })
     }
 
     fn notes(&self) -> Vec<String> {
@@ -193,7 +185,14 @@ impl CaseSubject {
         WorstPlace { text, pixel: Some([x as u32, y as u32]) }
     }
 
-    fn results_of(&self, profile: &Profile, number: u32, fragment: &FragmentTrace) -> Vec<StepResult> {
-        step_results(profile, (0, &self.setup.pixel), (number, fragment))
+    /// First results of the wanted instructions in the fragments of evenly spread pixels.
+    fn sampled(&self, device: &Profile, is_wanted: impl Fn(usize) -> bool) -> Result<InstructionResults, StudyError> {
+        let setup = self.setup.on_device(device.clone())?;
+        let [width, height] = self.setup.size;
+        let count = width as usize * height as usize;
+        let step = count.div_ceil(TRACED).max(1);
+        let pixels: Vec<(u32, u32)> = (0..count as u32).step_by(step).map(|at| (at % width, at / width)).collect();
+        let traces = Loaded::new(&setup, &self.executors.batch)?.trace(&pixels)?;
+        Ok(first_results(device, &self.setup.pixel, (0, traces.iter().flatten()), is_wanted))
     }
 }

@@ -11,6 +11,7 @@ mod programs;
 mod radiosity;
 mod ray_engine;
 mod run;
+mod sampler;
 mod subsurface;
 #[cfg(test)]
 mod tests;

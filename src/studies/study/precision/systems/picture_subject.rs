@@ -9,13 +9,15 @@ use refsim::machine::{DrawWatcher, ExecutorKind};
 
 use super::programs::PixelPrograms;
 use super::run::{SystemInput, SystemRun};
+use super::sampler::ResultSampler;
 use super::watchers::{DifferentTexel, FollowedDraws, FollowedPixel, KeptTargets};
 use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{
-    ErrorMap, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, StudiedProgram, WorstPlace,
+    ErrorMap, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, RoundedInstruction,
+    SampledResults, StudiedProgram, WorstPlace,
 };
 
 const MEASURES: [PrecisionMeasure; 5] = [
@@ -144,6 +146,12 @@ impl PrecisionSubject for SystemSubject {
         let found = self.run.values(SystemInput::HeldBack, profile, &self.executors.batch)?;
         let values = errors(&found, &self.exact_held_back).values;
         Ok(Some(Measured { values, ..Measured::default() }))
+    }
+
+    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
+        let sampler = ResultSampler::new(&self.programs, exact, rounded)?;
+        self.watched(exact, sampler.clone())?;
+        Ok(sampler.results())
     }
 
     /// Follows the worst pixel or patch through the passes into it. Where the refuted instruction's program is none of

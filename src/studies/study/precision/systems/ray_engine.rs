@@ -10,6 +10,7 @@ use refsim::machine::{DrawWatcher, Executor, ExecutorKind, FragmentTrace};
 
 use super::programs::PixelPrograms;
 use super::run::at_most;
+use super::sampler::ResultSampler;
 use super::watchers::{FollowedDraws, FollowedPixel};
 use crate::geom::classify::HitVerdict;
 use crate::geom::exact::{Sides, Tracer};
@@ -23,7 +24,8 @@ use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{
-    Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, StudiedProgram, WorstPlace,
+    Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, RoundedInstruction, SampledResults,
+    StudiedProgram, WorstPlace,
 };
 
 /// Quads along a side of a patch.
@@ -148,6 +150,12 @@ impl PrecisionSubject for RayEngineSubject {
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
         self.measured(&self.views[0], profile, self.executors.of(executor), wanted.is_none())
+    }
+
+    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
+        let sampler = ResultSampler::new(&self.programs, exact, rounded)?;
+        self.hits(exact, Some(sampler.clone()))?;
+        Ok(sampler.results())
     }
 
     /// Follows the first ray that goes wrong with one bit less and not before, or `worst` if there is none, on the

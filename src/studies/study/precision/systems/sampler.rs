@@ -1,0 +1,188 @@
+//! Results of instructions in a sample of a system's fragments.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use refsim::device::Profile;
+use refsim::exec::CheckedProgram;
+use refsim::isa::Program;
+use refsim::machine::{DrawCall, DrawWatcher, FragmentTrace, Machine, MachineError};
+
+use super::programs::PixelPrograms;
+use crate::study::StudyError;
+use crate::study::precision::steps::{first_results, with_rounded};
+use crate::study::precision::subject::{
+    FragmentResults, InstructionResults, RoundedInstruction, SampledResults, StudiedProgram,
+};
+
+/// Fragments of a draw that are kept, at most.
+const KEPT: usize = 128;
+/// Pixels of a draw that are traced, at least, if it has so many: a pixel may have thousands of fragments.
+const PIXELS: usize = 16;
+
+/// Samples the results of instructions in the exact run of a system. Its draws are traced again with the program of
+/// each rounded instruction.
+#[derive(Debug)]
+pub(super) struct ResultSampler {
+    /// Pixel programs, in the order of the subject.
+    programs: Vec<Program>,
+    rounded: Vec<RoundedProgram>,
+    found: Mutex<Sampled>,
+}
+
+/// Program of a rounded instruction, checked for its device.
+#[derive(Debug)]
+struct RoundedProgram {
+    rounded: RoundedInstruction,
+    device: Profile,
+    checked: CheckedProgram,
+}
+
+#[derive(Debug)]
+struct Sampled {
+    /// Number of draws seen of each program.
+    draws: Vec<usize>,
+    /// Number of fragments sampled of each program.
+    fragments: Vec<u32>,
+    results: SampledResults,
+}
+
+impl ResultSampler {
+    pub(super) fn new(
+        programs: &PixelPrograms,
+        exact: &Profile,
+        rounded: &[RoundedInstruction],
+    ) -> Result<Arc<Self>, StudyError> {
+        let list = programs.list();
+        let of = |rounded: &RoundedInstruction| {
+            let StudiedProgram { program, text } = list[rounded.program];
+            let device = with_rounded(exact, program, *rounded);
+            let checked = text.check(program.clone(), &device)?;
+            Ok(RoundedProgram { rounded: *rounded, device, checked })
+        };
+        let rounded: Vec<_> = rounded.iter().map(of).collect::<Result<_, StudyError>>()?;
+        let results = SampledResults {
+            exact: vec![InstructionResults::new(); list.len()],
+            rounded: vec![FragmentResults::new(); rounded.len()],
+        };
+        let found = Sampled { draws: vec![0; list.len()], fragments: vec![0; list.len()], results };
+        let programs = list.iter().map(|studied| studied.program.clone()).collect();
+        Ok(Arc::new(Self { programs, rounded, found: Mutex::new(found) }))
+    }
+
+    /// What was found.
+    pub(super) fn results(&self) -> SampledResults {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
+    }
+}
+
+impl DrawWatcher for ResultSampler {
+    /// Samples the draws of a program with the numbers 0, 1, 2, 4, 8 and so on: what grows from draw to draw is seen.
+    fn before(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
+        let digest = call.pixel_program.digest();
+        let Some(index) = self.programs.iter().position(|program| program.digest() == digest) else { return Ok(()) };
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        let number = found.draws[index];
+        found.draws[index] += 1;
+        if number > 0 && !number.is_power_of_two() {
+            return Ok(());
+        }
+        let program = &self.programs[index];
+        let sample = Sample::new(machine, call)?;
+        let exact = sample.trace(machine, call)?;
+        let first = found.fragments[index];
+        found.fragments[index] += exact.len() as u32;
+        for (instruction, results) in first_results(machine.profile(), program, (first, &exact), |_| true) {
+            found.results.exact[index].entry(instruction).or_default().extend(results);
+        }
+        for (at, own) in self.rounded.iter().enumerate().filter(|(_, own)| own.rounded.program == index) {
+            let instruction = own.rounded.instruction;
+            let call = DrawCall { pixel_program: &own.checked, ..call.clone() };
+            let traced = sample.trace(machine, &call)?;
+            let results = first_results(&own.device, program, (first, &traced), |at| at == instruction);
+            found.results.rounded[at].extend(results.into_values().flatten());
+        }
+        Ok(())
+    }
+}
+
+/// Sample of the fragments of a draw.
+struct Sample {
+    /// Pixels with fragments of the sample.
+    pixels: Vec<(u32, u32)>,
+    /// Those fragments, among all of the pixels.
+    kept: Vec<usize>,
+}
+
+impl Sample {
+    /// Traces pixels all over the target until there are enough fragments, or no pixels left, and keeps evenly spread
+    /// ones. Which ones does not depend on formats: a fragment is traced where its triangle covers the pixel.
+    fn new(machine: &Machine, call: &DrawCall<'_>) -> Result<Self, MachineError> {
+        let [width, height] = target_size(machine, call)?;
+        let mut order = spread(width * height).map(|at| (at % width, at / width)).peekable();
+        let (mut pixels, mut counts) = (Vec::new(), Vec::new());
+        while order.peek().is_some() && (pixels.len() < PIXELS || counts.iter().sum::<usize>() < KEPT) {
+            // As many again, as each call sets up all triangles.
+            let more: Vec<_> = order.by_ref().take(pixels.len().max(PIXELS)).collect();
+            counts.extend(machine.trace_pixels(call, &more)?.iter().map(Vec::len));
+            pixels.extend(more);
+        }
+        let step = counts.iter().sum::<usize>().div_ceil(KEPT).max(1);
+        let mut sample = Self { pixels: Vec::new(), kept: Vec::new() };
+        // Numbers of fragments, of all and of those of pixels of the sample.
+        let (mut first, mut first_of_sample) = (0, 0);
+        for (pixel, count) in pixels.into_iter().zip(counts) {
+            let before = sample.kept.len();
+            let own = (first..first + count).filter(|number| number.is_multiple_of(step));
+            sample.kept.extend(own.map(|number| number - first + first_of_sample));
+            first += count;
+            if sample.kept.len() > before {
+                sample.pixels.push(pixel);
+                first_of_sample += count;
+            }
+        }
+        Ok(sample)
+    }
+
+    /// Traces the fragments.
+    fn trace(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<Vec<FragmentTrace>, MachineError> {
+        let mut kept = self.kept.iter().peekable();
+        let all = machine.trace_pixels(call, &self.pixels)?.into_iter().flatten().enumerate();
+        Ok(all.filter(|(at, _)| kept.next_if_eq(&at).is_some()).map(|(_, fragment)| fragment).collect())
+    }
+}
+
+/// Width and height of a call's targets.
+fn target_size(machine: &Machine, call: &DrawCall<'_>) -> Result<[u32; 2], MachineError> {
+    if let Some(&target) = call.targets.first() {
+        let image = machine.read_back(target)?;
+        return Ok([image.width(), image.height()]);
+    }
+    let depth = call.depth_buffer.map(|id| machine.read_depth(id)).transpose()?;
+    Ok(depth.map_or([0; 2], |surface| [surface.width(), surface.height()]))
+}
+
+/// Numbers below `count`, each once, in an order whose beginnings are spread over all of them: steps of the golden
+/// section.
+fn spread(count: u32) -> impl Iterator<Item = u32> {
+    let divides = |step: u32| (2..=step).any(|d| step.is_multiple_of(d) && count.is_multiple_of(d));
+    let section = ((f64::from(count) * 0.618) as u32).max(1);
+    let step = (section..=count).find(|&step| !divides(step)).unwrap_or(1);
+    (0..count).map(move |at| (u64::from(at) * u64::from(step) % u64::from(count.max(1))) as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_number_is_taken_once() {
+        for count in (0..200).chain([4096, 5000]) {
+            let mut all: Vec<u32> = spread(count).collect();
+            all.sort_unstable();
+            assert_eq!(all, (0..count).collect::<Vec<_>>());
+        }
+        // The first sixteen of 4,096 reach every eighth.
+        let eighths: std::collections::BTreeSet<u32> = spread(4096).take(16).map(|at| at / 512).collect();
+        assert_eq!(eighths.len(), 8);
+    }
+}
