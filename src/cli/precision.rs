@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::memory::MemoryNeed;
 use super::one_of::{OneOf, one_of};
+use super::part::PartArgs;
 use super::study::StudyArgs;
 use super::{given, run, switch};
 use crate::case::{Overrides, Setup};
@@ -66,6 +67,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE.csv")]
     costs: Option<PathBuf>,
 
+    #[command(flatten)]
+    part: PartArgs,
+
     /// Where to write the page, the tables and the device
     #[arg(long, value_name = "DIR", default_value = "out/precision")]
     out: PathBuf,
@@ -91,6 +95,10 @@ impl StudyArgs for Args {
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)
+    }
+
+    fn part(&self) -> Option<PartArgs> {
+        Some(self.part)
     }
 
     fn inputs(&self) -> Vec<&Path> {

@@ -23,6 +23,12 @@ const COMMANDS: &[&str] = &[
     "leaky-teapot --size 24x16 --tessellation 1 --rays-per-edge 1 --format fp16 --format s3.12 --format fp32 --out out",
     "leaky-teapot --mesh docs/examples/step.obj --rays docs/examples/rays.csv --rays-per-edge 0 --device r200 \
      --device nv35 --out out",
+    "radiosity cornell-room --patches 13 --size 8x8 --solver direct --solver card --iterations 2 --sweep 8,20 --out out",
+    "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors hemicube --solver direct --out out",
+    "subsurface docs/examples/sphere.obj --mm-per-unit 5 --material marble --atlas 64 --choice fixed --choice adaptive \
+     --links 4 --size 8x8 --out out",
+    "precision docs/examples/lerp.toml --goal largest_codes<=0 --out out",
+    "precision docs/examples/lerp.toml --family fixed --budget 90 --out out",
 ];
 
 /// Numbers for the choice of parts and their order: the same in every run.
@@ -87,7 +93,7 @@ fn without_times(said: &str) -> String {
 #[test]
 fn merged_parts_are_the_files_of_one_run() {
     let mut dice = Dice(47);
-    for command in COMMANDS {
+    for &command in COMMANDS {
         let folder = copy_of_the_repository();
         let folder = folder.path();
         let said = run(folder, &words(command));

@@ -9,6 +9,7 @@ use crate::atlas::MAX_SIDE;
 use crate::cli::card::CardArgs;
 use crate::cli::number;
 use crate::cli::one_of::variants;
+use crate::cli::part::PartArgs;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::radiosity::on_card::Storage;
@@ -138,6 +139,9 @@ pub(in crate::cli) struct Args {
     /// do not emit at 18 % grey on average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
+
+    #[command(flatten)]
+    pub(super) part: PartArgs,
 
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/radiosity")]

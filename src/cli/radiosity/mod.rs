@@ -7,6 +7,7 @@ mod values;
 use std::path::Path;
 
 use super::memory::{self, MemoryNeed};
+use super::part::PartArgs;
 use super::scene_name::{self, Viewpoint};
 use super::study::StudyArgs;
 use crate::atlas::require_side;
@@ -23,6 +24,10 @@ impl StudyArgs for Args {
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)
+    }
+
+    fn part(&self) -> Option<PartArgs> {
+        Some(self.part)
     }
 
     fn inputs(&self) -> Vec<&Path> {

@@ -6,6 +6,7 @@ use super::values::{LightArg, choices, coefficient, direct_light, maps, place, r
 use crate::cli::card::CardArgs;
 use crate::cli::number;
 use crate::cli::one_of::variants;
+use crate::cli::part::PartArgs;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::study::subsurface::MapBits;
@@ -161,6 +162,9 @@ pub(in crate::cli) struct Args {
     /// average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
+
+    #[command(flatten)]
+    pub(super) part: PartArgs,
 
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/subsurface")]

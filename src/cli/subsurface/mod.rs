@@ -9,6 +9,7 @@ use std::path::Path;
 use super::Problem;
 use super::memory::{self, MemoryNeed};
 use super::model_name;
+use super::part::PartArgs;
 use super::study::StudyArgs;
 use crate::atlas::require_side;
 use crate::report::digits::{Quantity, shown};
@@ -28,6 +29,10 @@ impl StudyArgs for Args {
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)
+    }
+
+    fn part(&self) -> Option<PartArgs> {
+        Some(self.part)
     }
 
     fn inputs(&self) -> Vec<&Path> {

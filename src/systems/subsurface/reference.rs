@@ -5,6 +5,7 @@
 //! integral of equation 10 is taken by a quadrature rule on the triangles of both parts.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -78,14 +79,27 @@ impl<'a> Reference<'a> {
     /// # Errors
     /// [`FactorError::Values`] if there is not one irradiance per texel.
     pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, FactorError> {
+        self.radiosity_of_rows(irradiance, 0..self.atlas.side() as usize, done)
+    }
+
+    /// The radiosity of the texels of some rows; otherwise as [`Self::radiosity`].
+    ///
+    /// # Errors
+    /// As [`Self::radiosity`].
+    pub fn radiosity_of_rows(
+        &self,
+        irradiance: &[f64],
+        rows: Range<usize>,
+        done: &mut dyn FnMut(usize, usize),
+    ) -> Result<Vec<f64>, FactorError> {
         let power = self.power(irradiance)?;
         let side = self.atlas.side() as usize;
-        let mut radiosity = Vec::with_capacity(power.len());
-        let rows = side.div_ceil(REPORTS);
-        for first in (0..side).step_by(rows) {
-            let last = (first + rows).min(side);
+        let mut radiosity = Vec::with_capacity(rows.len() * side);
+        let step = side.div_ceil(REPORTS);
+        for first in rows.clone().step_by(step) {
+            let last = (first + step).min(rows.end);
             radiosity.par_extend((first * side..last * side).into_par_iter().map(|i| self.gather(i, &power)));
-            done(last, side);
+            done(last - rows.start, rows.len());
         }
         Ok(radiosity)
     }

@@ -111,7 +111,7 @@ pub(super) const TABLE: &[Tried] = &[
             "--patches=12 --per-side=1 --factors=unoccluded --strata=2 --hemicube=16 --seed=2 --require-closed=1e-6 \
              --enforce=closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv30 \
              --switch=rounding=rtz same:--executor=scalar --adapter=x --tolerance=0.5 --iterations=2 \
-             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --frames=1,2 --atlas=32 --sweep=12,30 --view=front \
+             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --frames=1,2 --atlas=32 --sweep=12,30 --part=1/2 --view=front \
              --exposure=0.3 --out=other --model-up=y --strict@1",
             eye!()
         ),
@@ -155,7 +155,7 @@ pub(super) const TABLE: &[Tried] = &[
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --half --tolerance=0.5 \
              --light=sky:1,1,1 --irradiance=faces.csv --pass-1=fragment --direct=vertex --fresnel=mean \
              --combine=modulated --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --walk=64 --link-table --roundings --device=nv30 \
-             --switch=rounding=rtz same:--executor=scalar --adapter=x --frames=2 --exposure=0.3 --out=other \
+             --switch=rounding=rtz same:--executor=scalar --adapter=x --frames=2 --exposure=0.3 --part=1/2 --out=other \
              --model-up=y --strict@1",
             eye!()
         ),
@@ -397,7 +397,7 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["precision docs/examples/lerp.toml --out OUT"],
-        options: "--goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 \
+        options: "--goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 --part=1/6 \
                   --costs=docs/examples/multiplier_area.csv --out=other",
     },
     Tried { bases: &["page --out OUT"], options: "--out=other --emulator=missing.wasm" },

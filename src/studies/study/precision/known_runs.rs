@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -9,7 +11,6 @@ use sha2::{Digest as _, Sha256};
 
 use super::bits::Assignment;
 use super::subject::{PrecisionSubject, WorstPlace};
-use crate::io::read_limited;
 use crate::report::sha256;
 
 /// Name of the file in the study's folder.
@@ -29,6 +30,9 @@ pub struct KnownRuns {
     /// Number of runs that were made in spite of being known.
     #[serde(skip)]
     checked: u32,
+    /// Runs of parts of this study. The study's own are those that it asks for.
+    #[serde(skip)]
+    of_parts: BTreeMap<String, KnownRun>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,8 +46,13 @@ impl KnownRuns {
     /// Reads the runs of the study that was written to a folder. Without any, or where the file was damaged, none are
     /// known.
     pub fn of_folder(folder: &Path) -> Self {
-        let bytes = read_limited(&folder.join(FILE), MAX_BYTES).ok().flatten().unwrap_or_default();
-        serde_json::from_slice(&bytes).unwrap_or_default()
+        // Not by `io`, which notes inputs: these change nothing that is found.
+        let mut bytes = Vec::new();
+        let read = File::open(folder.join(FILE)).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
+        match read {
+            Ok(_) if bytes.len() as u64 <= MAX_BYTES => serde_json::from_slice(&bytes).unwrap_or_default(),
+            _ => Self::default(),
+        }
     }
 
     /// These runs if they are of this subject and this measure, or none.
@@ -52,22 +61,38 @@ impl KnownRuns {
         if self.subject == digest { self.clone() } else { Self { subject: digest, ..Self::default() } }
     }
 
+    /// These runs, and those that parts have made.
+    pub(super) fn with_parts(self, parts: Self) -> Self {
+        let known = if self.subject == parts.subject { self } else { Self::default() };
+        Self { subject: parts.subject, of_parts: parts.runs, ..known }
+    }
+
+    /// Adds runs of the same subject and measure; others are not known.
+    pub(super) fn add(&mut self, other: Self) {
+        if self.subject == other.subject {
+            self.runs.extend(other.runs);
+        }
+    }
+
     /// Value and place of the largest error of a run; `None` if it is not known or is to be made all the same.
     pub(super) fn get(&mut self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
-        let run = self.runs.get(&digest(assignment))?;
+        let key = digest(assignment);
+        let run = self.runs.get(&key).or_else(|| self.of_parts.get(&key))?.clone();
         if self.checked < CHECKED {
             self.checked += 1;
             return None;
         }
-        Some((f64::from_bits(run.bits), run.worst.clone()))
+        self.runs.insert(key, run.clone());
+        Some((f64::from_bits(run.bits), run.worst))
     }
 
     /// Adds a run that was made. Where another value was known, everything else that was known is forgotten.
     pub(super) fn insert(&mut self, assignment: &Assignment, value: f64, worst: Option<WorstPlace>) {
         let run = KnownRun { bits: value.to_bits(), worst };
         let key = digest(assignment);
-        if self.runs.get(&key).is_some_and(|known| *known != run) {
+        if self.runs.get(&key).or_else(|| self.of_parts.get(&key)).is_some_and(|known| *known != run) {
             self.runs.clear();
+            self.of_parts.clear();
         }
         self.runs.insert(key, run);
     }

@@ -20,6 +20,7 @@ mod report;
 mod runs;
 mod sampled;
 mod search;
+mod split;
 mod steps;
 mod subject;
 mod switches;
@@ -31,6 +32,7 @@ mod ulps;
 
 use super::{ProgressFn, Study, StudyError};
 use crate::report::{Findings, Provenance};
+use crate::split::{Computed, SplitRun};
 
 pub use bits::FormatFamily;
 pub use case::CaseSubject;
@@ -46,10 +48,26 @@ pub use systems::PaperSystem;
 
 impl Study for Precision {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        self.findings_with(&self.known, progress)
+    }
+
+    fn findings_split(
+        &self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<Findings>, StudyError> {
+        if matches!(split, SplitRun::Whole) {
+            return self.findings(progress).map(Computed::Whole);
+        }
         let goal = self.goal()?;
-        let mut runs = self.runs(&goal, progress)?;
-        let outcome = self.outcome(&mut runs)?;
-        report::findings(self, &outcome, &runs)
+        let of_range = |range| self.runs_of(range, &mut self.runs(&goal, &KnownRuns::default(), progress)?);
+        match split.compute("searches", self.searches(), of_range)? {
+            Computed::Part(written) => Ok(Computed::Part(written)),
+            Computed::Whole(made) => {
+                let known = self.known.clone().with_parts(made.known);
+                self.findings_with(&known, progress).map(Computed::Whole)
+            }
+        }
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -58,5 +76,14 @@ impl Study for Precision {
         let set = profile.switches().iter().filter(|switch| switch.current != switch.default);
         provenance.switches.extend(set.map(|switch| (switch.name.clone(), switch.current.clone())));
         provenance
+    }
+}
+
+impl Precision {
+    fn findings_with(&self, known: &KnownRuns, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let goal = self.goal()?;
+        let mut runs = self.runs(&goal, known, progress)?;
+        let outcome = self.outcome(&mut runs)?;
+        report::findings(self, &outcome, &runs)
     }
 }

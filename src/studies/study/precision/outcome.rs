@@ -11,7 +11,7 @@ use super::known_runs::KnownRuns;
 use super::refutations::{self, RefutationTrace};
 use super::runs::{RunError, Runs};
 use super::sampled::sample_results;
-use super::search::{MixedFormats, search};
+use super::search::{MixedFormats, STARTS, search};
 use super::subject::{Measured, PrecisionSubject};
 use super::switches::{SwitchRow, sensitivity};
 use super::ulps::ResultRange;
@@ -110,14 +110,19 @@ impl Precision {
     ///
     /// # Errors
     /// If no runs are allowed, or no instruction has a format.
-    pub(super) fn runs<'a>(&'a self, goal: &'a Goal, progress: &'a mut ProgressFn<'a>) -> Result<Runs<'a>, StudyError> {
+    pub(super) fn runs<'a>(
+        &'a self,
+        goal: &'a Goal,
+        known: &KnownRuns,
+        progress: &'a mut ProgressFn<'a>,
+    ) -> Result<Runs<'a>, StudyError> {
         if self.budget == 0 {
             let found = "expected a budget of 1 run or more, found 0";
             return Err(
                 StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
             );
         }
-        let mut runs = Runs::new(&*self.subject, goal, self.budget, &self.known, progress);
+        let mut runs = Runs::new(&*self.subject, goal, self.budget, known, progress);
         if runs.count() == 0 {
             let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
             let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));
@@ -148,11 +153,7 @@ impl Precision {
     }
 
     fn run(&self, runs: &mut Runs<'_>, outcome: &mut PrecisionOutcome) -> Result<(), RunError> {
-        runs.step("the exact run");
-        outcome.exact = runs.value(&vec![None; runs.count()])?;
-        if !runs.goal.met(outcome.exact) {
-            return Err(missed_by_exact(runs.goal, outcome.exact).into());
-        }
+        outcome.exact = exact_run(runs)?;
         runs.step("the device as given");
         outcome.given = Some(runs.measure(runs.subject.profile())?.value(&runs.goal.measure));
         for &family in &self.families {
@@ -177,6 +178,13 @@ impl Precision {
     }
 }
 
+/// Value of the exact run, which meets the goal.
+pub(super) fn exact_run(runs: &mut Runs<'_>) -> Result<f64, RunError> {
+    runs.step("the exact run");
+    let exact = runs.value(&vec![None; runs.count()])?;
+    if runs.goal.met(exact) { Ok(exact) } else { Err(missed_by_exact(runs.goal, exact).into()) }
+}
+
 fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
     let found = format!("expected a goal that the exact run meets, found {goal}, and {} {value} there", goal.measure);
     StudyError::new("crossbar::precision::goal", found)
@@ -185,7 +193,7 @@ fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
 
 impl FamilyOutcome {
     /// Without findings.
-    fn new(curve: Curve, instructions: usize) -> Self {
+    pub(super) fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
         let refutations = Vec::new();
         Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None, refutations }
@@ -224,6 +232,19 @@ impl FamilyOutcome {
     /// Finds what each instruction needs, and the mixed formats.
     fn run(&mut self, costs: &FormatCosts, runs: &mut Runs<'_>) -> Result<(), RunError> {
         let Some(minimum) = self.curve.minimum else { return Ok(()) };
+        let order = self.share_blame(minimum, runs)?;
+        for more in STARTS {
+            search((minimum, more), &order, costs, runs, &mut self.mixed)?;
+        }
+        runs.step("bits per instruction");
+        for (place, needs) in self.needs.iter_mut().enumerate() {
+            fewest_bits(needs, place, minimum, self.curve.range, runs)?;
+        }
+        Ok(())
+    }
+
+    /// Finds what each instruction is to blame for; the least blamed come first in what is returned.
+    fn share_blame(&mut self, minimum: FormatBits, runs: &mut Runs<'_>) -> Result<Vec<usize>, RunError> {
         let blamed = blamed_format(minimum, runs)?;
         self.blamed = Some(blamed);
         for (place, needs) in self.needs.iter_mut().enumerate() {
@@ -232,9 +253,21 @@ impl FamilyOutcome {
         let blame = |place: &usize| self.needs[*place].blame.unwrap_or(0.0);
         let mut order: Vec<usize> = (0..self.needs.len()).collect();
         order.sort_by(|a, b| blame(a).total_cmp(&blame(b)));
-        search(minimum, &order, costs, runs, &mut self.mixed)?;
-        runs.step("bits per instruction");
-        for (place, needs) in self.needs.iter_mut().enumerate() {
+        Ok(order)
+    }
+
+    /// Makes the runs of one search of [`Self::run`], and those for the bits of as large a share of the instructions.
+    pub(super) fn run_share(
+        &mut self,
+        number: usize,
+        costs: &FormatCosts,
+        runs: &mut Runs<'_>,
+    ) -> Result<(), RunError> {
+        self.curve.compute(runs)?;
+        let Some(minimum) = self.curve.minimum else { return Ok(()) };
+        let order = self.share_blame(minimum, runs)?;
+        search((minimum, STARTS[number]), &order, costs, runs, &mut self.mixed)?;
+        for (place, needs) in self.needs.iter_mut().enumerate().skip(number).step_by(STARTS.len()) {
             fewest_bits(needs, place, minimum, self.curve.range, runs)?;
         }
         Ok(())

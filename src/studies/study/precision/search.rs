@@ -10,7 +10,7 @@ use super::subject::WorstPlace;
 
 /// Bits of precision beyond those of the smallest uniform format from which a search starts: what a few instructions
 /// then leave to spare, others can do without.
-const STARTS: [u8; 3] = [0, 1, 2];
+pub(super) const STARTS: [u8; 3] = [0, 1, 2];
 
 /// Formats of all instructions that meet the goal.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,37 +41,34 @@ fn assignment(formats: &[FormatBits]) -> Assignment {
     formats.iter().copied().map(Some).collect()
 }
 
-/// Searches from the smallest uniform format and from slightly wider ones, and keeps the cheapest in `best`.
+/// Searches from formats with so many bits of precision more than the smallest uniform one, and keeps what it finds in
+/// `best` if that is cheaper.
 ///
-/// From each start the instructions are narrowed one after the other, the least blamed first: `order`. Then single
-/// bits are removed until none can be.
+/// The instructions are narrowed one after the other, the least blamed first: `order`. Then single bits are removed
+/// until none can be.
 pub(super) fn search(
-    minimum: FormatBits,
+    (minimum, more): (FormatBits, u8),
     order: &[usize],
     costs: &FormatCosts,
     runs: &mut Runs<'_>,
     best: &mut Option<MixedFormats>,
 ) -> Result<(), RunError> {
-    let digits = minimum.family.digit_bits(minimum.range);
-    for more in STARTS {
-        let start = FormatBits { digits: minimum.digits.saturating_add(more), ..minimum };
-        if !digits.contains(&start.digits) {
-            continue;
-        }
-        runs.step(format!("mixed formats from {start}"));
-        let mut formats = vec![start; runs.count()];
-        if !runs.meets(&assignment(&formats))? {
-            continue;
-        }
-        let result = descend(&mut formats, order, runs);
-        // Every step of the descent meets the goal, and so does what the budget leaves unfinished.
-        let cost = costs.sum(&formats);
-        if best.as_ref().is_none_or(|best| cost < best.cost) {
-            *best = Some(MixedFormats { cost, is_minimal: result.is_ok(), refuted: refuted(&formats, runs), formats });
-        }
-        result?;
+    let start = FormatBits { digits: minimum.digits.saturating_add(more), ..minimum };
+    if !minimum.family.digit_bits(minimum.range).contains(&start.digits) {
+        return Ok(());
     }
-    Ok(())
+    runs.step(format!("mixed formats from {start}"));
+    let mut formats = vec![start; runs.count()];
+    if !runs.meets(&assignment(&formats))? {
+        return Ok(());
+    }
+    let result = descend(&mut formats, order, runs);
+    // Every step of the descent meets the goal, and so does what the budget leaves unfinished.
+    let cost = costs.sum(&formats);
+    if best.as_ref().is_none_or(|best| cost < best.cost) {
+        *best = Some(MixedFormats { cost, is_minimal: result.is_ok(), refuted: refuted(&formats, runs), formats });
+    }
+    result
 }
 
 /// Narrows formats until one bit less anywhere misses the goal. Meets it after every step.

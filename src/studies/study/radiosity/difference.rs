@@ -1,7 +1,9 @@
 //! Error of a solution against the direct one.
 
+use serde::{Deserialize, Serialize};
+
 /// Error of a solution over all patches and channels.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
     pub largest: f64,

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use refsim::device::Profile;
+use serde::{Deserialize, Serialize};
 
 use crate::radiosity::on_card::{CardSolution, Cycle, Storage};
 use crate::radiosity::packing::Packing;
@@ -27,7 +28,7 @@ pub enum SolveMethod {
 }
 
 /// Reason why an iteration stopped.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum StopReason {
     /// The residual reached the tolerance.
     Tolerance,

@@ -15,6 +15,7 @@ mod pictures;
 mod report;
 mod room;
 mod solve;
+mod split;
 mod sweep;
 mod tables;
 mod time;
@@ -27,6 +28,7 @@ use crate::radiosity::rate::RateError;
 use crate::radiosity::solve::SolveError;
 use crate::radiosity::{DrawError, FormFactorError, PatchError, Patches, System, SystemError};
 use crate::report::{Findings, Provenance};
+use crate::split::{Computed, SplitRun};
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
@@ -41,6 +43,7 @@ pub use sweep::SweepRow;
 pub use time::{CardFacts, IterationTime};
 
 use pictures::PictureRenderer;
+use sweep::Sweep;
 
 library_errors! {
     CardError => "radiosity::card";
@@ -62,6 +65,17 @@ impl Study for Parameters {
         report::findings(self, run(self, progress)?)
     }
 
+    fn findings_split(
+        &self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<Findings>, StudyError> {
+        Ok(match run_split(self, split, progress)? {
+            Computed::Whole(outcome) => Computed::Whole(report::findings(self, outcome)?),
+            Computed::Part(written) => Computed::Part(written),
+        })
+    }
+
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
         provenance.profiles.push(self.profile.name.clone());
         provenance.switches.clone_from(&self.switches);
@@ -74,6 +88,18 @@ impl Study for Parameters {
 
 /// Solves by every method, draws the pictures, and runs the sweep.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, StudyError> {
+    match run_split(parameters, &SplitRun::Whole, progress)? {
+        Computed::Whole(outcome) => Ok(outcome),
+        Computed::Part(_) => unreachable!("a whole run"),
+    }
+}
+
+/// The same as a whole, in part, or out of parts.
+fn run_split(
+    parameters: &Parameters,
+    split: &SplitRun,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Computed<RadiosityOutcome>, StudyError> {
     // Before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
         let what = "expected a scene with a material that shines, found none";
@@ -87,7 +113,17 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
         Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
     }
     let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
-    let room = room::find(&patches, parameters, progress)?;
+    let known = match split {
+        SplitRun::Whole => None,
+        _ => match split::compute(split, &patches, parameters, progress)? {
+            Computed::Whole(items) => Some(items),
+            Computed::Part(written) => return Ok(Computed::Part(written)),
+        },
+    };
+    let room = match &known {
+        Some(known) => room::complete(known.rows(&patches, parameters, progress)?, &patches, parameters)?,
+        None => room::find(&patches, parameters, progress)?,
+    };
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let changed = change::apply(&parameters.changes, &parameters.scene, &patches, &system)?;
     let mut solved = Vec::new();
@@ -121,8 +157,13 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
         rows.push(row(one, &system, reference.as_deref(), &mut studio, parameters)?);
     }
     drop(studio);
-    let sweep = sweep::run(parameters, progress)?;
-    Ok(RadiosityOutcome {
+    let sweep = Sweep::new(parameters)?;
+    let runs = match known {
+        Some(known) => known.sweep,
+        None => sweep.runs(0..sweep.count(), progress)?,
+    };
+    let sweep = sweep.rows(&runs);
+    Ok(Computed::Whole(RadiosityOutcome {
         found_sums: room.found_sums,
         reciprocity_error: room.reciprocity_error,
         exposure,
@@ -131,7 +172,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
         atlas: in_atlas,
         sweep,
         patches,
-    })
+    }))
 }
 
 /// Builds a method's row with its error and pictures.

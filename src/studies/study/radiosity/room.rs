@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Factors, Parameters, ProgressFn};
 use crate::geom::exact::Sides;
-use crate::radiosity::form_factor::{Hemicube, RowSums};
+use crate::radiosity::form_factor::{FormFactorRows, Hemicube, RowSums};
 use crate::radiosity::{FormFactors, Patches};
 use crate::study::StudyError;
 use crate::tracer::HostTracer;
@@ -16,24 +16,30 @@ pub(super) struct Room {
     pub(super) reciprocity_error: f64,
 }
 
-pub(super) fn find(
+/// Computes the rows of some patches.
+pub(super) fn rows(
     patches: &Patches,
     parameters: &Parameters,
+    is_wanted: &(dyn Fn(usize) -> bool + Sync),
     progress: &mut ProgressFn<'_>,
-) -> Result<Room, StudyError> {
-    let wishes = &parameters.factors;
+) -> Result<FormFactorRows, StudyError> {
     let mut done = |done: usize, of: usize| progress("form factors", done as u64, of as u64);
-    let mut factors = match wishes.from {
-        Factors::Unoccluded => FormFactors::unoccluded(patches)?,
+    Ok(match parameters.factors.from {
+        Factors::Unoccluded => FormFactorRows::unoccluded(patches, is_wanted)?,
         Factors::Rays(how) => {
             let mut tracer = HostTracer::new(patches.mesh(), Sides::Both);
-            FormFactors::with_visibility(patches, &mut tracer, how, &mut done)?
+            FormFactorRows::with_visibility(patches, &mut tracer, how, is_wanted, &mut done)?
         }
         Factors::Hemicube { resolution } => {
             let hemicube = Hemicube { resolution, device: Arc::new(parameters.profile.clone()) };
-            FormFactors::hemicube(patches, &hemicube, &parameters.executor, &mut done)?
+            FormFactorRows::hemicube(patches, &hemicube, &parameters.executor, is_wanted, &mut done)?
         }
-    };
+    })
+}
+
+/// Completes the rows of all patches, and enforces what is asked for.
+pub(super) fn complete(rows: FormFactorRows, patches: &Patches, parameters: &Parameters) -> Result<Room, StudyError> {
+    let (wishes, mut factors) = (&parameters.factors, rows.complete(patches)?);
     let (found_sums, reciprocity_error) = (factors.summary(), factors.reciprocity_error());
     if let Some(tolerance) = wishes.closed {
         factors.require_closed(tolerance)?;
@@ -44,4 +50,13 @@ pub(super) fn find(
         factors.enforce_reciprocity();
     }
     Ok(Room { factors, found_sums, reciprocity_error })
+}
+
+/// Computes the form factors of all patches.
+pub(super) fn find(
+    patches: &Patches,
+    parameters: &Parameters,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Room, StudyError> {
+    complete(rows(patches, parameters, &|_| true, progress)?, patches, parameters)
 }

@@ -1,7 +1,10 @@
 //! Sweep over numbers of patches and open switches of the card: the dependence of the error on the size of the system,
 //! and on guesses about the card.
 
+use std::ops::Range;
+
 use refsim::device::Profile;
+use serde::{Deserialize, Serialize};
 
 use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, room};
 use crate::radiosity::bias::{Accumulator, predicted};
@@ -12,7 +15,7 @@ use crate::study::StudyError;
 use crate::study::configuration::Configuration;
 
 /// Result for one number of patches, one method on the card, and one setting of its switches.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepRow {
     /// Number of patches.
     pub patches: usize,
@@ -40,37 +43,87 @@ impl SweepRow {
     }
 }
 
-/// Runs the sweep: rows by patches, method and settings.
-pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, StudyError> {
-    let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(*how) } else { None };
-    let methods: Vec<CardMethod> = parameters.methods.iter().filter_map(on_card).collect();
-    let settings = Configuration::of(&parameters.profile).under_each_switch()?;
-    let (mut rows, mut done) = (Vec::new(), 0);
-    let all = (parameters.sweep.len() * methods.len() * settings.len()) as u64;
-    for &size in &parameters.sweep {
-        let patches = Patches::new(&parameters.scene, Subdivision::AtMost(size as usize))?;
-        for how in &methods {
-            let fit = Fit::of(&parameters.profile, how.packing)?;
-            fit.require(&parameters.profile, how.packing, patches.list().len())?;
-        }
-        let factors = room::find(&patches, parameters, progress)?.factors;
-        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
-        let reference = system.solve(Solver::Direct, &parameters.options, None)?.radiosity();
-        for &how in &methods {
-            let mut found: Vec<(usize, Vec<[f32; 3]>)> = Vec::new();
-            for setting in &settings {
+/// Run of the sweep, with what tells whether others have the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct SweepRun {
+    row: SweepRow,
+    radiosity: Vec<[f32; 3]>,
+}
+
+/// Sweep over numbers of patches, for each setting of the card: a method with the value of a switch.
+pub(super) struct Sweep<'a> {
+    parameters: &'a Parameters,
+    /// By method, then by value.
+    settings: Vec<(CardMethod, Configuration)>,
+    /// Number of values of a method.
+    values: usize,
+}
+
+impl<'a> Sweep<'a> {
+    pub(super) fn new(parameters: &'a Parameters) -> Result<Self, StudyError> {
+        let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(*how) } else { None };
+        let values = Configuration::of(&parameters.profile).under_each_switch()?;
+        let methods = parameters.methods.iter().filter_map(on_card);
+        let settings = methods.flat_map(|how| values.iter().map(move |value| (how, value.clone()))).collect();
+        Ok(Self { parameters, settings, values: values.len() })
+    }
+
+    /// Number of settings; 0 without numbers of patches.
+    pub(super) fn count(&self) -> usize {
+        if self.parameters.sweep.is_empty() { 0 } else { self.settings.len() }
+    }
+
+    /// Makes the runs of a range of settings: for each of them one per number of patches.
+    pub(super) fn runs(
+        &self,
+        range: Range<usize>,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Vec<Vec<SweepRun>>, StudyError> {
+        let settings = &self.settings[range];
+        let mut runs = vec![Vec::new(); settings.len()];
+        let (mut done, all) = (0, (settings.len() * self.parameters.sweep.len()) as u64);
+        let sizes = if settings.is_empty() { &[][..] } else { &self.parameters.sweep };
+        for &size in sizes {
+            let (system, reference) = self.system(size, progress)?;
+            for ((how, setting), runs) in settings.iter().zip(&mut runs) {
                 progress("sweep", done, all);
                 done += 1;
-                let (radiosity, row) = solved(how, setting, &system, &reference, parameters)?;
-                let same = found.iter().find(|(_, other)| same_bits(other, &radiosity)).map(|(row, _)| *row);
-                if same.is_none() {
-                    found.push((rows.len(), radiosity));
-                }
-                rows.push(SweepRow { same_as: same.unwrap_or(rows.len()), ..row });
+                let (radiosity, row) = solved(*how, setting, &system, &reference, self.parameters)?;
+                runs.push(SweepRun { row, radiosity });
             }
         }
+        Ok(runs)
     }
-    Ok(rows)
+
+    /// System of a number of patches, and its direct solution.
+    fn system(&self, size: u32, progress: &mut ProgressFn<'_>) -> Result<(System, Vec<[f64; 3]>), StudyError> {
+        let patches = Patches::new(&self.parameters.scene, Subdivision::AtMost(size as usize))?;
+        for (how, _) in self.settings.iter().step_by(self.values) {
+            let fit = Fit::of(&self.parameters.profile, how.packing)?;
+            fit.require(&self.parameters.profile, how.packing, patches.list().len())?;
+        }
+        let factors = room::find(&patches, self.parameters, progress)?.factors;
+        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
+        let reference = system.solve(Solver::Direct, &self.parameters.options, None)?.radiosity();
+        Ok((system, reference))
+    }
+
+    /// Rows by number of patches, method and value, out of the runs of all settings. Those of one number of patches and
+    /// one method may have the same bits.
+    pub(super) fn rows(&self, runs: &[Vec<SweepRun>]) -> Vec<SweepRow> {
+        let mut rows = Vec::new();
+        for size in 0..self.parameters.sweep.len() {
+            for group in runs.chunks(self.values) {
+                let group: Vec<&SweepRun> = group.iter().filter_map(|runs| runs.get(size)).collect();
+                let first = rows.len();
+                for (at, run) in group.iter().enumerate() {
+                    let same = group[..at].iter().position(|other| same_bits(&other.radiosity, &run.radiosity));
+                    rows.push(SweepRow { same_as: first + same.unwrap_or(at), ..run.row.clone() });
+                }
+            }
+        }
+        rows
+    }
 }
 
 fn solved(

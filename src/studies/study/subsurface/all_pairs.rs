@@ -1,5 +1,7 @@
 //! Reference for all ways of gathering: equation 9 over all pairs of texels.
 
+use std::ops::Range;
+
 use super::Parameters;
 use crate::atlas::Atlas;
 use crate::study::{ProgressFn, StudyError};
@@ -44,33 +46,63 @@ impl GatherError {
     }
 }
 
-/// All pairs, once for each pair of channels that differ; `dipoles` are those of red, green and blue.
-pub(super) fn gather(
-    atlas: &Atlas,
-    parameters: &Parameters,
-    dipoles: &[Dipole; 3],
-    irradiance: &[[f64; 3]],
-    progress: &mut ProgressFn<'_>,
-) -> Result<AllPairs, StudyError> {
-    let mut found =
-        AllPairs { texels: vec![[0.0; 3]; irradiance.len()], probes: vec![[0.0; 3]; parameters.probes.len()] };
-    for channel in 0..3 {
-        let values: Vec<f64> = irradiance.iter().map(|e| e[channel]).collect();
-        let same = |&other: &usize| {
-            dipoles[other].coefficients() == dipoles[channel].coefficients()
-                && irradiance.iter().all(|e| e[other] == e[channel])
-        };
-        if let Some(other) = (0..channel).find(same) {
-            found.texels.iter_mut().chain(&mut found.probes).for_each(|b| b[channel] = b[other]);
-            continue;
+/// Sums over all pairs of texels for one lit model.
+#[derive(Clone, Copy)]
+pub(super) struct AllPairSums<'a> {
+    pub(super) atlas: &'a Atlas,
+    pub(super) parameters: &'a Parameters,
+    /// Of red, green and blue.
+    pub(super) dipoles: &'a [Dipole; 3],
+    pub(super) irradiance: &'a [[f64; 3]],
+}
+
+impl AllPairSums<'_> {
+    /// Radiosities of the texels of some rows, by channel; none for a channel that is like an earlier one.
+    pub(super) fn rows(self, rows: &Range<usize>, progress: &mut ProgressFn<'_>) -> Result<[Vec<f64>; 3], StudyError> {
+        let mut found = [const { Vec::new() }; 3];
+        for (channel, into) in found.iter_mut().enumerate() {
+            if self.like(channel).is_none() {
+                let step = format!("all pairs of texels, {}", CHANNELS[channel]);
+                let mut done = |done, rows| progress(&step, done as u64, rows as u64);
+                let values = self.values(channel);
+                *into = self.reference(channel)?.radiosity_of_rows(&values, rows.clone(), &mut done)?;
+            }
         }
-        let reference = Reference::new(atlas, parameters.mm_per_unit, &dipoles[channel])?;
-        let step = format!("all pairs of texels, {}", CHANNELS[channel]);
-        let radiosity = reference.radiosity(&values, &mut |done, rows| progress(&step, done as u64, rows as u64))?;
-        found.texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
-        for (into, &probe) in found.probes.iter_mut().zip(&parameters.probes) {
-            into[channel] = reference.radiosity_at(glam::DVec3::from(probe) * parameters.mm_per_unit, &values)?;
-        }
+        Ok(found)
     }
-    Ok(found)
+
+    /// Radiosities of all texels out of those of all rows, and of the probes.
+    pub(super) fn of_rows(self, rows: [Vec<f64>; 3]) -> Result<AllPairs, StudyError> {
+        let texels = vec![[0.0; 3]; self.irradiance.len()];
+        let mut found = AllPairs { texels, probes: vec![[0.0; 3]; self.parameters.probes.len()] };
+        for (channel, radiosity) in rows.into_iter().enumerate() {
+            if let Some(other) = self.like(channel) {
+                found.texels.iter_mut().chain(&mut found.probes).for_each(|b| b[channel] = b[other]);
+                continue;
+            }
+            found.texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
+            let (reference, values) = (self.reference(channel)?, self.values(channel));
+            for (into, &probe) in found.probes.iter_mut().zip(&self.parameters.probes) {
+                let point = glam::DVec3::from(probe) * self.parameters.mm_per_unit;
+                into[channel] = reference.radiosity_at(point, &values)?;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The first channel before this one with the same medium and light.
+    fn like(self, channel: usize) -> Option<usize> {
+        (0..channel).find(|&other| {
+            self.dipoles[other].coefficients() == self.dipoles[channel].coefficients()
+                && self.irradiance.iter().all(|e| e[other] == e[channel])
+        })
+    }
+
+    fn values(self, channel: usize) -> Vec<f64> {
+        self.irradiance.iter().map(|e| e[channel]).collect()
+    }
+
+    fn reference(&self, channel: usize) -> Result<Reference<'_>, StudyError> {
+        Ok(Reference::new(self.atlas, self.parameters.mm_per_unit, &self.dipoles[channel])?)
+    }
 }

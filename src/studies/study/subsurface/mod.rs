@@ -3,6 +3,7 @@
 
 mod all_pairs;
 mod angles;
+mod bands;
 mod conclusion;
 mod environment;
 mod error;
@@ -20,11 +21,13 @@ mod way;
 
 use crate::atlas::Atlas;
 use crate::report::{Findings, Provenance};
+use crate::split::{Computed, SplitRun};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::subsurface::factor::SurfaceMoments;
-use crate::subsurface::links::Links;
+use crate::subsurface::links::{LinkBands, Links};
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
+use bands::GatheredBands;
 
 pub use all_pairs::{AllPairs, GatherError};
 pub use angles::{AngleBin, BinError};
@@ -42,6 +45,17 @@ impl Study for Parameters {
         report::findings(self, &run(self, progress)?)
     }
 
+    fn findings_split(
+        &self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<Findings>, StudyError> {
+        Ok(match run_split(self, split, progress)? {
+            Computed::Whole(outcome) => Computed::Whole(report::findings(self, &outcome)?),
+            Computed::Part(written) => Computed::Part(written),
+        })
+    }
+
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
         provenance.profiles.push(self.profile.name.clone());
         provenance.switches.clone_from(&self.switches);
@@ -54,6 +68,18 @@ impl Study for Parameters {
 /// # Errors
 /// If the model, its medium or its light does not suit the study, or the card refuses the work.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, StudyError> {
+    match run_split(parameters, &SplitRun::Whole, progress)? {
+        Computed::Whole(outcome) => Ok(outcome),
+        Computed::Part(_) => unreachable!("a whole run"),
+    }
+}
+
+/// The same as a whole, in part, or out of parts: of sums over all pairs and links, by bands of rows of texels.
+fn run_split(
+    parameters: &Parameters,
+    split: &SplitRun,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Computed<SubsurfaceOutcome>, StudyError> {
     link_table::require_rows(parameters)?;
     let eta = parameters.material.eta;
     let [red, green, blue] = parameters.material.channels;
@@ -81,15 +107,6 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         let help = "add a `--light`, or move one to where the model's front faces see it";
         return Err(StudyError::new("subsurface::dark", "expected light on the model, found none").with_help(help));
     }
-    let truth = if parameters.reference {
-        Some(all_pairs::gather(&atlas, parameters, &dipoles, &irradiance, progress)?)
-    } else {
-        None
-    };
-    let walked = match parameters.photons {
-        Some(photons) => Some(walk::walk(&atlas, parameters, (&dipoles, &irradiance), photons, progress)?),
-        None => None,
-    };
     let model = CardModel::new(&atlas);
     let scene = way::Scene {
         parameters,
@@ -98,15 +115,37 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         model: &model,
         dipoles: &dipoles,
         irradiance: &irradiance,
-        truth: truth.as_ref(),
+        truth: None,
     };
+    let mut known = None;
+    if !matches!(split, SplitRun::Whole) {
+        let of_range = |range| GatheredBands::new(&scene, range, progress);
+        match split.compute("bands of texels", LinkBands::count(parameters.side), of_range)? {
+            Computed::Whole(all) => known = Some(all),
+            Computed::Part(written) => return Ok(Computed::Part(written)),
+        }
+    }
+    let truth = if parameters.reference {
+        let rows = match &mut known {
+            Some(known) => std::mem::take(&mut known.all_pairs),
+            None => scene.all_pairs().rows(&(0..parameters.side as usize), progress)?,
+        };
+        Some(scene.all_pairs().of_rows(rows)?)
+    } else {
+        None
+    };
+    let walked = match parameters.photons {
+        Some(photons) => Some(walk::walk(&atlas, parameters, (&dipoles, &irradiance), photons, progress)?),
+        None => None,
+    };
+    let scene = way::Scene { truth: truth.as_ref(), ..scene };
     let (mut rows, mut roundings, mut listed) = (Vec::new(), Vec::new(), Vec::new());
     // Ways that differ in formats alone follow each other and share their links.
     let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
         let links = match last.take() {
             Some((other, links)) if other.has_links_of(&way) => links,
-            _ => way::links(&scene, way, progress)?,
+            _ => way::links(&scene, way, known.as_ref(), progress)?,
         };
         if parameters.link_table && !parameters.ways[..at].iter().any(|other| other.has_links_of(&way)) {
             listed.extend(link_table::rows(&atlas, (parameters, way), &links, &probe_texels));
@@ -118,16 +157,16 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         rows.push(row);
         last = Some((way, links));
     }
-    Ok(SubsurfaceOutcome {
-        atlas,
+    Ok(Computed::Whole(SubsurfaceOutcome {
         lengths,
-        dipoles,
-        irradiance,
         truth,
         walked,
         probe_texels,
         rows,
         roundings,
         links: listed,
-    })
+        atlas,
+        dipoles,
+        irradiance,
+    }))
 }

@@ -1,12 +1,15 @@
 //! One way of gathering: links, the three passes, and what they cost.
 
+use std::ops::Range;
+
 use glam::{DQuat, DVec3};
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::num::Format;
 use refsim::timing::TimingError;
 
-use super::all_pairs::{AllPairs, GatherError};
+use super::all_pairs::{AllPairSums, AllPairs, GatherError};
+use super::bands::GatheredBands;
 use super::error::no_time;
 use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
 use crate::atlas::Atlas;
@@ -15,13 +18,16 @@ use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::Dipole;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::kernels::{DirectLight, ViewKernel};
-use crate::subsurface::links::{EncodedLinks, IrradianceMeans, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL};
+use crate::subsurface::links::{
+    EncodedLinks, IrradianceMeans, LinkBands, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
+};
 use crate::subsurface::on_card::{
     CardModel, FloatTexels, Light, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,
     pass_times,
 };
 
 /// Inputs that all ways of gathering share.
+#[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
     pub(super) parameters: &'a Parameters,
     pub(super) atlas: &'a Atlas,
@@ -31,6 +37,13 @@ pub(super) struct Scene<'a> {
     /// Per texel, by the host.
     pub(super) irradiance: &'a [[f64; 3]],
     pub(super) truth: Option<&'a AllPairs>,
+}
+
+impl<'a> Scene<'a> {
+    pub(super) fn all_pairs(&self) -> AllPairSums<'a> {
+        let Self { atlas, parameters, dipoles, irradiance, .. } = *self;
+        AllPairSums { atlas, parameters, dipoles, irradiance }
+    }
 }
 
 /// Results of a way of gathering.
@@ -75,11 +88,36 @@ pub struct WayRow {
     pub(super) log: Vec<Event>,
 }
 
-/// The links of a way.
-pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
+/// The links of a way, in a range of bands of rows of texels.
+pub(super) fn link_bands(
+    scene: &Scene<'_>,
+    way: GatherWay,
+    range: Range<usize>,
+    progress: &mut ProgressFn<'_>,
+) -> Result<LinkBands, StudyError> {
     progress(&format!("links: {}", way.label(scene.parameters.side)), 0, 2);
-    let dipoles = if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] };
-    Ok(Links::new(scene.surface, dipoles, way.choice, scene.parameters.tolerance, &|_, _| {})?)
+    let (dipoles, tolerance) = (link_dipoles(scene, way), scene.parameters.tolerance);
+    Ok(LinkBands::new(scene.surface, dipoles, way.choice, tolerance, range, &|_, _| {})?)
+}
+
+/// The links of a way, out of those that were computed before.
+pub(super) fn links(
+    scene: &Scene<'_>,
+    way: GatherWay,
+    known: Option<&GatheredBands>,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Links, StudyError> {
+    let known = known.and_then(|known| known.links(scene.parameters, way).cloned());
+    let bands = match known {
+        Some(bands) => bands,
+        None => link_bands(scene, way, 0..LinkBands::count(scene.parameters.side), progress)?,
+    };
+    Ok(Links::of_bands(scene.surface, link_dipoles(scene, way).len(), way.choice, bands)?)
+}
+
+/// The dipoles of a way's factors: of red, green and blue, or of green for all.
+fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
+    if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }
 
 /// Runs one way with its links; frames of turned lights if it is the first.

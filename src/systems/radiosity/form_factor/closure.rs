@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::{FormFactorError, FormFactors, mirror};
+use super::rows::mirror;
+use super::{FormFactorError, FormFactors};
 
 /// Maximum number of rounds of scaling; each halves the logarithm of the remaining error, or better.
 const MAX_ROUNDS: u32 = 500;

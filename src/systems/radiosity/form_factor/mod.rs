@@ -14,20 +14,19 @@ mod exchange;
 mod hemicube;
 mod polygon;
 pub mod rectangles;
+mod rows;
 mod visibility;
-
-use rayon::prelude::*;
 
 use super::Patches;
 use crate::linalg::{Matrix, MatrixError};
 use crate::tracer::Caster;
-use exchange::QuadraturePatch;
 
 pub use closure::RowSums;
 pub use error::FormFactorError;
 pub use hemicube::Hemicube;
 pub(super) use polygon::clipped;
 pub use polygon::point_to_polygon;
+pub use rows::FormFactorRows;
 pub use visibility::VisibilityParameters;
 pub(super) use visibility::point_share;
 
@@ -69,7 +68,7 @@ impl FormFactors {
     /// # Errors
     /// [`FormFactorError::Size`] for too many patches.
     pub fn unoccluded(patches: &Patches) -> Result<Self, FormFactorError> {
-        Ok(Self::from_exchanges(patches.areas(), exchanges(patches)?))
+        FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches)
     }
 
     /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
@@ -84,16 +83,7 @@ impl FormFactors {
         parameters: VisibilityParameters,
         done: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, FormFactorError> {
-        let mut exchanges = exchanges(patches)?;
-        visibility::hide(patches, &mut exchanges, caster, parameters, done)?;
-        Ok(Self::from_exchanges(patches.areas(), exchanges))
-    }
-
-    /// Completes the matrix from the exchanges above the diagonal.
-    fn from_exchanges(areas: Vec<f64>, mut matrix: Matrix) -> Self {
-        mirror(&mut matrix);
-        matrix.par_rows_mut().zip(&areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
-        Self { areas, matrix }
+        FormFactorRows::with_visibility(patches, caster, parameters, &|_| true, done)?.complete(patches)
     }
 
     /// Number of patches.
@@ -114,30 +104,5 @@ impl FormFactors {
     /// F_ij in row i, column j.
     pub fn matrix(&self) -> &Matrix {
         &self.matrix
-    }
-}
-
-/// Computes area times form factor of the open parts of every two patches, above the diagonal, without occlusion.
-fn exchanges(patches: &Patches) -> Result<Matrix, FormFactorError> {
-    let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
-    let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();
-    let mut matrix = Matrix::zeros([list.len(); 2])?;
-    matrix.par_rows_mut().enumerate().for_each(|(i, row)| {
-        for (into, others) in row.iter_mut().zip(&list).skip(i + 1) {
-            for one in &list[i] {
-                *into += others.iter().map(|other| exchange::unoccluded(one, other)).sum::<f64>();
-            }
-        }
-    });
-    Ok(matrix)
-}
-
-/// Copies the upper triangle to the lower one.
-fn mirror(matrix: &mut Matrix) {
-    for i in 1..matrix.row_count() {
-        for j in 0..i {
-            let value = matrix.row(j)[i];
-            matrix.row_mut(i)[j] = value;
-        }
     }
 }

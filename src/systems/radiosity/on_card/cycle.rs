@@ -6,13 +6,15 @@
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher as _};
 
+use serde::{Deserialize, Serialize};
+
 use super::{CardError, CardSolver};
 
 /// The state of an iteration: red, green and blue of each patch.
 type Radiosities = [[f32; 3]];
 
 /// Cycle of states that repeats for ever, bit for bit: the limit of convergence in the card's number format.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cycle {
     /// Iterations until the first state of the cycle; with [`super::CardOptions::check_every`] above 1, until the first
     /// that was read back.

@@ -20,6 +20,13 @@ pub struct ClusterId {
     pub x: u32,
 }
 
+impl ClusterId {
+    /// Returns `true` if an atlas with this side and number of levels has such a cluster.
+    pub fn is_of(self, side: u32, levels: u32) -> bool {
+        self.level < levels && self.x.max(self.y) < side >> self.level
+    }
+}
+
 /// The moments (area, mean point, covariance) of every cluster of an atlas, in mm. Clusters of a level stand in Morton
 /// order, so that the children of cluster k of a level are the clusters 4 k to 4 k + 3 of the level below.
 #[derive(Clone, Debug)]

@@ -1,22 +1,23 @@
 //! Links, section 4.2.1: per texel, clusters whose irradiance it gathers, each with its throughput factor.
 //!
-//! - [`Links`]: fixed or adaptive, with one factor per link or three;
+//! - [`Links`]: fixed or adaptive, with one factor per link or three; [`LinkBands`] are those of some rows of texels;
 //! - [`IrradianceMeans`]: the mean irradiance of every cluster, by area or by number of texels;
 //! - [`EncodedLinks`]: links as texels of textures, and what fp16 loses of them;
 //! - [`Fitness`]: texels compared with the lengths of a medium.
 
+mod bands;
 mod choice;
 mod encode;
 mod fitness;
 mod gather;
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::Dipole;
-use super::factor::{BLOCK_LEVEL, BlockReceiver, ClusterId, FactorError, Factors, SurfaceMoments};
+use super::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
+use bands::fixed_clusters;
 
+pub use bands::LinkBands;
 pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
 pub use fitness::Fitness;
@@ -26,9 +27,6 @@ pub use gather::{IrradianceMeans, MeanWeighting};
 pub const SCALAR_CHANNEL: usize = 1;
 /// The largest number of factors: 1 GiB of them.
 pub const MAX_FACTORS: usize = 1 << 28;
-
-/// Rows of texels that are computed together.
-const BAND: usize = 1 << BLOCK_LEVEL;
 
 /// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the mean
 /// irradiance of the cluster, weighted by area. Factors are rounded to f32 once.
@@ -58,11 +56,8 @@ impl Links {
         tolerance: f64,
         done: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<Self, FactorError> {
-        match *dipoles {
-            [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice, done),
-            [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice, done),
-            _ => Err(FactorError::Channels { found: dipoles.len() }),
-        }
+        let all = LinkBands::new(surface, dipoles, choice, tolerance, 0..LinkBands::count(surface.side()), done)?;
+        Self::of_bands(surface, dipoles.len(), choice, all)
     }
 
     /// The links of every texel with given factors.
@@ -74,67 +69,37 @@ impl Links {
         choice: LinkChoice,
         done: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<Self, FactorError> {
-        let side = factors.surface().side();
-        let per_texel = check(factors.surface(), choice, N)?;
+        let surface = factors.surface();
+        let all = LinkBands::with(factors, choice, 0..LinkBands::count(surface.side()), done)?;
+        Self::of_bands(surface, N, choice, all)
+    }
+
+    /// The links of all bands, from the first on.
+    ///
+    /// # Errors
+    /// [`FactorError`] if these are not the bands of this atlas with this choice.
+    pub fn of_bands(
+        surface: &SurfaceMoments,
+        channels: usize,
+        choice: LinkChoice,
+        bands: LinkBands,
+    ) -> Result<Self, FactorError> {
+        let (side, per_texel) = (surface.side(), check(surface, choice, channels)?);
         let texels = side as usize * side as usize;
-        let mut links = Self {
-            side,
-            choice,
-            channels: N,
-            per_texel,
-            clusters: Vec::new(),
-            factors: vec![0.0; texels * per_texel * N],
-        };
-        let progress = Progress { side: side as usize, done, count: AtomicUsize::new(0) };
-        match choice {
-            LinkChoice::Fixed { level } => links.fill_fixed(factors, level, &progress),
-            LinkChoice::Adaptive { count } => links.fill_adaptive(factors, count, &progress),
+        let fixed = fixed_clusters(side, choice);
+        let LinkBands { clusters, factors } = bands;
+        let expected = [if fixed.is_some() { 0 } else { texels * per_texel }, texels * per_texel * channels];
+        for (found, texels) in [clusters.len(), factors.len()].into_iter().zip(expected) {
+            if found != texels {
+                return Err(FactorError::Values { found, texels });
+            }
         }
-        Ok(links)
-    }
-
-    fn fill_fixed<const N: usize>(&mut self, factors: &Factors<'_, N>, level: u32, progress: &Progress<'_>) {
-        let ([width, side], per_texel) = ([self.side >> level, self.side], self.per_texel);
-        let ids: Vec<_> = (0..width).flat_map(|y| (0..width).map(move |x| ClusterId { level, y, x })).collect();
-        self.clusters = ids.iter().copied().map(PackedCluster::new).collect();
-        let bands = self.factors.par_chunks_mut(BAND * side as usize * per_texel * N);
-        bands.enumerate().for_each(|(band, into)| {
-            let mut block = BlockReceiver::new(factors.receiver());
-            for square in squares(side, band) {
-                block.visit(square, &ids, &mut |texel| {
-                    let into = &mut into[place_in_band(side, texel.texel()) * per_texel * N..][..per_texel * N];
-                    for (node, into) in into.chunks_exact_mut(N).enumerate() {
-                        into.iter_mut().zip(texel.factor(node)).for_each(|(into, factor)| *into = factor as f32);
-                    }
-                });
-            }
-            progress.band_done();
-        });
-    }
-
-    fn fill_adaptive<const N: usize>(&mut self, factors: &Factors<'_, N>, count: usize, progress: &Progress<'_>) {
-        let [side, per_texel] = [self.side as usize, self.per_texel];
-        // A link that is not used has the factor 0; it points to the root.
-        let root = ClusterId { level: factors.surface().level_count() - 1, y: 0, x: 0 };
-        self.clusters = vec![PackedCluster::new(root); side * side * per_texel];
-        let bands = self.clusters.par_chunks_mut(BAND * side * per_texel);
-        let bands = bands.zip(self.factors.par_chunks_mut(BAND * side * per_texel * N));
-        bands.enumerate().for_each(|(band, (ids, into))| {
-            let mut block = BlockReceiver::new(factors.receiver());
-            for square in squares(side as u32, band) {
-                block.visit(square, &[root], &mut |texel| {
-                    let links = choice::adaptive(texel, count);
-                    let at = place_in_band(side as u32, texel.texel());
-                    let ids = &mut ids[at * per_texel..][..per_texel];
-                    let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
-                    for ((id, into), link) in ids.iter_mut().zip(into).zip(&links) {
-                        *id = PackedCluster::new(link.cluster);
-                        into.iter_mut().zip(link.factor).for_each(|(into, factor)| *into = factor as f32);
-                    }
-                });
-            }
-            progress.band_done();
-        });
+        let levels = surface.level_count();
+        if let Some(beyond) = clusters.iter().map(|cluster| cluster.id()).find(|id| !id.is_of(side, levels)) {
+            return Err(FactorError::Level { found: beyond.level, levels });
+        }
+        let clusters = fixed.unwrap_or(clusters);
+        Ok(Self { side, choice, channels, per_texel, clusters, factors })
     }
 
     /// Texels along a side of the atlas.
@@ -187,7 +152,7 @@ impl Links {
 }
 
 /// A cluster in 32 bits: level, row, column, of 4, 14 and 14 bits. Atlases have at most 8192 texels along a side.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct PackedCluster(u32);
 
 impl PackedCluster {
@@ -215,31 +180,5 @@ fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Resul
     match texels.checked_mul(links).and_then(|all| all.checked_mul(channels)) {
         Some(all) if all <= MAX_FACTORS => Ok(links),
         _ => Err(FactorError::TooMany { side, links, channels, limit: MAX_FACTORS }),
-    }
-}
-
-/// The squares of a band of rows.
-fn squares(side: u32, band: usize) -> impl Iterator<Item = ClusterId> {
-    let level = BLOCK_LEVEL.min(side.ilog2());
-    (0..side >> level).map(move |x| ClusterId { level, y: band as u32, x })
-}
-
-/// Where a texel stands in its band.
-fn place_in_band(side: u32, (x, y): (u32, u32)) -> usize {
-    ((y % BAND as u32) * side + x) as usize
-}
-
-/// Counts rows of texels.
-struct Progress<'a> {
-    side: usize,
-    done: &'a (dyn Fn(usize, usize) + Sync),
-    count: AtomicUsize,
-}
-
-impl Progress<'_> {
-    fn band_done(&self) {
-        let rows = BAND.min(self.side);
-        let before = self.count.fetch_add(rows, Ordering::Relaxed);
-        (self.done)(before + rows, self.side);
     }
 }

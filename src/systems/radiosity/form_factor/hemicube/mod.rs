@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
-use super::{FormFactorError, FormFactors};
+use super::{FormFactorError, FormFactorRows, FormFactors};
 use crate::linalg::Matrix;
 use crate::radiosity::draw::{DrawError, patch_of};
 use crate::radiosity::{Patch, Patches};
@@ -79,20 +79,32 @@ impl FormFactors {
         executor: &Executor,
         done: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, FormFactorError> {
-        hemicube.check()?;
-        let mut matrix = Matrix::zeros([patches.list().len(); 2])?;
-        let work = HemicubeRows { patches, hemicube, executor, deltas: Deltas::new(hemicube.resolution) };
-        let all = patches.list().len();
-        let mut rows: Vec<&mut [f64]> = matrix.par_rows_mut().collect();
-        for (bundle, rows) in rows.chunks_mut(BUNDLE).enumerate() {
-            let first = bundle * BUNDLE;
-            // One card per worker; the result does not depend on the assignment.
-            let each = rows.len().div_ceil(rayon::current_num_threads()).max(1);
-            rows.par_chunks_mut(each).enumerate().try_for_each(|(part, rows)| work.fill(first + part * each, rows))?;
-            done(first + rows.len(), all);
-        }
-        Self::from_values(patches.areas(), matrix)
+        FormFactorRows::hemicube(patches, hemicube, executor, &|_| true, done)?.complete(patches)
     }
+}
+
+/// Rows of the form factors of some patches.
+pub(super) fn matrix(
+    patches: &Patches,
+    hemicube: &Hemicube,
+    executor: &Executor,
+    is_wanted: &(dyn Fn(usize) -> bool + Sync),
+    done: &mut dyn FnMut(usize, usize),
+) -> Result<Matrix, FormFactorError> {
+    hemicube.check()?;
+    let mut matrix = Matrix::zeros([patches.list().len(); 2])?;
+    let work = HemicubeRows { patches, hemicube, executor, deltas: Deltas::new(hemicube.resolution) };
+    let mut rows: Vec<(usize, &mut [f64])> =
+        matrix.par_rows_mut().enumerate().filter(|(patch, _)| is_wanted(*patch)).collect();
+    let (all, mut drawn) = (rows.len(), 0);
+    for rows in rows.chunks_mut(BUNDLE) {
+        // One card per worker; the result does not depend on the assignment.
+        let each = rows.len().div_ceil(rayon::current_num_threads()).max(1);
+        rows.par_chunks_mut(each).try_for_each(|rows| work.fill(rows))?;
+        drawn += rows.len();
+        done(drawn, all);
+    }
+    Ok(matrix)
 }
 
 /// Inputs of the computation of rows.
@@ -104,13 +116,13 @@ struct HemicubeRows<'a> {
 }
 
 impl HemicubeRows<'_> {
-    /// Computes consecutive rows, starting at row `first`.
-    fn fill(&self, first: usize, rows: &mut [&mut [f64]]) -> Result<(), DrawError> {
+    /// Computes rows of patches.
+    fn fill(&self, rows: &mut [(usize, &mut [f64])]) -> Result<(), DrawError> {
         let mut buffer = ItemBuffer::new(self.executor, &self.hemicube.device, self.hemicube.resolution)?;
-        for (patch, row) in (first..).zip(rows) {
+        for (patch, row) in rows {
             // The largest open part, the first of equals; a patch that is wholly open is its own.
             let larger = |one: &&Patch, other: &&Patch| one.area().total_cmp(&other.area());
-            let Some(part) = self.patches.open_parts(patch).iter().rev().max_by(larger) else { continue };
+            let Some(part) = self.patches.open_parts(*patch).iter().rev().max_by(larger) else { continue };
             if !self.look(&mut buffer, part, part.center(), row)? {
                 self.look_elsewhere(&mut buffer, part, row)?;
             }

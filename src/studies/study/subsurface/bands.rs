@@ -1,0 +1,66 @@
+//! What parts of a run compute: sums over all pairs and links, by bands of rows of texels.
+
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+use super::way;
+use super::{GatherWay, Parameters};
+use crate::split::Concatenate;
+use crate::study::{ProgressFn, StudyError};
+use crate::subsurface::links::LinkBands;
+
+/// Results of consecutive bands of rows of texels.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct GatheredBands {
+    bands: usize,
+    /// Radiosities over all pairs, by channel; none without them.
+    pub(super) all_pairs: [Vec<f64>; 3],
+    /// Of each way whose links are not those of an earlier one.
+    links: Vec<LinkBands>,
+}
+
+impl GatheredBands {
+    /// Computes a range of bands.
+    pub(super) fn new(
+        scene: &way::Scene<'_>,
+        range: Range<usize>,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Self, StudyError> {
+        let mut found = Self { bands: range.len(), ..Self::default() };
+        let rows = LinkBands::rows(scene.parameters.side);
+        if scene.parameters.reference {
+            found.all_pairs = scene.all_pairs().rows(&(range.start * rows..range.end * rows), progress)?;
+        }
+        for way in ways_with_links(scene.parameters) {
+            found.links.push(way::link_bands(scene, way, range.clone(), progress)?);
+        }
+        Ok(found)
+    }
+
+    /// The bands of a way's links; `None` if there are none.
+    pub(super) fn links(&self, parameters: &Parameters, way: GatherWay) -> Option<&LinkBands> {
+        let mut all = ways_with_links(parameters).zip(&self.links);
+        all.find(|(other, _)| other.has_links_of(&way)).map(|(_, links)| links)
+    }
+}
+
+/// The ways whose links are not those of an earlier one.
+fn ways_with_links(parameters: &Parameters) -> impl Iterator<Item = GatherWay> + '_ {
+    let ways = &parameters.ways;
+    let is_first = |(at, way): &(usize, &GatherWay)| !ways[..*at].iter().any(|other| other.has_links_of(way));
+    ways.iter().enumerate().filter(is_first).map(|(_, way)| *way)
+}
+
+impl Concatenate for GatheredBands {
+    /// Lengths depend on the model, whose merge refuses what does not fit it.
+    fn are_of(&self, range: &Range<usize>) -> bool {
+        self.bands == range.len()
+    }
+
+    fn append(&mut self, next: Self) {
+        self.bands += next.bands;
+        self.all_pairs.iter_mut().zip(next.all_pairs).for_each(|(all, next)| all.extend(next));
+        self.links.iter_mut().zip(next.links).for_each(|(all, next)| all.append(next));
+    }
+}

@@ -1,0 +1,177 @@
+//! Links of bands of rows of texels, which do not depend on each other.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::{LinkChoice, PackedCluster, check, choice};
+use crate::subsurface::Dipole;
+use crate::subsurface::factor::{BLOCK_LEVEL, BlockReceiver, ClusterId, FactorError, Factors, SurfaceMoments};
+
+/// Rows of texels that are computed together.
+const BAND: usize = 1 << BLOCK_LEVEL;
+
+/// The links of the texels of consecutive bands: of rows of texels that are computed together.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LinkBands {
+    /// Of adaptive links, per texel, row by row, then per link; of fixed ones none.
+    pub(super) clusters: Vec<PackedCluster>,
+    /// Per texel, row by row, then per link, then per channel.
+    pub(super) factors: Vec<f32>,
+}
+
+impl LinkBands {
+    /// Number of bands of an atlas.
+    pub fn count(side: u32) -> usize {
+        side as usize / Self::rows(side)
+    }
+
+    /// Rows of texels of a band.
+    pub fn rows(side: u32) -> usize {
+        BAND.min(side as usize)
+    }
+
+    /// The links of a range of bands; otherwise as [`Links::new`](super::Links::new).
+    ///
+    /// # Errors
+    /// As [`Links::new`](super::Links::new).
+    pub fn new(
+        surface: &SurfaceMoments,
+        dipoles: &[Dipole],
+        choice: LinkChoice,
+        tolerance: f64,
+        range: Range<usize>,
+        done: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<Self, FactorError> {
+        match *dipoles {
+            [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice, range, done),
+            [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice, range, done),
+            _ => Err(FactorError::Channels { found: dipoles.len() }),
+        }
+    }
+
+    /// The links of a range of bands with given factors.
+    pub(super) fn with<const N: usize>(
+        factors: &Factors<'_, N>,
+        choice: LinkChoice,
+        range: Range<usize>,
+        done: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<Self, FactorError> {
+        let side = factors.surface().side();
+        let per_texel = check(factors.surface(), choice, N)?;
+        let rows = range.len() * Self::rows(side);
+        let links = rows * side as usize * per_texel;
+        let mut bands = Self { clusters: Vec::new(), factors: vec![0.0; links * N] };
+        let progress = Progress { band: Self::rows(side), rows, done, count: AtomicUsize::new(0) };
+        match fixed_clusters(side, choice) {
+            Some(clusters) => bands.fill_fixed(factors, &clusters, range.start, &progress),
+            None => {
+                // A link that is not used has the factor 0; it points to the root.
+                bands.clusters = vec![PackedCluster::new(root(factors.surface())); links];
+                bands.fill_adaptive(factors, per_texel, choice, range.start, &progress);
+            }
+        }
+        Ok(bands)
+    }
+
+    fn fill_fixed<const N: usize>(
+        &mut self,
+        factors: &Factors<'_, N>,
+        clusters: &[PackedCluster],
+        first: usize,
+        progress: &Progress<'_>,
+    ) {
+        let (side, per_texel) = (factors.surface().side(), clusters.len());
+        let ids: Vec<ClusterId> = clusters.iter().map(|cluster| cluster.id()).collect();
+        let bands = self.factors.par_chunks_mut(BAND * side as usize * per_texel * N);
+        bands.enumerate().for_each(|(band, into)| {
+            let mut block = BlockReceiver::new(factors.receiver());
+            for square in squares(side, first + band) {
+                block.visit(square, &ids, &mut |texel| {
+                    let into = &mut into[place_in_band(side, texel.texel()) * per_texel * N..][..per_texel * N];
+                    for (node, into) in into.chunks_exact_mut(N).enumerate() {
+                        into.iter_mut().zip(texel.factor(node)).for_each(|(into, factor)| *into = factor as f32);
+                    }
+                });
+            }
+            progress.band_done();
+        });
+    }
+
+    fn fill_adaptive<const N: usize>(
+        &mut self,
+        factors: &Factors<'_, N>,
+        per_texel: usize,
+        choice: LinkChoice,
+        first: usize,
+        progress: &Progress<'_>,
+    ) {
+        let LinkChoice::Adaptive { count } = choice else { return };
+        let (side, root) = (factors.surface().side(), root(factors.surface()));
+        let bands = self.clusters.par_chunks_mut(BAND * side as usize * per_texel);
+        let bands = bands.zip(self.factors.par_chunks_mut(BAND * side as usize * per_texel * N));
+        bands.enumerate().for_each(|(band, (ids, into))| {
+            let mut block = BlockReceiver::new(factors.receiver());
+            for square in squares(side, first + band) {
+                block.visit(square, &[root], &mut |texel| {
+                    let links = choice::adaptive(texel, count);
+                    let at = place_in_band(side, texel.texel());
+                    let ids = &mut ids[at * per_texel..][..per_texel];
+                    let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
+                    for ((id, into), link) in ids.iter_mut().zip(into).zip(&links) {
+                        *id = PackedCluster::new(link.cluster);
+                        into.iter_mut().zip(link.factor).for_each(|(into, factor)| *into = factor as f32);
+                    }
+                });
+            }
+            progress.band_done();
+        });
+    }
+
+    /// Appends the bands that follow.
+    pub fn append(&mut self, next: Self) {
+        self.clusters.extend(next.clusters);
+        self.factors.extend(next.factors);
+    }
+}
+
+/// The clusters of fixed links, the same for each texel.
+pub(super) fn fixed_clusters(side: u32, choice: LinkChoice) -> Option<Vec<PackedCluster>> {
+    let LinkChoice::Fixed { level } = choice else { return None };
+    let width = side >> level;
+    let ids = (0..width).flat_map(|y| (0..width).map(move |x| ClusterId { level, y, x }));
+    Some(ids.map(PackedCluster::new).collect())
+}
+
+fn root(surface: &SurfaceMoments) -> ClusterId {
+    ClusterId { level: surface.level_count() - 1, y: 0, x: 0 }
+}
+
+/// The squares of a band of rows.
+fn squares(side: u32, band: usize) -> impl Iterator<Item = ClusterId> {
+    let level = BLOCK_LEVEL.min(side.ilog2());
+    (0..side >> level).map(move |x| ClusterId { level, y: band as u32, x })
+}
+
+/// Where a texel stands in its band.
+fn place_in_band(side: u32, (x, y): (u32, u32)) -> usize {
+    ((y % BAND as u32) * side + x) as usize
+}
+
+/// Counts rows of texels.
+struct Progress<'a> {
+    /// Rows of a band, and of all bands.
+    band: usize,
+    rows: usize,
+    done: &'a (dyn Fn(usize, usize) + Sync),
+    count: AtomicUsize,
+}
+
+impl Progress<'_> {
+    fn band_done(&self) {
+        let before = self.count.fetch_add(self.band, Ordering::Relaxed);
+        (self.done)(before + self.band, self.rows);
+    }
+}
