@@ -310,7 +310,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--original=glossy_sight.prt@0,2 --keep=9@0,2 --way=sums@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
-             --radiance=fp16@0,2 --pass-per-channel@0,2 --partial@0,2 --vertex=vs_1_1@0,2 --out=other@0,2",
+             --radiance=fp16@0,2 --pass-per-channel@0,2 --partial@0,2 same:--vertex=vs_1_1@0 --vertex=vs_1_1@2 --out=other@0,2",
             card!("nv35"),
             picture!("1")
         ),

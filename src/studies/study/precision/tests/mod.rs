@@ -39,7 +39,7 @@ fn study(case: &str, goal: &str, families: &[FormatFamily]) -> Precision {
 fn with_outcome<T>(study: &Precision, look: impl FnOnce(&PrecisionOutcome, &mut Runs<'_>) -> T) -> T {
     let goal = study.goal().expect("a goal");
     let mut progress = |_: &str, _, _| {};
-    let mut runs = study.runs(&goal, &mut progress).expect("instructions");
+    let mut runs = study.runs(&goal, &study.known, &mut progress).expect("instructions");
     let outcome = study.outcome(&mut runs).expect("it runs");
     look(&outcome, &mut runs)
 }
