@@ -1,6 +1,7 @@
 //! Cases on emulated cards.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crossbar::case::{self, ComparedSides, Loaded, Overrides, Scope, Setup, Side, Traced, device_named};
 use numpy::ndarray::{Array2, Array3};
@@ -15,11 +16,13 @@ use refsim::timing::{Level, Model};
 use serde_json::{Value, json};
 
 use crate::error::{refused, value_error};
+use crate::signals;
 
 /// Case bound to a device, with the inputs that replace its own.
 #[pyclass(frozen, module = "crossbar_gi._native")]
 pub(crate) struct Case {
-    pub(crate) setup: Setup,
+    /// Shared with draws that go on after Ctrl-C.
+    pub(crate) setup: Arc<Setup>,
     pub(crate) name: String,
 }
 
@@ -60,7 +63,7 @@ impl Case {
             }
             None => (Setup::read_with(Path::new(source), &overrides), source),
         };
-        Ok(Self { setup: read.map_err(|error| refused(&error))?, name: name.to_owned() })
+        Ok(Self { setup: Arc::new(read.map_err(|error| refused(&error))?), name: name.to_owned() })
     }
 
     /// The case with some constants of its pixel program and some textures replaced.
@@ -69,7 +72,7 @@ impl Case {
         constants: Vec<(usize, [f64; 4])>,
         textures: Vec<(usize, PyReadonlyArray3<'_, f32>)>,
     ) -> PyResult<Self> {
-        let mut setup = self.setup.clone();
+        let mut setup = Setup::clone(&self.setup);
         let float = &mut setup.pixel_constants.float;
         for (index, value) in constants {
             if index >= 256 {
@@ -85,7 +88,7 @@ impl Case {
             };
             bound.image = image(&bound.image, slot, &texels)?;
         }
-        Ok(Self { setup, name: self.name.clone() })
+        Ok(Self { setup: Arc::new(setup), name: self.name.clone() })
     }
 
     /// Warnings on the case, in words.
@@ -96,30 +99,9 @@ impl Case {
     /// Draws.
     fn run<'py>(&self, py: Python<'py>, executor_name: &str) -> PyResult<Drawn<'py>> {
         let kind = executor(executor_name)?;
-        let drawn = py.detach(|| {
-            let outcome = case::run(&self.setup, kind)?;
-            let mut loaded = Loaded::recording(&self.setup, kind, None)?;
-            loaded.draw()?;
-            let minimum = self.setup.profile.rules.signed_texel_minimum;
-            let numbers = |target: &Image| {
-                let (height, width) = (target.height(), target.width());
-                Array3::from_shape_fn((height as usize, width as usize, 4), |(y, x, channel)| {
-                    target.texel(0, 0, y as u32, x as u32, minimum).to_f64()[channel]
-                })
-            };
-            let targets: Vec<Array3<f64>> = loaded.targets()?.into_iter().map(numbers).collect();
-            let depth = loaded.depth()?.map(|surface| {
-                let [width, height] = self.setup.size.map(|side| side as usize);
-                Array2::from_shape_fn((height, width), |(y, x)| {
-                    let stored = surface.get(x as u32, y as u32).unwrap_or_default();
-                    f64::from(f32::from_bits(surface.format().to_format(stored, Format::FP32)))
-                })
-            });
-            let mut document = outcome.document(&self.setup);
-            document["modelled"] = modelled(&self.setup, &loaded.take_log());
-            Ok((document.to_string(), targets, depth))
-        });
-        let (document, targets, depth) = drawn.map_err(|error: case::CaseError| refused(&error))?;
+        let setup = Arc::clone(&self.setup);
+        let drawn = signals::aside(py, move || drawn(&setup, kind))?;
+        let (document, targets, depth) = drawn.map_err(|error| refused(&error))?;
         let targets = targets.into_iter().map(|target| target.into_pyarray(py)).collect();
         Ok((document, targets, depth.map(|depth| depth.into_pyarray(py))))
     }
@@ -132,10 +114,38 @@ impl Case {
             let found = format!("expected a pixel within {width}x{height}, found column {x}, row {y}");
             return Err(value_error(found));
         }
-        let trace = py.detach(|| case::trace(&self.setup, kind, [x, y])).map_err(|error| refused(&error))?;
+        let setup = Arc::clone(&self.setup);
+        let trace = signals::aside(py, move || case::trace(&setup, kind, [x, y]))?.map_err(|error| refused(&error))?;
         let traced = Traced { setup: &self.setup, trace: &trace, knows_flags: kind == ExecutorKind::Scalar };
         Ok(traced.document().to_string())
     }
+}
+
+/// Document, targets and depth of a draw.
+type DrawnArrays = (String, Vec<Array3<f64>>, Option<Array2<f64>>);
+
+fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseError> {
+    let outcome = case::run(setup, kind)?;
+    let mut loaded = Loaded::recording(setup, kind, None)?;
+    loaded.draw()?;
+    let minimum = setup.profile.rules.signed_texel_minimum;
+    let numbers = |target: &Image| {
+        let (height, width) = (target.height(), target.width());
+        Array3::from_shape_fn((height as usize, width as usize, 4), |(y, x, channel)| {
+            target.texel(0, 0, y as u32, x as u32, minimum).to_f64()[channel]
+        })
+    };
+    let targets: Vec<Array3<f64>> = loaded.targets()?.into_iter().map(numbers).collect();
+    let depth = loaded.depth()?.map(|surface| {
+        let [width, height] = setup.size.map(|side| side as usize);
+        Array2::from_shape_fn((height, width), |(y, x)| {
+            let stored = surface.get(x as u32, y as u32).unwrap_or_default();
+            f64::from(f32::from_bits(surface.format().to_format(stored, Format::FP32)))
+        })
+    });
+    let mut document = outcome.document(setup);
+    document["modelled"] = modelled(setup, &loaded.take_log());
+    Ok((document.to_string(), targets, depth))
 }
 
 /// A texture's picture replaced by an array of its size: red, green, blue, alpha as singles.
@@ -195,7 +205,13 @@ pub(crate) fn compare(
         None if registers => Scope::Registers,
         None => Scope::Results,
     };
-    let comparison = py.detach(|| case::compare(&sides[0], &sides[1], scope)).map_err(|error| refused(&error))?;
+    let setups = [Arc::clone(&left.setup), Arc::clone(&right.setup)];
+    let (here, there) = (sides[0].executor.clone(), sides[1].executor.clone());
+    let comparison = signals::aside(py, move || {
+        let [left, right] = setups.each_ref().map(|setup| &**setup);
+        case::compare(&Side { setup: left, executor: here }, &Side { setup: right, executor: there }, scope)
+    })?;
+    let comparison = comparison.map_err(|error| refused(&error))?;
     let compared = ComparedSides { case: &left.name, sides: &sides, comparison: &comparison };
     Ok(compared.document().to_string())
 }

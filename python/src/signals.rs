@@ -1,8 +1,14 @@
 //! Long work without the interpreter's lock, which Ctrl-C ends.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 use crossbar::study::ProgressFn;
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
@@ -44,24 +50,43 @@ pub(crate) fn fill_quickly<T: Send, S>(
     fill(py, out, (TASK, 256), state, work)
 }
 
-/// Runs a study without the lock. A signal ends it at its next step, by unwinding.
-pub(crate) fn study<R: Send>(py: Python<'_>, work: impl FnOnce(&mut ProgressFn<'_>) -> R + Send) -> PyResult<R> {
+/// How long Ctrl-C waits at most.
+const POLL: Duration = Duration::from_millis(20);
+
+/// Runs a study on a thread of its own, without the lock. Ctrl-C returns at once, and ends the study at its next step.
+pub(crate) fn study<R: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&mut ProgressFn<'_>) -> R + Send + 'static,
+) -> PyResult<R> {
     /// Payload of the unwinding; nothing is printed.
     struct Interrupted;
-    py.detach(|| {
-        let mut signal = None;
-        let result = catch_unwind(AssertUnwindSafe(|| {
-            work(&mut |_, _, _| {
-                if let Err(error) = Python::attach(|py| py.check_signals()) {
-                    signal = Some(error);
-                    resume_unwind(Box::new(Interrupted));
-                }
-            })
-        }));
-        match (result, signal) {
-            (Ok(result), _) => Ok(result),
-            (Err(_), Some(error)) => Err(error),
-            (Err(panic), None) => resume_unwind(panic),
+    let is_over = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&is_over);
+    let result = aside(py, move || {
+        work(&mut |_, _, _| {
+            if seen.load(Ordering::Relaxed) {
+                resume_unwind(Box::new(Interrupted));
+            }
+        })
+    });
+    is_over.store(true, Ordering::Relaxed);
+    result
+}
+
+/// Runs work on a thread of its own, without the lock. Ctrl-C returns at once; the work goes on to its end, for nobody.
+pub(crate) fn aside<R: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> R + Send + 'static) -> PyResult<R> {
+    let (sender, mut receiver) = mpsc::channel();
+    thread::Builder::new().name("crossbar".to_owned()).spawn(move || {
+        // Nobody receives what was interrupted.
+        let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
+    })?;
+    loop {
+        let waiting = &mut receiver;
+        match py.detach(move || waiting.recv_timeout(POLL)) {
+            Ok(Ok(result)) => return Ok(result),
+            Ok(Err(panic)) => resume_unwind(panic),
+            Err(RecvTimeoutError::Timeout) => py.check_signals()?,
+            Err(gone @ RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err(gone.to_string())),
         }
-    })
+    }
 }

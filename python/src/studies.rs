@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crossbar::case::device_named;
+use crossbar::case::{Setup, device_named};
 use crossbar::picture::metrics::{ScreenPicture, flip, ssim};
 use crossbar::picture::{ChannelUnit, Picture, PictureError, Samples};
 use crossbar::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, KnownRuns, PaperSystem, Precision};
@@ -28,7 +28,7 @@ pub(crate) fn reproduce(py: Python<'_>, ids: Vec<String>, full_size: bool) -> Py
     let models = if full_size { ModelSize::Printed } else { ModelSize::Reduced };
     let entries = choose(&ids).map_err(|error| refused(&error))?;
     let study = Parameters { entries, models };
-    let found = signals::study(py, |progress| Ok(study.findings(progress)?.plain_document().to_string()))?;
+    let found = signals::study(py, move |progress| Ok(study.findings(progress)?.plain_document().to_string()))?;
     found.map_err(|error: StudyError| refused(&error))
 }
 
@@ -54,9 +54,10 @@ pub(crate) fn precision(
     let system = system.map_err(|_| value_error("expected a system, found another name"))?;
     let profile = system.map(|system| device_named(device.unwrap_or(system.card()))).transpose();
     let profile = profile.map_err(|error| refused(&error))?;
-    let found = signals::study(py, |progress| {
+    let case = case.map(|case| (Setup::clone(&case.setup), case.name.clone()));
+    let found = signals::study(py, move |progress| {
         let subject = match (case, system.zip(profile)) {
-            (Some(case), _) => Box::new(CaseSubject::new(case.setup.clone(), &case.name)?),
+            (Some((setup, name)), _) => Box::new(CaseSubject::new(setup, &name)?),
             (None, Some((system, profile))) => system.subject(profile)?,
             (None, None) => return Err(StudyError::new("crossbar::precision", "expected a case or a system")),
         };

@@ -1,5 +1,8 @@
 """Cases and shaders on cards, comparisons, pictures."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -135,3 +138,24 @@ def test_studies_are_records():
         cg.precision("docs/examples/lerp.toml", families=["fixed"], budget=50, table="none")
     with pytest.raises(ValueError, match="expected a goal as `largest_codes<=1`"):
         cg.precision("docs/examples/lerp.toml", goal="small")
+
+
+@pytest.mark.parametrize("work", [
+    'cg.reproduce("ray-engine-tables-1-2")',
+    'cg.run("ps_1_4\\nmov r0, c0", size=(4096, 4096), executor="scalar", target="rgba8")',
+])
+def test_ctrl_c_ends_studies_and_draws(work):
+    # In a process of its own, whose end is that of the work in the background.
+    script = f"""
+import os, signal, threading, time
+import crossbar_gi as cg
+threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+start = time.perf_counter()
+try:
+    {work}
+except KeyboardInterrupt:
+    print(time.perf_counter() - start, flush=True)
+    os._exit(0)
+"""
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=100)
+    assert run.returncode == 0 and 0.3 <= float(run.stdout) < 3, run

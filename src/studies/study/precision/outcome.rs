@@ -167,7 +167,13 @@ impl Precision {
             let value = runs.value(&runs.uniform(bits))?;
             outcome.named.push((name, bits, value));
         }
-        sample_results(runs, outcome)?;
+        let minima: Vec<FormatBits> = outcome.families.iter().filter_map(|family| family.curve.minimum).collect();
+        let sample = sample_results(&minima, runs)?;
+        outcome.ranges = sample.ranges;
+        let with_minimum = outcome.families.iter_mut().filter(|family| family.curve.minimum.is_some());
+        for (family, errors) in with_minimum.zip(sample.errors) {
+            family.needs.iter_mut().zip(errors).for_each(|(needs, error)| needs.local = error);
+        }
         for family in &mut outcome.families {
             family.run(&self.costs, runs)?;
         }

@@ -1,37 +1,46 @@
 //! Ranges and errors of the instructions' results in a sample of fragments.
 
-use super::outcome::PrecisionOutcome;
+use super::bits::FormatBits;
 use super::runs::{RunError, Runs};
 use super::subject::RoundedInstruction;
-use super::ulps::{errors_of, local_error, range_of};
+use super::ulps::{LocalError, ResultRange, errors_of, local_error, range_of};
 
-/// Finds the range of each instruction's exact results, and in each family the error of its results in the smallest
-/// uniform format against the exact results of the same operands. An unrolled loop has those of all its instructions,
-/// rounded one at a time, as the operands of the next would not be exact otherwise.
-pub(super) fn sample_results(runs: &mut Runs<'_>, outcome: &mut PrecisionOutcome) -> Result<(), RunError> {
+/// Findings in a sample, by instruction; `None` where an instruction was not executed.
+#[derive(Debug)]
+pub(super) struct SampleFindings {
+    /// Ranges of the exact results.
+    pub(super) ranges: Vec<Option<ResultRange>>,
+    /// Errors of results in each format, against the exact results of the same operands.
+    pub(super) errors: Vec<Vec<Option<LocalError>>>,
+}
+
+/// Samples the results of each instruction in the exact run, and rounded to each of some formats. An unrolled loop has
+/// those of all its instructions, rounded one at a time, as the operands of the next would not be exact otherwise.
+pub(super) fn sample_results(formats: &[FormatBits], runs: &mut Runs<'_>) -> Result<SampleFindings, RunError> {
     runs.step("ranges");
     let mut rounded = Vec::new();
     let given = runs.subject.profile().rules.format;
-    for minimum in outcome.families.iter().filter_map(|family| family.curve.minimum) {
-        let of = |program, instruction| RoundedInstruction { program, instruction, format: minimum.format(given) };
+    for bits in formats {
+        let of = |program, instruction| RoundedInstruction { program, instruction, format: bits.format(given) };
         let places = runs.places.iter();
         rounded.extend(places.flat_map(|place| place.instructions().map(|at| of(place.program, at))));
     }
     let sampled = runs.results(&rounded)?;
     let exact = |program: usize, at: usize| sampled.exact.get(program)?.get(&at);
     let results = |program: usize, at: usize| exact(program, at).into_iter().flat_map(|results| results.values());
-    for place in &runs.places {
+    let ranges = runs.places.iter().map(|place| {
         let mut all = place.instructions().flat_map(|at| results(place.program, at)).peekable();
-        outcome.ranges.push(all.peek().is_some().then(|| range_of(all)));
-    }
+        all.peek().is_some().then(|| range_of(all))
+    });
     let mut found = sampled.rounded.iter();
-    for family in &mut outcome.families {
-        let Some(minimum) = family.curve.minimum else { continue };
-        for (place, needs) in runs.places.iter().zip(&mut family.needs) {
+    let mut errors_in = |bits: FormatBits| {
+        let of_place = runs.places.iter().map(|place| {
             let own = place.instructions().zip(&mut found);
             let own = own.filter_map(|(at, rounded)| Some((exact(place.program, at)?, rounded)));
-            needs.local = local_error(own.flat_map(|(exact, rounded)| errors_of(minimum, exact, rounded)));
-        }
-    }
-    Ok(())
+            local_error(own.flat_map(|(exact, rounded)| errors_of(bits, exact, rounded)))
+        });
+        of_place.collect()
+    };
+    let errors = formats.iter().map(|bits| errors_in(*bits)).collect();
+    Ok(SampleFindings { ranges: ranges.collect(), errors })
 }

@@ -1,4 +1,4 @@
-//! What parts of a study compute: runs, which are known to the merge.
+//! Items of parts of a study: searches, whose runs are known to the merge.
 
 use std::ops::Range;
 

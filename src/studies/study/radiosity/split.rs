@@ -1,4 +1,4 @@
-//! What parts of a run compute: rows of form factors, and runs of the sweep.
+//! Items of parts of a run: rows of form factors, and runs of the sweep.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! What parts of a run compute: sums over all pairs and links, by bands of rows of texels.
+//! Items of parts of a run: sums over all pairs and links, by bands of rows of texels.
 
 use std::ops::Range;
 

@@ -145,7 +145,10 @@ fn run_split(
     for (at, &way) in parameters.ways.iter().enumerate() {
         let links = match last.take() {
             Some((other, links)) if other.has_links_of(&way) => links,
-            _ => way::links(&scene, way, known.as_ref(), progress)?,
+            _ => {
+                let known = known.as_ref().and_then(|known| known.links(parameters, way).cloned());
+                way::links(&scene, way, known, progress)?
+            }
         };
         if parameters.link_table && !parameters.ways[..at].iter().any(|other| other.has_links_of(&way)) {
             listed.extend(link_table::rows(&atlas, (parameters, way), &links, &probe_texels));

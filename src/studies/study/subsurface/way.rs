@@ -9,7 +9,6 @@ use refsim::num::Format;
 use refsim::timing::TimingError;
 
 use super::all_pairs::{AllPairSums, AllPairs, GatherError};
-use super::bands::GatheredBands;
 use super::error::no_time;
 use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
 use crate::atlas::Atlas;
@@ -104,10 +103,9 @@ pub(super) fn link_bands(
 pub(super) fn links(
     scene: &Scene<'_>,
     way: GatherWay,
-    known: Option<&GatheredBands>,
+    known: Option<LinkBands>,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Links, StudyError> {
-    let known = known.and_then(|known| known.links(scene.parameters, way).cloned());
     let bands = match known {
         Some(bands) => bands,
         None => link_bands(scene, way, 0..LinkBands::count(scene.parameters.side), progress)?,

@@ -17,9 +17,7 @@ pub mod rectangles;
 mod rows;
 mod visibility;
 
-use super::Patches;
 use crate::linalg::{Matrix, MatrixError};
-use crate::tracer::Caster;
 
 pub use closure::RowSums;
 pub use error::FormFactorError;
@@ -60,30 +58,6 @@ impl FormFactors {
             }
         }
         Ok(Self { areas, matrix })
-    }
-
-    /// Computes form factors without occlusion: exact for convex rooms, and the first step for others. Reciprocal to
-    /// one ULP.
-    ///
-    /// # Errors
-    /// [`FormFactorError::Size`] for too many patches.
-    pub fn unoccluded(patches: &Patches) -> Result<Self, FormFactorError> {
-        FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches)
-    }
-
-    /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
-    /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of pairs done
-    /// and of all pairs.
-    ///
-    /// # Errors
-    /// [`FormFactorError`] for too many patches, no samples, or rays that the ray caster fails on.
-    pub fn with_visibility(
-        patches: &Patches,
-        caster: &mut dyn Caster,
-        parameters: VisibilityParameters,
-        done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, FormFactorError> {
-        FormFactorRows::with_visibility(patches, caster, parameters, &|_| true, done)?.complete(patches)
     }
 
     /// Number of patches.

@@ -114,6 +114,51 @@ impl FormFactorRows {
     }
 }
 
+impl FormFactors {
+    /// Computes form factors without occlusion: exact for convex rooms, and the first step for others. Reciprocal to
+    /// one ULP.
+    ///
+    /// # Errors
+    /// [`FormFactorError::Size`] for too many patches.
+    pub fn unoccluded(patches: &Patches) -> Result<Self, FormFactorError> {
+        FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches)
+    }
+
+    /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
+    /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of pairs done
+    /// and of all pairs.
+    ///
+    /// # Errors
+    /// [`FormFactorError`] for too many patches, no samples, or rays that the ray caster fails on.
+    pub fn with_visibility(
+        patches: &Patches,
+        caster: &mut dyn Caster,
+        parameters: VisibilityParameters,
+        done: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, FormFactorError> {
+        FormFactorRows::with_visibility(patches, caster, parameters, &|_| true, done)?.complete(patches)
+    }
+
+    /// Computes form factors by hemicubes at the centres of the patches, or of their largest open parts; where a centre
+    /// sees nothing, at the first of nine points that does. Occluders hide what is behind them, from either side; backs
+    /// receive no light. `done` is called with the number of patches done and of all patches.
+    ///
+    /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
+    /// [`FormFactors::enforce_reciprocity`].
+    ///
+    /// # Errors
+    /// [`FormFactorError`] for too many patches, a resolution that the card does not have, or a card without fragment
+    /// programs.
+    pub fn hemicube(
+        patches: &Patches,
+        hemicube: &Hemicube,
+        executor: &Executor,
+        done: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, FormFactorError> {
+        FormFactorRows::hemicube(patches, hemicube, executor, &|_| true, done)?.complete(patches)
+    }
+}
+
 /// Copies the upper triangle to the lower one.
 pub(super) fn mirror(matrix: &mut Matrix) {
     for i in 1..matrix.row_count() {

@@ -6,12 +6,13 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::FormFactorError;
 use super::exchange::kernel;
-use super::{FormFactorError, Patches};
 use crate::geom::random::CounterRng;
 use crate::geom::vector::narrow;
 use crate::geom::{Hit, Ray};
 use crate::linalg::Matrix;
+use crate::radiosity::Patches;
 use crate::tracer::Caster;
 use crate::tracer::offset::scene_clearance;
 

@@ -6,9 +6,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{LinkChoice, PackedCluster, check, choice};
+use super::choice::{self, LinkChoice};
 use crate::subsurface::Dipole;
 use crate::subsurface::factor::{BLOCK_LEVEL, BlockReceiver, ClusterId, FactorError, Factors, SurfaceMoments};
+
+/// The largest number of factors: 1 GiB of them.
+pub const MAX_FACTORS: usize = 1 << 28;
 
 /// Rows of texels that are computed together.
 const BAND: usize = 1 << BLOCK_LEVEL;
@@ -134,6 +137,38 @@ impl LinkBands {
     pub fn append(&mut self, next: Self) {
         self.clusters.extend(next.clusters);
         self.factors.extend(next.factors);
+    }
+}
+
+/// A cluster in 32 bits: level, row, column, of 4, 14 and 14 bits. Atlases have at most 8192 texels along a side.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct PackedCluster(u32);
+
+impl PackedCluster {
+    fn new(ClusterId { level, y, x }: ClusterId) -> Self {
+        Self(level << 28 | y << 14 | x)
+    }
+
+    pub(super) fn id(self) -> ClusterId {
+        ClusterId { level: self.0 >> 28, y: self.0 >> 14 & 0x3fff, x: self.0 & 0x3fff }
+    }
+}
+
+/// The number of links per texel of a choice.
+pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Result<usize, FactorError> {
+    let side = surface.side();
+    match choice {
+        LinkChoice::Fixed { level } if level >= surface.level_count() => {
+            return Err(FactorError::Level { found: level, levels: surface.level_count() });
+        }
+        LinkChoice::Adaptive { count: 0 } => return Err(FactorError::NoLinks),
+        LinkChoice::Fixed { .. } | LinkChoice::Adaptive { .. } => {}
+    }
+    let links = choice.per_texel(side) as usize;
+    let texels = side as usize * side as usize;
+    match texels.checked_mul(links).and_then(|all| all.checked_mul(channels)) {
+        Some(all) if all <= MAX_FACTORS => Ok(links),
+        _ => Err(FactorError::TooMany { side, links, channels, limit: MAX_FACTORS }),
     }
 }
 

@@ -11,13 +11,11 @@ mod encode;
 mod fitness;
 mod gather;
 
-use serde::{Deserialize, Serialize};
-
 use super::Dipole;
 use super::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
-use bands::fixed_clusters;
+use bands::{PackedCluster, check, fixed_clusters};
 
-pub use bands::LinkBands;
+pub use bands::{LinkBands, MAX_FACTORS};
 pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
 pub use fitness::Fitness;
@@ -25,9 +23,6 @@ pub use gather::{IrradianceMeans, MeanWeighting};
 
 /// The channel whose coefficients make scalar factors: green. One dipole's factors, unlike a mean of three.
 pub const SCALAR_CHANNEL: usize = 1;
-/// The largest number of factors: 1 GiB of them.
-pub const MAX_FACTORS: usize = 1 << 28;
-
 /// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the mean
 /// irradiance of the cluster, weighted by area. Factors are rounded to f32 once.
 #[derive(Clone, Debug, PartialEq)]
@@ -148,37 +143,5 @@ impl Links {
             LinkChoice::Fixed { .. } => self.clusters.iter().map(|cluster| cluster.id()).collect(),
             LinkChoice::Adaptive { .. } => Vec::new(),
         }
-    }
-}
-
-/// A cluster in 32 bits: level, row, column, of 4, 14 and 14 bits. Atlases have at most 8192 texels along a side.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct PackedCluster(u32);
-
-impl PackedCluster {
-    fn new(ClusterId { level, y, x }: ClusterId) -> Self {
-        Self(level << 28 | y << 14 | x)
-    }
-
-    fn id(self) -> ClusterId {
-        ClusterId { level: self.0 >> 28, y: self.0 >> 14 & 0x3fff, x: self.0 & 0x3fff }
-    }
-}
-
-/// The number of links per texel of a choice.
-fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Result<usize, FactorError> {
-    let side = surface.side();
-    match choice {
-        LinkChoice::Fixed { level } if level >= surface.level_count() => {
-            return Err(FactorError::Level { found: level, levels: surface.level_count() });
-        }
-        LinkChoice::Adaptive { count: 0 } => return Err(FactorError::NoLinks),
-        LinkChoice::Fixed { .. } | LinkChoice::Adaptive { .. } => {}
-    }
-    let links = choice.per_texel(side) as usize;
-    let texels = side as usize * side as usize;
-    match texels.checked_mul(links).and_then(|all| all.checked_mul(channels)) {
-        Some(all) if all <= MAX_FACTORS => Ok(links),
-        _ => Err(FactorError::TooMany { side, links, channels, limit: MAX_FACTORS }),
     }
 }

@@ -69,7 +69,7 @@ impl ResultSampler {
         Ok(Arc::new(Self { programs, rounded, found: Mutex::new(found) }))
     }
 
-    /// What was found.
+    /// Results found.
     pub(super) fn results(&self) -> SampledResults {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
     }

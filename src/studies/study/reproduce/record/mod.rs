@@ -42,10 +42,12 @@ pub(super) const RECORDS: &[(&str, &str)] = records![
     "cpca-figure-8",
     "cpca-figure-9",
     "cpca-figure-10",
+    "cpca-figure-11",
     "cpca-coherence",
     "bi-scale-figure-8",
     "bi-scale-figure-6",
     "bi-scale-table-1",
+    "bi-scale-figures",
 ];
 
 /// Returns the record of an entry that the program contains.

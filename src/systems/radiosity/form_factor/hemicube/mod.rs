@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
-use super::{FormFactorError, FormFactorRows, FormFactors};
+use super::FormFactorError;
 use crate::linalg::Matrix;
 use crate::radiosity::draw::{DrawError, patch_of};
 use crate::radiosity::{Patch, Patches};
@@ -59,27 +59,6 @@ impl Default for Hemicube {
     /// 64 pixels on nv35.
     fn default() -> Self {
         Self::new(64)
-    }
-}
-
-impl FormFactors {
-    /// Computes form factors by hemicubes at the centres of the patches, or of their largest open parts; where a centre
-    /// sees nothing, at the first of nine points that does. Occluders hide what is behind them, from either side; backs
-    /// receive no light. `done` is called with the number of patches done and of all patches.
-    ///
-    /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
-    /// [`FormFactors::enforce_reciprocity`].
-    ///
-    /// # Errors
-    /// [`FormFactorError`] for too many patches, a resolution that the card does not have, or a card without fragment
-    /// programs.
-    pub fn hemicube(
-        patches: &Patches,
-        hemicube: &Hemicube,
-        executor: &Executor,
-        done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, FormFactorError> {
-        FormFactorRows::hemicube(patches, hemicube, executor, &|_| true, done)?.complete(patches)
     }
 }
 
