@@ -76,7 +76,36 @@ pub enum Computed<T> {
     Part(WrittenPart),
 }
 
+impl<T> Computed<T> {
+    /// Goes on with the results of all items.
+    ///
+    /// # Errors
+    /// Those of `then`.
+    pub fn and_then<U, E>(self, then: impl FnOnce(T) -> Result<U, E>) -> Result<Computed<U>, E> {
+        match self {
+            Self::Whole(results) => then(results).map(Computed::Whole),
+            Self::Part(written) => Ok(Computed::Part(written)),
+        }
+    }
+}
+
 impl SplitRun {
+    /// [`Self::compute`] for commands that compute items as they need them: `None` in an ordinary run.
+    ///
+    /// # Errors
+    /// As [`Self::compute`].
+    pub fn known<T: Concatenate, E: From<PartError>>(
+        &self,
+        items: &'static str,
+        count: usize,
+        compute: impl FnOnce(Range<usize>) -> Result<T, E>,
+    ) -> Result<Computed<Option<T>>, E> {
+        match self {
+            Self::Whole => Ok(Computed::Whole(None)),
+            _ => self.compute(items, count, compute)?.and_then(|known| Ok(Some(known))),
+        }
+    }
+
     /// True if a part is computed, and the command's own results are not.
     pub fn is_part(&self) -> bool {
         matches!(self, Self::Part { .. })

@@ -212,12 +212,8 @@ impl Study for Parameters {
     ) -> Result<Computed<Findings>, StudyError> {
         let aimed = aimed(self);
         let of_range = |range| Ok::<_, StudyError>(of_range(self, &aimed, range, progress)?);
-        match split.compute("configurations", self.configurations.len(), of_range)? {
-            Computed::Part(part) => Ok(Computed::Part(part)),
-            Computed::Whole(found) => {
-                Ok(Computed::Whole(report::findings(self, judged(self, aimed, found, progress)?)?))
-            }
-        }
+        let found = split.compute("configurations", self.configurations.len(), of_range)?;
+        found.and_then(|found| Ok(report::findings(self, judged(self, aimed, found, progress)?)?))
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {

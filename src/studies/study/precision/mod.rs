@@ -56,18 +56,12 @@ impl Study for Precision {
         split: &SplitRun,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Computed<Findings>, StudyError> {
-        if matches!(split, SplitRun::Whole) {
-            return self.findings(progress).map(Computed::Whole);
-        }
         let goal = self.goal()?;
         let of_range = |range| self.runs_of(range, &mut self.runs(&goal, &KnownRuns::default(), progress)?);
-        match split.compute("searches", self.searches(), of_range)? {
-            Computed::Part(written) => Ok(Computed::Part(written)),
-            Computed::Whole(made) => {
-                let known = self.known.clone().with_parts(made.known);
-                self.findings_with(&known, progress).map(Computed::Whole)
-            }
-        }
+        split.known("searches", self.searches(), of_range)?.and_then(|made| match made {
+            Some(made) => self.findings_with(&self.known.clone().with_parts(made.known), progress),
+            None => self.findings(progress),
+        })
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {

@@ -70,10 +70,7 @@ impl Study for Parameters {
         split: &SplitRun,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Computed<Findings>, StudyError> {
-        Ok(match run_split(self, split, progress)? {
-            Computed::Whole(outcome) => Computed::Whole(report::findings(self, outcome)?),
-            Computed::Part(written) => Computed::Part(written),
-        })
+        run_split(self, split, progress)?.and_then(|outcome| report::findings(self, outcome))
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -113,12 +110,9 @@ fn run_split(
         Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
     }
     let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
-    let known = match split {
-        SplitRun::Whole => None,
-        _ => match split::compute(split, &patches, parameters, progress)? {
-            Computed::Whole(items) => Some(items),
-            Computed::Part(written) => return Ok(Computed::Part(written)),
-        },
+    let known = match split::known(split, &patches, parameters, progress)? {
+        Computed::Whole(known) => known,
+        Computed::Part(written) => return Ok(Computed::Part(written)),
     };
     let room = match &known {
         Some(known) => room::complete(known.rows(&patches, parameters, progress)?, &patches, parameters)?,

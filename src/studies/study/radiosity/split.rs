@@ -38,16 +38,16 @@ impl Concatenate for RadiosityItems {
 }
 
 /// Computes a part, or takes the results of parts.
-pub(super) fn compute(
+pub(super) fn known(
     split: &SplitRun,
     patches: &Patches,
     parameters: &Parameters,
     progress: &mut ProgressFn<'_>,
-) -> Result<Computed<RadiosityItems>, StudyError> {
+) -> Result<Computed<Option<RadiosityItems>>, StudyError> {
     let sweep = Sweep::new(parameters)?;
     let (pairs, settings) = (patches.list().len().div_ceil(2), sweep.count());
     let items = pairs.max(settings);
-    split.compute("shares of rows and settings", items, |range| {
+    split.known("shares of rows and settings", items, |range| {
         let share = |count: usize| range.start * count / items.max(1)..range.end * count / items.max(1);
         let sweep = sweep.runs(share(settings), progress)?;
         let pairs = self::pairs(share(pairs), patches, parameters, progress)?;

@@ -50,10 +50,7 @@ impl Study for Parameters {
         split: &SplitRun,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Computed<Findings>, StudyError> {
-        Ok(match run_split(self, split, progress)? {
-            Computed::Whole(outcome) => Computed::Whole(report::findings(self, &outcome)?),
-            Computed::Part(written) => Computed::Part(written),
-        })
+        run_split(self, split, progress)?.and_then(|outcome| report::findings(self, &outcome))
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -117,14 +114,11 @@ fn run_split(
         irradiance: &irradiance,
         truth: None,
     };
-    let mut known = None;
-    if !matches!(split, SplitRun::Whole) {
-        let of_range = |range| GatheredBands::new(&scene, range, progress);
-        match split.compute("bands of texels", LinkBands::count(parameters.side), of_range)? {
-            Computed::Whole(all) => known = Some(all),
-            Computed::Part(written) => return Ok(Computed::Part(written)),
-        }
-    }
+    let of_range = |range| GatheredBands::new(&scene, range, progress);
+    let mut known = match split.known("bands of texels", LinkBands::count(parameters.side), of_range)? {
+        Computed::Whole(known) => known,
+        Computed::Part(written) => return Ok(Computed::Part(written)),
+    };
     let truth = if parameters.reference {
         let rows = match &mut known {
             Some(known) => std::mem::take(&mut known.all_pairs),
