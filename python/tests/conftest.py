@@ -1,8 +1,12 @@
 """Tests run at the root of the repository, where the case files are."""
 
+import signal
 from pathlib import Path
 
 import pytest
+
+# A shell may have begun its background processes without the signal.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 ROOT = Path(__file__).resolve().parents[2]
 
