@@ -3,7 +3,7 @@
 //! - unoccluded: Gauss quadrature far away, a contour integral near by, both in f64;
 //! - with visibility: the unoccluded factor times the weighted fraction of unoccluded sample rays;
 //! - by hemicubes that a card draws ([`FormFactors::hemicube`]);
-//! - of the open parts of patches ([`Patches::open_parts`]), those that no solid stands on;
+//! - of the open parts of patches ([`Patches::open_parts`](super::Patches::open_parts)), those that no solid stands on;
 //! - for rectangles in closed form ([`rectangles`]), from a point in closed form ([`point_to_polygon`]);
 //! - checked, and enforced on request: reciprocity, and closure (rows of a closed room sum to 1).
 
@@ -70,7 +70,7 @@ impl FormFactors {
         self.areas.is_empty()
     }
 
-    /// Areas of the patches: of their open parts, see [`Patches::areas`].
+    /// Areas of the patches: of their open parts, see [`Patches::areas`](super::Patches::areas).
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
