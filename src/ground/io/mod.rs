@@ -60,8 +60,14 @@ const MAX_DEVICE_BYTES: u64 = 1 << 20;
 /// The bytes of a file, up to one more than `limit`, by which the reader notices that it is longer. A device with more
 /// than [`MAX_DEVICE_BYTES`] is an error.
 pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
-    let file = File::open(path)?;
+    let opened = open_unnoted(path, limit)?;
     inputs::note(path);
+    Ok(opened)
+}
+
+/// [`open_limited`] of a file that is no input.
+fn open_unnoted(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
+    let file = File::open(path)?;
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
     let left = if is_device { MAX_DEVICE_BYTES } else { u64::MAX };
     Ok(Bounded { file, left }.take(limit.saturating_add(1)))
@@ -99,8 +105,17 @@ fn is_device(_: &std::fs::FileType) -> bool {
 
 /// The contents of a file of at most `limit` bytes, or `None` if it is longer.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    contents(open_limited(path, limit)?, limit)
+}
+
+/// [`read_limited`] of what an earlier run has kept, which decides no result and is none of the [inputs](files_read).
+pub fn read_kept(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    contents(open_unnoted(path, limit)?, limit)
+}
+
+fn contents(mut opened: io::Take<Bounded>, limit: u64) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
-    open_limited(path, limit)?.read_to_end(&mut bytes)?;
+    opened.read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= limit).then_some(bytes))
 }
 

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -11,6 +9,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::bits::Assignment;
 use super::subject::{PrecisionSubject, WorstPlace};
+use crate::io::read_kept;
 use crate::report::sha256;
 
 /// Name of the file in the study's folder.
@@ -46,13 +45,8 @@ impl KnownRuns {
     /// Reads the runs of the study that was written to a folder. Without any, or where the file was damaged, none are
     /// known.
     pub fn of_folder(folder: &Path) -> Self {
-        // Not by `io`, which notes inputs: these change nothing that is found.
-        let mut bytes = Vec::new();
-        let read = File::open(folder.join(FILE)).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
-        match read {
-            Ok(_) if bytes.len() as u64 <= MAX_BYTES => serde_json::from_slice(&bytes).unwrap_or_default(),
-            _ => Self::default(),
-        }
+        let bytes = read_kept(&folder.join(FILE), MAX_BYTES).ok().flatten().unwrap_or_default();
+        serde_json::from_slice(&bytes).unwrap_or_default()
     }
 
     /// These runs if they are of this subject and this measure, or none.
