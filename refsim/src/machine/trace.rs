@@ -106,15 +106,23 @@ impl Machine {
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
     }
 
+    /// Width and height of a call's targets, or of its depth buffer if it has no others; 0 without any.
+    ///
+    /// # Errors
+    /// If a handle is dead.
+    pub fn target_size(&self, call: &DrawCall<'_>) -> Result<[u32; 2], MachineError> {
+        match (call.targets.first(), call.depth_buffer) {
+            (Some(&id), _) => self.memory.texture(id).map(|image| [image.width(), image.height()]),
+            (None, Some(id)) => self.memory.depth(id).map(|surface| [surface.width(), surface.height()]),
+            (None, None) => Ok([0; 2]),
+        }
+    }
+
     pub(super) fn start(&self, call: &DrawCall<'_>, (x, y): (u32, u32)) -> Result<TracedPixel, MachineError> {
         let tile = load(&self.memory, call, Region { x, y, width: 1, height: 1 })?;
         if tile.index(x, y).is_none() {
-            let size = match (call.targets.first(), call.depth_buffer) {
-                (Some(&id), _) => self.memory.texture(id).map(|image| (image.width(), image.height()))?,
-                (None, Some(id)) => self.memory.depth(id).map(|surface| (surface.width(), surface.height()))?,
-                (None, None) => (0, 0),
-            };
-            return Err(MachineError::NoSuchPixel { x, y, width: size.0, height: size.1 });
+            let [width, height] = self.target_size(call)?;
+            return Err(MachineError::NoSuchPixel { x, y, width, height });
         }
         Ok(TracedPixel { tile, fragments: Vec::new() })
     }

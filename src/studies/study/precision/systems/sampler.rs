@@ -33,7 +33,6 @@ pub(super) struct ResultSampler {
 #[derive(Debug)]
 struct RoundedProgram {
     rounded: RoundedInstruction,
-    device: Profile,
     checked: CheckedProgram,
 }
 
@@ -55,9 +54,8 @@ impl ResultSampler {
         let list = programs.list();
         let of = |rounded: &RoundedInstruction| {
             let StudiedProgram { program, text } = list[rounded.program];
-            let device = with_rounded(exact, program, *rounded);
-            let checked = text.check(program.clone(), &device)?;
-            Ok(RoundedProgram { rounded: *rounded, device, checked })
+            let checked = text.check(program.clone(), &with_rounded(exact, program, *rounded))?;
+            Ok(RoundedProgram { rounded: *rounded, checked })
         };
         let rounded: Vec<_> = rounded.iter().map(of).collect::<Result<_, StudyError>>()?;
         let results = SampledResults {
@@ -86,19 +84,19 @@ impl DrawWatcher for ResultSampler {
         if number > 0 && !number.is_power_of_two() {
             return Ok(());
         }
-        let program = &self.programs[index];
-        let sample = Sample::new(machine, call)?;
-        let exact = sample.trace(machine, call)?;
+        // Formats of instructions are none of the registers', in which results are.
+        let (profile, program) = (machine.profile(), &self.programs[index]);
+        let (sample, exact) = Sample::new(machine, call)?;
         let first = found.fragments[index];
         found.fragments[index] += exact.len() as u32;
-        for (instruction, results) in first_results(machine.profile(), program, (first, &exact), |_| true) {
+        for (instruction, results) in first_results(profile, program, (first, &exact), |_| true) {
             found.results.exact[index].entry(instruction).or_default().extend(results);
         }
         for (at, own) in self.rounded.iter().enumerate().filter(|(_, own)| own.rounded.program == index) {
             let instruction = own.rounded.instruction;
             let call = DrawCall { pixel_program: &own.checked, ..call.clone() };
             let traced = sample.trace(machine, &call)?;
-            let results = first_results(&own.device, program, (first, &traced), |at| at == instruction);
+            let results = first_results(profile, program, (first, &traced), |at| at == instruction);
             found.results.rounded[at].extend(results.into_values().flatten());
         }
         Ok(())
@@ -115,32 +113,36 @@ struct Sample {
 
 impl Sample {
     /// Traces pixels all over the target until there are enough fragments, or no pixels left, and keeps evenly spread
-    /// ones. Which ones does not depend on formats: a fragment is traced where its triangle covers the pixel.
-    fn new(machine: &Machine, call: &DrawCall<'_>) -> Result<Self, MachineError> {
-        let [width, height] = target_size(machine, call)?;
+    /// ones, which are returned too. Which ones does not depend on formats: a fragment is traced where its triangle
+    /// covers the pixel.
+    fn new(machine: &Machine, call: &DrawCall<'_>) -> Result<(Self, Vec<FragmentTrace>), MachineError> {
+        let [width, height] = machine.target_size(call)?;
         let mut order = spread(width * height).map(|at| (at % width, at / width)).peekable();
-        let (mut pixels, mut counts) = (Vec::new(), Vec::new());
-        while order.peek().is_some() && (pixels.len() < PIXELS || counts.iter().sum::<usize>() < KEPT) {
+        let (mut pixels, mut traced) = (Vec::new(), Vec::new());
+        while order.peek().is_some() && (pixels.len() < PIXELS || traced.iter().map(Vec::len).sum::<usize>() < KEPT) {
             // As many again, as each call sets up all triangles.
             let more: Vec<_> = order.by_ref().take(pixels.len().max(PIXELS)).collect();
-            counts.extend(machine.trace_pixels(call, &more)?.iter().map(Vec::len));
+            traced.extend(machine.trace_pixels(call, &more)?);
             pixels.extend(more);
         }
-        let step = counts.iter().sum::<usize>().div_ceil(KEPT).max(1);
-        let mut sample = Self { pixels: Vec::new(), kept: Vec::new() };
-        // Numbers of fragments, of all and of those of pixels of the sample.
-        let (mut first, mut first_of_sample) = (0, 0);
-        for (pixel, count) in pixels.into_iter().zip(counts) {
-            let before = sample.kept.len();
-            let own = (first..first + count).filter(|number| number.is_multiple_of(step));
-            sample.kept.extend(own.map(|number| number - first + first_of_sample));
-            first += count;
-            if sample.kept.len() > before {
+        let step = traced.iter().map(Vec::len).sum::<usize>().div_ceil(KEPT).max(1);
+        let (mut sample, mut exact) = (Self { pixels: Vec::new(), kept: Vec::new() }, Vec::new());
+        // Numbers of the next fragment, among all and among those of pixels of the sample.
+        let (mut next, mut next_of_sample) = (0, 0);
+        for (pixel, fragments) in pixels.into_iter().zip(traced) {
+            let (first, count, before) = (next, fragments.len(), exact.len());
+            for (at, fragment) in fragments.into_iter().enumerate().filter(|(at, _)| (first + *at).is_multiple_of(step))
+            {
+                sample.kept.push(next_of_sample + at);
+                exact.push(fragment);
+            }
+            next += count;
+            if exact.len() > before {
                 sample.pixels.push(pixel);
-                first_of_sample += count;
+                next_of_sample += count;
             }
         }
-        Ok(sample)
+        Ok((sample, exact))
     }
 
     /// Traces the fragments.
@@ -149,16 +151,6 @@ impl Sample {
         let all = machine.trace_pixels(call, &self.pixels)?.into_iter().flatten().enumerate();
         Ok(all.filter(|(at, _)| kept.next_if_eq(&at).is_some()).map(|(_, fragment)| fragment).collect())
     }
-}
-
-/// Width and height of a call's targets.
-fn target_size(machine: &Machine, call: &DrawCall<'_>) -> Result<[u32; 2], MachineError> {
-    if let Some(&target) = call.targets.first() {
-        let image = machine.read_back(target)?;
-        return Ok([image.width(), image.height()]);
-    }
-    let depth = call.depth_buffer.map(|id| machine.read_depth(id)).transpose()?;
-    Ok(depth.map_or([0; 2], |surface| [surface.width(), surface.height()]))
 }
 
 /// Numbers below `count`, each once, in an order whose beginnings are spread over all of them: steps of the golden

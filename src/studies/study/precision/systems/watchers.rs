@@ -62,10 +62,7 @@ impl DrawWatcher for FollowedPixel {
         let digest = call.pixel_program.digest();
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         let is_wanted = match self.draws {
-            FollowedDraws::IntoTargets(size) => {
-                let target = call.targets.first().map(|&target| machine.read_back(target)).transpose()?;
-                target.is_some_and(|image| [image.width(), image.height()] == size)
-            }
+            FollowedDraws::IntoTargets(size) => !call.targets.is_empty() && machine.target_size(call)? == size,
             FollowedDraws::Draw(program, number) => {
                 let is_of_program = program == digest;
                 found.draws += usize::from(is_of_program);
