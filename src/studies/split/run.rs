@@ -87,6 +87,17 @@ impl<T> Computed<T> {
             Self::Part(written) => Ok(Computed::Part(written)),
         }
     }
+
+    /// Results of an ordinary run or of a merge.
+    ///
+    /// # Panics
+    /// If a part was computed.
+    pub fn whole(self) -> T {
+        match self {
+            Self::Whole(results) => results,
+            Self::Part(written) => panic!("expected a run as a whole, found part {}", written.part),
+        }
+    }
 }
 
 impl SplitRun {

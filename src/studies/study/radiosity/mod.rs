@@ -62,7 +62,7 @@ pub fn no_atlas(error: AtlasError) -> StudyError {
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        report::findings(self, run(self, progress)?)
+        report::findings(self, run(self, &SplitRun::Whole, progress)?.whole())
     }
 
     fn findings_split(
@@ -70,7 +70,7 @@ impl Study for Parameters {
         split: &SplitRun,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Computed<Findings>, StudyError> {
-        run_split(self, split, progress)?.and_then(|outcome| report::findings(self, outcome))
+        run(self, split, progress)?.and_then(|outcome| report::findings(self, outcome))
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -83,16 +83,8 @@ impl Study for Parameters {
     }
 }
 
-/// Solves by every method, draws the pictures, and runs the sweep.
-pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, StudyError> {
-    match run_split(parameters, &SplitRun::Whole, progress)? {
-        Computed::Whole(outcome) => Ok(outcome),
-        Computed::Part(_) => unreachable!("a whole run"),
-    }
-}
-
-/// The same as a whole, in part, or out of parts.
-fn run_split(
+/// Solves by every method, draws the pictures, and runs the sweep: as a whole, in part, or out of parts.
+fn run(
     parameters: &Parameters,
     split: &SplitRun,
     progress: &mut ProgressFn<'_>,
@@ -110,12 +102,13 @@ fn run_split(
         Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
     }
     let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
-    let known = match split::known(split, &patches, parameters, progress)? {
+    let sweep = Sweep::new(parameters)?;
+    let known = match split::known(split, &patches, &sweep, progress)? {
         Computed::Whole(known) => known,
         Computed::Part(written) => return Ok(Computed::Part(written)),
     };
     let room = match &known {
-        Some(known) => room::complete(known.rows(&patches, parameters, progress)?, &patches, parameters)?,
+        Some(known) => room::complete(known.form_factor_rows(&patches, parameters, progress)?, &patches, parameters)?,
         None => room::find(&patches, parameters, progress)?,
     };
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
@@ -151,7 +144,6 @@ fn run_split(
         rows.push(row(one, &system, reference.as_deref(), &mut studio, parameters)?);
     }
     drop(studio);
-    let sweep = Sweep::new(parameters)?;
     let runs = match known {
         Some(known) => known.sweep,
         None => sweep.runs(0..sweep.count(), progress)?,

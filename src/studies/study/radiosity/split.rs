@@ -19,8 +19,8 @@ use crate::study::StudyError;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct RadiosityItems {
     items: usize,
-    /// Both rows of each pair; the middle one of an odd number is paired with an empty one.
-    pairs: Vec<[Vec<f64>; 2]>,
+    /// Pair by pair.
+    rows: Vec<Vec<f64>>,
     /// By setting, then by number of patches.
     pub(super) sweep: Vec<Vec<SweepRun>>,
 }
@@ -32,7 +32,7 @@ impl Concatenate for RadiosityItems {
 
     fn append(&mut self, next: Self) {
         self.items += next.items;
-        self.pairs.extend(next.pairs);
+        self.rows.extend(next.rows);
         self.sweep.extend(next.sweep);
     }
 }
@@ -41,48 +41,42 @@ impl Concatenate for RadiosityItems {
 pub(super) fn known(
     split: &SplitRun,
     patches: &Patches,
-    parameters: &Parameters,
+    sweep: &Sweep<'_>,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Computed<Option<RadiosityItems>>, StudyError> {
-    let sweep = Sweep::new(parameters)?;
     let (pairs, settings) = (patches.list().len().div_ceil(2), sweep.count());
     let items = pairs.max(settings);
     split.known("shares of rows and settings", items, |range| {
         let share = |count: usize| range.start * count / items.max(1)..range.end * count / items.max(1);
-        let sweep = sweep.runs(share(settings), progress)?;
-        let pairs = self::pairs(share(pairs), patches, parameters, progress)?;
-        Ok(RadiosityItems { items: range.len(), pairs, sweep })
+        let sweep_runs = sweep.runs(share(settings), progress)?;
+        let rows = rows_of_pairs(share(pairs), patches, sweep.parameters, progress)?;
+        Ok(RadiosityItems { items: range.len(), rows, sweep: sweep_runs })
     })
 }
 
-/// Both patches of a pair.
-fn patches_of(pair: usize, count: usize) -> [usize; 2] {
-    [pair, count - 1 - pair]
+/// Patches of pairs; the middle one of an odd number is alone.
+fn patches_of(pairs: Range<usize>, count: usize) -> impl Iterator<Item = usize> {
+    pairs.flat_map(move |pair| {
+        let last = count - 1 - pair;
+        [Some(pair), (last != pair).then_some(last)].into_iter().flatten()
+    })
 }
 
-fn pairs(
-    range: Range<usize>,
+fn rows_of_pairs(
+    pairs: Range<usize>,
     patches: &Patches,
     parameters: &Parameters,
     progress: &mut ProgressFn<'_>,
-) -> Result<Vec<[Vec<f64>; 2]>, StudyError> {
-    if range.is_empty() {
-        return Ok(Vec::new());
-    }
+) -> Result<Vec<Vec<f64>>, StudyError> {
     let count = patches.list().len();
-    let is_wanted = |patch: usize| range.contains(&patch.min(count - 1 - patch));
+    let is_wanted = |patch: usize| pairs.contains(&patch.min(count - 1 - patch));
     let rows = room::rows(patches, parameters, &is_wanted, progress)?;
-    let of_pair = |pair| {
-        let [first, last] = patches_of(pair, count);
-        let second = if first == last { Vec::new() } else { rows.row(last).to_vec() };
-        [rows.row(first).to_vec(), second]
-    };
-    Ok(range.clone().map(of_pair).collect())
+    Ok(patches_of(pairs.clone(), count).map(|patch| rows.row(patch).to_vec()).collect())
 }
 
 impl RadiosityItems {
     /// Rows of all patches.
-    pub(super) fn rows(
+    pub(super) fn form_factor_rows(
         &self,
         patches: &Patches,
         parameters: &Parameters,
@@ -90,12 +84,8 @@ impl RadiosityItems {
     ) -> Result<FormFactorRows, StudyError> {
         let mut rows = room::rows(patches, parameters, &|_| false, progress)?;
         let count = patches.list().len();
-        for (pair, values) in self.pairs.iter().enumerate() {
-            let [first, last] = patches_of(pair, count);
-            rows.set_row(first, &values[0])?;
-            if first != last {
-                rows.set_row(last, &values[1])?;
-            }
+        for (patch, values) in patches_of(0..count.div_ceil(2), count).zip(&self.rows) {
+            rows.set_row(patch, values)?;
         }
         Ok(rows)
     }

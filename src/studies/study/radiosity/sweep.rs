@@ -52,7 +52,7 @@ pub(super) struct SweepRun {
 
 /// Sweep over numbers of patches, for each setting of the card: a method with the value of a switch.
 pub(super) struct Sweep<'a> {
-    parameters: &'a Parameters,
+    pub(super) parameters: &'a Parameters,
     /// By method, then by value.
     settings: Vec<(CardMethod, Configuration)>,
     /// Number of values of a method.

@@ -32,7 +32,7 @@ impl GatheredBands {
         if scene.parameters.reference {
             found.all_pairs = scene.all_pairs().rows(&(range.start * rows..range.end * rows), progress)?;
         }
-        for way in ways_with_links(scene.parameters) {
+        for way in scene.parameters.ways_with_links() {
             found.links.push(way::link_bands(scene, way, range.clone(), progress)?);
         }
         Ok(found)
@@ -40,16 +40,9 @@ impl GatheredBands {
 
     /// The bands of a way's links; `None` if there are none.
     pub(super) fn links(&self, parameters: &Parameters, way: GatherWay) -> Option<&LinkBands> {
-        let mut all = ways_with_links(parameters).zip(&self.links);
+        let mut all = parameters.ways_with_links().zip(&self.links);
         all.find(|(other, _)| other.has_links_of(&way)).map(|(_, links)| links)
     }
-}
-
-/// The ways whose links are not those of an earlier one.
-fn ways_with_links(parameters: &Parameters) -> impl Iterator<Item = GatherWay> + '_ {
-    let ways = &parameters.ways;
-    let is_first = |(at, way): &(usize, &GatherWay)| !ways[..*at].iter().any(|other| other.has_links_of(way));
-    ways.iter().enumerate().filter(is_first).map(|(_, way)| *way)
 }
 
 impl Concatenate for GatheredBands {

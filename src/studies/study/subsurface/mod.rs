@@ -42,7 +42,7 @@ pub use way::WayRow;
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        report::findings(self, &run(self, progress)?)
+        report::findings(self, &run(self, &SplitRun::Whole, progress)?.whole())
     }
 
     fn findings_split(
@@ -50,7 +50,7 @@ impl Study for Parameters {
         split: &SplitRun,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Computed<Findings>, StudyError> {
-        run_split(self, split, progress)?.and_then(|outcome| report::findings(self, &outcome))
+        run(self, split, progress)?.and_then(|outcome| report::findings(self, &outcome))
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -60,19 +60,12 @@ impl Study for Parameters {
     }
 }
 
-/// Builds the atlas, lights it, gathers over all pairs and by every way.
+/// Builds the atlas, lights it, gathers over all pairs and by every way: as a whole, in part, or out of parts of sums
+/// over all pairs and links, by bands of rows of texels.
 ///
 /// # Errors
 /// If the model, its medium or its light does not suit the study, or the card refuses the work.
-pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, StudyError> {
-    match run_split(parameters, &SplitRun::Whole, progress)? {
-        Computed::Whole(outcome) => Ok(outcome),
-        Computed::Part(_) => unreachable!("a whole run"),
-    }
-}
-
-/// The same as a whole, in part, or out of parts: of sums over all pairs and links, by bands of rows of texels.
-fn run_split(
+fn run(
     parameters: &Parameters,
     split: &SplitRun,
     progress: &mut ProgressFn<'_>,
@@ -139,12 +132,12 @@ fn run_split(
     for (at, &way) in parameters.ways.iter().enumerate() {
         let links = match last.take() {
             Some((other, links)) if other.has_links_of(&way) => links,
-            _ => {
-                let known = known.as_ref().and_then(|known| known.links(parameters, way).cloned());
-                way::links(&scene, way, known, progress)?
-            }
+            _ => match known.as_ref().and_then(|known| known.links(parameters, way)) {
+                Some(bands) => way::links_of(&scene, way, bands.clone())?,
+                None => way::links(&scene, way, progress)?,
+            },
         };
-        if parameters.link_table && !parameters.ways[..at].iter().any(|other| other.has_links_of(&way)) {
+        if parameters.link_table && parameters.has_new_links(at) {
             listed.extend(link_table::rows(&atlas, (parameters, way), &links, &probe_texels));
         }
         let row = way::run(&scene, way, (&links, at == 0), progress)?;

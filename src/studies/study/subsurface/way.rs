@@ -99,17 +99,13 @@ pub(super) fn link_bands(
     Ok(LinkBands::new(scene.surface, dipoles, way.choice, tolerance, range, &|_, _| {})?)
 }
 
-/// The links of a way, out of those that were computed before.
-pub(super) fn links(
-    scene: &Scene<'_>,
-    way: GatherWay,
-    known: Option<LinkBands>,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Links, StudyError> {
-    let bands = match known {
-        Some(bands) => bands,
-        None => link_bands(scene, way, 0..LinkBands::count(scene.parameters.side), progress)?,
-    };
+/// The links of a way.
+pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
+    links_of(scene, way, link_bands(scene, way, 0..LinkBands::count(scene.parameters.side), progress)?)
+}
+
+/// The links of a way out of those of all bands.
+pub(super) fn links_of(scene: &Scene<'_>, way: GatherWay, bands: LinkBands) -> Result<Links, StudyError> {
     Ok(Links::of_bands(scene.surface, link_dipoles(scene, way).len(), way.choice, bands)?)
 }
 

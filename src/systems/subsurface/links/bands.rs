@@ -68,12 +68,12 @@ impl LinkBands {
         let links = rows * side as usize * per_texel;
         let mut bands = Self { clusters: Vec::new(), factors: vec![0.0; links * N] };
         let progress = Progress { band: Self::rows(side), rows, done, count: AtomicUsize::new(0) };
-        match fixed_clusters(side, choice) {
-            Some(clusters) => bands.fill_fixed(factors, &clusters, range.start, &progress),
-            None => {
+        match choice {
+            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level, range.start, &progress),
+            LinkChoice::Adaptive { count } => {
                 // A link that is not used has the factor 0; it points to the root.
                 bands.clusters = vec![PackedCluster::new(root(factors.surface())); links];
-                bands.fill_adaptive(factors, per_texel, choice, range.start, &progress);
+                bands.fill_adaptive(factors, [per_texel, count], range.start, &progress);
             }
         }
         Ok(bands)
@@ -82,12 +82,13 @@ impl LinkBands {
     fn fill_fixed<const N: usize>(
         &mut self,
         factors: &Factors<'_, N>,
-        clusters: &[PackedCluster],
+        level: u32,
         first: usize,
         progress: &Progress<'_>,
     ) {
-        let (side, per_texel) = (factors.surface().side(), clusters.len());
-        let ids: Vec<ClusterId> = clusters.iter().map(|cluster| cluster.id()).collect();
+        let side = factors.surface().side();
+        let ids: Vec<ClusterId> = fixed_clusters(side, level).collect();
+        let per_texel = ids.len();
         let bands = self.factors.par_chunks_mut(BAND * side as usize * per_texel * N);
         bands.enumerate().for_each(|(band, into)| {
             let mut block = BlockReceiver::new(factors.receiver());
@@ -106,12 +107,10 @@ impl LinkBands {
     fn fill_adaptive<const N: usize>(
         &mut self,
         factors: &Factors<'_, N>,
-        per_texel: usize,
-        choice: LinkChoice,
+        [per_texel, count]: [usize; 2],
         first: usize,
         progress: &Progress<'_>,
     ) {
-        let LinkChoice::Adaptive { count } = choice else { return };
         let (side, root) = (factors.surface().side(), root(factors.surface()));
         let bands = self.clusters.par_chunks_mut(BAND * side as usize * per_texel);
         let bands = bands.zip(self.factors.par_chunks_mut(BAND * side as usize * per_texel * N));
@@ -145,7 +144,7 @@ impl LinkBands {
 pub(super) struct PackedCluster(u32);
 
 impl PackedCluster {
-    fn new(ClusterId { level, y, x }: ClusterId) -> Self {
+    pub(super) fn new(ClusterId { level, y, x }: ClusterId) -> Self {
         Self(level << 28 | y << 14 | x)
     }
 
@@ -173,11 +172,9 @@ pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usiz
 }
 
 /// The clusters of fixed links, the same for each texel.
-pub(super) fn fixed_clusters(side: u32, choice: LinkChoice) -> Option<Vec<PackedCluster>> {
-    let LinkChoice::Fixed { level } = choice else { return None };
+pub(super) fn fixed_clusters(side: u32, level: u32) -> impl Iterator<Item = ClusterId> {
     let width = side >> level;
-    let ids = (0..width).flat_map(|y| (0..width).map(move |x| ClusterId { level, y, x }));
-    Some(ids.map(PackedCluster::new).collect())
+    (0..width).flat_map(move |y| (0..width).map(move |x| ClusterId { level, y, x }))
 }
 
 fn root(surface: &SurfaceMoments) -> ClusterId {

@@ -23,6 +23,7 @@ pub use gather::{IrradianceMeans, MeanWeighting};
 
 /// The channel whose coefficients make scalar factors: green. One dipole's factors, unlike a mean of three.
 pub const SCALAR_CHANNEL: usize = 1;
+
 /// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the mean
 /// irradiance of the cluster, weighted by area. Factors are rounded to f32 once.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,9 +82,9 @@ impl Links {
     ) -> Result<Self, FactorError> {
         let (side, per_texel) = (surface.side(), check(surface, choice, channels)?);
         let texels = side as usize * side as usize;
-        let fixed = fixed_clusters(side, choice);
-        let LinkBands { clusters, factors } = bands;
-        let expected = [if fixed.is_some() { 0 } else { texels * per_texel }, texels * per_texel * channels];
+        let LinkBands { mut clusters, factors } = bands;
+        let own = if matches!(choice, LinkChoice::Adaptive { .. }) { texels * per_texel } else { 0 };
+        let expected = [own, texels * per_texel * channels];
         for (found, texels) in [clusters.len(), factors.len()].into_iter().zip(expected) {
             if found != texels {
                 return Err(FactorError::Values { found, texels });
@@ -93,7 +94,9 @@ impl Links {
         if let Some(beyond) = clusters.iter().map(|cluster| cluster.id()).find(|id| !id.is_of(side, levels)) {
             return Err(FactorError::Level { found: beyond.level, levels });
         }
-        let clusters = fixed.unwrap_or(clusters);
+        if let LinkChoice::Fixed { level } = choice {
+            clusters = fixed_clusters(side, level).map(PackedCluster::new).collect();
+        }
         Ok(Self { side, choice, channels, per_texel, clusters, factors })
     }
 
