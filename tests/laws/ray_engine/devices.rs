@@ -74,9 +74,13 @@ fn executors() -> Vec<Executor> {
 
 type Run = (Vec<Option<(u32, u32)>>, EngineCounts, Vec<Event>);
 
+/// The short form has every third ray.
 #[test]
 fn executors_do_not_show() {
-    let (mesh, rays) = scene();
+    let (mesh, mut rays) = scene();
+    if std::env::var_os("CROSSBAR_FULL").is_none() {
+        rays = rays.into_iter().step_by(3).collect();
+    }
     for device in ["r200", "r300", "nv35", "ideal-fp32"] {
         let octree = OctreeParameters { most_triangles: 4, most_depth: 4 };
         let parameters = EngineParameters { octree, rays: 8, record: true, ..EngineParameters::default() };
