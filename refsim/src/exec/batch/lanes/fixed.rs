@@ -24,13 +24,13 @@ struct Shift {
 }
 
 impl Shift {
+    #[inline(always)]
     const fn new(rounding: u8, count: u32) -> Shift {
-        let half = if count == 0 { 0 } else { 1 << (count - 1) };
-        let some = if count == 0 { 0 } else { 1 };
-        let dropped = (1 << count) - 1;
+        let dropped = 1_i64.wrapping_shl(count).wrapping_sub(1);
+        let (half, some) = (dropped.wrapping_add(1) >> 1 & dropped, 1 & dropped);
         let (more, mask) = match rounding {
-            EVEN => (half - some, some),
-            AWAY => (half, -some),
+            EVEN => (half.wrapping_sub(some), some),
+            AWAY => (half, some.wrapping_neg()),
             ZERO => (0, dropped),
             UP => (dropped, 0),
             _ => (0, 0),
@@ -115,6 +115,9 @@ impl Beside {
 /// Up to 16 bits a product, and a product plus a shifted addend, fits an `i32`: both factors are at most 2^15, so
 /// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
 /// ones use `i64`, where the same holds with 2^62.
+///
+/// So no sum, product or shift here leaves its type. The common ones are written as wrapping operations all the same:
+/// where a build checks each for overflow, its loops are no vector code, and nine times slower.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     rounding: u8,
@@ -135,7 +138,8 @@ macro_rules! round_shift {
         #[inline(always)]
         fn $name(&self, v: $t, shift: &Shift) -> $t {
             let at = if shift.by_sign { $sign } else { shift.count };
-            (v + shift.more as $t + (v >> at & shift.mask as $t)) >> shift.count
+            let odd = v.wrapping_shr(at) & shift.mask as $t;
+            v.wrapping_add(shift.more as $t).wrapping_add(odd).wrapping_shr(shift.count)
         }
     };
 }
@@ -167,8 +171,8 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
     /// The low bits of the width, sign-extended.
     #[inline(always)]
     fn residue(&self, v: i32) -> i32 {
-        let spare = 32 - self.width;
-        v << spare >> spare
+        let spare = 32_u32.wrapping_sub(self.width);
+        v.wrapping_shl(spare).wrapping_shr(spare)
     }
 
     #[inline(always)]
@@ -230,14 +234,14 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         let clamped = if above < high { above } else { high };
         let near = (if WRAP { exact } else { clamped } + PIVOT).to_bits() as i32;
         // Positive where the exact quotient lies above the integer.
-        let rest = (n - near * d) * d.signum();
-        let (below, beyond) = (rest >> 31, -rest >> 31);
+        let rest = n.wrapping_sub(near.wrapping_mul(d)).wrapping_mul(d.signum());
+        let (below, beyond) = (rest >> 31, rest.wrapping_neg() >> 31);
         let positive = !((n ^ d) >> 31);
-        let tie = if 2 * rest.unsigned_abs() == d.unsigned_abs() { -1 } else { 0 };
+        let tie = if rest.unsigned_abs().wrapping_mul(2) == d.unsigned_abs() { -1 } else { 0 };
         let Beside { less, more, any } = self.beside;
         let down = below & (positive & less[0] | !positive & less[1]);
         let up = beyond & (positive & more[0] | !positive & more[1]);
-        self.fit32(near + ((down - up) & (tie | any)))
+        self.fit32(near.wrapping_add(down.wrapping_sub(up) & (tie | any)))
     }
 
     /// `magnitude / 2^guard` units, and a bit more if `sticky`, rounded and fitted; `guard` at least 2 with `sticky`.
@@ -265,7 +269,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
 
     #[inline(always)]
     fn encode(&self, x: i32) -> u32 {
-        x as u32 & (u32::MAX >> (32 - self.width))
+        x as u32 & u32::MAX.wrapping_shr(32_u32.wrapping_sub(self.width))
     }
 
     #[inline(always)]
@@ -297,20 +301,20 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
 
     #[inline(always)]
     fn add(&self, a: i32, b: i32) -> i32 {
-        if WIDE { self.fit64(i64::from(a) + i64::from(b)) } else { self.fit32(a + b) }
+        if WIDE { self.fit64(i64::from(a).wrapping_add(i64::from(b))) } else { self.fit32(a.wrapping_add(b)) }
     }
 
     #[inline(always)]
     fn sub(&self, a: i32, b: i32) -> i32 {
-        if WIDE { self.fit64(i64::from(a) - i64::from(b)) } else { self.fit32(a - b) }
+        if WIDE { self.fit64(i64::from(a).wrapping_sub(i64::from(b))) } else { self.fit32(a.wrapping_sub(b)) }
     }
 
     #[inline(always)]
     fn mul(&self, a: i32, b: i32) -> i32 {
         if WIDE {
-            self.fit64(self.round64(i64::from(a) * i64::from(b), &self.product))
+            self.fit64(self.round64(i64::from(a).wrapping_mul(i64::from(b)), &self.product))
         } else {
-            self.fit32(self.round32(a * b, &self.product))
+            self.fit32(self.round32(a.wrapping_mul(b), &self.product))
         }
     }
 
@@ -330,7 +334,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     /// The double rounds to nearest even as the quotient does ([`Self::quotient`]); there is nothing to correct.
     #[inline(always)]
     fn fused_div(&self, a: i32, b: i32) -> i32 {
-        let exact = f64::from(a << self.frac) / f64::from(b);
+        let exact = f64::from(a.wrapping_shl(self.frac)) / f64::from(b);
         let (low, high) = (f64::from(self.low), f64::from(self.high));
         let above = if exact > low { exact } else { low };
         let fitted = if above < high { above } else { high };
@@ -341,10 +345,11 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     #[inline(always)]
     fn fused_mad(&self, a: i32, b: i32, c: i32) -> i32 {
         if WIDE {
-            let sum = i64::from(a) * i64::from(b) + (i64::from(c) << self.frac);
-            self.fit64(self.round64(sum, &self.product))
+            let addend = i64::from(c).wrapping_shl(self.frac);
+            self.fit64(self.round64(i64::from(a).wrapping_mul(i64::from(b)).wrapping_add(addend), &self.product))
         } else {
-            self.fit32(self.round32(a * b + (c << self.frac), &self.product))
+            let sum = a.wrapping_mul(b).wrapping_add(c.wrapping_shl(self.frac));
+            self.fit32(self.round32(sum, &self.product))
         }
     }
 
@@ -359,7 +364,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         } else {
             let mut sum = 0i64;
             for k in 0..N {
-                sum += i64::from(a[k] * b[k]);
+                sum = sum.wrapping_add(i64::from(a[k].wrapping_mul(b[k])));
             }
             self.fit64(self.round64(sum, &self.product))
         }
@@ -368,7 +373,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     #[inline(always)]
     fn div(&self, a: i32, b: i32) -> i32 {
         if !WIDE {
-            let quotient = self.quotient(a << self.frac, b);
+            let quotient = self.quotient(a.wrapping_shl(self.frac), b);
             return if b == 0 { self.by_zero(a) } else { quotient };
         }
         if b == 0 {
@@ -466,11 +471,11 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     #[inline(always)]
     fn scale(&self, a: i32, shift: i32) -> i32 {
         if !WIDE && shift >= 0 {
-            self.fit32(a << shift)
+            self.fit32(a.wrapping_shl(shift.unsigned_abs()))
         } else if !WIDE {
             self.fit32(self.round32(a, &Shift::new(self.rounding, shift.unsigned_abs())))
         } else if shift >= 0 {
-            self.fit64(i64::from(a) << shift)
+            self.fit64(i64::from(a).wrapping_shl(shift.unsigned_abs()))
         } else {
             self.fit64(self.round64(i64::from(a), &Shift::new(self.rounding, shift.unsigned_abs())))
         }
