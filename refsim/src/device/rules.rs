@@ -224,8 +224,11 @@ impl ColorIterator {
 
 /// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal bits.
 ///
-/// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md has the table.
+/// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md has the table. Switches are
+/// added as cards are measured: outside this crate, rules are those of a [`Profile`](super::Profile), changed field by
+/// field.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Rules {
     /// Pixel registers and pixel arithmetic.
     pub format: Format,
