@@ -116,8 +116,8 @@ impl Beside {
 /// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
 /// ones use `i64`, where the same holds with 2^62.
 ///
-/// So no sum, product or shift here leaves its type. The common ones are written as wrapping operations all the same:
-/// where a build checks each for overflow, its loops are no vector code, and nine times slower.
+/// So no sum or product of numbers of the format leaves its type. The common operations are wrapping ones all the same:
+/// where a build checks each for overflow, its loops are no vector code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     rounding: u8,
@@ -138,8 +138,8 @@ macro_rules! round_shift {
         #[inline(always)]
         fn $name(&self, v: $t, shift: &Shift) -> $t {
             let at = if shift.by_sign { $sign } else { shift.count };
-            let odd = v.wrapping_shr(at) & shift.mask as $t;
-            v.wrapping_add(shift.more as $t).wrapping_add(odd).wrapping_shr(shift.count)
+            let correction = v.wrapping_shr(at) & shift.mask as $t;
+            v.wrapping_add(shift.more as $t).wrapping_add(correction).wrapping_shr(shift.count)
         }
     };
 }
