@@ -2,14 +2,17 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::LazyLock;
 use std::time::Instant;
 
 use super::memory::MemoryNeed;
 use super::study::{self, StudyArgs};
-use super::version::COMMIT;
+use super::version::{self, COMMIT};
 use super::{CommandLine, Out, Problem, ProgressBar};
 use crate::io::atomic::{FileSet, write_file};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
+use crate::split::{KeptResults, SpentTime, SplitCommand};
 use crate::study::reproduce::{ENTRIES, EntryRecord, ModelSize, Parameters, RecordMade, SmokeRun, choose, sized};
 
 const EXAMPLES: &str = "\
@@ -37,7 +40,7 @@ contains; what is quick of them is computed anew and held against the record. Th
 says which. Pictures, and rows without a record, are of reduced models: these are not judged.
 Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
 entries that are named. --record goes on: what it has recorded stays, unless it is of another
-program.
+program; so do the finished pieces of all-frequency-table-1, which takes hours, in FOLDER/ID.pieces.
 Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
@@ -151,25 +154,35 @@ fn kept(smoke: &SmokeRun, entry: &str, path: &Path) -> Result<EntryRecord, Strin
     }
 }
 
-/// Runs an entry at full size, and writes its record.
+/// Runs an entry at full size, and writes its record. What a run before it has finished is beside the record.
 fn made(smoke: &SmokeRun, entry: &str, path: &Path) -> miette::Result<EntryRecord> {
-    let (clock, processor) = (Instant::now(), processor_time());
-    let run = smoke.record()?;
+    let arguments = ["reproduce", entry, "--record"].map(str::to_owned).to_vec();
+    let command = SplitCommand { program: version::program()?, arguments };
+    let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), command, clock));
+    let run = smoke.record(Rc::clone(&kept))?;
+    let spent = kept.spent();
     let record = run.made_by(RecordMade {
         command: format!("crossbar reproduce {entry} --full-size"),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: COMMIT.to_owned(),
-        processor_s: processor_time().zip(processor).map(|(end, start)| hundredths(end - start)),
-        wall_s: hundredths(clock.elapsed().as_secs_f64()),
+        processor_s: spent.processor_s.map(hundredths),
+        wall_s: hundredths(spent.wall_s),
     });
     let text = record.text().map_err(crate::study::StudyError::from)?;
     write_file(path, |file| file.write_all(text.as_bytes())).map_err(Problem::from)?;
+    kept.remove()?;
     Ok(record)
 }
 
 /// Rounds to hundredths.
 fn hundredths(seconds: f64) -> f64 {
     (100.0 * seconds).round() / 100.0
+}
+
+/// Time that the program has taken so far.
+fn clock() -> SpentTime {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    SpentTime { processor_s: processor_time(), wall_s: START.elapsed().as_secs_f64() }
 }
 
 /// Processor time of all threads so far, in seconds; `None` where the system does not say it.

@@ -4,15 +4,19 @@
 //! run computes all of them there. A part computes a range and writes it to a file, with a [`PartHeader`] that says
 //! which run it is a part of. A merge reads the parts of a [`PartSet`] instead of computing, and goes on as an ordinary
 //! run does. So what is merged is what one run writes, byte for byte. docs/decisions/0031-parts-of-a-run.md says why.
+//!
+//! [`KeptResults`] are for work that is stopped and goes on, in files of the same layout.
 
 mod error;
 mod file;
+mod kept;
 mod number;
 mod run;
 mod set;
 
 pub use error::PartError;
 pub use file::{PartHeader, SplitCommand};
+pub use kept::{KeptResults, SpentTime};
 pub use number::PartNumber;
 pub use run::{Computed, Concatenate, SplitRun, WrittenPart};
 pub use set::PartSet;

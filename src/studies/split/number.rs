@@ -17,6 +17,9 @@ pub struct PartNumber {
 }
 
 impl PartNumber {
+    /// Part 1 of 1.
+    pub(super) const ONLY: Self = Self { number: 1, of: 1 };
+
     /// Part `number` of `of`; `None` unless `number` is from 1 to `of`, and `of` at most a million.
     pub fn new(number: u32, of: u32) -> Option<Self> {
         (1 <= number && number <= of && of <= MAX_PARTS).then_some(Self { number, of })

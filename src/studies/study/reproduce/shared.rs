@@ -2,8 +2,13 @@
 
 use std::any::Any;
 use std::cell::OnceCell;
+use std::rc::Rc;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::{ModelSize, StudyError};
+use crate::split::KeptResults;
 
 /// Result that entries share: of each type one per key, made where the type is.
 pub(super) trait SharedResult: Sized + 'static {
@@ -19,6 +24,8 @@ pub(super) trait SharedResult: Sized + 'static {
 pub(super) struct Shared {
     pub(super) models: ModelSize,
     results: Link,
+    /// Where long work keeps its pieces, so that it goes on from them after a stop.
+    kept: Option<Rc<KeptResults>>,
 }
 
 /// List of results: it only grows, so that results can be borrowed while others are added.
@@ -32,7 +39,25 @@ struct Node {
 
 impl Shared {
     pub(super) fn new(models: ModelSize) -> Self {
-        Self { models, results: Link::new() }
+        Self { models, ..Self::default() }
+    }
+
+    /// For a run that keeps its pieces in a folder, and takes those that are there.
+    pub(super) fn keeping(self, kept: Option<Rc<KeptResults>>) -> Self {
+        Self { kept, ..self }
+    }
+
+    /// Returns a piece of an entry's work, which depends on its name alone: from the folder if pieces are kept and it is
+    /// there, and computed if not.
+    pub(super) fn piece<T: Serialize + DeserializeOwned>(
+        &self,
+        name: &str,
+        compute: impl FnOnce() -> Result<T, StudyError>,
+    ) -> Result<T, StudyError> {
+        match &self.kept {
+            Some(kept) => kept.get(name, compute),
+            None => compute(),
+        }
     }
 
     /// Returns a result; computes it on first use, and again if that failed.

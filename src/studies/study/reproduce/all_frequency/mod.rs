@@ -7,6 +7,7 @@ mod figures;
 mod forms;
 mod models;
 mod roughness;
+mod segments;
 mod table_1;
 
 pub(super) use counts::findings as counts;

@@ -1,13 +1,15 @@
 //! Models of Table 1, or our stand-ins, compressed and encoded.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
-use super::codings::CODINGS;
+use serde::{Deserialize, Serialize};
+
 use super::forms::{Form, TERMS, cook_torrance, schlick};
-use super::{HOST, StudyError, failed};
+use super::segments::{HAAR_BITS, SegmentSums};
+use super::{HOST, Shared, StudyError, failed};
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::code::{CodedSegment, CodedTransfer};
-use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
+use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::Factorization;
 use crate::all_frequency::transfer::transfer_of;
 use crate::geom::Mesh;
@@ -16,19 +18,15 @@ use crate::scene::built::ground::{GROUND_SIDE, on_ground};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
-use crate::transfer::clustering::{CpcaStep, CpcaStepKind};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
-use crate::transfer::{Signal, Tangents, Vertices};
+use crate::transfer::{Tangents, Vertices};
 
 /// Segments compressed for reduced models: a quarter of three faces.
 const SOME_SEGMENTS: [usize; 3] = [0, 10, 21];
 /// Iterations for each number of representatives on reduced models.
 pub(super) const REDUCED_ITERATIONS: usize = 2;
-/// Bits per number in the coding of Haar coefficients alone: those of the earlier work first.
-pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
-
 /// Model of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableModel {
@@ -36,6 +34,15 @@ pub(super) enum TableModel {
     Teapot,
     Tweety,
     Buddha,
+}
+
+/// Segments that are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SegmentChoice {
+    /// All of a model at full size, some of a reduced one.
+    SomeOfReduced,
+    /// All.
+    All,
 }
 
 /// Material of a model in Table 1.
@@ -95,7 +102,7 @@ pub(super) struct ModelVisibility {
 }
 
 /// Compressed model.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct CompressedModel {
     pub(super) vertices: usize,
     /// Number of compressed segments.
@@ -109,13 +116,13 @@ pub(super) struct CompressedModel {
     /// Results for each of [`CODINGS`].
     pub(super) coded: Vec<CodedModel>,
     /// Bytes of non-zero quantised Haar coefficients, for each of [`HAAR_BITS`].
-    pub(super) haar: [f64; 3],
+    pub(super) haar: [f64; HAAR_BITS.len()],
     /// Relative squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
 }
 
 /// Result of one coding.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct CodedModel {
     /// Bytes of representatives and weights, all numbers stored in 16 bits.
     pub(super) numbers: f64,
@@ -157,111 +164,112 @@ impl ModelVisibility {
         SegmentCensus::new(&self.vertices, &self.maps, &self.hats).omega()
     }
 
-    /// Compresses and encodes the transfer: of some segments for reduced models, unless all are wanted.
-    pub(super) fn compressed(&self, reflectance: &Reflectance, wants_all: bool) -> Result<CompressedModel, StudyError> {
-        let fail = failed(HOST);
+    /// Compresses and encodes the transfer. Each segment is a piece of the work `name`.
+    pub(super) fn compressed(
+        &self,
+        reflectance: &Reflectance,
+        choice: SegmentChoice,
+        (shared, name): (&Shared, &str),
+    ) -> Result<CompressedModel, StudyError> {
         let transfer = transfer_of(&self.vertices, &self.maps, &self.hats, reflectance);
         let reduced = self.size == ModelSize::Reduced;
         let all: Vec<usize> = (0..Segmentation::Quarters.count()).collect();
-        let wanted = if reduced && !wants_all { &SOME_SEGMENTS[..] } else { &all[..] };
-        let mut work = SegmentSums::default();
+        let wanted = if reduced && choice == SegmentChoice::SomeOfReduced { &SOME_SEGMENTS[..] } else { &all[..] };
+        let iterations = if reduced { REDUCED_ITERATIONS } else { SegmentOptions::default().iterations };
+        let (rows, vertices) = (reflectance.terms(), self.maps.len());
+        let of_segment = |segment: usize| {
+            let found = transfer.segment(segment).map_err(|e| failed(HOST)(&e))?;
+            found.map(|found| SegmentSums::new(found, iterations, (rows, vertices))).transpose()
+        };
+        let mut sums = SegmentSums::default();
         for &segment in wanted {
-            if let Some(found) = transfer.segment(segment).map_err(|e| fail(&e))? {
-                let iterations = if reduced { REDUCED_ITERATIONS } else { SegmentOptions::default().iterations };
-                work.add(segment, found.vertices, &found.signal, iterations)?;
+            let of_segment = || of_segment(segment);
+            if let Some(found) = shared.piece(&format!("{name}-segment-{segment:02}"), of_segment)? {
+                sums.add(&found);
             }
         }
-        let (rows, coefficients) = (reflectance.terms(), Segmentation::Quarters.len());
-        let (vertices, squares) = (self.maps.len(), work.squares);
-        let coded = CODINGS.into_iter().zip(work.coded).zip(work.coded_errors).map(|((coding, segments), error)| {
-            let options = coding.counted();
-            let size = CodedTransfer { rows, coefficients, vertices, options, segments }.size();
-            let numbers = size.as_the_paper_counts();
-            let headers = (size.total() - numbers) as f64;
-            CodedModel { numbers: numbers as f64, headers, squared_error: error / squares }
+        let coded = sums.coded.map(|code| CodedModel {
+            numbers: code.numbers as f64,
+            headers: code.headers as f64,
+            squared_error: code.squared_error / sums.squares,
         });
-        let coded = coded.collect();
         Ok(CompressedModel {
             vertices,
             segments: wanted.len(),
             omega: self.omega(),
-            clusters: work.clusters,
-            raw: (4 * wanted.len() * coefficients * rows * vertices) as f64,
-            clustered: 4.0 * work.numbers as f64,
-            coded,
-            haar: work.haar,
-            error_of: work.error_of.into_iter().map(|(vectors, error)| (vectors, error / squares)).collect(),
+            clusters: sums.clusters,
+            raw: (4 * wanted.len() * Segmentation::Quarters.len() * rows * vertices) as f64,
+            clustered: 4.0 * sums.numbers as f64,
+            coded: coded.to_vec(),
+            haar: sums.haar,
+            error_of: sums.error_of.into_iter().map(|(vectors, error)| (vectors, error / sums.squares)).collect(),
         })
     }
 }
 
-/// Sums over segments.
-#[derive(Default)]
-struct SegmentSums {
-    clusters: usize,
-    numbers: usize,
-    squares: f64,
-    coded: [Vec<CodedSegment>; CODINGS.len()],
-    coded_errors: [f64; CODINGS.len()],
-    haar: [f64; 3],
-    error_of: Vec<(usize, f64)>,
+/// Visibility of a model by itself and on a ground, computed on first use: work whose pieces are kept needs none.
+pub(super) struct SeenModel {
+    pub(super) model: TableModel,
+    size: ModelSize,
+    alone: OnceCell<ModelVisibility>,
+    on_ground: OnceCell<[ModelVisibility; 2]>,
 }
 
-impl SegmentSums {
-    fn add(
-        &mut self,
-        segment: usize,
-        vertices: Vec<u32>,
-        signal: &Signal,
-        iterations: usize,
-    ) -> Result<(), StudyError> {
-        let fail = failed(HOST);
-        let options = SegmentOptions { iterations, ..SegmentOptions::default() };
-        let mut steps: Vec<CpcaStep> = Vec::new();
-        let compressed = CompressedSegment::new(segment, vertices, signal, &options, |step| steps.push(*step));
-        let compressed = compressed.map_err(|e| fail(&e))?;
-        for (at, coding) in CODINGS.into_iter().enumerate() {
-            let coded = coding.code(&compressed)?;
-            self.coded_errors[at] += coded.squared_errors(signal).iter().sum::<f64>();
-            self.coded[at].push(coded);
-        }
-        self.clusters += compressed.clustering.subspaces().len();
-        self.numbers += compressed.clustering.stored_numbers();
-        self.squares += signal.sum_of_squares();
-        for (bytes, bits) in self.haar.iter_mut().zip(HAAR_BITS) {
-            *bytes += haar_bytes(signal, bits);
-        }
-        let last = last_of_each(&steps);
-        self.error_of.resize(last.len().max(self.error_of.len()), (0, 0.0));
-        for (sum, (vectors, error)) in self.error_of.iter_mut().zip(last) {
-            *sum = (vectors, sum.1 + error);
-        }
-        Ok(())
+impl SeenModel {
+    pub(super) const fn new(model: TableModel, size: ModelSize) -> Self {
+        Self { model, size, alone: OnceCell::new(), on_ground: OnceCell::new() }
+    }
+
+    /// Of the model by itself.
+    pub(super) fn alone(&self) -> Result<&ModelVisibility, StudyError> {
+        on_first_use(&self.alone, || ModelVisibility::alone(self.model, self.size))
+    }
+
+    /// Of the model on a ground, and of that ground.
+    pub(super) fn on_ground(&self) -> Result<&[ModelVisibility; 2], StudyError> {
+        on_first_use(&self.on_ground, || ModelVisibility::on_ground(self.model, self.size))
     }
 }
 
-/// Squared error of the last fit for each number of representatives except 0.
-fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
-    let fits = steps.iter().filter(|step| step.kind == CpcaStepKind::Fitted && step.vectors > 0);
-    let mut last: Vec<(usize, f64)> = Vec::new();
-    for step in fits {
-        match last.last_mut().filter(|last| last.0 == step.vectors) {
-            Some(last) => last.1 = step.squared_error,
-            None => last.push((step.vectors, step.squared_error)),
-        }
+fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, StudyError>) -> Result<&T, StudyError> {
+    if let Some(found) = cell.get() {
+        return Ok(found);
     }
-    last
+    let found = compute()?;
+    Ok(cell.get_or_init(|| found))
 }
 
-/// Bytes of a segment without clusters: a byte for the row and a value for each coefficient that is non-zero after
-/// quantisation, in which the largest of the vertex fills integers of `bits` bits.
-fn haar_bytes(signal: &Signal, bits: u32) -> f64 {
-    let nonzeros = |point: usize| {
-        let values = signal.point(point);
-        let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
-        let half = 0.5 * f64::from(largest) / f64::from((1_u32 << (bits - 1)) - 1);
-        values.iter().filter(|value| f64::from(value.abs()) > half).count()
-    };
-    let nonzeros: usize = (0..signal.points()).map(nonzeros).sum();
-    nonzeros as f64 * (1.0 + f64::from(bits) / 8.0)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::split::{KeptResults, SpentTime, SplitCommand};
+
+    /// A run that goes on from another's segments, or takes its model, finds what a run without pieces finds.
+    #[test]
+    fn pieces_make_the_same_model() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let found = |seen: &SeenModel, keeps: bool| {
+            let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
+            let kept = || Rc::new(KeptResults::new(folder.path().to_owned(), command, SpentTime::default));
+            let shared = &Shared::new(ModelSize::Reduced).keeping(keeps.then(kept));
+            let compress =
+                || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::SomeOfReduced, (shared, "bunny"));
+            format!("{:?}", shared.piece("bunny", compress).expect("compressed"))
+        };
+        let new = || SeenModel::new(TableModel::Bunny, ModelSize::Reduced);
+        let (seen, taken) = (new(), new());
+        let without = found(&seen, false);
+        assert_eq!(found(&seen, true), without, "computed and kept");
+        assert_eq!(found(&taken, true), without, "taken");
+        assert!(taken.alone.get().is_none(), "a model that is taken needs no visibility");
+        // Stopped before the last segment.
+        let path = |piece: &str| folder.path().join(format!("{piece}.part"));
+        for piece in ["bunny", "bunny-segment-21"] {
+            std::fs::remove_file(path(piece)).expect("a piece");
+        }
+        let first = std::fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
+        assert_eq!(found(&taken, true), without, "gone on");
+        let again = std::fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
+        assert_eq!(first, again, "taken, and not written again");
+    }
 }

@@ -1,7 +1,12 @@
 //! Table 1 by compressing models: remaining size after clustering and coding of transfer.
 
+use serde::{Deserialize, Serialize};
+
 use super::codings::{CODINGS, Coding};
-use super::models::{CompressedModel, HAAR_BITS, ModelVisibility, TableMaterial, TableModel, ground_side};
+use super::models::{
+    CompressedModel, ModelVisibility, SeenModel, SegmentChoice, TableMaterial, TableModel, ground_side,
+};
+use super::segments::HAAR_BITS;
 use super::{
     EntryFindings, HOST, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep, failed, number, solved,
 };
@@ -10,9 +15,9 @@ use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
-use crate::study::reproduce::ModelSize;
 use crate::transfer::grid::LIGHT_TEXELS;
 
+use SegmentChoice::SomeOfReduced;
 use TableMaterial::{Cook, Diffuse, Schlick};
 use TableModel::{Buddha, Bunny, Teapot, Tweety};
 
@@ -55,7 +60,7 @@ struct TableRun {
 }
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
-    let ComputedTable { runs, ground } = ComputedTable::new(shared.models)?;
+    let ComputedTable { runs, ground } = ComputedTable::new(shared)?;
     let figures = figures();
     let stated = values(&runs[0].columns, 0, false);
     let mut rows: Vec<PaperRow> = Vec::new();
@@ -114,30 +119,31 @@ struct ComputedTable {
 }
 
 impl ComputedTable {
-    fn new(size: ModelSize) -> Result<Self, StudyError> {
+    fn new(shared: &Shared) -> Result<Self, StudyError> {
         let (diffuse, cook, schlick) = (Diffuse.reflectance()?, Cook.reflectance()?, Schlick.reflectance()?);
         let (mut alone, mut grounded, mut ground) = (Vec::new(), Vec::new(), None);
-        let mut seen: Option<(TableModel, [ModelVisibility; 2])> = None;
-        for (_, _, model, material) in TABLE_1 {
-            let visibility = match seen.take() {
-                Some((last, seen)) if last == model => seen,
-                _ => {
-                    let [own, below] = ModelVisibility::on_ground(model, size)?;
-                    // The first model is the bunny.
-                    if ground.is_none() {
-                        ground = Some(CompressedGround::new(&below, &diffuse)?);
-                    }
-                    [ModelVisibility::alone(model, size)?, own]
-                }
+        let mut seen: Option<SeenModel> = None;
+        for (column, _, model, material) in TABLE_1 {
+            let seen = match seen.take() {
+                Some(last) if last.model == model => seen.insert(last),
+                _ => seen.insert(SeenModel::new(model, shared.models)),
             };
+            // The first model is the bunny.
+            if ground.is_none() {
+                ground =
+                    Some(shared.piece("ground", || CompressedGround::new(&seen.on_ground()?[1], &diffuse, shared))?);
+            }
             let reflectance = match material {
                 Diffuse => &diffuse,
                 Cook => &cook,
                 Schlick => &schlick,
             };
-            alone.push(visibility[0].compressed(reflectance, false)?);
-            grounded.push(visibility[1].compressed(reflectance, false)?);
-            seen = Some((model, visibility));
+            let name = format!("{column}-alone");
+            alone.push(shared.piece(&name, || seen.alone()?.compressed(reflectance, SomeOfReduced, (shared, &name)))?);
+            let name = format!("{column}-on-ground");
+            grounded.push(
+                shared.piece(&name, || seen.on_ground()?[0].compressed(reflectance, SomeOfReduced, (shared, &name)))?,
+            );
         }
         let run = |name, columns| TableRun { name, columns };
         let missing = || failed(HOST)(&"no model has a ground");
@@ -149,6 +155,7 @@ impl ComputedTable {
 }
 
 /// The ground of section 7: "the raw data was about 715MB which compressed down to 23.6MB".
+#[derive(Serialize, Deserialize)]
 struct CompressedGround {
     /// Share of its segments that hold transfer.
     omega: f64,
@@ -157,8 +164,8 @@ struct CompressedGround {
 }
 
 impl CompressedGround {
-    fn new(ground: &ModelVisibility, diffuse: &Reflectance) -> Result<Self, StudyError> {
-        let found = ground.compressed(diffuse, true)?;
+    fn new(ground: &ModelVisibility, diffuse: &Reflectance, shared: &Shared) -> Result<Self, StudyError> {
+        let found = ground.compressed(diffuse, SegmentChoice::All, (shared, "ground"))?;
         let open = CODINGS.iter().zip(&found.coded).filter(|(how, _)| how.bits == PRINTED_BITS);
         Ok(Self { omega: ground.omega(), left: open.map(|(_, coded)| coded.numbers / found.raw).collect() })
     }

@@ -70,7 +70,7 @@ pub(super) fn findings(entry: &ReproduceEntry, shared: &Shared) -> Result<EntryF
     Ok(match &record {
         _ if shared.models == ModelSize::Printed => smoke::compared(record.as_ref(), (entry.work)(shared)?),
         // Alone, as its time was taken; its models are not kept beside the reduced ones.
-        Some(quick) if quick.is_quick() => smoke::compared(record.as_ref(), SmokeRun::full_size(entry)?),
+        Some(quick) if quick.is_quick() => smoke::compared(record.as_ref(), SmokeRun::full_size(entry, None)?),
         _ => SmokeRun::new(entry, shared)?.judged_by(record.as_ref()),
     })
 }

@@ -1,9 +1,12 @@
 //! Runs on reduced models, and their rows as a record judges them.
 
+use std::rc::Rc;
+
 use super::error::StaleRecord;
 use super::file::{EntryRecord, RecordedRow};
 use super::inputs::RecordInputs;
 use super::status::RecordStatus;
+use crate::split::KeptResults;
 use crate::study::reproduce::shared::Shared;
 use crate::study::reproduce::{
     EntryFindings, ModelSize, PaperRow, Prose, ReproduceEntry, RowSource, StudyError, Sweep,
@@ -34,16 +37,19 @@ impl SmokeRun {
     }
 
     /// Runs an entry alone at full size.
-    pub(super) fn full_size(entry: &ReproduceEntry) -> Result<EntryFindings, StudyError> {
-        (entry.work)(&Shared::new(ModelSize::Printed))
+    pub(super) fn full_size(
+        entry: &ReproduceEntry,
+        kept: Option<Rc<KeptResults>>,
+    ) -> Result<EntryFindings, StudyError> {
+        (entry.work)(&Shared::new(ModelSize::Printed).keeping(kept))
     }
 
-    /// Runs the entry at full size, and records it.
+    /// Runs the entry at full size, and records it. Finished pieces of entries that take hours are kept, and taken.
     ///
     /// # Errors
-    /// Those of the entry.
-    pub fn record(&self) -> Result<EntryRecord, StudyError> {
-        let full = Self::full_size(&self.entry)?;
+    /// Those of the entry, and of a folder in which pieces cannot be kept.
+    pub fn record(&self, kept: Rc<KeptResults>) -> Result<EntryRecord, StudyError> {
+        let full = Self::full_size(&self.entry, Some(kept))?;
         Ok(EntryRecord::new(self.entry.id, self.inputs.clone(), (&full, &self.found)))
     }
 

@@ -1,0 +1,114 @@
+//! Segments of a model of Table 1, compressed and encoded, and their sums.
+
+use serde::{Deserialize, Serialize};
+
+use super::codings::CODINGS;
+use super::{HOST, StudyError, failed};
+use crate::all_frequency::code::CodedTransfer;
+use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
+use crate::all_frequency::transfer::TransferSegment;
+use crate::transfer::Signal;
+use crate::transfer::clustering::{CpcaStep, CpcaStepKind};
+use crate::transfer::grid::Segmentation;
+
+/// Bits per number in the coding of Haar coefficients alone: those of the earlier work first.
+pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
+
+/// Results of a segment, or the sums over several.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct SegmentSums {
+    pub(super) clusters: usize,
+    /// Numbers that are stored before coding.
+    pub(super) numbers: usize,
+    pub(super) squares: f64,
+    /// For each of [`CODINGS`].
+    pub(super) coded: [CodeSums; CODINGS.len()],
+    /// Bytes of non-zero quantised Haar coefficients, for each of [`HAAR_BITS`].
+    pub(super) haar: [f64; HAAR_BITS.len()],
+    /// Squared error by number of representatives.
+    pub(super) error_of: Vec<(usize, f64)>,
+}
+
+/// Results of one coding.
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+pub(super) struct CodeSums {
+    /// Bytes of representatives and weights.
+    pub(super) numbers: u64,
+    /// Bytes of counts of columns, steps and clusters.
+    pub(super) headers: u64,
+    pub(super) squared_error: f64,
+}
+
+impl SegmentSums {
+    /// Compresses and encodes a segment of a model with some rows per transfer matrix and some vertices.
+    pub(super) fn new(
+        TransferSegment { segment, vertices, signal }: TransferSegment,
+        iterations: usize,
+        (rows, of_model): (usize, usize),
+    ) -> Result<Self, StudyError> {
+        let options = SegmentOptions { iterations, ..SegmentOptions::default() };
+        let mut steps: Vec<CpcaStep> = Vec::new();
+        let compressed = CompressedSegment::new(segment, vertices, &signal, &options, |step| steps.push(*step));
+        let compressed = compressed.map_err(|e| failed(HOST)(&e))?;
+        let mut found = Self {
+            clusters: compressed.clustering.subspaces().len(),
+            numbers: compressed.clustering.stored_numbers(),
+            squares: signal.sum_of_squares(),
+            haar: HAAR_BITS.map(|bits| haar_bytes(&signal, bits)),
+            error_of: last_of_each(&steps),
+            ..Self::default()
+        };
+        for (sums, coding) in found.coded.iter_mut().zip(CODINGS) {
+            let coded = coding.code(&compressed)?;
+            let squared_error = coded.squared_errors(&signal).iter().sum();
+            let (coefficients, options) = (Segmentation::Quarters.len(), coding.counted());
+            let coded = CodedTransfer { rows, coefficients, vertices: of_model, options, segments: vec![coded] };
+            let (size, numbers) = (coded.size(), coded.size().as_the_paper_counts());
+            *sums = CodeSums { numbers, headers: size.total() - numbers, squared_error };
+        }
+        Ok(found)
+    }
+
+    /// Adds the results of another segment.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.clusters += other.clusters;
+        self.numbers += other.numbers;
+        self.squares += other.squares;
+        for (sum, other) in self.coded.iter_mut().zip(&other.coded) {
+            sum.numbers += other.numbers;
+            sum.headers += other.headers;
+            sum.squared_error += other.squared_error;
+        }
+        self.haar.iter_mut().zip(other.haar).for_each(|(sum, bytes)| *sum += bytes);
+        self.error_of.resize(other.error_of.len().max(self.error_of.len()), (0, 0.0));
+        for (sum, (vectors, error)) in self.error_of.iter_mut().zip(&other.error_of) {
+            *sum = (*vectors, sum.1 + error);
+        }
+    }
+}
+
+/// Squared error of the last fit for each number of representatives except 0.
+fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
+    let fits = steps.iter().filter(|step| step.kind == CpcaStepKind::Fitted && step.vectors > 0);
+    let mut last: Vec<(usize, f64)> = Vec::new();
+    for step in fits {
+        match last.last_mut().filter(|last| last.0 == step.vectors) {
+            Some(last) => last.1 = step.squared_error,
+            None => last.push((step.vectors, step.squared_error)),
+        }
+    }
+    last
+}
+
+/// Bytes of a segment without clusters: a byte for the row and a value for each coefficient that is non-zero after
+/// quantisation, in which the largest of the vertex fills integers of `bits` bits.
+fn haar_bytes(signal: &Signal, bits: u32) -> f64 {
+    let nonzeros = |point: usize| {
+        let values = signal.point(point);
+        let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
+        let half = 0.5 * f64::from(largest) / f64::from((1_u32 << (bits - 1)) - 1);
+        values.iter().filter(|value| f64::from(value.abs()) > half).count()
+    };
+    let nonzeros: usize = (0..signal.points()).map(nonzeros).sum();
+    nonzeros as f64 * (1.0 + f64::from(bits) / 8.0)
+}
