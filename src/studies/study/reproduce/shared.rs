@@ -47,8 +47,8 @@ impl Shared {
         Self { kept, ..self }
     }
 
-    /// Returns a piece of an entry's work, which depends on its name alone: from the folder if pieces are kept and it is
-    /// there, and computed if not.
+    /// Returns a piece of an entry's work, which depends on its name alone: from the folder if it is kept there, and
+    /// computed if not.
     pub(super) fn piece<T: Serialize + DeserializeOwned>(
         &self,
         name: &str,
