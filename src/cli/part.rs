@@ -1,5 +1,6 @@
 //! `--part`: one part of a command's work, for `crossbar merge`.
 
+use std::ffi::OsString;
 use std::path::Path;
 
 use serde_json::json;
@@ -27,15 +28,7 @@ impl PartArgs {
         match (&line.parts, self.part) {
             (Some(parts), _) => Ok(SplitRun::Merge(parts.clone())),
             (None, None) => Ok(SplitRun::Whole),
-            (None, Some(part)) => {
-                let utf8 = |argument: &std::ffi::OsString| {
-                    let found = || PartError::Name { found: argument.display().to_string() };
-                    argument.to_str().map(str::to_owned).ok_or_else(found)
-                };
-                let arguments = line.arguments.iter().map(utf8).collect::<Result<_, _>>()?;
-                let command = SplitCommand { program: version::program()?, arguments };
-                Ok(SplitRun::Part { part, command, path: out.into() })
-            }
+            (None, Some(part)) => Ok(SplitRun::Part { part, command: command(line)?, path: out.into() }),
         }
     }
 
@@ -43,6 +36,19 @@ impl PartArgs {
     pub(super) fn share(self, items: u64) -> u64 {
         self.part.map_or(items, |part| items.div_ceil(u64::from(part.of())))
     }
+}
+
+/// The command whose results are kept in files.
+///
+/// # Errors
+/// [`PartError`] for an argument that is not UTF-8, or a program that cannot be told from others.
+pub(super) fn command(line: &CommandLine) -> Result<SplitCommand, PartError> {
+    let utf8 = |argument: &OsString| {
+        let found = || PartError::Name { found: argument.display().to_string() };
+        argument.to_str().map(str::to_owned).ok_or_else(found)
+    };
+    let arguments = line.arguments.iter().map(utf8).collect::<Result<_, _>>()?;
+    Ok(SplitCommand { program: version::program()?, arguments })
 }
 
 /// Findings of a command that computed a part.

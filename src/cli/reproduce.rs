@@ -40,7 +40,8 @@ contains; what is quick of them is computed anew and held against the record. Th
 says which. Pictures, and rows without a record, are of reduced models: these are not judged.
 Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
 entries that are named. --record goes on: what it has recorded stays, unless it is of another
-program; so do the finished pieces of all-frequency-table-1, which takes hours, in FOLDER/ID.pieces.
+program; so do the finished pieces of all-frequency-table-1 and all-frequency-figures, which take
+hours, in FOLDER/ID.pieces.
 Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
@@ -158,7 +159,7 @@ fn kept(smoke: &SmokeRun, entry: &str, path: &Path) -> Result<EntryRecord, Strin
 fn made(smoke: &SmokeRun, entry: &str, path: &Path) -> miette::Result<EntryRecord> {
     let arguments = ["reproduce", entry, "--record"].map(str::to_owned).to_vec();
     let command = SplitCommand { program: version::program()?, arguments };
-    let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), command, clock));
+    let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), command, clock)?);
     let run = smoke.record(Rc::clone(&kept))?;
     let spent = kept.spent();
     let record = run.made_by(RecordMade {

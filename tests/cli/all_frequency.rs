@@ -50,7 +50,7 @@ fn finished_segments_are_kept() {
     assert_eq!(in_all["segments_kept"], 0);
     // As if interrupted before segment 9: missing segments are computed, present ones are read.
     for segment in 9..24 {
-        fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.json"))).expect("a finished segment");
+        fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.part"))).expect("a finished segment");
     }
     let again = document(&format!("{options} --out {out}"));
     assert_eq!(again["segments_kept"], 9);
@@ -64,14 +64,16 @@ fn finished_segments_are_kept() {
         ran.stderr.replace(&kept, "FOLDER")
     };
     let other = refused(format!("{options} --seed 2 --out {out}"));
-    assert!(other.contains("FOLDER/work.json: expected segments with seed 2, found 1"), "{other}");
-    fs::write(folder.path().join("kept/segment-03.json"), "{}").expect("written");
-    let damaged = refused(format!("{options} --out {out}"));
-    assert!(damaged.contains("FOLDER/segment-03.json: expected what became of a segment"), "{damaged}");
-    assert!(damaged.contains("delete the file"), "{damaged}");
-    fs::write(folder.path().join("kept/segment-02.prt"), "CROSSBAR").expect("written");
-    let cut = refused(format!("{options} --out {out}"));
-    assert!(cut.contains("FOLDER/segment-02.prt"), "{cut}");
+    assert!(other.contains(".part: expected results of\n") && other.contains("--seed=2"), "{other}");
+    assert!(other.contains("--seed=1") && other.contains("name another folder"), "{other}");
+    let signal = place(folder.path(), "signal.prt");
+    fs::copy(SIGHT, &signal).expect("a copy");
+    let of_copy = options.replace(SIGHT, &signal);
+    refused(format!("{of_copy} --out {out}"));
+    // A damaged segment is computed again.
+    fs::write(folder.path().join("kept/segment-03.part"), "{}").expect("written");
+    assert_eq!(document(&format!("{options} --out {out}"))["segments_kept"], 23);
+    assert_eq!(fs::read(&out).expect("written"), fs::read(CODED).expect("an example"));
 }
 
 /// `error` recomputes the error that `compress` reports, and the picture differs from the original's within bounds.

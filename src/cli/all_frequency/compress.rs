@@ -1,7 +1,6 @@
 //! `crossbar all-frequency compress`: transfer by segments, clustered and coded.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::json;
 
@@ -14,12 +13,10 @@ use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::words::counted;
 use crate::cli::{CommandLine, Problem, ProgressBar, memory, view};
-use crate::io::ReadError;
 use crate::report::{Cell, Findings, Table};
-use crate::split::Computed;
-use crate::study::prt::{CompressionTally, KeptSegments, SegmentTally, SegmentedCompression};
+use crate::split::{Computed, KeptResults, SpentTime};
+use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
 use crate::transfer::clustering::CpcaMethod;
-use crate::transfer::file::MeshDigest;
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::SegmentCensus;
 
@@ -108,7 +105,11 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let what = format_args!("a segment of the transfer of {} vertices, {numbers} bytes each", maps.len());
     memory::require(what, bytes, "name a model of fewer vertices, or factors of fewer terms")?;
     let (options, code) = (options(args), code(args));
-    let kept = args.resume.as_ref().map(|folder| kept(folder, (&args.signal, file.mesh), &options, code));
+    let kept = |folder: &PathBuf| {
+        let kept = KeptResults::new(folder.clone(), part::command(command_line)?, SpentTime::default)?;
+        kept.require_no_other_work().map(|()| kept)
+    };
+    let kept = args.resume.as_ref().map(kept).transpose()?;
     let compression = SegmentedCompression {
         vertices: &vertices,
         maps,
@@ -116,7 +117,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         reflectance: &file.reflectance,
         options,
         code,
-        kept: kept.transpose()?,
+        kept: kept.as_ref().map(|kept| (kept, "")),
     };
     let bar = ProgressBar::new("", 1).quicker("more `--points-per-cluster` or fewer `--iterations`");
     let split = args.part.split(command_line, &args.out)?;
@@ -131,7 +132,8 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let small = AllFrequencyFile { visibility: None, coded: Some(coded), ..file };
     save_all_frequency(&small, &args.out).map_err(Problem::from)?;
     let coded = small.coded.as_ref();
-    Ok(coded.map(|coded| findings(args, coded, &tally, &census, raw)).unwrap_or_default())
+    let taken = kept.as_ref().map_or(0, KeptResults::taken);
+    Ok(coded.map(|coded| findings(args, (coded, taken), &tally, &census, raw)).unwrap_or_default())
 }
 
 fn options(args: &Args) -> SegmentOptions {
@@ -145,33 +147,6 @@ fn options(args: &Args) -> SegmentOptions {
     }
 }
 
-/// The folder of finished segments, with everything that their bits depend on.
-fn kept(
-    folder: &Path,
-    (signal, mesh): (&Path, MeshDigest),
-    options: &SegmentOptions,
-    code: CodeOptions,
-) -> miette::Result<KeptSegments> {
-    let path = signal.to_owned();
-    let bytes = fs::read(signal).map_err(|source| ReadError::Unreadable { what: "transfer", path, source })?;
-    Ok(KeptSegments::open(
-        folder,
-        mesh,
-        [
-            ("checksum of the transfer", format!("{:08x}", crc32fast::hash(&bytes))),
-            ("vertices per cluster", options.points_per_cluster.to_string()),
-            ("representatives", options.vectors.to_string()),
-            ("iterations", options.iterations.to_string()),
-            ("method", format!("{:?}", options.method)),
-            ("seed", options.seed.to_string()),
-            ("bits of representatives", code.representative_bits.to_string()),
-            ("bits of weights", code.weight_bits.to_string()),
-            ("steps of one", format!("{:?}", code.scale)),
-            ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ],
-    )?)
-}
-
 fn code(args: &Args) -> CodeOptions {
     CodeOptions { representative_bits: args.bits, weight_bits: args.weight_bits, scale: args.scale }
 }
@@ -183,7 +158,7 @@ fn clustered_bytes(coded: &CodedTransfer) -> u64 {
 
 fn findings(
     args: &Args,
-    coded: &CodedTransfer,
+    (coded, taken): (&CodedTransfer, usize),
     tally: &CompressionTally,
     census: &SegmentCensus,
     raw: u64,
@@ -206,7 +181,7 @@ fn findings(
     found.fields(json!({
         "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
-        "clusters": coded.clusters(), "segments_kept": tally.kept,
+        "clusters": coded.clusters(), "segments_kept": taken,
         "bytes": { "raw": raw, "clustered": clustered, "coded": size.total(),
                    "as_the_paper_counts": size.as_the_paper_counts() },
         "code": { "blocks": blocks, "columns": coded.rows * coded.coefficients, "nonzeros": nonzeros, "numbers": all,
@@ -227,7 +202,7 @@ fn findings(
     found.print(format!("error     {:.4} % of the squares; {:.4} % before coding", 100.0 * after, 100.0 * before));
     found.print(format!("time      {transfer:.1} s of transfer, {clusters:.1} s of clusters, {code:.1} s of code"));
     if let Some(folder) = &args.resume {
-        found.print(format!("kept      {} segments were finished before, in {}", tally.kept, folder.display()));
+        found.print(format!("kept      {taken} segments were finished before, in {}", folder.display()));
     }
     written(&mut found, [("out", Some(args.out.as_path()))]);
     found

@@ -90,6 +90,13 @@ pub enum PartError {
         help("compute these with `--part`: the command of the others is\n{command}")
     )]
     Missing { of: u32, count: u32, missing: String, command: String },
+    /// Results that were kept by other work.
+    #[error("{}: expected results of\n{expected}\nfound one of\n{found}", path.display())]
+    #[diagnostic(
+        code(crossbar::part::other),
+        help("go on with the command, the inputs and the program of the first run, or name another folder")
+    )]
+    OtherWork { path: PathBuf, expected: String, found: String },
     /// An input that has changed.
     #[error("{}: computed from another `{input}` than there is now: expected SHA-256 {expected}, found {found}", path.display())]
     #[diagnostic(

@@ -68,6 +68,11 @@ impl PartHeader {
         Self { command, part, inputs, items: items.to_owned(), count: count as u64, bytes: 0 }
     }
 
+    /// True if this part has the results that another is for.
+    pub(super) fn is_of(&self, other: &Self) -> bool {
+        Self { bytes: 0, ..self.clone() } == Self { bytes: 0, ..other.clone() }
+    }
+
     /// Writes a part, whole or not at all, and returns the length of the file.
     pub(super) fn write(mut self, results: &[u8], path: &Path) -> Result<u64, PartError> {
         self.bytes = results.len() as u64;

@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::error::PartError;
-use super::file::{PartHeader, SplitCommand};
+use super::file::{PartHeader, SplitCommand, inputs_read};
 use super::number::PartNumber;
 use crate::io::WriteError;
 
@@ -18,7 +18,9 @@ use crate::io::WriteError;
 pub struct KeptResults {
     folder: PathBuf,
     command: SplitCommand,
+    inputs: BTreeMap<String, String>,
     clock: fn() -> SpentTime,
+    taken: Cell<usize>,
     /// Reading of the clock when this run began.
     start: SpentTime,
     /// Time that the runs before this one spent until they kept their last result.
@@ -35,10 +37,45 @@ pub struct SpentTime {
 }
 
 impl KeptResults {
-    /// Results of a command in a folder, which is made when the first of them is kept. `clock` says the time since a
-    /// fixed moment.
-    pub fn new(folder: PathBuf, command: SplitCommand, clock: fn() -> SpentTime) -> Self {
-        Self { folder, command, clock, start: clock(), before: Cell::default() }
+    /// Results of a command in a folder, which is made when the first of them is kept. They depend on the files that
+    /// were read until now. `clock` says the time since a fixed moment.
+    ///
+    /// # Errors
+    /// [`PartError`] for files that cannot be read a second time.
+    pub fn new(folder: PathBuf, command: SplitCommand, clock: fn() -> SpentTime) -> Result<Self, PartError> {
+        let (inputs, taken, before) = (inputs_read()?, Cell::default(), Cell::default());
+        Ok(Self { folder, command, inputs, clock, taken, start: clock(), before })
+    }
+
+    /// Refuses a folder with results of other work, which would be lost.
+    ///
+    /// # Errors
+    /// [`PartError::OtherWork`], and [`PartError::Unreadable`] for what is no folder.
+    pub fn require_no_other_work(&self) -> Result<(), PartError> {
+        let unreadable = |source| PartError::Unreadable { path: self.folder.clone(), source };
+        let files = match fs::read_dir(&self.folder) {
+            Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(()),
+            files => files.map_err(unreadable)?,
+        };
+        for file in files {
+            let path = file.map_err(unreadable)?.path();
+            // What is no result is left alone, and a damaged one computed again.
+            let Ok((found, _)) = PartHeader::read(&path) else { continue };
+            if (&found.command, &found.inputs) != (&self.command, &self.inputs) {
+                let [expected, found] =
+                    [(&self.command, &self.inputs), (&found.command, &found.inputs)].map(|(command, inputs)| {
+                        let inputs = inputs.iter().map(|(name, digest)| format!("\n  {name}, SHA-256 {digest}"));
+                        format!("{}, crossbar {}{}", command.line(), command.program, inputs.collect::<String>())
+                    });
+                return Err(PartError::OtherWork { path, expected, found });
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of results that were taken from the folder.
+    pub fn taken(&self) -> usize {
+        self.taken.get()
     }
 
     /// Time that this run has spent so far, and runs before it on what was taken from them.
@@ -51,8 +88,8 @@ impl KeptResults {
         }
     }
 
-    /// Takes a result from the folder; computes and keeps it where there is none, or one of another command or program,
-    /// or a damaged one. What is computed must depend on the command and the name, which is a file's, alone.
+    /// Takes a result from the folder; computes and keeps it where there is none, or one of another command, program or
+    /// input, or a damaged one. What is computed must depend on the command and the name, which is a file's, alone.
     ///
     /// # Errors
     /// Those of `compute`, and [`PartError`] if a result cannot be kept.
@@ -62,15 +99,16 @@ impl KeptResults {
         compute: impl FnOnce() -> Result<T, E>,
     ) -> Result<T, E> {
         let path = self.folder.join(format!("{name}.part"));
-        let header = PartHeader::new(self.command.clone(), PartNumber::ONLY, BTreeMap::new(), (name, 1));
+        let header = PartHeader::new(self.command.clone(), PartNumber::ONLY, self.inputs.clone(), (name, 1));
         if let Ok((found, bytes)) = PartHeader::read(&path)
-            && (&found.command, &found.items, found.part) == (&header.command, &header.items, header.part)
+            && found.is_of(&header)
             && let Ok(((spent, result), [])) = postcard::take_from_bytes::<(SpentTime, T)>(&bytes)
         {
             // Of what is taken the last one knows the most.
             if spent.wall_s > self.before.get().wall_s {
                 self.before.set(spent);
             }
+            self.taken.set(self.taken.get() + 1);
             return Ok(result);
         }
         let result = compute()?;
@@ -112,7 +150,9 @@ mod tests {
     #[test]
     fn work_that_was_stopped_goes_on() {
         let folder = tempfile::tempdir().expect("a folder");
-        let kept = |program, entry| KeptResults::new(folder.path().join("kept"), command(program, entry), clock);
+        let kept = |program, entry| {
+            KeptResults::new(folder.path().join("kept"), command(program, entry), clock).expect("no inputs")
+        };
         let computed = Cell::new(0);
         let get = |kept: &KeptResults, name: &str| {
             kept.get(name, || {
@@ -124,7 +164,11 @@ mod tests {
         let again = get(&kept("1", "a"), "one").expect("kept");
         assert_eq!((first.0, again.0, again.1.map(f64::to_bits)), (1, 1, first.1.map(f64::to_bits)));
         assert_eq!(get(&kept("1", "a"), "two").expect("computed").0, 2);
+        fs::write(folder.path().join("kept/other"), "a file of its own").expect("written");
+        kept("1", "a").require_no_other_work().expect("work of its own");
         for (program, entry) in [("2", "a"), ("1", "b")] {
+            let refused = kept(program, entry).require_no_other_work().expect_err("other work").to_string();
+            assert!(refused.contains("expected results of\ncrossbar reproduce"), "{refused}");
             let before = computed.get();
             assert_eq!(get(&kept(program, entry), "one").expect("computed").0, before + 1, "of other work");
         }
@@ -139,7 +183,7 @@ mod tests {
     #[test]
     fn time_is_that_of_all_runs() {
         let folder = tempfile::tempdir().expect("a folder");
-        let open = || KeptResults::new(folder.path().to_owned(), command("1", "a"), clock);
+        let open = || KeptResults::new(folder.path().to_owned(), command("1", "a"), clock).expect("no inputs");
         let work = |kept: &KeptResults, name: &str, seconds: f64| {
             let compute = || {
                 NOW.set(NOW.get() + seconds);
@@ -164,7 +208,7 @@ mod tests {
     #[test]
     fn a_damaged_result_is_computed_again() {
         let folder = tempfile::tempdir().expect("a folder");
-        let kept = KeptResults::new(folder.path().to_owned(), command("1", "a"), clock);
+        let kept = KeptResults::new(folder.path().to_owned(), command("1", "a"), clock).expect("no inputs");
         let get = |result: u32| kept.get("one", || Ok::<_, PartError>(result)).expect("a result");
         assert_eq!([get(7), get(8)], [7, 7]);
         let path = folder.path().join("one.part");
@@ -182,7 +226,7 @@ mod tests {
     #[test]
     fn a_folder_that_cannot_be_made_is_said() {
         let file = tempfile::NamedTempFile::new().expect("a file");
-        let kept = KeptResults::new(file.path().join("folder"), command("1", "a"), clock);
+        let kept = KeptResults::new(file.path().join("folder"), command("1", "a"), clock).expect("no inputs");
         let error = kept.get("one", || Ok::<_, PartError>(1)).expect_err("no folder").to_string();
         assert!(error.starts_with("cannot write into the folder "), "{error}");
     }

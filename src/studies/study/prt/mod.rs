@@ -37,8 +37,8 @@ use crate::transfer::{SignalError, TransferError};
 
 pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
-    AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, KeptSegments, LitModel, RenderedGround,
-    SegmentTally, SegmentedCompression, SightOfModel, coded_errors,
+    AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, LitModel, RenderedGround, SegmentTally,
+    SegmentedCompression, SightOfModel, coded_errors,
 };
 pub(super) use bi_scale::{BiScaleDrawing, CausePictures};
 pub use bi_scale::{BiScaleRendering, LocalLight, SurfaceTexture, TexturedSurface, creased};

@@ -47,6 +47,11 @@ impl Shared {
         Self { kept, ..self }
     }
 
+    /// Where pieces are kept, if they are.
+    pub(super) fn kept(&self) -> Option<&KeptResults> {
+        self.kept.as_deref()
+    }
+
     /// Returns a piece of an entry's work, which depends on its name alone: from the folder if it is kept there, and
     /// computed if not.
     pub(super) fn piece<T: Serialize + DeserializeOwned>(

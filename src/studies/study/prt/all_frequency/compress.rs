@@ -9,36 +9,33 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
-use crate::split::{Computed, Concatenate, SplitRun};
+use crate::split::{Computed, Concatenate, KeptResults, SplitRun};
 use crate::study::{ProgressFn, StudyError};
+use crate::transfer::Vertices;
 use crate::transfer::clustering::CpcaError;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
-use crate::transfer::{TransferError, Vertices};
 
-use super::kept::KeptSegments;
 use super::tally::{CompressionTally, SegmentTally};
 
-/// Finished segments of a range: the code and errors of each, or nothing where transfer is 0.
+/// A finished segment: its code and errors, or nothing where transfer is 0.
+type FinishedSegment = Option<(CodedSegment, SegmentTally)>;
+
+/// Finished segments of a range.
 #[derive(Debug, Default, Serialize, Deserialize)]
-struct FinishedSegments {
-    segments: Vec<Option<(CodedSegment, SegmentTally)>>,
-    /// How many were finished before.
-    kept: usize,
-}
+struct FinishedSegments(Vec<FinishedSegment>);
 
 impl Concatenate for FinishedSegments {
     fn are_of(&self, range: &Range<usize>) -> bool {
-        let is = |(segment, found): (usize, &Option<(CodedSegment, SegmentTally)>)| {
+        let is = |(segment, found): (usize, &FinishedSegment)| {
             found.as_ref().is_none_or(|(coded, _)| coded.segment == segment)
         };
-        self.segments.len() == range.len() && range.clone().zip(&self.segments).all(is)
+        self.0.are_of(range) && range.clone().zip(&self.0).all(is)
     }
 
     fn append(&mut self, next: Self) {
-        self.segments.extend(next.segments);
-        self.kept += next.kept;
+        self.0.extend(next.0);
     }
 }
 
@@ -57,8 +54,8 @@ pub struct SegmentedCompression<'a> {
     pub options: SegmentOptions,
     /// How they are coded.
     pub code: CodeOptions,
-    /// Where finished segments are kept, and taken from.
-    pub kept: Option<KeptSegments>,
+    /// Where finished segments are kept, and taken from, and with what their names begin.
+    pub kept: Option<(&'a KeptResults, &'a str)>,
 }
 
 impl SegmentedCompression<'_> {
@@ -104,47 +101,29 @@ impl SegmentedCompression<'_> {
     fn of_range(&self, range: Range<usize>, progress: &mut ProgressFn<'_>) -> Result<FinishedSegments, StudyError> {
         let hats = LinearBasis::new(self.hats);
         let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
-        let mut found = FinishedSegments::default();
-        for segment in range.clone() {
+        let finished = |segment: usize| {
             progress("segments", (segment - range.start) as u64, range.len() as u64);
-            let kept = self.kept.as_ref().map(|kept| kept.load(segment)).transpose()?.flatten();
-            found.kept += usize::from(kept.is_some());
-            found.segments.push(match kept {
-                Some(kept) => kept,
-                None => self.computed(segment, || transfer.segment(segment))?,
-            });
-        }
-        Ok(found)
+            let compute = || {
+                let start = Instant::now();
+                let found = transfer.segment(segment)?;
+                found.map(|found| self.segment(found, start.elapsed().as_secs_f64())).transpose()
+            };
+            match self.kept {
+                Some((kept, name)) => kept.get(&format!("{name}segment-{segment:02}"), compute),
+                None => compute(),
+            }
+        };
+        range.clone().map(finished).collect::<Result<_, _>>().map(FinishedSegments)
     }
 
     fn whole(&self, found: FinishedSegments) -> (CodedTransfer, CompressionTally) {
-        let (segments, tallies) = found.segments.into_iter().flatten().unzip();
-        (self.coded(segments), CompressionTally { segments: tallies, kept: found.kept })
-    }
-
-    fn coded(&self, segments: Vec<CodedSegment>) -> CodedTransfer {
+        let (segments, tallies) = found.0.into_iter().flatten().unzip();
         let (rows, coefficients) = (self.reflectance.terms(), Segmentation::Quarters.len());
-        CodedTransfer { rows, coefficients, vertices: self.vertices.len(), options: self.code, segments }
+        let coded = CodedTransfer { rows, coefficients, vertices: self.vertices.len(), options: self.code, segments };
+        (coded, CompressionTally { segments: tallies })
     }
 
-    /// A segment from its transfer; kept, if segments are.
-    fn computed(
-        &self,
-        segment: usize,
-        transfer: impl Fn() -> Result<Option<TransferSegment>, TransferError>,
-    ) -> Result<Option<(CodedSegment, SegmentTally)>, StudyError> {
-        let start = Instant::now();
-        let Some(found) = transfer()? else {
-            self.kept.as_ref().map_or(Ok(()), |kept| kept.keep_empty(segment))?;
-            return Ok(None);
-        };
-        let (coded, tally) = self.segment(found, start.elapsed().as_secs_f64())?;
-        if let Some(kept) = &self.kept {
-            kept.keep(&tally, (self.hats, self.reflectance), self.coded(vec![coded.clone()]))?;
-        }
-        Ok(Some((coded, tally)))
-    }
-
+    /// A segment from its transfer, which took some seconds.
     fn segment(&self, found: TransferSegment, seconds: f64) -> Result<(CodedSegment, SegmentTally), StudyError> {
         let TransferSegment { segment, vertices, signal } = found;
         let start = Instant::now();

@@ -5,7 +5,6 @@
 mod compress;
 mod errors;
 pub(super) mod exact;
-mod kept;
 mod lit_model;
 mod part;
 mod precompute;
@@ -14,7 +13,6 @@ mod tally;
 
 pub use compress::SegmentedCompression;
 pub use errors::{CodedErrors, coded_errors};
-pub use kept::KeptSegments;
 pub use lit_model::LitModel;
 pub use precompute::{FoundSight, SightOfModel};
 pub use render::{AllFrequencyRendering, RenderedGround};

@@ -26,8 +26,6 @@ pub struct SegmentTally {
 pub struct CompressionTally {
     /// Segment by segment, without empty ones.
     pub segments: Vec<SegmentTally>,
-    /// Segments that were finished before.
-    pub kept: usize,
 }
 
 impl CompressionTally {

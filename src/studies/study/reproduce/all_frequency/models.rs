@@ -250,7 +250,10 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let found = |seen: &SeenModel, keeps: bool| {
             let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
-            let kept = || Rc::new(KeptResults::new(folder.path().to_owned(), command, SpentTime::default));
+            let kept = || {
+                let kept = KeptResults::new(folder.path().to_owned(), command, SpentTime::default);
+                Rc::new(kept.expect("no inputs"))
+            };
             let shared = &Shared::new(ModelSize::Reduced).keeping(keeps.then(kept));
             let compress =
                 || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::SomeOfReduced, (shared, "bunny"));

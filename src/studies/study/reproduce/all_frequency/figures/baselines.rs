@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::lit::Surface;
 use super::scene::{FigureScene, PictureDifference, stand_in};
-use super::{FigureParts, HOST, ModelSize, Prose, StudyError, failed, models, number, solved};
+use super::{FigureParts, HOST, Prose, Shared, StudyError, failed, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::baselines::{BaselineSubject, FixedView, HarmonicTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -37,11 +37,12 @@ struct MethodColors {
     others: Vec<(String, Vec<[f64; 3]>)>,
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
+pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
+    let size = shared.models;
     let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3), size)?;
-    let methods = Methods::new(&scene, models::options(size, VECTORS))?;
+    let methods = Methods::new(&scene, models::options(size, VECTORS), shared)?;
     let lambert = Brdf::Lambert { albedo: 1.0 };
-    let ground = methods.colors((&scene.of_ground, &lambert, &Reflectance::Diffuse), COLORS[1])?;
+    let ground = methods.colors((&scene.of_ground, &lambert, &Reflectance::Diffuse), COLORS[1], "figure-1-ground")?;
     let mut parts = FigureParts::default();
     let columns = ["exact".to_owned(), "ours".to_owned(), format!("harmonics, order {ORDER}")];
     let fixed = KEPT.map(|kept| format!("fixed view, {kept} wavelets"));
@@ -50,10 +51,10 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let mut ratios = Vec::new();
     for (form, lobe) in models::schlick() {
         let glossy = Reflectance::Factored(models::factorization(&lobe, TERMS)?.factors(TERMS));
-        let model = methods.colors((&scene.of_model, &lobe, &glossy), COLORS[0])?;
+        let name = |what: &str| format!("figure-1-{what}{}", models::ending(form));
+        let model = methods.colors((&scene.of_model, &lobe, &glossy), COLORS[0], &name("model"))?;
         let found = methods.joined(&model, &ground);
         let exposure = scene.exposure(&found.exact);
-        let name = |what: &str| format!("figure-1-{what}{}", models::ending(form));
         let caption = format!("exact: no factors, no compression, the whole light; {form}");
         let mut pictures = vec![scene.picture(&found.exact, exposure, (name("exact"), caption))?];
         let mut errors: Vec<PictureDifference> = Vec::new();
@@ -88,22 +89,34 @@ struct Methods<'a> {
     /// The light cut to each of [`KEPT`].
     cut: Vec<Vec<[f64; 3]>>,
     options: SegmentOptions,
+    shared: &'a Shared,
 }
 
 impl<'a> Methods<'a> {
-    fn new(scene: &'a FigureScene, options: SegmentOptions) -> Result<Self, StudyError> {
+    fn new(scene: &'a FigureScene, options: SegmentOptions, shared: &'a Shared) -> Result<Self, StudyError> {
         let light = stand_in()?;
         let faces = HaarLight::new(&light, Segmentation::Faces);
         let kept = |keep: usize| faces.truncated(keep, TruncationPriority::Area).map_err(|e| failed(HOST)(&e));
         let cut = KEPT.iter().map(|&keep| Ok(kept(keep)?.light.radiances())).collect::<Result<_, StudyError>>()?;
-        Ok(Self { scene, light, cut, options })
+        Ok(Self { scene, light, cut, options, shared })
     }
 
-    /// Colors of the model or the ground: exact, ours, harmonics, and a fixed view with each of the cut lights.
+    /// Colors of the model or the ground: exact, ours, harmonics, and a fixed view with each of the cut lights. They
+    /// are a piece of the work, and so are segments.
     fn colors(
+        &self,
+        subject: (&VisibilityMaps, &dyn ProductFunction, &Reflectance),
+        color: [f64; 3],
+        name: &str,
+    ) -> Result<Vec<Vec<[f64; 3]>>, StudyError> {
+        self.shared.piece(name, || self.computed(subject, color, name))
+    }
+
+    fn computed(
         &self,
         (maps, product, reflectance): (&VisibilityMaps, &dyn ProductFunction, &Reflectance),
         color: [f64; 3],
+        name: &str,
     ) -> Result<Vec<Vec<[f64; 3]>>, StudyError> {
         let scene = self.scene;
         let lights: Vec<&[[f64; 3]]> =
@@ -116,7 +129,7 @@ impl<'a> Methods<'a> {
             colors.into_iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * color[channel])).collect()
         };
         let mut all: Vec<Vec<[f64; 3]>> = all.into_iter().map(colored).collect();
-        let surface = Surface { scene, maps, reflectance, color };
+        let surface = Surface { scene, maps, reflectance, color, pieces: (self.shared, name) };
         let quarters = HaarLight::new(&self.light, Segmentation::Quarters);
         all.insert(1, surface.of_code(&surface.coded(self.options)?.0, &quarters)?);
         Ok(all)

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::baselines::COLORS;
 use super::lit::Surface;
 use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, ModelSize, Prose, StudyError, models, number, solved};
+use super::{FigureParts, Prose, Shared, StudyError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;
 use crate::picture::rgb8;
@@ -22,11 +22,17 @@ const SEGMENTS: usize = 3;
 const HOW: &str = "Figure 4 and figure 5 have a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty, {} \
     vertices each on average.";
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
+pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
+    let size = shared.models;
     let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6), size)?;
     let light = HaarLight::new(&stand_in()?, Segmentation::Quarters);
-    let surface =
-        Surface { scene: &scene, maps: &scene.of_model, reflectance: &Reflectance::Diffuse, color: COLORS[0] };
+    let surface = Surface {
+        scene: &scene,
+        maps: &scene.of_model,
+        reflectance: &Reflectance::Diffuse,
+        color: COLORS[0],
+        pieces: (shared, "figure-5"),
+    };
     let dark = vec![[0.0; 3]; scene.of_ground.len()];
     let raw = surface.raw(&[&light])?.remove(0);
     let exact = scene.joined(&surface.exit_of_rows((1, &raw)), &dark);

@@ -1,7 +1,7 @@
 //! Radiance of vertices by factored transfer, compressed or not.
 
 use super::scene::FigureScene;
-use super::{HOST, StudyError, failed};
+use super::{HOST, Shared, StudyError, failed};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -17,11 +17,15 @@ pub(super) struct Surface<'a> {
     pub(super) maps: &'a VisibilityMaps,
     pub(super) reflectance: &'a Reflectance,
     pub(super) color: [f64; 3],
+    /// Where its pieces are kept, and their name.
+    pub(super) pieces: (&'a Shared, &'a str),
 }
 
 impl Surface<'_> {
     /// Compresses and encodes the transfer.
     pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, CompressionTally), StudyError> {
+        let (shared, name) = self.pieces;
+        let name = format!("{name}-{}-", options.vectors);
         let compression = SegmentedCompression {
             vertices: &self.scene.vertices,
             maps: self.maps,
@@ -29,7 +33,7 @@ impl Surface<'_> {
             reflectance: self.reflectance,
             options,
             code: CodeOptions::default(),
-            kept: None,
+            kept: shared.kept().map(|kept| (kept, name.as_str())),
         };
         compression.run(&mut |_, _, _| ()).map_err(|e| failed(HOST)(&e))
     }
@@ -43,14 +47,16 @@ impl Surface<'_> {
 
     /// Radiance of the vertices from raw matrices: per light, and per vertex of the mesh, the rows of T_p.
     pub(super) fn raw(&self, lights: &[&HaarLight]) -> Result<Vec<Vec<[f64; 3]>>, StudyError> {
-        let scene = self.scene;
+        let (scene, (shared, name)) = (self.scene, self.pieces);
         let at = (&scene.vertices, self.maps);
-        raw_radiance(at, scene.hats.width(), self.reflectance, lights).map_err(|e| failed(HOST)(&e))
+        let raw = || raw_radiance(at, scene.hats.width(), self.reflectance, lights).map_err(|e| failed(HOST)(&e));
+        shared.piece(&format!("{name}-raw"), raw)
     }
 
     /// Step 4 with T_p of the mesh's vertices.
     pub(super) fn exit(&self, transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync)) -> Vec<[f64; 3]> {
-        let color = |_: usize| self.color;
+        let color = self.color;
+        let color = |_: usize| color;
         let all = exit_radiance(&self.scene.vertices, self.reflectance, &color, transferred, self.scene.eye());
         self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect()
     }

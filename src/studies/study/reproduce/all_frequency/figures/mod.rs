@@ -31,11 +31,11 @@ pub(in crate::study::reproduce) fn full_size() -> String {
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut found = EntryFindings { questions: vec![QUESTION], ..EntryFindings::default() };
     for parts in [
-        baselines::figure(shared.models)?,
-        terms::figure(shared.models)?,
-        clusters::figure(shared.models)?,
+        baselines::figure(shared)?,
+        terms::figure(shared)?,
+        clusters::figure(shared)?,
         truncation::figure(shared.models)?,
-        rates::figure(shared.models)?,
+        rates::figure(shared)?,
     ] {
         found.text.extend(parts.text);
         found.rows.extend(parts.rows);

@@ -8,7 +8,7 @@ use super::baselines::COLORS;
 use super::lit::Surface;
 use super::models::NamedLobe;
 use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, Method, ModelSize, Prose, Standing, StudyError, failed, models, number, paper_row};
+use super::{FigureParts, Method, Prose, Shared, Standing, StudyError, failed, models, number, paper_row};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::Lobe;
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
@@ -125,13 +125,20 @@ impl GroundedModel {
 /// Pictures of all models, each under all lights.
 fn pictures(
     mesh: &Mesh,
-    size: ModelSize,
+    (shared, name): (&Shared, &str),
     lights: &[&HaarLight],
     all: &[GroundedModel],
 ) -> Result<(FigureScene, Vec<NamedPicture>), StudyError> {
+    let size = shared.models;
     let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2), size)?;
-    let ground =
-        Surface { scene: &scene, maps: &scene.of_ground, reflectance: &Reflectance::Diffuse, color: COLORS[1] };
+    let of_ground = format!("figure-7-ground-of-{name}");
+    let ground = Surface {
+        scene: &scene,
+        maps: &scene.of_ground,
+        reflectance: &Reflectance::Diffuse,
+        color: COLORS[1],
+        pieces: (shared, &of_ground),
+    };
     let of_ground = ground.raw(lights)?;
     let mut found = Vec::new();
     for GroundedModel { lobe, shown } in all {
@@ -139,7 +146,8 @@ fn pictures(
             Some(lobe) => Reflectance::Factored(models::factorization(lobe, TERMS)?.factors(TERMS)),
             None => Reflectance::Diffuse,
         };
-        let model = Surface { scene: &scene, maps: &scene.of_model, reflectance: &reflectance, color: COLORS[0] };
+        let (scene, reflectance, color) = (&scene, &reflectance, COLORS[0]);
+        let model = Surface { scene, maps: &scene.of_model, reflectance, color, pieces: (shared, shown[0].0.as_str()) };
         let rows = reflectance.terms();
         for ((of_model, of_ground), shown) in model.raw(lights)?.iter().zip(&of_ground).zip(shown) {
             let colors = scene.joined(&model.exit_of_rows((rows, of_model)), &ground.exit_of_rows((1, of_ground)));
@@ -149,17 +157,18 @@ fn pictures(
     Ok((scene, found))
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
+pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
+    let size = shared.models;
     let sky = stand_in()?;
     let whole = HaarLight::new(&sky, Segmentation::Quarters);
     let smooth = HaarLight::new(&super::scene::of_low_frequency(&sky, ORDER)?, Segmentation::Quarters);
     let glossy = models::cook_torrance().map(|lobe| GroundedModel::new(Some(lobe), &[("glossy", "glossy Buddha")]));
     let buddhas: Vec<GroundedModel> =
         [GroundedModel::new(None, &[("diffuse", "diffuse Buddha")])].into_iter().chain(glossy).collect();
-    let (buddha, of_buddha) = pictures(&models::drawn_buddha(size), size, &[&whole], &buddhas)?;
+    let (buddha, of_buddha) = pictures(&models::drawn_buddha(size), (shared, "buddha"), &[&whole], &buddhas)?;
     let by_light = [("low", "teapot, light of low frequency"), ("all", "teapot, light of all frequencies")];
     let teapots = models::schlick().map(|lobe| GroundedModel::new(Some(lobe), &by_light));
-    let (teapot, of_teapot) = pictures(&models::teapot_of(size)?, size, &[&smooth, &whole], &teapots)?;
+    let (teapot, of_teapot) = pictures(&models::teapot_of(size)?, (shared, "teapot"), &[&smooth, &whole], &teapots)?;
     let [low, all, low_of_form, all_of_form] = [0, 1, 2, 3].map(|at| of_teapot.get(at).cloned());
     let [diffuse, glossy, glossy_of_form] = [0, 1, 2].map(|at| of_buddha.get(at).cloned());
     let columns = ["Buddha, diffuse", "Buddha, glossy", "teapot, low frequencies", "teapot, all frequencies"];

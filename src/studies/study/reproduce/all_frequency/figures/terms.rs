@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::lit::Surface;
 use super::models::NamedLobe;
 use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, ModelSize, Prose, StudyError, models, number, solved};
+use super::{FigureParts, Prose, Shared, StudyError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::baselines::{BaselineSubject, FixedView};
 use crate::report::{Cell, NamedPicture, PictureGrid, Table};
@@ -21,11 +21,12 @@ const COLOR: [f64; 3] = [0.9, 0.75, 0.5];
 const HOW: &str = "Figure 2 draws a teapot with {} vertices and the reflectance of Cook and Torrance with more and more terms, transfer not compressed, beside the \
     reflectance itself: in the textbooks' form, and as the distribution of facets alone, which is nearest to the errors of section 3.";
 
-fn surface<'a>(scene: &'a FigureScene, reflectance: &'a Reflectance) -> Surface<'a> {
-    Surface { scene, maps: &scene.of_model, reflectance, color: COLOR }
+fn surface<'a>(scene: &'a FigureScene, reflectance: &'a Reflectance, pieces: (&'a Shared, &'a str)) -> Surface<'a> {
+    Surface { scene, maps: &scene.of_model, reflectance, color: COLOR, pieces }
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
+pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
+    let size = shared.models;
     let scene = FigureScene::new(&models::drawn_teapot(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1), size)?;
     let light = stand_in()?;
     let mut parts = FigureParts::default();
@@ -34,7 +35,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let mut table = Table::of("Figure 2: terms", "form terms relative_squared_error rms_% flip");
     let mut falls = Vec::new();
     for form in models::cook_torrance() {
-        let (errors, pictures) = of_form(&scene, &light, form, &mut table)?;
+        let (errors, pictures) = of_form(&scene, &light, form, (&mut table, shared))?;
         let at = |terms: usize| TERMS.iter().position(|&other| other == terms).map_or(f64::NAN, |at| errors[at]);
         falls.push(at(1) / at(10));
         grid = grid.row(format!("Cook and Torrance's model, {}", form.0), pictures);
@@ -51,27 +52,30 @@ fn of_form(
     scene: &FigureScene,
     light: &CubeLight,
     (form, lobe): NamedLobe,
-    table: &mut Table,
+    (table, shared): (&mut Table, &Shared),
 ) -> Result<(Vec<f64>, Vec<NamedPicture>), StudyError> {
     let most = TERMS[TERMS.len() - 1];
     let factorization = models::factorization(&lobe, most)?;
     let of_most = Reflectance::Factored(factorization.factors(most));
     let dark = vec![[0.0; 3]; scene.of_ground.len()];
-    let raw = surface(scene, &of_most).raw(&[&HaarLight::new(light, Segmentation::Quarters)])?.remove(0);
+    let name = |what: &str| format!("figure-2-{what}{}", models::ending(form));
+    let of_all = name("all");
+    let pieces = (shared, of_all.as_str());
+    let raw = surface(scene, &of_most, pieces).raw(&[&HaarLight::new(light, Segmentation::Quarters)])?.remove(0);
     let subject =
         BaselineSubject { vertices: &scene.vertices, maps: &scene.of_model, hats: &scene.hats, product: &lobe };
-    let exact = FixedView(subject).radiance(scene.eye(), &[light.texels()]).remove(0);
+    let exact = || Ok(FixedView(subject).radiance(scene.eye(), &[light.texels()]).remove(0));
+    let exact: Vec<[f64; 3]> = shared.piece(&name("itself"), exact)?;
     let colored: Vec<[f64; 3]> =
         exact.iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * COLOR[channel])).collect();
     let exact = scene.joined(&colored, &dark);
     let exposure = scene.exposure(&exact);
-    let name = |what: &str| format!("figure-2-{what}{}", models::ending(form));
     let mut pictures =
         vec![scene.picture(&exact, exposure, (name("exact"), format!("the reflectance itself, {form}")))?];
     let mut errors = Vec::new();
     for terms in TERMS {
         let reflectance = Reflectance::Factored(factorization.factors(terms));
-        let model = surface(scene, &reflectance).exit_of_rows((most, &raw));
+        let model = surface(scene, &reflectance, pieces).exit_of_rows((most, &raw));
         let found = scene.joined(&model, &dark);
         let error = scene.error(&found, &exact, exposure)?;
         let of_table = factorization.relative_squared_error(terms);
