@@ -308,18 +308,19 @@ proptest! {
     }
 }
 
-/// The same for a texture that is too large for a table.
+/// The same for a texture that is too large for a table, and for one with more texels than a byte has codes.
 #[test]
-fn textures_without_a_table_are_filtered_alike() {
+fn large_textures_are_filtered_alike() {
     let mut state = 1u64;
     let mut next = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 32) as u32
     };
-    let formats = [TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rgba16Snorm, TexelFormat::Bgra5551];
+    let cases = TexelFormat::ALL.iter().zip(MODES.into_iter().cycle());
+    let cases = cases.flat_map(|(&format, mode)| [[601, 600], [43, 42]].map(|size| (format, mode, size)));
     // Exact fractions, then bytes.
-    for ((format, mode), switches) in formats.into_iter().zip(MODES).flat_map(|case| [(case, 0), (case, 31)]) {
-        let mut texture = Image::new_2d(format, 601, 600).unwrap();
+    for ((format, mode, [width, height]), switches) in cases.flat_map(|case| [(case, 0), (case, 31)]) {
+        let mut texture = Image::new_2d(format, width, height).unwrap();
         texture.bytes_mut().iter_mut().for_each(|byte| *byte = next() as u8);
         let filter = Filter::Linear;
         let border = [0x3e80_0000, 0x3f00_0000, 0x3f40_0000, ONE];

@@ -4,11 +4,13 @@ use super::channel::{channel_in_slot, channel_of};
 use crate::exec::batch::lanes::AnyLane;
 use crate::num::Format;
 use crate::texture::{
-    AddressMode, ChannelValue, FilterArithmetic, SampleRules, SampledComponent, SampledSource, SamplerState,
+    AddressMode, Channel, ChannelValue, FilterArithmetic, SampleRules, SampledComponent, SampledSource, SamplerState,
 };
 
 /// Maximum width of fixed-point channels whose sums are exact: weights of three axes have 36 bits, a double 53.
 const WIDEST: u8 = 16;
+/// Maximum width of channels each of whose codes is decoded once.
+const NARROW: u8 = 8;
 
 /// Source of a result component.
 #[derive(Clone, Copy, Debug)]
@@ -51,12 +53,31 @@ impl FilteredComponent {
         }
     }
 
+    /// The channel that is read, if it has few codes.
+    pub(super) fn narrow_channel(self) -> Option<Channel> {
+        match self {
+            Self::Ratio(SampledSource::Stored(channel), _) | Self::Byte(SampledSource::Stored(channel), _) => {
+                (channel.bits <= NARROW).then_some(channel)
+            }
+            _ => None,
+        }
+    }
+
+    /// Numerator or byte of each code of a narrow channel.
+    pub(super) fn codes(self, channel: Channel, rules: &SampleRules) -> Vec<u32> {
+        (0..1 << channel.bits).map(|bits| self.decoded(|_| bits, rules)).collect()
+    }
+
     /// Decodes a stored texel to its numerator, byte or single-precision value.
     pub(super) fn decode(self, texel: &[u8], rules: &SampleRules) -> u32 {
+        self.decoded(|channel| channel_of(channel, texel), rules)
+    }
+
+    fn decoded(self, bits: impl Fn(Channel) -> u32, rules: &SampleRules) -> u32 {
         match self {
             Self::Constant(_) => 0,
             Self::Ratio(source, _) | Self::Byte(source, _) | Self::Single(source) => {
-                self.kept(source.read(rules, |channel| channel_of(channel, texel)), rules)
+                self.kept(source.read(rules, bits), rules)
             }
         }
     }

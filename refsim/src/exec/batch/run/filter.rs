@@ -7,11 +7,11 @@
 use std::sync::OnceLock;
 
 use super::address::{AxisTaps, TexelAxis, Weights, cube, linear};
-use super::channel::{channel_in_slot, ratios};
+use super::channel::{channel_in_slot, channel_of, ratios};
 use super::component::FilteredComponent;
 use super::corners::{BORDER, add_weighted, combine, combine_bytes, corner_numbers, corner_weights};
 use super::slots::Slots;
-use super::table::MAX_TABLE_TEXELS;
+use super::table::{FEW_TEXELS, MAX_TABLE_TEXELS};
 use crate::exec::SamplerBinding;
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel, with_any_lane};
 use crate::exec::batch::schedule::FetchStep;
@@ -34,11 +34,19 @@ pub(crate) struct FilteredLevel {
     /// level.
     texels: OnceLock<Vec<[u32; 4]>>,
     border: [u32; 4],
-    /// Raw values of unsigned and signed bytes, by the byte's bits. Built on first use.
-    bytes: [OnceLock<Vec<u32>>; 2],
+    codes: Box<DecodedCodes>,
     /// Byte offset of the level, and its number of texels.
     start: usize,
     count: usize,
+}
+
+/// Tables by code, built on first use.
+#[derive(Debug, Default)]
+struct DecodedCodes {
+    /// By component: the numerator or byte of each code of a narrow channel; never for few texels.
+    narrow: [OnceLock<Vec<u32>>; 4],
+    /// Raw values of unsigned and signed bytes, by the byte's bits.
+    bytes: [OnceLock<Vec<u32>>; 2],
 }
 
 /// Unrounded results of all lanes, by component: sums of numerators, bytes, or single-precision values.
@@ -104,7 +112,7 @@ impl FilteredLevel {
             components,
             texels: OnceLock::new(),
             border: std::array::from_fn(|c| components[c].kept(border[c], rules)),
-            bytes: [OnceLock::new(), OnceLock::new()],
+            codes: Box::default(),
             start: level.offset,
             count: level.width as usize * level.height as usize * level.slices as usize,
         })
@@ -121,8 +129,23 @@ impl FilteredLevel {
             return None;
         }
         let stored = || source.image.bytes()[self.start..].chunks_exact(source.image.format().bytes()).take(self.count);
-        let decoded = |texel| self.components.map(|c| c.decode(texel, source.rules));
-        Some(self.texels.get_or_init(|| stored().map(decoded).collect()))
+        let decoded = || {
+            let decoders = std::array::from_fn::<_, 4, _>(|component| self.decoder(component, source.rules));
+            stored().map(|texel| decoders.each_ref().map(|decode| decode(texel))).collect()
+        };
+        Some(self.texels.get_or_init(decoded))
+    }
+
+    /// Decodes a component of a stored texel, by its code where all codes are fewer than the texels.
+    fn decoder<'l>(&'l self, component: usize, rules: &'l SampleRules) -> impl Fn(&[u8]) -> u32 + 'l {
+        let read = self.components[component];
+        let narrow = read.narrow_channel().filter(|_| self.count > FEW_TEXELS);
+        let codes =
+            narrow.map(|channel| (channel, self.codes.narrow[component].get_or_init(|| read.codes(channel, rules))));
+        move |texel| match codes {
+            Some((channel, values)) => values[channel_of(channel, texel) as usize & (values.len() - 1)],
+            None => read.decode(texel, rules),
+        }
     }
 
     /// Reads texels with the sampler's filter into the slots of the step; from a large image only for enabled lanes.
@@ -201,7 +224,7 @@ impl FilteredLevel {
             let byte = if signed { bits.cast_signed().into() } else { bits.into() };
             channel_in_slot(SampledComponent::Byte { byte, signed }.value(rules), rules.format, lane)
         };
-        self.bytes[usize::from(signed)].get_or_init(|| (0..=u8::MAX).map(raw).collect())
+        self.codes.bytes[usize::from(signed)].get_or_init(|| (0..=u8::MAX).map(raw).collect())
     }
 
     /// Source of a component.
@@ -310,13 +333,14 @@ impl FilteredLevel {
         }
         let size = source.image.format().bytes();
         let bytes = source.image.bytes().get(self.start..).unwrap_or_default();
+        let decode = self.decoder(component, source.rules);
         for ((value, &number), &run) in out.iter_mut().zip(numbers).zip(source.run) {
             *value = match number {
                 _ if run == 0 => 0,
                 BORDER => self.border[component],
                 _ => {
                     let texel = bytes.get(number as usize * size..).and_then(|bytes| bytes.get(..size));
-                    texel.map_or(0, |texel| self.components[component].decode(texel, source.rules))
+                    texel.map_or(0, &decode)
                 }
             };
         }

@@ -12,7 +12,7 @@ use crate::texture::{
 /// Maximum number of texels of an image with a table: 4 MiB. Texels of larger images are decoded on each read.
 pub(crate) const MAX_TABLE_TEXELS: usize = 1 << 18;
 /// Up to this number of texels, narrow channels are decoded one by one; beyond it, each of their codes is decoded once.
-const FEW_TEXELS: usize = 1024;
+pub(super) const FEW_TEXELS: usize = 1024;
 
 /// A decoded 1-D, 2-D or rectangle texture.
 #[derive(Debug)]
