@@ -10,6 +10,7 @@
 //! maps, 12 KiB per vertex, and one segment, 1 KiB per vertex and row of F: for 50,000 vertices and 10 rows 614 MB and
 //! at most 512 MB.
 
+use std::fmt;
 use std::ops::Range;
 
 use glam::DVec3;
@@ -34,8 +35,8 @@ pub const fn transfer_bytes(vertices: u64, rows: u64) -> u64 {
 }
 
 /// Input of transfer: visibility, and the light's side of the factored BRDF.
-#[derive(Clone, Copy, Debug)]
-pub struct FactoredTransfer<'a, F> {
+#[derive(Clone, Copy)]
+pub struct FactoredTransfer<'a> {
     /// The mesh.
     pub vertices: &'a Vertices,
     /// Visibility maps of the vertices whose transfer is computed.
@@ -44,20 +45,44 @@ pub struct FactoredTransfer<'a, F> {
     pub hats: &'a LinearBasis,
     /// m, the number of components of F: at least 1.
     pub rows: usize,
-    /// F: writes all `rows` components for a local direction of length 1 with z > 0 (z along the normal, x along the
-    /// tangent); they include the cosine z.
-    pub response: F,
+    /// F, of `rows` components.
+    pub response: &'a dyn LightSide,
+}
+
+/// The light's side F of a factored BRDF. Called by its table, so that the loops over directions are compiled here, for
+/// any F, and not with each of their users.
+pub trait LightSide: Sync {
+    /// Writes all components for a local direction of length 1 with z > 0 (z along the normal, x along the tangent);
+    /// they include the cosine z.
+    fn write(&self, direction: DVec3, into: &mut [f64]);
+}
+
+impl LightSide for Reflectance {
+    fn write(&self, direction: DVec3, into: &mut [f64]) {
+        self.light(direction, into);
+    }
+}
+
+impl<F: Fn(DVec3, &mut [f64]) + Sync> LightSide for F {
+    fn write(&self, direction: DVec3, into: &mut [f64]) {
+        self(direction, into);
+    }
+}
+
+impl fmt::Debug for FactoredTransfer<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FactoredTransfer").field("maps", &self.maps.len()).field("rows", &self.rows).finish()
+    }
 }
 
 /// The transfer of a reflectance, whose light's side is F.
-pub fn transfer_of<'a>(
+pub const fn transfer_of<'a>(
     vertices: &'a Vertices,
     maps: &'a VisibilityMaps,
     hats: &'a LinearBasis,
     reflectance: &'a Reflectance,
-) -> FactoredTransfer<'a, impl Fn(DVec3, &mut [f64]) + Sync> {
-    let response = |direction: DVec3, into: &mut [f64]| reflectance.light(direction, into);
-    FactoredTransfer { vertices, maps, hats, rows: reflectance.terms(), response }
+) -> FactoredTransfer<'a> {
+    FactoredTransfer { vertices, maps, hats, rows: reflectance.terms(), response: reflectance }
 }
 
 /// The transfer of one segment of the light, for the vertices that see any of it.
@@ -88,7 +113,7 @@ impl Scratch {
     }
 }
 
-impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
+impl FactoredTransfer<'_> {
     /// The segments in order, without those that no vertex sees. Each is computed when the iterator reaches it.
     ///
     /// # Errors
@@ -164,7 +189,7 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
         let Scratch { response, raw, .. } = scratch;
         raw.fill(0.0);
         self.hats.segment(segment).for_each_seen(self.maps.bits(map), |sample| {
-            (self.response)(frame.to_local(directions[sample.fine as usize]), response);
+            self.response.write(frame.to_local(directions[sample.fine as usize]), response);
             let count = usize::from(sample.count);
             for (&place, weight) in sample.places[..count].iter().zip(sample.weights) {
                 let into = &mut raw[usize::from(place) * rows..][..rows];

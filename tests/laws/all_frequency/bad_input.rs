@@ -77,11 +77,11 @@ fn what_is_no_transfer_is_refused() {
         maps: &maps,
         hats: &hats,
         rows: 1,
-        response: |_: DVec3, _: &mut [f64]| (),
+        response: &|_: DVec3, _: &mut [f64]| (),
     };
     assert!(elsewhere.segment(0).is_err_and(|error| error.to_string().ends_with("vertex's number, found 5")));
     let response = |_: DVec3, into: &mut [f64]| into.fill(f64::NAN);
-    let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 2, response };
+    let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 2, response: &response };
     let error = transfer.segments().find_map(Result::err).expect("a NaN");
     assert!(error.to_string().starts_with("expected finite numbers, found NaN in component 0 of point 0"), "{error}");
 }

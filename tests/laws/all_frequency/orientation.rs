@@ -39,7 +39,7 @@ fn seen(light: &HaarLight, normal: DVec3) -> f64 {
     let vertices = vertices(&mesh);
     let (maps, hats) = (trace(&mesh, &vertices, &[0]), LinearBasis::new(BasisWidth::TwoTexels));
     let response = |s: DVec3, into: &mut [f64]| into[0] = s.z;
-    let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 1, response };
+    let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 1, response: &response };
     assert_eq!(all(&vertices).len(), 3);
     let products = transfer.segments().map(|segment| {
         let segment = segment.expect("transfer");

@@ -40,7 +40,7 @@ fn places(turn: &DMat3, side: usize) -> Vec<usize> {
 fn radiance(vertices: &Vertices, maps: &VisibilityMaps, light: &CubeLight) -> BTreeMap<u32, [f64; 3]> {
     let (hats, light) = (LinearBasis::new(BasisWidth::TwoTexels), HaarLight::new(light, Segmentation::Quarters));
     let response = |s: DVec3, into: &mut [f64]| into.copy_from_slice(&[s.z, s.z * s.x, s.z * s.y * s.y]);
-    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows: 3, response };
+    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows: 3, response: &response };
     let mut sums = BTreeMap::new();
     for segment in transfer.segments().map(|segment| segment.expect("transfer")) {
         for (point, &vertex) in segment.vertices.iter().enumerate() {

@@ -56,7 +56,7 @@ fn segments(
     response: impl Fn(DVec3, &mut [f64]) + Sync,
 ) -> Vec<TransferSegment> {
     let (maps, hats) = (trace(mesh, vertices, &all(vertices)), LinearBasis::new(width));
-    let transfer = FactoredTransfer { vertices, maps: &maps, hats: &hats, rows, response };
+    let transfer = FactoredTransfer { vertices, maps: &maps, hats: &hats, rows, response: &response };
     transfer.segments().map(|segment| segment.expect("transfer")).collect()
 }
 
@@ -160,7 +160,7 @@ fn empty_segments_are_left_out_and_counted() {
     let maps = trace(&mesh, &vertices, &all(&vertices));
     for width in WIDTHS {
         let hats = LinearBasis::new(width);
-        let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 3, response: glossy };
+        let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 3, response: &glossy };
         let census = SegmentCensus::new(&vertices, &maps, &hats);
         let mut nonempty = 0;
         for segment in transfer.segments().map(|segment| segment.expect("transfer")) {
@@ -188,7 +188,7 @@ fn empty_segments_are_left_out_and_counted() {
         maps: &maps,
         hats: &LinearBasis::new(BasisWidth::OneTexel),
         rows: 0,
-        response: glossy,
+        response: &glossy,
     };
     assert!(none.segment(0).is_err_and(|error| error.to_string().contains("at least 1 for the number of rows")));
 }

@@ -20,7 +20,7 @@ impl FixedView<'_> {
     pub fn row(&self, map: usize, view: DVec3) -> Vec<f64> {
         let BaselineSubject { vertices, maps, hats, product } = self.0;
         let response = |light: DVec3, into: &mut [f64]| into[0] = product.value(view, light);
-        let transfer = FactoredTransfer { vertices, maps, hats, rows: 1, response };
+        let transfer = FactoredTransfer { vertices, maps, hats, rows: 1, response: &response };
         let mut row = vec![0.0; LIGHT_TEXELS];
         for segment in 0..Segmentation::Quarters.count() {
             for (place, value) in transfer.raw(segment, map).into_iter().enumerate() {
