@@ -1,7 +1,6 @@
 //! Models of Table 1, or our stand-ins, compressed and encoded.
 
 use std::cell::OnceCell;
-use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
@@ -89,15 +88,15 @@ impl TableMaterial {
 pub(super) const fn ground_side(size: ModelSize) -> u32 {
     match size {
         ModelSize::Printed => GROUND_SIDE,
-        ModelSize::Reduced => 24,
+        ModelSize::Reduced => 14,
     }
 }
 
 /// Visibility at the vertices of a model, or of its ground.
 pub(super) struct ModelVisibility {
-    vertices: Rc<Vertices>,
+    vertices: Vertices,
     maps: VisibilityMaps,
-    hats: Rc<LinearBasis>,
+    hats: LinearBasis,
     size: ModelSize,
 }
 
@@ -139,24 +138,28 @@ impl ModelVisibility {
         let mesh = model.mesh(size)?;
         let vertices = Vertices::new(&mesh, Tangents::default()).map_err(|e| fail(&e))?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
-        let mut tracer = HostTracer::new(&mesh, Sides::Both);
-        let maps = VisibilityMaps::trace(&vertices, &all, &mut tracer, &mut |_, _| ()).map_err(|e| fail(&e))?;
-        Ok(Self { vertices: Rc::new(vertices), maps, hats: Rc::new(LinearBasis::new(BasisWidth::TwoTexels)), size })
+        Self::traced(&mesh, vertices, &all, size)
     }
 
-    /// Computes visibility of a model on a ground, and of that ground.
-    pub(super) fn on_ground(model: TableModel, size: ModelSize) -> Result<[Self; 2], StudyError> {
+    /// Computes visibility of a model on a ground, or of that ground.
+    pub(super) fn on_ground(model: TableModel, of_ground: bool, size: ModelSize) -> Result<Self, StudyError> {
         let fail = failed(HOST);
         let (mesh, materials) = on_ground(&model.mesh(size)?, ground_side(size)).map_err(|e| fail(&e))?;
         let vertices = Vertices::with_materials(&mesh, &materials, Tangents::default()).map_err(|e| fail(&e))?;
-        let is_ground = |&vertex: &u32| vertices.materials()[vertex as usize] == 1;
-        let (ground, own): (Vec<u32>, Vec<u32>) = (0..vertices.len() as u32).partition(is_ground);
-        let mut tracer = HostTracer::new(&mesh, Sides::Both);
-        let mut trace = |of: &[u32]| VisibilityMaps::trace(&vertices, of, &mut tracer, &mut |_, _| ());
-        let [own, ground] = [trace(&own).map_err(|e| fail(&e))?, trace(&ground).map_err(|e| fail(&e))?];
-        let (vertices, hats) = (Rc::new(vertices), Rc::new(LinearBasis::new(BasisWidth::TwoTexels)));
-        let of = |maps| Self { vertices: Rc::clone(&vertices), maps, hats: Rc::clone(&hats), size };
-        Ok([own, ground].map(of))
+        let is_wanted = |&vertex: &u32| (vertices.materials()[vertex as usize] == 1) == of_ground;
+        let wanted: Vec<u32> = (0..vertices.len() as u32).filter(is_wanted).collect();
+        Self::traced(&mesh, vertices, &wanted, size)
+    }
+
+    fn traced(mesh: &Mesh, vertices: Vertices, wanted: &[u32], size: ModelSize) -> Result<Self, StudyError> {
+        let mut tracer = HostTracer::new(mesh, Sides::Both);
+        let maps = VisibilityMaps::trace(&vertices, wanted, &mut tracer, &mut |_, _| ());
+        Ok(Self {
+            maps: maps.map_err(|e| failed(HOST)(&e))?,
+            vertices,
+            hats: LinearBasis::new(BasisWidth::TwoTexels),
+            size,
+        })
     }
 
     /// Share of the segments that hold transfer.
@@ -212,7 +215,7 @@ pub(super) struct SeenModel {
     pub(super) model: TableModel,
     size: ModelSize,
     alone: OnceCell<ModelVisibility>,
-    on_ground: OnceCell<[ModelVisibility; 2]>,
+    on_ground: OnceCell<ModelVisibility>,
 }
 
 impl SeenModel {
@@ -225,9 +228,9 @@ impl SeenModel {
         on_first_use(&self.alone, || ModelVisibility::alone(self.model, self.size))
     }
 
-    /// Of the model on a ground, and of that ground.
-    pub(super) fn on_ground(&self) -> Result<&[ModelVisibility; 2], StudyError> {
-        on_first_use(&self.on_ground, || ModelVisibility::on_ground(self.model, self.size))
+    /// Of the model on a ground.
+    pub(super) fn on_ground(&self) -> Result<&ModelVisibility, StudyError> {
+        on_first_use(&self.on_ground, || ModelVisibility::on_ground(self.model, false, self.size))
     }
 }
 
@@ -241,6 +244,8 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+
     use super::*;
     use crate::split::{KeptResults, SpentTime, SplitCommand};
 

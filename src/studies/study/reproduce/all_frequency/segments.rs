@@ -63,7 +63,8 @@ impl SegmentSums {
             let squared_error = coded.squared_errors(&signal).iter().sum();
             let (coefficients, options) = (Segmentation::Quarters.len(), coding.counted());
             let coded = CodedTransfer { rows, coefficients, vertices: of_model, options, segments: vec![coded] };
-            let (size, numbers) = (coded.size(), coded.size().as_the_paper_counts());
+            let size = coded.size();
+            let numbers = size.as_the_paper_counts();
             *sums = CodeSums { numbers, headers: size.total() - numbers, squared_error };
         }
         Ok(found)

@@ -130,8 +130,7 @@ impl ComputedTable {
             };
             // The first model is the bunny.
             if ground.is_none() {
-                ground =
-                    Some(shared.piece("ground", || CompressedGround::new(&seen.on_ground()?[1], &diffuse, shared))?);
+                ground = Some(shared.piece("ground", || CompressedGround::new(model, &diffuse, shared))?);
             }
             let reflectance = match material {
                 Diffuse => &diffuse,
@@ -142,7 +141,7 @@ impl ComputedTable {
             alone.push(shared.piece(&name, || seen.alone()?.compressed(reflectance, SomeOfReduced, (shared, &name)))?);
             let name = format!("{column}-on-ground");
             grounded.push(
-                shared.piece(&name, || seen.on_ground()?[0].compressed(reflectance, SomeOfReduced, (shared, &name)))?,
+                shared.piece(&name, || seen.on_ground()?.compressed(reflectance, SomeOfReduced, (shared, &name)))?,
             );
         }
         let run = |name, columns| TableRun { name, columns };
@@ -164,7 +163,9 @@ struct CompressedGround {
 }
 
 impl CompressedGround {
-    fn new(ground: &ModelVisibility, diffuse: &Reflectance, shared: &Shared) -> Result<Self, StudyError> {
+    /// The ground below a model.
+    fn new(model: TableModel, diffuse: &Reflectance, shared: &Shared) -> Result<Self, StudyError> {
+        let ground = ModelVisibility::on_ground(model, true, shared.models)?;
         let found = ground.compressed(diffuse, SegmentChoice::All, (shared, "ground"))?;
         let open = CODINGS.iter().zip(&found.coded).filter(|(how, _)| how.bits == PRINTED_BITS);
         Ok(Self { omega: ground.omega(), left: open.map(|(_, coded)| coded.numbers / found.raw).collect() })

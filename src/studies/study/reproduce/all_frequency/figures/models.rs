@@ -16,19 +16,14 @@ pub(super) fn tweety(models: ModelSize) -> Mesh {
 }
 
 pub(super) fn buddha(models: ModelSize) -> Mesh {
-    TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 9 })
+    TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 12 })
 }
 
 pub(super) fn teapot_of(models: ModelSize) -> Result<Mesh, StudyError> {
     teapot(if models == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))
 }
 
-/// The Buddha and the teapot of pictures on which no row depends: reduced, they have about a third of the vertices of
-/// [`buddha`] and a quarter of those of [`teapot_of`].
-pub(super) fn drawn_buddha(models: ModelSize) -> Mesh {
-    TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 16 })
-}
-
+/// The teapot of pictures on which no row depends: reduced, it has about a quarter of the vertices of [`teapot_of`].
 pub(super) fn drawn_teapot(models: ModelSize) -> Result<Mesh, StudyError> {
     teapot(if models == ModelSize::Printed { 40 } else { 2 }).map_err(|e| failed(super::HOST)(&e))
 }

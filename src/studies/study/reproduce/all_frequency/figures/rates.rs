@@ -165,7 +165,7 @@ pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
     let glossy = models::cook_torrance().map(|lobe| GroundedModel::new(Some(lobe), &[("glossy", "glossy Buddha")]));
     let buddhas: Vec<GroundedModel> =
         [GroundedModel::new(None, &[("diffuse", "diffuse Buddha")])].into_iter().chain(glossy).collect();
-    let (buddha, of_buddha) = pictures(&models::drawn_buddha(size), (shared, "buddha"), &[&whole], &buddhas)?;
+    let (buddha, of_buddha) = pictures(&models::buddha(size), (shared, "buddha"), &[&whole], &buddhas)?;
     let by_light = [("low", "teapot, light of low frequency"), ("all", "teapot, light of all frequencies")];
     let teapots = models::schlick().map(|lobe| GroundedModel::new(Some(lobe), &by_light));
     let (teapot, of_teapot) = pictures(&models::teapot_of(size)?, (shared, "teapot"), &[&smooth, &whole], &teapots)?;
