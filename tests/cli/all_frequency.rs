@@ -65,7 +65,8 @@ fn finished_segments_are_kept() {
         ran.stderr.split_whitespace().filter(|word| *word != "|").collect::<Vec<_>>().join(" ")
     };
     let other = refused(format!("{options} --seed 2 --out {out}"));
-    assert!(other.contains(".part: expected results of crossbar") && other.contains("--seed=2"), "{other}");
+    assert!(other.contains("segment-00.part: expected a result of crossbar"), "{other}");
+    assert!(other.contains("--seed=2") && other.contains("found one of crossbar all-frequency compress"), "{other}");
     assert!(other.contains("--seed=1") && other.contains("name another folder"), "{other}");
     let signal = place(folder.path(), "signal.prt");
     fs::copy(SIGHT, &signal).expect("a copy");

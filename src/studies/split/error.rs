@@ -91,7 +91,7 @@ pub enum PartError {
     )]
     Missing { of: u32, count: u32, missing: String, command: String },
     /// Results that were kept by other work.
-    #[error("{}: expected results of\n{expected}\nfound one of\n{found}", path.display())]
+    #[error("{}: expected a result of\n{expected}\nfound one of\n{found}", path.display())]
     #[diagnostic(
         code(crossbar::part::other),
         help("go on with the command, the inputs and the program of the first run, or name another folder")

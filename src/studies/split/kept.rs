@@ -57,20 +57,36 @@ impl KeptResults {
             Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(()),
             files => files.map_err(unreadable)?,
         };
-        for file in files {
-            let path = file.map_err(unreadable)?.path();
+        let mut paths = files.map(|file| Ok(file?.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
+        paths.sort();
+        for path in paths {
             // What is no result is left alone, and a damaged one computed again.
-            let Ok((found, _)) = PartHeader::read(&path) else { continue };
-            if (&found.command, &found.inputs) != (&self.command, &self.inputs) {
-                let [expected, found] =
-                    [(&self.command, &self.inputs), (&found.command, &found.inputs)].map(|(command, inputs)| {
-                        let inputs = inputs.iter().map(|(name, digest)| format!("\n  {name}, SHA-256 {digest}"));
-                        format!("{}, crossbar {}{}", command.line(), command.program, inputs.collect::<String>())
-                    });
+            let Ok((header, _)) = PartHeader::read(&path) else { continue };
+            if let Some([expected, found]) = self.difference(&header) {
                 return Err(PartError::OtherWork { path, expected, found });
             }
         }
         Ok(())
+    }
+
+    /// First difference of a result's work from this: program, command, or input.
+    fn difference(&self, found: &PartHeader) -> Option<[String; 2]> {
+        let commands = [&self.command, &found.command];
+        if commands[0].program != commands[1].program {
+            return Some(commands.map(|command| format!("crossbar {}", command.program)));
+        }
+        if commands[0] != commands[1] {
+            return Some(commands.map(SplitCommand::line));
+        }
+        let inputs = [&self.inputs, &found.inputs];
+        let of = |name: &String| {
+            inputs.map(|inputs| match inputs.get(name) {
+                Some(digest) => format!("`{name}` with SHA-256 {digest}"),
+                None => format!("another file than `{name}`"),
+            })
+        };
+        let differs = |name: &&String| inputs[0].get(*name) != inputs[1].get(*name);
+        inputs.iter().flat_map(|inputs| inputs.keys()).find(differs).map(of)
     }
 
     /// Number of results that were taken from the folder.
@@ -166,9 +182,14 @@ mod tests {
         assert_eq!(get(&kept("1", "a"), "two").expect("computed").0, 2);
         fs::write(folder.path().join("kept/other"), "a file of its own").expect("written");
         kept("1", "a").require_no_other_work().expect("work of its own");
-        for (program, entry) in [("2", "a"), ("1", "b")] {
+        for (program, entry) in [("1", "b"), ("2", "a")] {
             let refused = kept(program, entry).require_no_other_work().expect_err("other work").to_string();
-            assert!(refused.contains("expected results of\ncrossbar reproduce"), "{refused}");
+            assert!(refused.contains("/one.part: expected a result of\n"), "{refused}");
+            let [expected, found] = match program {
+                "2" => ["crossbar 2", "crossbar 1"],
+                _ => ["crossbar reproduce b", "crossbar reproduce a"],
+            };
+            assert!(refused.ends_with(&format!("\n{expected}\nfound one of\n{found}")), "{refused}");
             let before = computed.get();
             assert_eq!(get(&kept(program, entry), "one").expect("computed").0, before + 1, "of other work");
         }
