@@ -17,6 +17,8 @@ pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
 /// Results of a segment, or the sums over several.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct SegmentSums {
+    /// Vertices that hold the segment.
+    pub(super) points: usize,
     pub(super) clusters: usize,
     /// Numbers that are stored before coding.
     pub(super) numbers: usize,
@@ -27,6 +29,16 @@ pub(super) struct SegmentSums {
     pub(super) haar: [f64; HAAR_BITS.len()],
     /// Squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
+}
+
+/// Shares of one segment, in the first of [`CODINGS`].
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct SegmentShares {
+    pub(super) segment: usize,
+    /// Size after coding, of that after clustering.
+    pub(super) coded: f64,
+    /// Squared error relative to the sum of squares.
+    pub(super) squared_error: f64,
 }
 
 /// Results of one coding.
@@ -51,6 +63,7 @@ impl SegmentSums {
         let compressed = CompressedSegment::new(segment, vertices, &signal, &options, |step| steps.push(*step));
         let compressed = compressed.map_err(|e| failed(HOST)(&e))?;
         let mut found = Self {
+            points: signal.points(),
             clusters: compressed.clustering.subspaces().len(),
             numbers: compressed.clustering.stored_numbers(),
             squares: signal.sum_of_squares(),
@@ -70,8 +83,16 @@ impl SegmentSums {
         Ok(found)
     }
 
+    /// Shares of the segment.
+    pub(super) fn shares(&self, segment: usize) -> SegmentShares {
+        let CodeSums { numbers, squared_error, .. } = self.coded[0];
+        let coded = numbers as f64 / (4 * self.numbers) as f64;
+        SegmentShares { segment, coded, squared_error: squared_error / self.squares }
+    }
+
     /// Adds the results of another segment.
     pub(super) fn add(&mut self, other: &Self) {
+        self.points += other.points;
         self.clusters += other.clusters;
         self.numbers += other.numbers;
         self.squares += other.squares;

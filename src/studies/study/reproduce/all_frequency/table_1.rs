@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::codings::{CODINGS, Coding};
 use super::models::{
-    CompressedModel, ModelVisibility, SeenModel, SegmentChoice, TableMaterial, TableModel, ground_side,
+    CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, SegmentChoice, TableMaterial, TableModel,
+    ground_side,
 };
 use super::segments::HAAR_BITS;
 use super::{
@@ -17,7 +18,6 @@ use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
 use crate::transfer::grid::LIGHT_TEXELS;
 
-use SegmentChoice::SomeOfReduced;
 use TableMaterial::{Cook, Diffuse, Schlick};
 use TableModel::{Buddha, Bunny, Teapot, Tweety};
 
@@ -37,8 +37,8 @@ const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 const SHAPED: &str = "omega-buddha";
 
 const HOW: &str = "The teapot, the Stanford bunny refined or coarsened, and stand-ins of {} to {} vertices for the other models, with the paper's two reflectances in the textbooks' form, are \
-    compressed by clusters of {} vertices and {} representatives, which are added one by one, and coded in {} bits: {} of the segments. \
-    Omega is that of all segments. Sizes are those of representatives and weights; squared errors are those of decoded transfer, as a share of its squares.";
+    compressed by clusters of {} vertices and {} representatives, which are added one by one, and coded in {} bits: {} of the segments, a quarter of a face at the side, \
+    above and below, which stand for the others by the vertices that hold them. Omega and the ground are of all segments. Sizes are those of representatives and weights; squared errors are those of decoded transfer, as a share of its squares.";
 const GROUND: &str = "A ground plane is \"in all examples\", and the performance of Table 1 is without it, by one paragraph of section 7: rows are of models by \
     themselves, and their ranges have the same models on a ground of {} x {} vertices, which takes the light from below. The ground's own transfer is that of the bunny's scene, \
     scaled to the printed vertices.";
@@ -88,7 +88,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.extend(ground.rows()?);
     let bits = haar(&runs[0].columns)?;
     rows.push(bits.0);
-    tables.extend([bits.1, by_representatives(&runs[0].columns)]);
+    tables.extend([bits.1, by_representatives(&runs[0].columns), by_segment(&runs[0].columns)]);
     let found = &runs[0].columns;
     let counts = || found.iter().map(|model| model.vertices as f64);
     let options = SegmentOptions::default();
@@ -99,7 +99,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         number(options.points_per_cluster as f64, 0),
         number(options.vectors as f64, 0),
         number(f64::from(CodeOptions::default().weight_bits), 0),
-        number(found[0].segments as f64, 0),
+        number(SAMPLED_SEGMENTS.len() as f64, 0),
     ];
     let met = nearest.map(|met| met.to_string());
     let range = [PRINTED_BITS.to_string(), TABLE_1.len().to_string()].into_iter().chain(met);
@@ -137,12 +137,12 @@ impl ComputedTable {
                 Cook => &cook,
                 Schlick => &schlick,
             };
-            let name = format!("{column}-alone");
-            alone.push(shared.piece(&name, || seen.alone()?.compressed(reflectance, SomeOfReduced, (shared, &name)))?);
-            let name = format!("{column}-on-ground");
-            grounded.push(
-                shared.piece(&name, || seen.on_ground()?.compressed(reflectance, SomeOfReduced, (shared, &name)))?,
-            );
+            let [name, name_on_ground] = ["alone", "on-ground"].map(|run| format!("{column}-{run}"));
+            let compress = |seen: &ModelVisibility, name: &str| {
+                seen.compressed(reflectance, SegmentChoice::Sampled, (shared, name))
+            };
+            alone.push(shared.piece(&name, || compress(seen.alone()?, &name))?);
+            grounded.push(shared.piece(&name_on_ground, || compress(seen.on_ground()?, &name_on_ground))?);
         }
         let run = |name, columns| TableRun { name, columns };
         let missing = || failed(HOST)(&"no model has a ground");
@@ -168,7 +168,7 @@ impl CompressedGround {
         let ground = ModelVisibility::on_ground(model, true, shared.models)?;
         let found = ground.compressed(diffuse, SegmentChoice::All, (shared, "ground"))?;
         let open = CODINGS.iter().zip(&found.coded).filter(|(how, _)| how.bits == PRINTED_BITS);
-        Ok(Self { omega: ground.omega(), left: open.map(|(_, coded)| coded.numbers / found.raw).collect() })
+        Ok(Self { omega: found.omega, left: open.map(|(_, coded)| coded.numbers / found.raw).collect() })
     }
 
     /// Rows on raw and coded data of the printed vertices: all segments as in Table 1, decimal; or only those that hold
@@ -285,6 +285,23 @@ fn by_representatives(found: &[CompressedModel]) -> Table {
     for ((column, ..), model) in TABLE_1.iter().zip(found) {
         let errors = model.error_of.iter().map(|(_, error)| Cell::measured(100.0 * error));
         table.push([(*column).into()].into_iter().chain(errors));
+    }
+    table
+}
+
+/// Table of how far the compressed segments differ.
+fn by_segment(found: &[CompressedModel]) -> Table {
+    let headings = SAMPLED_SEGMENTS.iter().flat_map(|segment| [format!("coded_{segment}"), format!("error_{segment}")]);
+    let headings: Vec<String> = ["model".to_owned()].into_iter().chain(headings).collect();
+    let mut table =
+        Table::new("Size after coding, of that after clustering, and squared error, %, by segment", &headings);
+    for ((column, ..), model) in TABLE_1.iter().zip(found) {
+        let of_segment = |segment: &usize| {
+            let shares = model.by_segment.iter().find(|shares| shares.segment == *segment);
+            let shares = shares.map_or([f64::NAN; 2], |shares| [shares.coded, shares.squared_error]);
+            shares.map(|share| Cell::measured(100.0 * share))
+        };
+        table.push([(*column).into()].into_iter().chain(SAMPLED_SEGMENTS.iter().flat_map(of_segment)));
     }
     table
 }

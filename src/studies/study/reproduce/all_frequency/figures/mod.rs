@@ -25,7 +25,8 @@ const QUESTION: &str = "the models, the light of St. Peter's, the cameras and th
 /// Parameters of runs at full size, of Table 1 too.
 pub(in crate::study::reproduce) fn full_size() -> String {
     let size = ModelSize::Printed;
-    format!("{:?} {}", models::options(size, SegmentOptions::default().vectors), models::ground(size))
+    let options = models::options(size, SegmentOptions::default().vectors);
+    format!("{options:?} {:?} {}", baselines::options(size), models::ground(size))
 }
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
