@@ -44,7 +44,10 @@ pub enum Problem {
     Part(#[from] PartError),
     /// A signal ended the work before its files were there.
     #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
-    #[diagnostic(code(crossbar::interrupted), help("work does not resume: the same command starts from the beginning"))]
+    #[diagnostic(
+        code(crossbar::interrupted),
+        help("the same command starts from the beginning, but for what `--resume` or `--record` keeps")
+    )]
     Interrupted,
     /// Options that do not go together.
     #[error("{what}")]

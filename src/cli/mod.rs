@@ -129,7 +129,7 @@ Examples:
   crossbar alu --help                                        # what a command does, with examples
 
 docs/examples and fixtures are folders of the repository; examples are run from its root.
-A command that is interrupted leaves nothing half-written; it does not resume.";
+A command that is interrupted leaves nothing half-written, and starts from the beginning again.";
 
 #[derive(Debug, Subcommand)]
 enum Command {

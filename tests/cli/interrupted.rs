@@ -67,7 +67,7 @@ fn signals_leave_nothing_behind() {
     }
 }
 
-/// The last message says that nothing was written and that work does not resume, as text or as JSON.
+/// The last message says that nothing was written and that work starts from the beginning, as text or as JSON.
 #[test]
 fn what_is_lost_is_said() {
     for (more, expected) in [(None, "Error: crossbar::interrupted"), (Some("--json"), "{\"")] {
@@ -80,7 +80,7 @@ fn what_is_lost_is_said() {
         let output = child.wait_with_output().expect("a child");
         assert_eq!(output.status.signal(), Some(2));
         let said = String::from_utf8(output.stderr).expect("text");
-        assert!(said.starts_with(expected) && said.contains("does not resume"), "{said}");
+        assert!(said.starts_with(expected) && said.contains("starts from the beginning"), "{said}");
     }
 }
 

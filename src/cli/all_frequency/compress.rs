@@ -74,7 +74,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "OF", default_value = "representative", value_parser = variants::<ScaleOf>())]
     scale: ScaleOf,
 
-    /// Keep finished segments in this folder, and take those that it has
+    /// Keep finished segments in this folder, and take those that it has; one with other work is refused
     #[arg(long, value_name = "FOLDER", conflicts_with = "part")]
     resume: Option<PathBuf>,
 

@@ -38,6 +38,11 @@ pub(crate) fn half_to_single(bits: u32) -> u32 {
     sign | if rest & 0x7c00 == 0x7c00 { special } else { finite }
 }
 
+/// Returns `true` if decoding each code of a channel once is less work than decoding this number of texels one by one.
+pub(super) const fn pays_by_code(channel: Channel, texels: usize) -> bool {
+    channel.bits <= 8 && texels > 1024
+}
+
 /// Extracts the bits of a channel.
 pub(crate) fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
     let first = usize::from(channel.shift / 8);

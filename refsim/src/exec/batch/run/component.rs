@@ -9,8 +9,6 @@ use crate::texture::{
 
 /// Maximum width of fixed-point channels whose sums are exact: weights of three axes have 36 bits, a double 53.
 const WIDEST: u8 = 16;
-/// Maximum width of channels each of whose codes is decoded once.
-const NARROW: u8 = 8;
 
 /// Source of a result component.
 #[derive(Clone, Copy, Debug)]
@@ -53,17 +51,17 @@ impl FilteredComponent {
         }
     }
 
-    /// The channel that is read, if it has few codes.
-    pub(super) fn narrow_channel(self) -> Option<Channel> {
+    /// The fixed-point channel that is read, if one is.
+    pub(super) const fn fixed_point_channel(self) -> Option<Channel> {
         match self {
             Self::Ratio(SampledSource::Stored(channel), _) | Self::Byte(SampledSource::Stored(channel), _) => {
-                (channel.bits <= NARROW).then_some(channel)
+                Some(channel)
             }
             _ => None,
         }
     }
 
-    /// Numerator or byte of each code of a narrow channel.
+    /// Numerator or byte of each code of a channel.
     pub(super) fn codes(self, channel: Channel, rules: &SampleRules) -> Vec<u32> {
         (0..1 << channel.bits).map(|bits| self.decoded(|_| bits, rules)).collect()
     }

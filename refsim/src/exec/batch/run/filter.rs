@@ -7,11 +7,11 @@
 use std::sync::OnceLock;
 
 use super::address::{AxisTaps, TexelAxis, Weights, cube, linear};
-use super::channel::{channel_in_slot, channel_of, ratios};
+use super::channel::{channel_in_slot, channel_of, pays_by_code, ratios};
 use super::component::FilteredComponent;
 use super::corners::{BORDER, add_weighted, combine, combine_bytes, corner_numbers, corner_weights};
 use super::slots::Slots;
-use super::table::{FEW_TEXELS, MAX_TABLE_TEXELS};
+use super::table::MAX_TABLE_TEXELS;
 use crate::exec::SamplerBinding;
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel, with_any_lane};
 use crate::exec::batch::schedule::FetchStep;
@@ -139,7 +139,7 @@ impl FilteredLevel {
     /// Decodes a component of a stored texel, by its code where all codes are fewer than the texels.
     fn decoder<'l>(&'l self, component: usize, rules: &'l SampleRules) -> impl Fn(&[u8]) -> u32 + 'l {
         let read = self.components[component];
-        let narrow = read.narrow_channel().filter(|_| self.count > FEW_TEXELS);
+        let narrow = read.fixed_point_channel().filter(|&channel| pays_by_code(channel, self.count));
         let codes =
             narrow.map(|channel| (channel, self.codes.narrow[component].get_or_init(|| read.codes(channel, rules))));
         move |texel| match codes {

@@ -1,7 +1,7 @@
 //! Nearest reads in rows from decoded 1-D, 2-D and rectangle textures.
 
 use super::address::{TexelAxis, nearest};
-use super::channel::{channel_in_slot, channel_of, ratios};
+use super::channel::{channel_in_slot, channel_of, pays_by_code, ratios};
 use crate::exec::SamplerBinding;
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneRow, SimdLevel, with_any_lane};
 use crate::num::Format;
@@ -11,8 +11,6 @@ use crate::texture::{
 
 /// Maximum number of texels of an image with a table: 4 MiB. Texels of larger images are decoded on each read.
 pub(crate) const MAX_TABLE_TEXELS: usize = 1 << 18;
-/// Up to this number of texels, narrow channels are decoded one by one; beyond it, each of their codes is decoded once.
-pub(super) const FEW_TEXELS: usize = 1024;
 
 /// A decoded 1-D, 2-D or rectangle texture.
 #[derive(Debug)]
@@ -98,7 +96,7 @@ fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4
         let size = image.format().bytes();
         let start = image.offset_of(0, 0, 0, 0).unwrap_or_default();
         let bytes = image.bytes().get(start..).unwrap_or_default();
-        if channel.bits <= 8 && texels.len() > FEW_TEXELS {
+        if pays_by_code(channel, texels.len()) {
             let raw = |bits| channel_in_slot(value(bits), rules.format, lane);
             let values: Vec<u32> = (0..1 << channel.bits).map(raw).collect();
             for (texel, bytes) in texels.iter_mut().zip(bytes.chunks_exact(size)) {
