@@ -135,11 +135,12 @@ fn smooth_transfer_compresses_better() {
     assert_eq!((pictures("cpca-figure-11").len(), pictures("cpca-figure-10").len()), (10, 4));
 }
 
-/// Omega and clusters do not depend on coding, and each further representative lowers the error.
+/// Omega and clusters do not depend on coding, each further representative lowers the error, and what stands for a model
+/// is among what its segments are by themselves.
 #[test]
 fn clusters_and_codes_of_models_keep_their_laws() {
     let found = findings("all-frequency-table-1");
-    assert_eq!((found.rows.len(), found.tables.len()), (33, 6));
+    assert_eq!((found.rows.len(), found.tables.len()), (33, 7));
     for row in found.tables[1].rows().iter().filter(|row| ["omega", "size after clustering"].contains(&&*what(row))) {
         let text = |at: usize| row[at].text().trim_end_matches(" *").to_owned();
         assert!((5..20).all(|at| text(at) == text(4)), "{}", row[0].text());
@@ -147,6 +148,18 @@ fn clusters_and_codes_of_models_keep_their_laws() {
     for row in found.tables[5].rows() {
         let errors: Vec<f64> = row[1..].iter().map(|cell| cell.text().parse().expect("a number")).collect();
         assert!(errors.len() == 16 && errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    }
+    let numbers =
+        |row: &[Cell]| -> Vec<f64> { row.iter().map(|cell| cell.text().parse().expect("a number")).collect() };
+    for (model, segments) in found.tables[0].rows().iter().zip(found.tables[6].rows()) {
+        let [clustered, coded, error] = [5, 6, 8].map(|at| numbers(&model[at..=at])[0]);
+        let of_segments = numbers(&segments[1..]);
+        for (of_model, first) in [(100.0 * coded / clustered, 0), (error, 1)] {
+            let each = || of_segments.iter().skip(first).step_by(2).copied();
+            let [least, most] = [each().fold(f64::INFINITY, f64::min), each().fold(0.0, f64::max)];
+            // Tables have four digits.
+            assert!((0.999 * least..=1.001 * most).contains(&of_model), "{of_model} of {of_segments:?}");
+        }
     }
 }
 

@@ -28,7 +28,7 @@ const VECTORS: usize = 16;
 pub(super) const COLORS: [[f64; 3]; 2] = [[0.9, 0.75, 0.5], [0.7; 3]];
 
 const HOW: &str = "Figure 1 draws a bird with {} vertices on a ground with {} under a clear sky with a sun. Exact: every direction of every vertex, the reflectance \
-    itself. Ours: {} terms, {} representatives per cluster of {} vertices, whose number is doubled from 1 on, all light coefficients. Harmonics: order {} for light and for the light that \
+    itself. Ours: {} terms, {} representatives per cluster of {} vertices, whose number is doubled from one on, all light coefficients. Harmonics: order {} for light and for the light that \
     arrives, and the reflectance's own coefficients towards the eye. Fixed view: exact transfer for this one eye, and a light cut to \
     a number of wavelets on six faces, by area times magnitude. The bird is drawn twice: with Schlick's model in the textbooks' form, and in the form \
     that is nearest to the errors of section 3, whose highlights can be seen.";
