@@ -1,5 +1,5 @@
 //! The batch executor: executes programs on whole tiles of fragments with the host's SIMD instructions. Bit-identical
-//! to [`super::scalar`], with which it shares no arithmetic; tested by `tests/agree` and `refsim/tests/agree_lanes.rs`.
+//! to [`super::scalar`], with which it shares no arithmetic; tested by `tests/agree` and `refsim/tests/batch/lanes.rs`.
 //!
 //! - `lanes`: arithmetic of number formats. `schedule`: schedules the graph of `super::lower` as steps. `run`: executes
 //!   steps on rows.

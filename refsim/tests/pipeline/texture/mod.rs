@@ -1,0 +1,10 @@
+//! Tests of `refsim::texture`: decoding and filtering compared with big rationals, addressing with a naive model,
+//! stores exhaustively, and robustness against arbitrary bit patterns.
+
+mod addressing;
+mod decoding;
+mod filtering;
+mod mipmaps;
+mod rational;
+mod robust;
+mod storing;

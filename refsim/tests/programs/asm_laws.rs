@@ -1,0 +1,134 @@
+//! Properties of the assembler: it reads back what it prints, and never panics.
+
+use proptest::prelude::*;
+use refsim::asm::{ErrorKind, MAX_ERRORS, MAX_STATEMENTS, MAX_TEXT, assemble, print};
+use std::{fs, path::PathBuf};
+
+fn good_texts() -> Vec<String> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fixtures/shaders/asm");
+    let mut paths: Vec<_> = fs::read_dir(folder)
+        .expect("the fixtures are there")
+        .map(|entry| entry.expect("a readable folder").path())
+        .filter(|path| path.is_file())
+        .collect();
+    paths.sort();
+    let read = |path| fs::read_to_string(path).expect("a readable text");
+    paths.into_iter().map(read).collect()
+}
+
+/// Properties of any text.
+fn survives(text: &str) {
+    match assemble(text) {
+        Ok(program) => {
+            let printed = print(&program);
+            assert_eq!(assemble(&printed).as_ref(), Ok(&program), "{printed}");
+        }
+        Err(found) => {
+            assert!(!found.errors.is_empty(), "an error says what is wrong");
+            assert!(found.errors.len() <= MAX_ERRORS + 1, "the list is bounded");
+            for error in &found.errors {
+                let range = error.span.start as usize..error.span.end as usize;
+                assert!(text.get(range).is_some(), "{error:?} points into the text");
+                assert!(!error.help.is_empty() && !error.expected.is_empty(), "{error:?}");
+            }
+            let starts: Vec<_> = found.errors.iter().map(|e| e.span.start).collect();
+            assert!(starts.is_sorted(), "errors come in the order of the text");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1024))]
+
+    #[test]
+    fn printed_programs_read_back(program in crate::programs::program()) {
+        let text = print(&program);
+        let again = assemble(&text);
+        prop_assert_eq!(again.as_ref(), Ok(&program), "{}", text);
+        prop_assert_eq!(print(&again.unwrap()), text);
+    }
+
+    #[test]
+    fn no_text_has_two_readings(
+        program in crate::programs::program(),
+        spaces in prop::collection::vec(any::<usize>(), 0..300),
+    ) {
+        let mut spaces = spaces.into_iter();
+        let choose = |n| spaces.next().unwrap_or(0) % n;
+        crate::spacing::has_one_reading(&print(&program), &[" ", "\t", " /* mov r0, 1.5 */ "], choose);
+    }
+
+    #[test]
+    fn any_bytes_are_survived(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        survives(&String::from_utf8_lossy(&bytes));
+    }
+
+    #[test]
+    fn any_text_after_a_version_is_survived(text in "ps_2_a\n(\\PC|[ \n,.+_()!-]|r0|mov |def c0|if_gt |c\\[a0){0,80}") {
+        survives(&text);
+    }
+
+    #[test]
+    fn mutated_programs_are_survived(
+        which in any::<prop::sample::Index>(),
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0u8..4, any::<u8>()), 1..8),
+    ) {
+        let texts = good_texts();
+        let mut bytes = which.get(&texts).clone().into_bytes();
+        for (at, kind, byte) in edits {
+            if bytes.is_empty() {
+                break;
+            }
+            let at = at.index(bytes.len());
+            match kind {
+                0 => drop(bytes.remove(at)),
+                1 => bytes.insert(at, bytes[at]),
+                2 => bytes[at] = byte & 0x7f,
+                _ => {
+                    let end = (at + usize::from(byte)).min(bytes.len());
+                    let piece = bytes[at..end].to_vec();
+                    bytes.splice(at..at, piece);
+                }
+            }
+        }
+        survives(&String::from_utf8_lossy(&bytes));
+    }
+}
+
+#[test]
+fn fixtures_print_idempotently() {
+    for text in good_texts() {
+        let program = assemble(&text).expect("a good fixture");
+        let once = print(&program);
+        let twice = assemble(&once).expect("printed text reads back");
+        assert_eq!(twice, program, "{once}");
+        assert_eq!(print(&twice), once);
+    }
+}
+
+#[test]
+fn every_prefix_of_a_program_is_survived() {
+    for text in good_texts() {
+        for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
+            survives(&text[..end]);
+        }
+    }
+}
+
+#[test]
+fn giant_inputs_are_refused_in_time() {
+    let kind = |text: &str| assemble(text).expect_err("too much").errors.last().map(|e| e.kind);
+    let too_long = "ps_1_4\n".to_owned() + &" ".repeat(MAX_TEXT);
+    assert_eq!(kind(&too_long), Some(ErrorKind::TextTooLong));
+    let statements = "ps_1_4\n".to_owned() + &"nop\n".repeat(MAX_STATEMENTS + 1);
+    assert_eq!(kind(&statements), Some(ErrorKind::TooManyStatements));
+    let most = "ps_1_4\n".to_owned() + &"nop\n".repeat(MAX_STATEMENTS);
+    assert_eq!(assemble(&most).map(|p| p.instructions.len()), Ok(MAX_STATEMENTS));
+    for piece in ["?\n", "mov r0, ", "?,", "+", "(", "[", "/*", "1", "c[", "-", "_", "a\n", "e", "def c0,\n"] {
+        survives(&("ps_1_4\n".to_owned() + &piece.repeat(300_000 / piece.len())));
+        survives(&("ps_1_4\nmad r0, ".to_owned() + &piece.repeat(300_000 / piece.len())));
+        survives(&("ps_1_4\ndef c0, ".to_owned() + &piece.repeat(300_000 / piece.len())));
+    }
+    let bad = "ps_1_4\n".to_owned() + &"?\n".repeat(2 * MAX_ERRORS);
+    assert_eq!(kind(&bad), Some(ErrorKind::TooManyErrors));
+}

@@ -1,0 +1,15 @@
+//! Texts of shader programs and the rules that they keep: assembler, printer and checker for each version, and OpenGL's fragment
+//! programs.
+
+mod asm;
+mod asm_laws;
+mod check;
+mod check_laws;
+mod fragment_program;
+mod isa_table;
+#[path = "../common/programs.rs"]
+mod programs;
+#[path = "../common/running.rs"]
+mod running;
+#[path = "../common/spacing.rs"]
+mod spacing;
