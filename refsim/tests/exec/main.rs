@@ -1,4 +1,5 @@
-//! Programs and draws on the scalar executor: instructions against the specification, formats, machines, and what is logged.
+//! Programs and draws on the scalar executor: instructions against the specification, formats, machines, and what is
+//! logged.
 
 mod arithmetic;
 mod device;

@@ -1,5 +1,5 @@
-//! Texts of shader programs and the rules that they keep: assembler, printer and checker for each version, and OpenGL's fragment
-//! programs.
+//! Texts of shader programs and the rules that they keep: assembler, printer and checker for each version, and OpenGL's
+//! fragment programs.
 
 mod asm;
 mod asm_laws;

@@ -135,8 +135,8 @@ fn smooth_transfer_compresses_better() {
     assert_eq!((pictures("cpca-figure-11").len(), pictures("cpca-figure-10").len()), (10, 4));
 }
 
-/// Omega and clusters do not depend on coding, each further representative lowers the error, and what stands for a model
-/// is among what its segments are by themselves.
+/// Omega and clusters do not depend on coding, each further representative lowers the error, and what stands for a
+/// model is among what its segments are by themselves.
 #[test]
 fn clusters_and_codes_of_models_keep_their_laws() {
     let found = findings("all-frequency-table-1");
