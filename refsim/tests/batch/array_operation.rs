@@ -1,6 +1,7 @@
 //! Operations on arrays against `num`: doubles of any size and patterns, in every layout under every rule, for arrays
 //! of lengths that fill no row.
 
+use crate::random::Random;
 use refsim::exec::batch::ArrayOperation;
 use refsim::num::{self, Denormals, Format, FormatKind, NumberOperation as Op, Overflow, Rounding, Specials, from_f64};
 
@@ -29,16 +30,7 @@ fn variants(text: &str) -> Vec<Format> {
     all
 }
 
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
     /// A double: of any bits, at the ends of the format or at a tie with a bit more or less, or of a plain size.
     fn double(&mut self, f: &Format) -> f64 {
         let (kind, bits, near) = (self.next() >> 8 & 7, self.next(), self.next() >> 8 & 3);

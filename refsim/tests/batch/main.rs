@@ -6,5 +6,6 @@ mod flat_tiles;
 mod guarded_rows;
 mod lanes;
 mod packed_lanes;
+mod random;
 #[path = "../common/sampling.rs"]
 mod sampling;

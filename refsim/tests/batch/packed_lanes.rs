@@ -1,6 +1,7 @@
 //! Tests small triangles, whose fragments the batch executor packs into the lanes of a batch, against the scalar
 //! executor's bits and counts, for all kinds of programs and output state.
 
+use crate::random::Random;
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
@@ -14,19 +15,9 @@ use refsim::output::{
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Filter, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// A xorshift stream.
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 >> 8
-    }
-
     fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
+        ((self.next() >> 8) % n as u64) as usize
     }
 
     fn choose<T: Copy>(&mut self, list: &[T]) -> T {

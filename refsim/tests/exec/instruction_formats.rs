@@ -2,6 +2,7 @@
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
 use crate::running::run_with_coordinates;
+use crate::{legal, running};
 use proptest::{collection::vec, prelude::*, sample::select};
 use refsim::asm::assemble;
 use refsim::device::{MAX_INSTRUCTION_FORMATS, Profile, takes_format};
@@ -39,11 +40,11 @@ proptest! {
         constants in vectors(8),
         [main, own] in [select(vec!["fp32", "fp24", "s3.12", "n3.8:rna"]), select(WITHIN_FP32.to_vec())],
     ) {
-        let program = assemble(&crate::legal::program(version, &choices)).expect("a legal program");
+        let program = assemble(&legal::program(version, &choices)).expect("a legal program");
         let host = Constants { float: constants, ..Constants::default() };
-        let mut mixed = crate::running::ideal(main);
+        let mut mixed = running::ideal(main);
         assign(&mut mixed, &program, own.parse().unwrap());
-        let mut hinted = crate::running::ideal(main);
+        let mut hinted = running::ideal(main);
         hinted.rules.partial = Some(own.parse().unwrap());
         let mut text = program.clone();
         for instruction in &mut text.instructions {
@@ -66,14 +67,14 @@ proptest! {
         own in select(WITHIN_FP32.to_vec()),
     ) {
         // Texture results are rounded twice; kills and comparisons of flow control read unrounded inputs.
-        let text: String = crate::legal::program(version, &choices).lines().map(without_texture).collect();
+        let text: String = legal::program(version, &choices).lines().map(without_texture).collect();
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e}")))?;
         prop_assume!(!program.instructions.iter().any(|i| matches!(i.opcode, Opcode::IfC | Opcode::BreakC)));
         let host = Constants { float: constants, ..Constants::default() };
         let format: Format = own.parse().unwrap();
-        let mut mixed = crate::running::ideal("fp32");
+        let mut mixed = running::ideal("fp32");
         assign(&mut mixed, &program, format);
-        let uniform = results(program.clone(), &crate::running::ideal(own), &inputs(&data), &host).expect("it runs on ideal devices");
+        let uniform = results(program.clone(), &running::ideal(own), &inputs(&data), &host).expect("it runs on ideal devices");
         let mixed = results(program, &mixed, &inputs(&data), &host).expect("it runs on ideal devices");
         let wide = |x: u32| ops::convert(&format, Format::FP32, x).bits;
         for (a, b) in uniform.iter().zip(&mixed) {
@@ -126,7 +127,7 @@ proptest! {
 fn each_instruction_rounds_to_its_own_format() {
     let text = "ps_2_0\ndcl t0\nmul r0, t0, t0\nadd r1, r0, t0\nmov oC0, r1";
     let program = assemble(text).unwrap();
-    let mut profile = crate::running::ideal("fp32");
+    let mut profile = running::ideal("fp32");
     let x = 1.1f32;
     let run = |profile: &Profile| run_with_coordinates(text, profile, &[[x; 4]]).value(1)[0];
     assert_eq!(run(&profile), (x * x + x).to_bits());
@@ -148,7 +149,7 @@ fn each_instruction_rounds_to_its_own_format() {
 fn instructions_without_a_number_take_no_format() {
     let takes = |text: &str| {
         let program = assemble(text).unwrap();
-        let mut profile = crate::running::ideal("fp32");
+        let mut profile = running::ideal("fp32");
         let count = program.instructions.len();
         let taken = (0..=count).map(|i| profile.set_instruction_format(&program, i, Some(Format::FP16)));
         taken.map(|t| if t { '+' } else { '-' }).collect::<String>()
@@ -167,7 +168,7 @@ fn a_program_has_a_limited_number_of_formats() {
         text += "add r0, t0, t0\n";
     }
     let program = assemble(&(text + "mov oC0, r0")).unwrap();
-    let mut profile = crate::running::ideal("fp32");
+    let mut profile = running::ideal("fp32");
     let format = |fraction: usize| format!("s{}.{}", fraction % 2, fraction / 2).parse().unwrap();
     for index in 0..MAX_INSTRUCTION_FORMATS {
         assert!(profile.set_instruction_format(&program, index, Some(format(index + 2))));
@@ -185,9 +186,9 @@ fn a_program_has_a_limited_number_of_formats() {
 fn formats_of_a_program_are_replaced_together() {
     let program = assemble("ps_2_0\ndcl t0\ntexkill t0\nadd r0, t0, t0\nmul r0, r0, t0\nmov oC0, r0").unwrap();
     let [first, second]: [Format; 2] = ["fp16", "s3.12"].map(|format| format.parse().unwrap());
-    let mut together = crate::running::ideal("fp32");
+    let mut together = running::ideal("fp32");
     assert!(together.set_instruction_formats(&program, [(1, first), (2, second)].into()));
-    let mut single = crate::running::ideal("fp32");
+    let mut single = running::ideal("fp32");
     assert!(single.set_instruction_format(&program, 1, Some(first)));
     assert!(single.set_instruction_format(&program, 2, Some(second)));
     assert_eq!(together, single);
@@ -201,7 +202,7 @@ fn formats_of_a_program_are_replaced_together() {
     assert!(!together.set_instruction_formats(&program, [(1, "e8m0".parse().unwrap())].into()), "no registers' format");
     assert_eq!(together, before);
     assert!(together.set_instruction_formats(&program, [].into()));
-    assert_eq!(together, crate::running::ideal("fp32"));
+    assert_eq!(together, running::ideal("fp32"));
 }
 
 /// Formats of a device file that no program of a case has are found.
@@ -248,11 +249,11 @@ fn message_of(result: Result<Profile, refsim::device::DeviceError>) -> String {
 #[test]
 fn fogged_programs_keep_their_formats() {
     let text = "!!ARBfp1.0\nOPTION ARB_fog_linear;\nMUL result.color, fragment.color, fragment.color;\nEND";
-    let mut profile = crate::running::ideal("fp32");
+    let mut profile = running::ideal("fp32");
     let log = profile.log_programs();
-    let checked = crate::running::checked(text, &profile);
+    let checked = running::checked(text, &profile);
     assert!(profile.set_instruction_format(&checked, 0, Some("e8m2".parse().unwrap())));
-    let formats: Vec<_> = crate::running::checked(text, &profile).instructions.iter().map(|i| i.format).collect();
+    let formats: Vec<_> = running::checked(text, &profile).instructions.iter().map(|i| i.format).collect();
     assert_eq!(formats[0], Some("e8m2".parse().unwrap()));
     assert!(formats[1..].iter().all(Option::is_none));
     assert_eq!(log.programs().len(), 1, "formats are not another program");

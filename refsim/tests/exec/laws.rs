@@ -1,5 +1,6 @@
 //! Properties of the scalar executor over random programs, random data and every device.
 
+use crate::{legal, running};
 use proptest::{collection::vec, prelude::*, sample::select};
 use refsim::asm::assemble;
 use refsim::device::Profile;
@@ -144,9 +145,9 @@ proptest! {
     ) {
         let fitting: Vec<Profile> = profiles().into_iter().filter(|p| p.supports(version)).collect();
         let profile = which.get(&fitting);
-        let text = crate::legal::program(version, &choices);
+        let text = legal::program(version, &choices);
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e:?}")))?;
-        let Ok(program) = crate::running::ready(program, profile) else {
+        let Ok(program) = running::ready(program, profile) else {
             // Rejected by a limit of this device; an ideal one accepts all, as tested below.
             return Ok(());
         };
@@ -168,9 +169,9 @@ fn the_generator_makes_legal_programs() {
                     (seed >> 33) as u32
                 })
                 .collect();
-            let text = crate::legal::program(version, &choices);
+            let text = legal::program(version, &choices);
             let program = assemble(&text).unwrap_or_else(|e| panic!("{text}\n{e:?}"));
-            if let Err(why) = crate::running::ready(program, &ideal) {
+            if let Err(why) = running::ready(program, &ideal) {
                 rejected.push(format!("{text}\n{why}"));
             }
         }

@@ -2,6 +2,7 @@
 //! rounded inputs; dot products of the executors against the arithmetic itself; refusals.
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
+use crate::{legal, running};
 use proptest::{collection::vec, prelude::*, sample::select};
 use refsim::asm::assemble;
 use refsim::device::{ColorIterator, Profile, Storage};
@@ -24,7 +25,7 @@ fn rounded(format: Format, bits: u32) -> u32 {
 
 /// An ideal device in single precision with a format of a storage.
 fn storing(storage: Storage, format: Format) -> Profile {
-    let mut profile = crate::running::ideal("fp32");
+    let mut profile = running::ideal("fp32");
     profile.rules.color_iterator = ColorIterator::Full;
     profile.set_storage_format(storage, Some(format)).unwrap_or_else(|e| panic!("{e}"));
     profile
@@ -52,7 +53,7 @@ proptest! {
         constants in vectors(8),
         own in select(WITHIN_FP32.to_vec()),
     ) {
-        let text = crate::legal::program(version, &choices);
+        let text = legal::program(version, &choices);
         let mut moves = Vec::new();
         let (mut moved, mut count) = (String::new(), 0);
         for line in text.lines() {
@@ -67,7 +68,7 @@ proptest! {
         }
         let host = Constants { float: constants, ..Constants::default() };
         let program = assemble(&moved).map_err(|e| TestCaseError::fail(format!("{moved}\n{e}")))?;
-        let mut mixed = crate::running::ideal("fp32");
+        let mut mixed = running::ideal("fp32");
         mixed.rules.color_iterator = ColorIterator::Full;
         for index in moves {
             prop_assert!(program.instruction_text(index).is_some_and(|text| text.starts_with("mov r")), "{}", moved);
@@ -91,8 +92,8 @@ proptest! {
         own in select(WITHIN_FP32.to_vec()),
         storage in select(vec![Storage::Outputs, Storage::Texels]),
     ) {
-        let program = assemble(&crate::legal::program(version, &choices)).expect("a legal program");
-        let mut mixed = crate::running::ideal("fp32");
+        let program = assemble(&legal::program(version, &choices)).expect("a legal program");
+        let mut mixed = running::ideal("fp32");
         mixed.rules.color_iterator = ColorIterator::Full;
         for (index, instruction) in program.instructions.iter().enumerate() {
             let is_output = instruction.destination.is_some_and(|d| d.register.file == RegisterFile::ColorOut);
@@ -119,7 +120,7 @@ proptest! {
     ) {
         // Colors beyond the format's own range of [0, 1] are not clamped again.
         let round = |bits: u32| rounded(format(own), bits);
-        let program = assemble(&crate::legal::program(version, &choices)).expect("a legal program");
+        let program = assemble(&legal::program(version, &choices)).expect("a legal program");
         let (mut host, mut inputs) =
             (Constants { float: constants, ..Constants::default() }, inputs(&data));
         let stored = results(program.clone(), &storing(storage, format(own)), &inputs, &host);
@@ -144,7 +145,7 @@ proptest! {
                 }
             }
         }
-        let mut plain = crate::running::ideal("fp32");
+        let mut plain = running::ideal("fp32");
         plain.rules.color_iterator = ColorIterator::Full;
         prop_assert_eq!(stored, results(rounded_program, &plain, &inputs, &host));
     }
@@ -158,7 +159,7 @@ proptest! {
     ) {
         let text = "ps_2_0\ndcl t0\ndcl t1\nmov r0, t0\ndp4 r1, r0, t1\ndp3 r1.xy, r0, t1\nmov oC0, r1";
         let program = assemble(text).unwrap();
-        let mut wide = crate::running::ideal(main);
+        let mut wide = running::ideal(main);
         wide.rules.dot = order;
         let mut mixed = wide.clone();
         wide.set_accumulator(Some(format(own))).unwrap_or_else(|e| panic!("{e}"));
@@ -201,7 +202,7 @@ fn factors(seed: u64) -> Vec<[u32; 4]> {
 fn dots(profile: &Profile, kind: ExecutorKind, textures: &[Vec<[u32; 4]>; 2]) -> Vec<u8> {
     let text = "ps_2_0\ndcl t0\ndcl_2d s0\ndcl_2d s1\ntexld r0, t0, s0\ntexld r1, t0, s1\ndp4 r2.x, r0, r1\n\
                 dp3 r2.y, r0, r1\ndp2add r2.z, r0, r1, r0.z\ndp4 r2.w, r0, -r1\nmov oC0, r2";
-    let program = crate::running::checked(text, profile);
+    let program = running::checked(text, profile);
     let mut machine = Machine::new(profile.clone(), kind);
     let target = machine.create_target(TexelFormat::Rgba32f, SIDE, SIDE).unwrap();
     let textures = textures.each_ref().map(|values| {
@@ -236,7 +237,7 @@ fn narrow_accumulators_round_products_once() {
         .iter()
         .flat_map(|text| [DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact].map(|order| (*text, order)))
     {
-        let mut profile = crate::running::ideal("fp32");
+        let mut profile = running::ideal("fp32");
         profile.rules.dot = order;
         let without = dots(&profile, ExecutorKind::Scalar, &textures);
         profile.set_accumulator(Some(format(accumulator))).unwrap_or_else(|e| panic!("{accumulator}: {e}"));
@@ -258,7 +259,7 @@ fn narrow_accumulators_round_products_once() {
 #[test]
 fn formats_that_do_not_fit_are_refused() {
     let refusal = |registers: &str, storage: Storage, own: &str| {
-        let mut profile = crate::running::ideal(registers);
+        let mut profile = running::ideal(registers);
         let before = profile.clone();
         let error = profile.set_storage_format(storage, Some(format(own))).expect_err("a refusal");
         assert_eq!(profile, before);
@@ -272,9 +273,9 @@ fn formats_that_do_not_fit_are_refused() {
     assert!(refusal("s3.12", Storage::Outputs, "fp16").contains("expected a format whose numbers the registers have"));
     assert!(refusal("fp32", Storage::Colors, "e8m0").contains("found e8m0"));
     assert!(refusal("s3.12", Storage::Coordinates, "s3.28").contains("whose numbers single precision has"));
-    let mut profile = crate::running::ideal("s3.12");
+    let mut profile = running::ideal("s3.12");
     profile.set_storage_format(Storage::Coordinates, Some(Format::FP16)).expect("a format of single precision");
-    let accumulator = |registers: &str, own: &str| crate::running::ideal(registers).set_accumulator(Some(format(own)));
+    let accumulator = |registers: &str, own: &str| running::ideal(registers).set_accumulator(Some(format(own)));
     for (registers, own) in [
         ("fp32", "e8m22"),
         ("fp32", "e5m10:nvovf"),
@@ -334,7 +335,7 @@ fn device_files_have_formats_of_storages_and_sums() {
 #[test]
 fn storages_that_a_program_does_not_use_are_found() {
     let unused = |text: &str| {
-        let mut profile = crate::running::ideal("fp32");
+        let mut profile = running::ideal("fp32");
         for storage in Storage::ALL {
             profile.set_storage_format(storage, Some(Format::FP16)).expect("it fits");
         }
@@ -351,7 +352,7 @@ fn storages_that_a_program_does_not_use_are_found() {
 /// Registers refuse what executors cannot compute with, and stay as they are.
 #[test]
 fn registers_refuse_scales_and_stochastic_rounding() {
-    let mut profile = crate::running::ideal("fp32");
+    let mut profile = running::ideal("fp32");
     let before = profile.clone();
     for text in ["e8m0", "fp16:rst"] {
         assert!(profile.set_format(format(text)).is_err(), "{text}");

@@ -1,5 +1,6 @@
 //! Properties of the assembler: it reads back what it prints, and never panics.
 
+use crate::{programs, spacing};
 use proptest::prelude::*;
 use refsim::asm::{ErrorKind, MAX_ERRORS, MAX_STATEMENTS, MAX_TEXT, assemble, print};
 use std::{fs, path::PathBuf};
@@ -17,7 +18,7 @@ fn good_texts() -> Vec<String> {
 }
 
 /// Properties of any text.
-fn survives(text: &str) {
+pub(crate) fn survives(text: &str) {
     match assemble(text) {
         Ok(program) => {
             let printed = print(&program);
@@ -41,7 +42,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1024))]
 
     #[test]
-    fn printed_programs_read_back(program in crate::programs::program()) {
+    fn printed_programs_read_back(program in programs::program()) {
         let text = print(&program);
         let again = assemble(&text);
         prop_assert_eq!(again.as_ref(), Ok(&program), "{}", text);
@@ -50,12 +51,12 @@ proptest! {
 
     #[test]
     fn no_text_has_two_readings(
-        program in crate::programs::program(),
+        program in programs::program(),
         spaces in prop::collection::vec(any::<usize>(), 0..300),
     ) {
         let mut spaces = spaces.into_iter();
         let choose = |n| spaces.next().unwrap_or(0) % n;
-        crate::spacing::has_one_reading(&print(&program), &[" ", "\t", " /* mov r0, 1.5 */ "], choose);
+        spacing::has_one_reading(&print(&program), &[" ", "\t", " /* mov r0, 1.5 */ "], choose);
     }
 
     #[test]

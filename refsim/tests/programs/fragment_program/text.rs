@@ -1,8 +1,9 @@
 //! Parsing and printing, arbitrary text, spaces, and error messages.
 
+use crate::asm_laws::survives;
 use crate::spacing::has_one_reading;
 use proptest::prelude::*;
-use refsim::asm::{MAX_ERRORS, assemble, print};
+use refsim::asm::{assemble, print};
 use refsim::isa::{ConditionTest, Opcode, OpcodeClass, Spelling, TextureTarget, Version};
 
 /// Choices determined by a list of numbers, so that proptest can shrink it.
@@ -117,25 +118,6 @@ fn program(version: Version, choices: &[u32]) -> String {
         text += c.pick(&["\n", " ", "\r\n", "\t# more\n"]);
     }
     text + "END\n"
-}
-
-/// Properties of any text.
-fn survives(text: &str) {
-    match assemble(text) {
-        Ok(program) => {
-            let printed = print(&program);
-            assert_eq!(assemble(&printed).as_ref(), Ok(&program), "{printed}");
-        }
-        Err(found) => {
-            assert!(!found.errors.is_empty() && found.errors.len() <= MAX_ERRORS + 1);
-            for error in &found.errors {
-                let range = error.span.start as usize..error.span.end as usize;
-                assert!(text.get(range).is_some(), "{error:?} points into the text");
-                assert!(!error.help.is_empty() && !error.expected.is_empty(), "{error:?}");
-            }
-            assert!(found.errors.is_sorted_by_key(|e| e.span.start));
-        }
-    }
 }
 
 proptest! {
