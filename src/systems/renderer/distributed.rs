@@ -7,8 +7,6 @@ use super::lobes::{Lobes, choose_specular, specular_rays};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
-use crate::geom::Hit;
-use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 use glam::DVec3;
@@ -31,30 +29,26 @@ pub fn render<'a>(
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::areas_of(scene, settings.rounding);
     let fan = 2 + lights.points();
-    expose(&mut tracer, camera, settings, fan, &Distributed { scene, settings, lights })
+    expose(&mut tracer, (scene, camera), settings, fan, &Distributed { settings, lights })
 }
 
 struct Distributed<'a> {
-    scene: &'a Scene,
     settings: &'a Settings,
     lights: Lights<'a>,
 }
 
 impl Shade for Distributed<'_> {
-    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Scatter::of(flight.weight * wide(self.settings.background));
-        };
-        let mut scatter = Scatter::of(flight.weight * Lights::emitted(&surfel));
+    fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter {
+        let mut scatter = Scatter::of(flight.weight * Lights::emitted(surfel));
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => {
-                direct(&self.lights, flight, &surfel, &lobes, &mut scatter);
+                direct(&self.lights, flight, surfel, &lobes, &mut scatter);
                 if more && lobes.specular.max_element() > 0.0 {
-                    gloss(flight, &surfel, lobes, &mut scatter);
+                    gloss(flight, surfel, lobes, &mut scatter);
                 }
             }
-            None if more => continue_specular(flight, &surfel, &mut scatter),
+            None if more => continue_specular(flight, surfel, &mut scatter),
             None => {}
         }
         scatter

@@ -2,10 +2,10 @@
 
 use super::counting::{CountingCaster, WatchProgress};
 use super::film::{RenderedPicture, expose};
+use super::lights::Lights;
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
-use crate::geom::Hit;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene, Surface};
 use crate::tracer::Caster;
@@ -24,19 +24,13 @@ pub fn render<'a>(
     watch: &'a mut WatchProgress<'a>,
 ) -> Result<RenderedPicture, RenderError> {
     let mut tracer = CountingCaster::new(caster, watch);
-    expose(&mut tracer, camera, settings, 1, &Eye { scene, settings })
+    expose(&mut tracer, (scene, camera), settings, 1, &Eye)
 }
 
-struct Eye<'a> {
-    scene: &'a Scene,
-    settings: &'a Settings,
-}
+struct Eye;
 
-impl Shade for Eye<'_> {
-    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Scatter::of(wide(self.settings.background));
-        };
+impl Shade for Eye {
+    fn shade(&self, _: &PathRay, surfel: &Surfel<'_>) -> Scatter {
         let color = match surfel.material.surface {
             Surface::Diffuse { albedo } => wide(albedo),
             Surface::Glossy { albedo, specular, .. } => wide(albedo) + wide(specular),
@@ -44,6 +38,6 @@ impl Shade for Eye<'_> {
             Surface::Glass { transmittance, .. } => wide(transmittance),
         };
         let facing = surfel.shading.dot(surfel.view).max(0.0) * if surfel.front { 1.0 } else { 0.5 };
-        Scatter::of(facing * color + super::lights::Lights::emitted(&surfel))
+        Scatter::of(facing * color + Lights::emitted(surfel))
     }
 }

@@ -9,7 +9,7 @@ use super::wave::{PathRay, SampleRng, Shade, follow};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::picture::{self, RgbImage};
-use crate::scene::Camera;
+use crate::scene::{Camera, Scene};
 
 /// Linear radiance of each pixel, rows from the top, with the first hit of the ray through its centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +61,7 @@ impl Film {
 /// Renders with a shader. `fan` is the approximate number of rays that one eye ray may become at a time.
 pub(super) fn expose(
     tracer: &mut CountingCaster<'_>,
-    camera: &Camera,
+    (scene, camera): (&Scene, &Camera),
     settings: &Settings,
     fan: usize,
     shader: &impl Shade,
@@ -84,7 +84,7 @@ pub(super) fn expose(
             let rng = SampleRng::new(settings.seed, pixel, sample);
             PathRay::eye(eye_ray(camera, settings, pixel, rng), (index - start) as u32, rng)
         });
-        let wave = follow(tracer, flights.collect(), shader)?;
+        let wave = follow(tracer, flights.collect(), (scene, settings), shader)?;
         for (index, light) in (start..end).zip(wave.light) {
             film.add((index / samples) as usize, light);
         }

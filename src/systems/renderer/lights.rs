@@ -118,8 +118,8 @@ impl<'a> Lights<'a> {
     }
 
     /// Density over solid angle with which [`Lights::area`] would have sampled an emitter's point that a ray hit.
-    pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: DVec3) -> f64 {
-        let Ok(entry) = self.emitters.binary_search(&triangle) else { return 0.0 };
+    pub(super) fn density(&self, found: &Surfel<'_>, from: DVec3) -> f64 {
+        let Ok(entry) = self.emitters.binary_search(&found.triangle) else { return 0.0 };
         let offset = found.place.at - from;
         let cosine = found.view.dot(found.place.normal);
         if cosine > 0.0 { self.densities[entry] * offset.dot(offset) / cosine } else { 0.0 }

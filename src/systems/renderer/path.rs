@@ -7,7 +7,6 @@ use super::lobes::{Lobes, choose_specular};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
-use crate::geom::Hit;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
@@ -47,30 +46,23 @@ pub fn render<'a>(
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::areas_of(scene, settings.rounding);
     let fan = 2 + lights.points();
-    expose(&mut tracer, camera, settings, fan, &Paths { scene, settings, lights, direct })
+    expose(&mut tracer, (scene, camera), settings, fan, &Paths { settings, lights, direct })
 }
 
 struct Paths<'a> {
-    scene: &'a Scene,
     settings: &'a Settings,
     lights: Lights<'a>,
     direct: Direct,
 }
 
 impl Shade for Paths<'_> {
-    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
-        let found = hit
-            .and_then(|hit| Some((Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)?, hit.triangle)));
-        let Some((surfel, triangle)) = found else {
-            // Only rays hit the background, so it needs no MIS weight.
-            return Scatter::of(flight.weight * wide(self.settings.background));
-        };
-        let share = self.share_of_walk(flight, &surfel, triangle);
-        let mut scatter = Scatter::of(share * (flight.weight * Lights::emitted(&surfel)));
+    fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter {
+        let share = self.share_of_walk(flight, surfel);
+        let mut scatter = Scatter::of(share * (flight.weight * Lights::emitted(surfel)));
         if flight.depth < self.settings.depth {
             match Lobes::of(&surfel.material.surface) {
-                Some(lobes) => self.scatter(flight, &surfel, &lobes, &mut scatter),
-                None => self.pass(flight, &surfel, &mut scatter),
+                Some(lobes) => self.scatter(flight, surfel, &lobes, &mut scatter),
+                None => self.pass(flight, surfel, &mut scatter),
             }
         }
         scatter
@@ -79,13 +71,13 @@ impl Shade for Paths<'_> {
 
 impl Paths<'_> {
     /// Weight of an emitter that the random walk has hit.
-    fn share_of_walk(&self, flight: &PathRay, surfel: &Surfel<'_>, triangle: u32) -> f64 {
+    fn share_of_walk(&self, flight: &PathRay, surfel: &Surfel<'_>) -> f64 {
         match (flight.density, self.direct) {
             // After the eye, a mirror or glass no other strategy finds the emitter.
             (None, _) | (_, Direct::Walk) => 1.0,
             (Some(_), Direct::Emitters) => 0.0,
             (Some(walk), Direct::Both) => {
-                let chosen = self.lights.density(surfel, triangle, wide(flight.ray.origin()));
+                let chosen = self.lights.density(surfel, wide(flight.ray.origin()));
                 walk / (walk + chosen)
             }
         }

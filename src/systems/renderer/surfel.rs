@@ -15,6 +15,8 @@ const LEAST_COSINE: f64 = 1e-3;
 /// Surface point of a hit, as seen from the origin of its ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surfel<'a> {
+    /// Triangle that was hit.
+    pub(super) triangle: u32,
     /// Position, and the triangle's front normal.
     pub(super) place: SurfacePoint,
     /// Normal of the triangle on the side that was hit.
@@ -44,7 +46,8 @@ impl<'a> Surfel<'a> {
             let smooth = if front { smooth } else { -smooth };
             facing_viewer(smooth, normal, view)
         });
-        Some(Self { place, normal, shading, view, front, material: scene.material(hit.triangle) })
+        let (triangle, material) = (hit.triangle, scene.material(hit.triangle));
+        Some(Self { triangle, place, normal, shading, view, front, material })
     }
 
     /// Returns the origin of a ray into direction `towards`.

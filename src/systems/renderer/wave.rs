@@ -3,10 +3,13 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::RenderError;
 use super::counting::{CountingCaster, RayKind};
+use super::surfel::Surfel;
+use super::{RenderError, Settings};
 use crate::geom::random::CounterRng;
+use crate::geom::vector::wide;
 use crate::geom::{Hit, Ray};
+use crate::scene::Scene;
 use crate::tracer::{CastError, is_occluder};
 
 /// Random numbers of one sample of one pixel, along one branch of its tree of rays.
@@ -100,9 +103,9 @@ impl Scatter {
     }
 }
 
-/// Shader of a renderer: computes the light and the further rays of a hit or a miss.
+/// Shader of a renderer: computes the light and the further rays of a surface that a ray hits.
 pub(super) trait Shade: Sync {
-    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter;
+    fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter;
 }
 
 /// Light of a chunk, by slot, and the hits of its first rays.
@@ -111,12 +114,21 @@ pub(super) struct Wave {
     pub(super) first: Vec<Option<Hit>>,
 }
 
-/// Traces eye rays, one per slot, to their ends. The order of every sum is independent of the chunk's size.
+/// Traces eye rays, one per slot, to their ends: a surface, which the shader shades, or the background. The order of
+/// every sum is independent of the chunk's size.
 pub(super) fn follow(
     tracer: &mut CountingCaster<'_>,
     mut flights: Vec<PathRay>,
+    (scene, settings): (&Scene, &Settings),
     shader: &impl Shade,
 ) -> Result<Wave, RenderError> {
+    let shade = |flight: &PathRay, hit: Option<Hit>| {
+        match hit.and_then(|hit| Surfel::new(scene, settings.rounding, &flight.ray, hit)) {
+            Some(surfel) => shader.shade(flight, &surfel),
+            // No sample of a light is on the background, so it needs no MIS weight.
+            None => Scatter::of(flight.weight * wide(settings.background)),
+        }
+    };
     let mut wave = Wave { light: vec![DVec3::ZERO; flights.len()], first: Vec::new() };
     let mut shadows: Vec<(u32, Ray, DVec3)> = Vec::new();
     let mut first = true;
@@ -128,8 +140,7 @@ pub(super) fn follow(
                 wave.add(slot, light);
             }
         }
-        let scattered: Vec<Scatter> =
-            flights.par_iter().zip(ahead).map(|(flight, hit)| shader.shade(flight, *hit)).collect();
+        let scattered: Vec<Scatter> = flights.par_iter().zip(ahead).map(|(flight, hit)| shade(flight, *hit)).collect();
         if std::mem::take(&mut first) {
             wave.first = ahead.to_vec();
         }

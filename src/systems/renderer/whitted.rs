@@ -8,7 +8,6 @@ use super::lobes::{Lobes, specular_rays};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
-use crate::geom::Hit;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
@@ -34,24 +33,20 @@ pub fn render<'a>(
     let lights = Lights::points_of(scene, settings.rounding);
     // A ray may become two at each glass surface on its way; few do.
     let fan = 2 + lights.points();
-    expose(&mut tracer, camera, settings, fan, &Whitted { scene, settings, lights })
+    expose(&mut tracer, (scene, camera), settings, fan, &Whitted { settings, lights })
 }
 
 struct Whitted<'a> {
-    scene: &'a Scene,
     settings: &'a Settings,
     lights: Lights<'a>,
 }
 
 impl Shade for Whitted<'_> {
-    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Scatter::of(flight.weight * wide(self.settings.background));
-        };
-        let mut scatter = Scatter::of(flight.weight * Lights::emitted(&surfel));
+    fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter {
+        let mut scatter = Scatter::of(flight.weight * Lights::emitted(surfel));
         match Lobes::of(&surfel.material.surface) {
-            Some(lobes) => self.light(flight.weight, &surfel, &lobes, &mut scatter),
-            None if flight.depth < self.settings.depth => continue_specular(flight, &surfel, &mut scatter),
+            Some(lobes) => self.light(flight.weight, surfel, &lobes, &mut scatter),
+            None if flight.depth < self.settings.depth => continue_specular(flight, surfel, &mut scatter),
             None => {}
         }
         scatter

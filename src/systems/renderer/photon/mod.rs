@@ -20,7 +20,6 @@ use super::sampling::cosine;
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings, distributed};
-use crate::geom::Hit;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
@@ -81,12 +80,11 @@ pub fn render<'a>(
     let global = PhotonMap::new(emission(photons.global, false).landed(&mut tracer)?);
     let caustic = PhotonMap::new(emission(photons.caustic, true).landed(&mut tracer)?);
     let fan = 2 + photons.gather as usize + lights.points();
-    let shader = Gathering { scene, settings, photons, global: &global, caustic: &caustic, lights: &lights };
-    expose(&mut tracer, camera, settings, fan, &shader)
+    let shader = Gathering { settings, photons, global: &global, caustic: &caustic, lights: &lights };
+    expose(&mut tracer, (scene, camera), settings, fan, &shader)
 }
 
 struct Gathering<'a> {
-    scene: &'a Scene,
     settings: &'a Settings,
     photons: &'a Photons,
     global: &'a PhotonMap,
@@ -95,22 +93,19 @@ struct Gathering<'a> {
 }
 
 impl Shade for Gathering<'_> {
-    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Scatter::of(flight.weight * wide(self.settings.background));
-        };
+    fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter {
         // Gather rays carry a density. They see no lights: shadow rays and the caustic map have counted those.
         let gathers = flight.density.is_some();
-        let seen = if gathers { DVec3::ZERO } else { Lights::emitted(&surfel) };
+        let seen = if gathers { DVec3::ZERO } else { Lights::emitted(surfel) };
         let mut scatter = Scatter::of(flight.weight * seen);
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) if gathers => {
-                let light = self.estimate(self.global, &surfel, &lobes);
+                let light = self.estimate(self.global, surfel, &lobes);
                 scatter.light += flight.weight * light;
             }
-            Some(lobes) => self.scatter(flight, &surfel, lobes, more, &mut scatter),
-            None if more => distributed::continue_specular(flight, &surfel, &mut scatter),
+            Some(lobes) => self.scatter(flight, surfel, lobes, more, &mut scatter),
+            None if more => distributed::continue_specular(flight, surfel, &mut scatter),
             None => {}
         }
         scatter
