@@ -50,27 +50,15 @@ impl CaseOutcome {
         self.probes.iter().all(|result| result.passed)
     }
 
-    /// Counts of the draw, by name.
+    /// Counts of the draw, by name: its events, then the slots of its pixel program.
     pub fn counts(&self) -> Vec<(&'static str, u64)> {
-        let (events, slots) = (&self.events, &self.slots);
-        let mut list = vec![
-            ("vertices", events.vertices),
-            ("vertex instructions", events.vertex_instructions),
-            ("triangles assembled", events.primitives.assembled),
-            ("triangles rasterised", events.primitives.rasterised),
-            ("fragments generated", events.fragments.generated),
-            ("fragments shaded", events.fragments.shaded),
-            ("fragments killed", events.fragments.killed),
-            ("alpha test failed", events.fragments.alpha_failed),
-            ("depth test failed", events.fragments.depth_failed),
-            ("fragments passed", events.fragments.passed),
-            ("texture reads", events.fragments.total_fetches()),
+        let slots = &self.slots;
+        let mut list = event_counts(&self.events).to_vec();
+        list.extend([
             ("texture slots a fragment", slots.texture),
             ("arithmetic slots a fragment", slots.arithmetic),
             ("shader slots", slots.total),
-            ("bytes read", events.bytes.read()),
-            ("bytes written", events.bytes.written()),
-        ];
+        ]);
         list.extend(slots.cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
         list
     }
@@ -93,6 +81,27 @@ impl CaseOutcome {
             "passed": self.passed(),
         })
     }
+}
+
+/// Counts of a draw's events, by name.
+pub(super) fn event_counts(events: &DrawEvents) -> [(&'static str, u64); 15] {
+    [
+        ("vertices", events.vertices),
+        ("vertex instructions", events.vertex_instructions),
+        ("triangles assembled", events.primitives.assembled),
+        ("triangles culled", events.primitives.culled),
+        ("triangles clipped", events.primitives.clipped),
+        ("triangles rasterised", events.primitives.rasterised),
+        ("fragments generated", events.fragments.generated),
+        ("fragments shaded", events.fragments.shaded),
+        ("fragments killed", events.fragments.killed),
+        ("alpha test failed", events.fragments.alpha_failed),
+        ("depth test failed", events.fragments.depth_failed),
+        ("fragments passed", events.fragments.passed),
+        ("texture reads", events.fragments.total_fetches()),
+        ("bytes read", events.bytes.read()),
+        ("bytes written", events.bytes.written()),
+    ]
 }
 
 /// Draws the case.

@@ -8,7 +8,7 @@ use refsim::{
 };
 use serde::Serialize;
 
-use super::{CaseError, Loaded, Setup, loaded::constants};
+use super::{CaseError, Loaded, Setup, loaded::constants, run::event_counts};
 use crate::compare::{
     FragmentPass, SurfaceDifference, TargetFormats, TraceDifference, TraceSide, TraceStage, depths, differing_corner,
     first_difference, images,
@@ -201,29 +201,8 @@ fn surfaces(left: &Loaded<'_>, right: &Loaded<'_>) -> Result<Vec<SurfaceDifferen
     Ok(found)
 }
 
-/// Counts of a draw, by name.
-fn counts(events: &DrawEvents) -> Vec<(&'static str, u64)> {
-    vec![
-        ("vertices", events.vertices),
-        ("vertex instructions", events.vertex_instructions),
-        ("triangles assembled", events.primitives.assembled),
-        ("triangles culled", events.primitives.culled),
-        ("triangles clipped", events.primitives.clipped),
-        ("triangles rasterised", events.primitives.rasterised),
-        ("fragments generated", events.fragments.generated),
-        ("fragments shaded", events.fragments.shaded),
-        ("fragments killed", events.fragments.killed),
-        ("alpha test failed", events.fragments.alpha_failed),
-        ("depth test failed", events.fragments.depth_failed),
-        ("fragments passed", events.fragments.passed),
-        ("texture reads", events.fragments.total_fetches()),
-        ("bytes read", events.bytes.read()),
-        ("bytes written", events.bytes.written()),
-    ]
-}
-
 fn count_differences(left: &DrawEvents, right: &DrawEvents) -> Vec<CountDifference> {
-    let pairs = counts(left).into_iter().zip(counts(right));
+    let pairs = event_counts(left).into_iter().zip(event_counts(right));
     pairs
         .filter(|((_, a), (_, b))| a != b)
         .map(|((count, left), (_, right))| CountDifference { count, left, right })
