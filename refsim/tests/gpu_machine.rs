@@ -2,9 +2,12 @@
 
 #[path = "common/adapter.rs"]
 mod adapter;
+#[path = "common/random.rs"]
+mod random;
 #[path = "common/running.rs"]
 mod running;
 
+use random::Random;
 use refsim::device::Profile;
 use refsim::exec::gpu::{BINDINGS, Gpu};
 use refsim::exec::wgsl::follow::{ENTRY, Record, module};
@@ -33,37 +36,15 @@ fn main() -> ExitCode {
     ])
 }
 
-/// Pseudo-random numbers.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 32) as u32
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() as usize) % n
-    }
-
-    fn number(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * (self.next() as f32 / 4_294_967_296.0)
-    }
-
-    fn of<T: Copy>(&mut self, list: &[T]) -> T {
-        list[self.below(list.len())]
-    }
-}
-
 fn vertices(random: &mut Random, count: usize) -> Vec<Vertex> {
-    let flat = random.below(2) == 0;
+    let flat = random.coin();
     (0..count)
         .map(|_| {
-            let w = if flat { 1.0 } else { random.number(0.2, 3.0) };
-            let [x, y] = [random.number(-1.4, 1.4) * w, random.number(-1.4, 1.4) * w];
-            let color = [0; 4].map(|_| random.number(-0.5, 1.5));
+            let w = if flat { 1.0 } else { random.between(0.2, 3.0) };
+            let [x, y] = [random.between(-1.4, 1.4) * w, random.between(-1.4, 1.4) * w];
+            let color = [0; 4].map(|_| random.between(-0.5, 1.5));
             Vertex {
-                position: bits([x, y, random.number(-0.1, 1.1) * w, w]),
+                position: bits([x, y, random.between(-0.1, 1.1) * w, w]),
                 texcoords: [bits(color); 8],
                 colors: [bits(color); 2],
                 ..Vertex::default()
@@ -148,7 +129,7 @@ struct State {
 
 impl State {
     fn random(random: &mut Random) -> Self {
-        let on = |random: &mut Random| random.below(2) == 0;
+        let on = |random: &mut Random| random.coin();
         let equation = |random: &mut Random| BlendEquation {
             source: random.of(BlendFactor::ALL),
             destination: random.of(BlendFactor::ALL),
@@ -157,11 +138,11 @@ impl State {
         Self {
             alpha: on(random).then(|| AlphaTest {
                 function: random.of(CompareFunction::ALL),
-                reference: random.number(-0.2, 1.2).to_bits(),
+                reference: random.between(-0.2, 1.2).to_bits(),
             }),
             depth: DepthState { test: on(random).then(|| random.of(CompareFunction::ALL)), write: on(random) },
             blend: on(random).then(|| BlendState { color: equation(random), alpha: equation(random) }),
-            mask: if on(random) { WriteMask::ALL } else { WriteMask(random.below(16) as u8) },
+            mask: if on(random) { WriteMask::ALL } else { WriteMask(random.below(16)) },
             scissor: on(random).then_some(Region { x: 3, y: 5, width: 27, height: 17 }),
             viewport: on(random).then_some(Viewport { x: -7, y: 3, ..Viewport::new(50, 30) }),
             center: random.of(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
@@ -189,7 +170,7 @@ fn triangles(gpu: &Arc<Gpu>) {
     let host = Constants::default();
     let mut pair = Pair::new(&profile, gpu);
     let target = pair.target(TexelFormat::Rgba32f, 40, 24, [0; 4]);
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for count in [3, 30, 300] {
         let corners = vertices(&mut random, count);
         let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
@@ -214,15 +195,15 @@ fn output_under(profile: &Profile, gpu: &Arc<Gpu>, seed: u64, formats: &[TexelFo
     let program = copy(profile);
     let host = Constants::default();
     let mut pair = Pair::new(profile, gpu);
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     for (i, &format) in formats.iter().enumerate() {
         if !profile.limits.target_formats.iter().any(|f| f == format.name()) {
             continue;
         }
-        let clear = bits([0; 4].map(|_| random.number(-0.3, 1.3)));
+        let clear = bits([0; 4].map(|_| random.between(-0.3, 1.3)));
         let target = pair.target(format, 40, 24, clear);
         let depth_format = DepthFormat::ALL[i % DepthFormat::ALL.len()];
-        let depth = pair.depth(depth_format, 40, 24, random.number(0.0, 1.0).to_bits());
+        let depth = pair.depth(depth_format, 40, 24, random.between(0.0, 1.0).to_bits());
         for round in 0..3 {
             let corners = vertices(&mut random, 12);
             let state = State::random(&mut random);
@@ -246,7 +227,7 @@ fn memory_follows(gpu: &Arc<Gpu>) {
     let program = copy(&profile);
     let host = Constants::default();
     let mut pair = Pair::new(&profile, gpu);
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let first = pair.target(TexelFormat::Rgba8, 33, 17, bits([0.5; 4]));
     let second = pair.target(TexelFormat::Bgr565, 33, 17, bits([0.25; 4]));
     let corners = vertices(&mut random, 6);
@@ -303,7 +284,7 @@ fn agree(gpu: &Arc<Gpu>, texts: &[(&str, &str)]) {
         let program = checked(text, &profile);
         let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]; 4]);
         let mut pair = Pair::new(&profile, gpu);
-        let mut random = Random(77);
+        let mut random = Random::new(77);
         let target = pair.target(TexelFormat::Bgra8, 24, 24, [0; 4]);
         let depth = pair.depth(DepthFormat::Unorm24, 24, 24, 0x3f80_0000);
         let image = texture(&mut random);
@@ -324,7 +305,7 @@ fn agree(gpu: &Arc<Gpu>, texts: &[(&str, &str)]) {
 }
 
 fn texture(random: &mut Random) -> Image {
-    let values: Vec<[u32; 4]> = (0..64).map(|_| bits([0; 4].map(|_| random.number(0.0, 1.0)))).collect();
+    let values: Vec<[u32; 4]> = (0..64).map(|_| bits([0; 4].map(|_| random.between(0.0, 1.0)))).collect();
     let kind = TextureKind::D2;
     Image::from_values(TexelFormat::Rgba8, kind, [8, 8, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
 }
@@ -340,7 +321,7 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
     let mut pair = Pair::new(&profile, gpu);
     let target = pair.target(TexelFormat::Rgba16f, 9, 7, bits([0.25; 4]));
     let depth = pair.depth(DepthFormat::Unorm16, 9, 7, 0x3f80_0000);
-    let corners = vertices(&mut Random(11), 12);
+    let corners = vertices(&mut Random::new(11), 12);
     let source = VertexSource::Transformed(&corners);
     let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, target);
     let one = BlendEquation { source: BlendFactor::One, destination: BlendFactor::One, op: BlendOp::Add };
@@ -381,7 +362,7 @@ fn buffers_of_a_trace_run_elsewhere(gpu: &Arc<Gpu>) {
     let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]]);
     let mut machine = Machine::new(profile.clone(), ExecutorKind::Scalar);
     let target = machine.create_target(TexelFormat::Bgra8, 9, 7).unwrap();
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let image = machine.create_texture(texture(&mut random)).unwrap();
     let corners = vertices(&mut random, 9);
     let source = VertexSource::Transformed(&corners);

@@ -5,6 +5,8 @@
 mod adapter;
 #[path = "common/sampling.rs"]
 mod sampling;
+#[path = "common/random.rs"]
+mod stream;
 
 mod wgsl_texture {
     pub(crate) mod cases;

@@ -2,6 +2,7 @@
 //! it.
 
 use crate::blame::{Side, blame};
+use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Outcome, Programs};
 use crate::shrink;
@@ -59,19 +60,11 @@ pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
     differs(&expected, draw(case, &programs, executor), executor)
 }
 
-/// The seeds of a run: the suite's, the one in `CROSSBAR_SEED`, or many more in the full form.
-fn seeds(suite: &Suite) -> std::ops::Range<u64> {
-    if let Some(seed) = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()) {
-        return seed..seed + 1;
-    }
-    0..if std::env::var_os("CROSSBAR_FULL").is_some() { 105 * suite.seeds } else { suite.seeds }
-}
-
 /// Runs a suite, by default in its short form.
 pub(crate) fn run(suite: &Suite) {
-    let one = std::env::var_os("CROSSBAR_SEED").is_some();
-    let mut fragments = 0;
-    for seed in seeds(suite) {
+    let seeds = seeds(suite.seeds, 105);
+    let (one, mut fragments) = (seeds.clone().count() == 1, 0);
+    for seed in seeds {
         // A case requested by its seed is drawn by all executors.
         let turn = if one { 0 } else { suite.turn(seed) };
         match compare(&suite.case(seed), turn) {

@@ -13,6 +13,8 @@ mod blame;
 mod constants;
 mod coverage;
 mod dice;
+#[path = "../../refsim/tests/common/environment.rs"]
+mod environment;
 mod executors;
 mod files;
 mod fuzz;

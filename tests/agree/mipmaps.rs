@@ -1,6 +1,7 @@
 //! Generated mip levels: a target with levels is drawn into, its levels are generated, and a second draw reads them
 //! with derivatives of its own (`TXD`), on every executor.
 
+use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::random::Random;
 use crate::rules;
@@ -115,10 +116,8 @@ fn quad(scale: f32, r: &mut Random) -> [Vertex; 4] {
 
 #[test]
 fn generated_levels_are_read_alike() {
-    let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse::<u64>().ok());
-    let short = if std::env::var_os("CROSSBAR_FULL").is_some() { 3000 } else { 40 };
-    let mut levels = 0;
-    for seed in one.map_or(0..short, |seed| seed..seed + 1) {
+    let (seeds, mut levels) = (seeds(40, 75), 0);
+    for seed in seeds.clone() {
         let fixture = Fixture::new(seed);
         let drawn = |executor: &Executor| fixture.draw(executor).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
         let expected = drawn(&REFERENCE);
@@ -131,5 +130,6 @@ fn generated_levels_are_read_alike() {
             assert_eq!(expected.2, found.2, "{place}: the log");
         }
     }
-    assert!(one.is_some() || 2 * levels > short as usize, "{levels} of {short} pictures are of more than one colour");
+    let count = seeds.count();
+    assert!(count == 1 || 2 * levels > count, "{levels} of {count} pictures are of more than one colour");
 }

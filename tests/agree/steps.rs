@@ -1,5 +1,6 @@
 //! Step budgets: executors agree on what fits a budget, and on what does not down to the instruction.
 
+use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Outcome, Programs};
 use crate::suite;
@@ -47,10 +48,8 @@ fn least(case: &mut Case, programs: &Programs) -> u32 {
 
 #[test]
 fn executors_run_out_of_steps_at_the_same_place() {
-    let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse::<u64>().ok());
-    let short = if std::env::var_os("CROSSBAR_FULL").is_some() { 1200 } else { 24 };
-    let mut failures = 0;
-    for seed in one.map_or(0..short, |seed| seed..seed + 1) {
+    let (seeds, mut failures) = (seeds(24, 50), 0);
+    for seed in seeds.clone() {
         let mut case = case(seed);
         let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
         let least = least(&mut case, &programs);
@@ -73,5 +72,5 @@ fn executors_run_out_of_steps_at_the_same_place() {
             }
         }
     }
-    assert!(one.is_some() || failures > 30, "{failures}");
+    assert!(seeds.count() == 1 || failures > 30, "{failures}");
 }

@@ -1,5 +1,6 @@
 //! The three passes of system 3: the same bits by every executor, and pass 2 as the host's loop has it.
 
+use crate::environment::is_full;
 use crossbar::atlas::Atlas;
 use crossbar::card::{MeshView, Texels};
 use crossbar::geom::Mesh;
@@ -84,7 +85,7 @@ fn agrees(
 ) {
     let model = model();
     let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
-    let on_gpu = case.is_multiple_of(5) || std::env::var_os("CROSSBAR_FULL").is_some();
+    let on_gpu = case.is_multiple_of(5) || is_full();
     for (executor, how) in executors().into_iter().filter(|(executor, _)| on_gpu || *executor != "wgpu") {
         let what = format!("{name}, {executor}");
         let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options)

@@ -1,6 +1,7 @@
 //! Traces: for random programs and draws, every executor's trace of every pixel equals the scalar executor's step by
 //! step, and the last fragment of a trace agrees with the drawn target.
 
+use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Programs};
 use crate::suite;
@@ -24,13 +25,6 @@ fn case(n: u64) -> Case {
     (case.scene.draws, case.scene.second_pass) = (1, false);
     case.scene.size = case.scene.size.map(|side| side.min(17));
     case
-}
-
-/// Seeds from 0, fewer in the short form; or the one in `CROSSBAR_SEED`.
-fn seeds(short: u64) -> std::ops::Range<u64> {
-    let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok());
-    let all = if std::env::var_os("CROSSBAR_FULL").is_some() { 30 * short } else { short };
-    one.map_or(0..all, |seed: u64| seed..seed + 1)
 }
 
 /// Compares the traces of one case; returns the numbers of steps and fragments.
@@ -63,7 +57,7 @@ fn same(seed: u64, case: &Case, other: &Executor) -> (usize, usize) {
 fn the_batch_trace_is_the_scalar_trace() {
     let (mut steps, mut fragments) = (0, 0);
     let batch = EXECUTORS.iter().find(|e| e.name.starts_with("batch")).unwrap_or_else(|| panic!("a batch executor"));
-    let seeds = seeds(150);
+    let seeds = seeds(150, 30);
     for seed in seeds.clone() {
         let found = same(seed, &case(seed), batch);
         steps += found.0;
@@ -77,7 +71,7 @@ fn the_batch_trace_is_the_scalar_trace() {
 fn the_gpu_trace_is_the_scalar_trace() {
     for executor in EXECUTORS.iter().filter(|e| e.name.starts_with("wgpu")) {
         let (mut steps, mut fragments) = (0, 0);
-        let seeds = seeds(16);
+        let seeds = seeds(16, 30);
         for seed in seeds.clone() {
             let mut case = case(seed);
             case.scene.size = case.scene.size.map(|side| side.min(9));

@@ -7,19 +7,12 @@ use approx::assert_relative_eq;
 use crossbar::io::parse_single_npy;
 use serde_json::Value;
 
-use crate::cpca::{number, place};
+use crate::answers::{document_of as document, number, place, refused_line};
 use crate::crossbar;
 
 const STEP: &str = "docs/examples/step.obj";
 const SIGHT: &str = "docs/examples/step_all.prt";
 const CODED: &str = "docs/examples/step_all_small.prt";
-
-fn document(arguments: &str) -> Value {
-    let arguments: Vec<&str> = arguments.split(' ').chain(["--json"]).collect();
-    let ran = crossbar(&arguments, "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
 
 #[test]
 fn the_examples_are_made_by_the_commands() {
@@ -58,20 +51,14 @@ fn finished_segments_are_kept() {
     for field in ["squared_error", "squared_error_before_coding", "bytes", "omega"] {
         assert_eq!(again[field], in_all[field], "{field}");
     }
-    let refused = |arguments: String| {
-        let ran = crossbar(&arguments.split(' ').collect::<Vec<_>>(), "");
-        assert_eq!(ran.code, Some(2), "{arguments}");
-        // Messages are broken into lines.
-        ran.stderr.split_whitespace().filter(|word| *word != "|").collect::<Vec<_>>().join(" ")
-    };
-    let other = refused(format!("{options} --seed 2 --out {out}"));
+    let other = refused_line(&format!("{options} --seed 2 --out {out}"));
     assert!(other.contains("segment-00.part: expected a result of crossbar"), "{other}");
     assert!(other.contains("--seed=2") && other.contains("found one of crossbar all-frequency compress"), "{other}");
     assert!(other.contains("--seed=1") && other.contains("name another folder"), "{other}");
     let signal = place(folder.path(), "signal.prt");
     fs::copy(SIGHT, &signal).expect("a copy");
     let of_copy = options.replace(SIGHT, &signal);
-    refused(format!("{of_copy} --out {out}"));
+    refused_line(&format!("{of_copy} --out {out}"));
     // A damaged segment is computed again.
     fs::write(folder.path().join("kept/segment-03.part"), "{}").expect("written");
     assert_eq!(document(&format!("{options} --out {out}"))["segments_kept"], 23);
@@ -238,7 +225,6 @@ fn truncated_light_is_drawn() {
     assert!(number(&cut["negative_texels"]) > 0.0, "{cut}");
     let picture = |light: &str, keep: &str| {
         let options = format!("--light {light} {keep} --size 32x24 --exposure 0.5 --out {page}");
-        let options = options.split_whitespace().collect::<Vec<_>>().join(" ");
         document(&format!("all-frequency render {SIGHT} --model {STEP} {options}"));
         let bytes = fs::read(folder.path().join("page/picture.exr")).expect("written");
         crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
@@ -316,11 +302,8 @@ fn what_does_not_go_together_is_refused() {
     ];
     let out = place(folder.path(), "y.prt");
     for (arguments, words) in cases {
-        let arguments: Vec<&str> = arguments.split(' ').map(|word| if word == "OUT" { &out } else { word }).collect();
-        let ran = crossbar(&arguments, "");
-        let flat = |text: &str| text.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
-        assert!(flat(&ran.stderr).contains(words), "{arguments:?}: {}", ran.stderr);
-        assert!(!Path::new(&out).exists(), "{arguments:?}");
+        let said = refused_line(&arguments.replace("OUT", &out));
+        assert!(said.contains(words), "{arguments}: {said}");
+        assert!(!Path::new(&out).exists(), "{arguments}");
     }
 }

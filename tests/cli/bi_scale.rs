@@ -1,22 +1,15 @@
 //! `crossbar bi-scale`, from the command line.
 
+use crate::environment::blesses;
 use std::fs;
 
 use approx::assert_relative_eq;
 use serde_json::Value;
 
-use crate::cpca::{number, place};
-use crate::crossbar;
+use crate::answers::{document_of as document, number, place, refused_line};
 
 const STEP: &str = "docs/examples/step.obj";
 const BICLUSTERS: &str = "docs/examples/step_biclusters.prt";
-
-fn document(arguments: &str) -> Value {
-    let arguments: Vec<&str> = arguments.split(' ').filter(|word| !word.is_empty()).chain(["--json"]).collect();
-    let ran = crossbar(&arguments, "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
 
 /// Red, green and blue of each row.
 fn values(path: &str) -> Vec<[f64; 3]> {
@@ -48,7 +41,7 @@ fn light_takes_every_way() {
         let files = [&matrix, &text, &biclusters].map(|path| fs::read(path).expect("written")).to_vec();
         assert!(before.get_or_insert_with(|| files.clone()) == &files, "{threads} threads");
     }
-    if std::env::var_os("CROSSBAR_BLESS").is_some() {
+    if blesses() {
         fs::copy(&biclusters, BICLUSTERS).expect("written");
     }
     assert!(fs::read(&biclusters).expect("written") == fs::read(BICLUSTERS).expect("an example"), "CROSSBAR_BLESS=1");
@@ -170,12 +163,8 @@ fn what_cannot_be_done_is_said() {
         (format!("bi-scale compare {BICLUSTERS} --memory-limit 1MB"), "of memory"),
         ("bi-scale multiply docs/examples/step_all.prt".to_owned(), "`crossbar all-frequency` takes it"),
     ] {
-        let ran = crossbar(&arguments.split(' ').collect::<Vec<_>>(), "");
-        assert_eq!(ran.code, Some(2), "{}", ran.transcript());
-        // Messages are wrapped.
-        let words =
-            ran.stderr.split_whitespace().filter(|word| !["│", "|"].contains(word)).collect::<Vec<_>>().join(" ");
-        assert!(words.contains(said), "{}", ran.transcript());
+        let words = refused_line(&arguments);
+        assert!(words.contains(said), "{arguments}: {words}");
     }
 }
 
@@ -227,7 +216,7 @@ fn the_court_has_its_transfer() {
     let options = "--directions 4 --tangents texture";
     document(&format!("bi-scale precompute {COURT} {options} --out {matrix}"));
     document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
-    if std::env::var_os("CROSSBAR_BLESS").is_some() {
+    if blesses() {
         fs::copy(&biclusters, COURT_BICLUSTERS).expect("written");
     }
     assert!(
@@ -363,11 +352,7 @@ fn textures_that_do_not_fit_are_refused() {
         ),
         ("bi-scale texture docs/examples/rays.csv --out x.npy".to_owned(), "expected as many rows as columns"),
     ] {
-        let ran = crossbar(&arguments.split(' ').collect::<Vec<_>>(), "");
-        assert_eq!(ran.code, Some(2), "{arguments}: {}", ran.transcript());
-        // Messages are wrapped.
-        let words =
-            ran.stderr.split_whitespace().filter(|word| !["│", "|"].contains(word)).collect::<Vec<_>>().join(" ");
+        let words = refused_line(&arguments);
         assert!(words.contains(said), "{arguments}: {words}");
     }
 }
@@ -412,11 +397,8 @@ fn the_card_draws_what_the_host_draws() {
             "unexpected argument '--way'",
         ),
     ] {
-        let ran = crossbar(&format!("{options} --out {out}").split(' ').collect::<Vec<_>>(), "");
-        assert_eq!(ran.code, Some(2), "{}", ran.transcript());
-        let words =
-            ran.stderr.split_whitespace().filter(|word| !["│", "|"].contains(word)).collect::<Vec<_>>().join(" ");
-        assert!(words.contains(said), "{}", ran.transcript());
+        let words = refused_line(&format!("{options} --out {out}"));
+        assert!(words.contains(said), "{options}: {words}");
     }
 }
 
@@ -433,8 +415,7 @@ fn creases_keep_vertices_apart() {
     let options = "--texture bricks --texture-size 4 --texture-views 2 --size 8x6";
     let render = format!("bi-scale render {file} --model {COURT} {options} --out {out}");
     document(&format!("{render} --crease 30"));
-    let ran = crossbar(&render.split(' ').collect::<Vec<_>>(), "");
-    assert_eq!(ran.code, Some(2), "{}", ran.transcript());
+    refused_line(&render);
 }
 
 /// A table of heights makes a patch: one of a step is darker than a plain one, by as much as its shadow.

@@ -8,24 +8,9 @@ use crossbar::io::{NumberTable, parse_npy, write_npy};
 use crossbar::picture::{Picture, exr, png};
 use serde_json::Value;
 
-use crate::{crossbar, crossbar_in};
+use crate::answers::{document, number, place, refused, refused_in};
 
 const STEP: [&str; 3] = ["docs/examples/step.obj", "docs/examples/step.prt", "docs/examples/step_small.prt"];
-
-pub(crate) fn document(arguments: &[&str]) -> Value {
-    let ran = crossbar(&[arguments, &["--json"]].concat(), "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
-
-pub(crate) fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
-}
-
-/// The path of a file in a folder, as an argument.
-pub(crate) fn place(folder: &Path, name: &str) -> String {
-    folder.join(name).to_str().expect("a name in UTF-8").to_owned()
-}
 
 /// The commands write the example files, on any number of threads.
 #[test]
@@ -143,11 +128,8 @@ fn what_does_not_go_together_is_refused() {
         (&["show", &small, "--vertex", "1000"], "expected a vertex below"),
         (&["show", &model], "expected a .prt file, found another beginning"),
     ] {
-        let ran = crossbar_in(folder.path(), &[&["cpca"], arguments].concat(), "");
-        let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
-        assert!(flat.contains(words), "{arguments:?}: {}", ran.stderr);
-        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{arguments:?}");
+        let said = refused_in(folder.path(), &[&["cpca"], arguments].concat());
+        assert!(said.contains(words), "{arguments:?}: {said}");
     }
 }
 
@@ -191,10 +173,9 @@ fn cards_refuse_what_they_have_no_programs_for() {
     let [model, whole, small] = STEP;
     let refused = |arguments: &[&str]| {
         let out = place(folder.path(), "out");
-        let ran = crossbar(&[&["cpca", "card"], arguments, &["--size", "8x8", "--out", &out]].concat(), "");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        let said = refused(&[&["cpca", "card"], arguments, &["--size", "8x8", "--out", &out]].concat());
         assert!(!folder.path().join("out").exists(), "{arguments:?}");
-        ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ")
+        said
     };
     let adaptive = place(folder.path(), "adaptive.prt");
     let options = ["--method", "adaptive", "--clusters", "8", "--vectors", "3", "--out", &adaptive];
@@ -266,11 +247,8 @@ fn pictures_that_are_no_lights_are_refused() {
         let light = place(folder.path(), name);
         fs::write(&light, bytes).expect("written");
         let arguments = ["cpca", "render", &transfer, "--model", &model, "--light", &light, "--size", "8x8"];
-        let ran = crossbar_in(folder.path(), &arguments, "");
-        let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
-        assert!(flat.contains(words) && flat.contains(name), "{name}: {}", ran.stderr);
-        assert!(!folder.path().join("out").exists(), "{name}");
+        let said = refused_in(folder.path(), &arguments);
+        assert!(said.contains(words) && said.contains(name), "{name}: {said}");
     }
 }
 
@@ -298,15 +276,13 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
     assert_ne!(along_texture, along_x);
     let render = ["cpca", "render", &texture, "--model", &model, "--size", "8x8", "--out", &page];
     document(&[&render[..], &["--original", &texture]].concat());
-    let refused = crossbar(&[&render[..], &["--original", &axis]].concat(), "");
-    let flat = refused.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-    assert_eq!(refused.code, Some(2), "{flat}");
+    let said = refused(&[&render[..], &["--original", &axis]].concat());
     for words in ["expected transfer of a mesh with 4 vertices", "tangents from texture coordinates", "along 0,1,0"] {
-        assert!(flat.contains(words), "{words}: {flat}");
+        assert!(said.contains(words), "{words}: {said}");
     }
     // The same square without texture coordinates is another mesh.
     let square = ["cpca", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
-    assert_eq!(crossbar(&square, "").code, Some(2));
+    refused(&square);
 }
 
 /// An array of NumPy's and a table of the same numbers are one signal.
@@ -329,9 +305,8 @@ fn arrays_of_numpy_are_compressed() {
     let at = bytes.windows(5).position(|word| word == b"False").expect("the order of the array");
     bytes[at..at + 5].copy_from_slice(b"True ");
     fs::write(&fortran, &bytes).expect("written");
-    let ran = crossbar(&["cpca", "compress", &fortran, "--out", &place(folder.path(), "none.prt")], "");
-    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{}", ran.stderr);
-    assert!(ran.stderr.to_lowercase().contains("fortran"), "{}", ran.stderr);
+    let said = refused(&["cpca", "compress", &fortran, "--out", &place(folder.path(), "none.prt")]);
+    assert!(said.to_lowercase().contains("fortran"), "{said}");
 }
 
 /// As few vectors, or clusters, as an error needs; where it cannot be met, nothing is written.
@@ -362,10 +337,8 @@ fn compression_ends_where_an_error_is_met() {
     assert!(number(&compress(&["--vectors", "1", "--clusters", &less])["relative_error"]) > 0.02);
     fs::remove_file(&out).expect("removed");
     let never = ["--clusters", "2", "--vectors", "1", "--max-error", "1e-9"];
-    let ran = crossbar(&[&["cpca", "compress", transfer, "--out", &out][..], &never].concat(), "");
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-    let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(flat.contains("with 2 clusters of 1 vectors") && flat.contains("--max-error"), "{flat}");
+    let said = refused(&[&["cpca", "compress", transfer, "--out", &out][..], &never].concat());
+    assert!(said.contains("with 2 clusters of 1 vectors") && said.contains("--max-error"), "{said}");
     assert!(!Path::new(&out).exists());
 }
 
@@ -453,10 +426,8 @@ fn idle_options_of_compression_are_refused() {
         let options = options.replace(" M", &format!(" {model}"));
         let words_of: Vec<&str> =
             ["cpca", "compress", from, "--out", &out].into_iter().chain(options.split(' ')).collect();
-        let ran = crossbar(&words_of, "");
-        let flat = ran.stderr.replace(['|', '\n', '│'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{options}: {}", ran.stderr);
-        assert!(flat.contains(words), "{options}: {flat}");
+        let said = refused(&words_of);
+        assert!(said.contains(words), "{options}: {said}");
         assert!(!Path::new(&out).exists(), "{options}");
     }
 }

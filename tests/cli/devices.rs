@@ -2,17 +2,12 @@
 
 use serde_json::Value;
 
+use crate::answers::document;
 use crate::crossbar;
-
-fn json(arguments: &[&str]) -> Value {
-    let ran = crossbar(arguments, "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
 
 #[test]
 fn all_devices_are_listed() {
-    let listed = json(&["devices", "--json"]);
+    let listed = document(&["devices"]);
     let names: Vec<&str> = listed.as_array().expect("a list").iter().filter_map(|d| d["name"].as_str()).collect();
     assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "fx5800", "fx5900"]);
     let text = crossbar(&["devices"], "").stdout;
@@ -25,7 +20,7 @@ fn all_devices_are_listed() {
 fn every_figure_has_a_source_and_a_confidence() {
     for name in ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "fx5800", "fx5900", "ideal-s3.12:rtz"]
     {
-        let device = json(&["devices", name, "--json"]);
+        let device = document(&["devices", name]);
         let figures = device["figures"].as_array().expect("a list");
         assert!(!figures.is_empty(), "{name} has figures");
         for figure in figures {
@@ -47,7 +42,7 @@ fn the_text_shows_figures_and_switches() {
 
 #[test]
 fn an_ideal_device_has_the_format_of_its_name() {
-    let device = json(&["devices", "ideal-e7m16", "--json"]);
+    let device = document(&["devices", "ideal-e7m16"]);
     let format = device["figures"]
         .as_array()
         .and_then(|figures| figures.iter().find(|figure| figure["key"] == "rules.format"))

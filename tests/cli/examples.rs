@@ -1,5 +1,6 @@
 //! docs/examples: the files that documentation and help name are what the library makes today.
 
+use crate::environment::blesses;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
@@ -91,7 +92,7 @@ fn examples_are_what_the_library_makes() {
     files.extend(scene_files(&built::build("cornell-box").expect("a scene"), "room").expect("files"));
     for (name, bytes) in files {
         let path = folder().join(&name);
-        if std::env::var_os("CROSSBAR_BLESS").is_some() {
+        if blesses() {
             fs::write(&path, &bytes).expect("written");
         }
         let there = fs::read(&path).expect("an example");
@@ -117,7 +118,7 @@ fn example_pictures_are_what_the_program_draws() {
         let ran = crossbar(&arguments, "");
         assert_eq!(ran.code, Some(0), "{}", ran.transcript());
         let (drawn, example) = (out.path().join(file), folder().join(name));
-        if std::env::var_os("CROSSBAR_BLESS").is_some() {
+        if blesses() {
             fs::copy(&drawn, &example).expect("written");
         }
         let [drawn, example] = [&drawn, &example].map(|path| path.to_str().expect("a name in UTF-8"));

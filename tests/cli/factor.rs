@@ -5,18 +5,13 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::answers::number;
 use crate::{crossbar, crossbar_in};
 
 const TABLE: &str = "docs/examples/reflectance.csv";
 
 fn document(arguments: &[&str]) -> Value {
-    let ran = crossbar(&[&["all-frequency", "factor"], arguments, &["--json"]].concat(), "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
+    crate::answers::document(&[&["all-frequency", "factor"], arguments].concat())
 }
 
 /// All files are there, and say the same on any number of threads.

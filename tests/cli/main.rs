@@ -3,6 +3,7 @@
 mod all_frequency;
 mod all_frequency_card;
 mod alu;
+mod answers;
 mod atlas;
 mod bad_input;
 mod bi_scale;
@@ -15,6 +16,8 @@ mod completions;
 mod cpca;
 mod devices;
 mod diff;
+#[path = "../../refsim/tests/common/environment.rs"]
+mod environment;
 mod examples;
 mod factor;
 mod help;
@@ -30,6 +33,8 @@ mod parts;
 mod precision;
 mod program;
 mod radiosity;
+#[path = "../../refsim/tests/common/random.rs"]
+mod random;
 mod render;
 mod reproduce;
 mod scene;

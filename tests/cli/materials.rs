@@ -2,17 +2,8 @@
 
 use serde_json::Value;
 
+use crate::answers::{document, number, refused};
 use crate::crossbar;
-
-fn json(arguments: &[&str]) -> Value {
-    let ran = crossbar(arguments, "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
-}
 
 #[test]
 fn the_text_shows_lengths_reflectances_and_sources() {
@@ -36,7 +27,7 @@ fn the_text_shows_lengths_reflectances_and_sources() {
 
 #[test]
 fn all_published_media_have_sources_and_the_totals_of_their_integrals() {
-    let all = json(&["materials", "--json"]);
+    let all = document(&["materials"]);
     let all = all.as_array().expect("a list");
     assert_eq!(all.len(), 14);
     for medium in all {
@@ -56,14 +47,14 @@ fn all_published_media_have_sources_and_the_totals_of_their_integrals() {
 
 #[test]
 fn own_coefficients_are_those_of_figure_7() {
-    let own = json(&["materials", "--sigma-s", "2.21", "--sigma-a", "0.0012", "--eta", "1.3", "--json"]);
-    let published = json(&["materials", "figure7", "--json"]);
+    let own = document(&["materials", "--sigma-s", "2.21", "--sigma-a", "0.0012", "--eta", "1.3"]);
+    let published = document(&["materials", "figure7"]);
     for key in ["total", "radii", "r_d", "z_v_mm"] {
         assert_eq!(own[key], published[key], "{key}");
     }
     assert!((number(&own["total"][1]) - 0.897_233).abs() < 1e-6);
     assert_eq!(own["sources"], Value::Null);
-    let colored = json(&["materials", "--sigma-s", "1,2,3", "--sigma-a", "0,0.1,0.2", "--at", "0.5", "--json"]);
+    let colored = document(&["materials", "--sigma-s", "1,2,3", "--sigma-a", "0,0.1,0.2", "--at", "0.5"]);
     assert_eq!(colored["sigma_s_prime_per_mm"], serde_json::json!([1.0, 2.0, 3.0]));
     assert_eq!(colored["r_d"].as_array().map(Vec::len), Some(1));
 }
@@ -82,9 +73,7 @@ fn what_is_no_medium_is_refused_with_what_was_meant() {
         (&["materials", "--at", "1"], "are about one medium"),
         (&["materials", "marble", "--at", "-1"], "expected a number not below 0"),
     ] {
-        let ran = crossbar(arguments, "");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}");
-        let text = ran.stderr.split_whitespace().filter(|word| *word != "|").collect::<Vec<_>>().join(" ");
-        assert!(text.contains(said), "{arguments:?}: {}", ran.stderr);
+        let text = refused(arguments);
+        assert!(text.contains(said), "{arguments:?}: {text}");
     }
 }

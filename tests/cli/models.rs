@@ -135,6 +135,6 @@ fn a_format_without_bits_is_said() {
     assert!(warning.starts_with("warning: no bits left: ") && warning.contains(" hits has "), "{warning}");
     assert_eq!(said("r300"), "");
     let ran = run(folder.path(), &format!("leaks --mesh {mesh} --rays many.csv --device r200 --device r300 --out l"));
-    let text = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = crate::answers::words(&ran.stdout);
     assert!(text.contains("r200: no bits left: ") && !text.contains("r300: no bits"), "{text}");
 }

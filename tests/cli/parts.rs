@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::commands::copy_of_the_repository;
+use crate::random::Random;
 use crate::{crossbar_in, start};
 
 /// Commands that split, on small input. The result goes to `out`, an ending behind it where it is a file.
@@ -31,19 +32,9 @@ const COMMANDS: &[&str] = &[
     "precision docs/examples/lerp.toml --family fixed --budget 90 --out out",
 ];
 
-/// Numbers for the choice of parts and their order: the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((u128::from(self.0) * count as u128) >> 64) as usize
-    }
-
-    fn shuffle<T>(&mut self, items: &mut [T]) {
-        for end in (1..items.len()).rev() {
-            items.swap(end, self.below(end + 1));
-        }
+fn shuffle<T>(random: &mut Random, items: &mut [T]) {
+    for end in (1..items.len()).rev() {
+        items.swap(end, random.below(end + 1));
     }
 }
 
@@ -92,7 +83,7 @@ fn without_times(said: &str) -> String {
 /// Any number of parts, more than items among them, in any order, on any number of threads.
 #[test]
 fn merged_parts_are_the_files_of_one_run() {
-    let mut dice = Dice(47);
+    let mut random = Random::new(47);
     for &command in COMMANDS {
         let folder = copy_of_the_repository();
         let folder = folder.path();
@@ -101,17 +92,17 @@ fn merged_parts_are_the_files_of_one_run() {
         assert!(!whole.is_empty(), "{command}");
         // One with more parts than it has vertices.
         let many = if command.contains("--order 3") { Some(47) } else { None };
-        for of in [1 + dice.below(6)].into_iter().chain(many) {
+        for of in [1 + random.below(6)].into_iter().chain(many) {
             let mut files: Vec<String> = (1..=of).map(|number| format!("{number}.part")).collect();
             let mut order: Vec<usize> = (1..=of).collect();
-            dice.shuffle(&mut order);
+            shuffle(&mut random, &mut order);
             for number in order {
                 let line = part(command, &format!("{number}/{of}"), &files[number - 1]);
-                let threads = ["1", "3"][dice.below(2)];
+                let threads = random.of(&["1", "3"]);
                 run(folder, &[&words(&line)[..], &["--threads", threads]].concat());
             }
             assert!(written(folder).is_empty(), "{command}: a part writes its own file alone");
-            dice.shuffle(&mut files);
+            shuffle(&mut random, &mut files);
             let out = command.rsplit(' ').next().expect("a name");
             let names: Vec<&str> = files.iter().map(String::as_str).collect();
             let merged = run(folder, &[&["merge"], &names[..], &["--out", out]].concat());
@@ -125,7 +116,7 @@ fn merged_parts_are_the_files_of_one_run() {
 /// Parts that are killed at any moment leave a whole file or none, and are made again.
 #[test]
 fn parts_that_were_killed_are_made_again() {
-    let mut dice = Dice(11);
+    let mut random = Random::new(11);
     let command = "all-frequency precompute docs/examples/court.obj --ground 8 --out out.prt";
     let folder = copy_of_the_repository();
     let folder = folder.path();
@@ -137,7 +128,7 @@ fn parts_that_were_killed_are_made_again() {
         let mut first = None;
         for _ in 0..3 {
             let mut child = start(folder, &words(&line));
-            std::thread::sleep(std::time::Duration::from_millis(dice.below(400) as u64));
+            std::thread::sleep(std::time::Duration::from_millis(random.below(400)));
             child.kill().expect("a child");
             child.wait().expect("a child");
             if let Ok(bytes) = fs::read(folder.join(name)) {
@@ -295,13 +286,13 @@ fn damage_is_noticed_wherever_it_is() {
     let folder = two_parts();
     let folder = folder.path();
     let bytes = fs::read(folder.join("1.part")).expect("a part");
-    let mut dice = Dice(5);
+    let mut random = Random::new(5);
     for _ in 0..24 {
         let mut damaged = bytes.clone();
-        match dice.below(3) {
-            0 => damaged.truncate(dice.below(bytes.len())),
+        match random.below(3) {
+            0 => damaged.truncate(random.below(bytes.len())),
             1 => damaged.push(0),
-            _ => damaged[dice.below(bytes.len())] ^= 1 << dice.below(8),
+            _ => damaged[random.below(bytes.len())] ^= 1 << random.below(8),
         }
         fs::write(folder.join("damaged.part"), &damaged).expect("written");
         let ran = crossbar_in(folder, &["merge", "damaged.part", "2.part", "--out", "out.prt"], "");

@@ -1,8 +1,10 @@
 //! `crossbar subsurface`.
 
+use crate::environment::writes_pages;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::answers::words;
 use crate::{ProgramOutput, crossbar_in};
 
 /// A tetrahedron.
@@ -142,9 +144,7 @@ fn done(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
 
 fn refused(more: &[&str], expected: &str) {
     let (ran, folder) = subsurface(more);
-    assert_eq!(ran.code, Some(2), "{more:?}");
-    // Messages are broken into lines.
-    let told = ran.stderr.split_whitespace().filter(|word| *word != "|" && *word != "│").collect::<Vec<_>>().join(" ");
+    let told = ran.refusal();
     assert!(told.contains(expected), "{more:?}: {told}");
     assert!(!folder.path().join("out/subsurface").exists(), "nothing is left behind");
 }
@@ -195,14 +195,14 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     let body: String = fixed.iter().zip(&adaptive).map(line).collect();
     let head = "| degrees | B | fixed: mean | rms | adaptive: mean | rms |\n|---|---|---|---|---|---|\n";
     let begin = "Of 64 links per texel, by the angle between normals and the light, ";
-    let spoken = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    let spoken = words(&ran.stdout);
     let sentence = spoken.split(begin).nth(1).and_then(|rest| rest.split(". ").next()).expect("the sentence");
     let expected = format!("\n\n{head}{body}\n{}\n\n", wrapped(&format!("{begin}{sentence}.")));
     let page = root.join("docs/studies/subsurface.md");
     let text = std::fs::read_to_string(&page).expect("the page");
     let (before, rest) = text.split_once("<!-- subsurface: angles -->").expect("the mark");
     let (found, after) = rest.split_once("<!-- /subsurface -->").expect("the end mark");
-    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    if writes_pages() {
         let text = format!("{before}<!-- subsurface: angles -->{expected}<!-- /subsurface -->{after}");
         std::fs::write(&page, text).expect("written");
     } else {

@@ -4,18 +4,13 @@ use std::fs;
 
 use serde_json::Value;
 
+use crate::answers::document;
 use crate::case::{CASES, example};
 use crate::trace_format::{Shown, read};
 use crate::{crossbar, crossbar_in};
 
 /// A small crossbar.
 const RAYS: &[&str] = &["timeline", "--rays", "48x40", "--mesh", "fixtures/models/square.obj"];
-
-fn document(arguments: &[&str]) -> Value {
-    let ran = crossbar(&[arguments, &["--json"]].concat(), "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
 
 fn number(value: &Value) -> u64 {
     value.as_u64().unwrap_or_else(|| panic!("expected a whole number, found {value}"))

@@ -7,7 +7,7 @@ use approx::assert_relative_eq;
 use crossbar::io::{NumberTable, parse_npy};
 use crossbar::picture::Picture;
 
-use crate::cpca::{document, place};
+use crate::answers::{document, place};
 
 /// A square whose file has a vertex that no face uses, and others in another order than that of their first use.
 const SQUARE: &str = "v 9 9 9\nv 1 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nvt 0 0\nvt 1 0\nvt 0 1\n\

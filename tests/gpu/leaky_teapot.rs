@@ -1,5 +1,6 @@
 //! The leaky teapot.
 
+use crate::environment::is_full;
 use std::sync::Arc;
 
 use crossbar::study::configuration::Configuration;
@@ -13,7 +14,7 @@ pub(crate) fn the_same_study(gpu: &Arc<Gpu>) {
     let mut small = parameters(16, 1, formats(&["fp16", "fp24", "fp32"]));
     small.configurations.push(Configuration::device("r200").expect("a card"));
     small.rays_per_edge = 0;
-    if std::env::var_os("CROSSBAR_FULL").is_some() {
+    if is_full() {
         small = small_study().0;
     }
     let batch = study(&small);

@@ -8,6 +8,8 @@ mod adapter;
 #[path = "../laws/radiosity/all_pictures.rs"]
 mod all_pictures;
 mod display;
+#[path = "../../refsim/tests/common/environment.rs"]
+mod environment;
 mod leaky_teapot;
 #[path = "../cli/program.rs"]
 mod program;

@@ -6,6 +6,8 @@ mod bi_scale;
 mod card;
 mod compare;
 mod cpca;
+#[path = "../../refsim/tests/common/environment.rs"]
+mod environment;
 mod files;
 mod geom;
 mod measuring;

@@ -1,6 +1,7 @@
 //! Checks that docs/studies/leaky_teapot.md quotes the program's figures: the blocks between marks are generated here.
 //! `INSTA_UPDATE=always` writes them.
 
+use crate::environment::{is_full, writes_pages};
 use std::path::{Path, PathBuf};
 
 use crossbar::report::Cell;
@@ -98,10 +99,10 @@ fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
 /// in the full form, and when the page is written, they too are computed at full size.
 #[test]
 fn the_page_says_what_the_program_prints() {
-    let writes = std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always");
+    let writes = writes_pages();
     let text = std::fs::read_to_string(page()).expect("the page").replace('\r', "");
     let mut configurations = defaults();
-    let full = writes || std::env::var_os("CROSSBAR_FULL").is_some();
+    let full = writes || is_full();
     let said: Vec<String> = block(&text, "same").trim().split(",\n").map(str::to_owned).collect();
     if !full {
         assert!(said.iter().all(|name| configurations.iter().any(|row| switch(row) == *name)), "{said:?}");

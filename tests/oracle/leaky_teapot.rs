@@ -1,5 +1,6 @@
 //! The leaky teapot: what the paper's Figure 4 shows, asserted; the same bits on every executor and thread count.
 
+use crate::environment::by_form;
 use crossbar::geom::exact::Sides;
 use crossbar::study::configuration::Configuration;
 use crossbar::study::leaky_teapot::TeapotOutcome;
@@ -10,7 +11,7 @@ use super::teapot_study::{assert_same, formats, parameters, small_study, study};
 
 /// Size and tessellation: small for everyday runs, the program's defaults for the full form.
 fn scale() -> (u32, u32) {
-    if std::env::var_os("CROSSBAR_FULL").is_some() { (512, 8) } else { (128, 6) }
+    by_form((128, 6), (512, 8))
 }
 
 #[test]

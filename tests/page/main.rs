@@ -3,7 +3,10 @@
 //! is set, that is a failure.
 
 mod browser;
+#[path = "../../refsim/tests/common/environment.rs"]
+mod environment;
 
+use environment::is_full;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -163,10 +166,6 @@ fn stepping_by_keys(browser: &mut Browser) {
     browser.wait("document.getElementById('source').textContent.startsWith('; Ray-triangle intersection, front faces, any origin')");
     browser.press("variant", "ArrowDown", 40);
     browser.wait("document.getElementById('written-caption').textContent.endsWith('e5m10')");
-}
-
-fn is_full() -> bool {
-    std::env::var_os("CROSSBAR_FULL").is_some()
 }
 
 /// Writes the page again under another name, with its data changed.

@@ -1,6 +1,8 @@
 //! Printed figures of the papers, and their consequences.
 
 mod cpca_appendix;
+#[path = "../../refsim/tests/common/environment.rs"]
+mod environment;
 mod radiosity;
 mod ray_cache;
 mod ray_engine;

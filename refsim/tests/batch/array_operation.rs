@@ -58,7 +58,7 @@ fn same(a: f64, b: f64) -> bool {
 #[test]
 fn doubles_are_rounded_as_the_definition_says() {
     for (k, f) in LAYOUTS.split(' ').flat_map(variants).enumerate() {
-        let mut random = Random(0x9e37_79b9_7f4a_7c15 + k as u64);
+        let mut random = Random::new(0x9e37_79b9_7f4a_7c15 + k as u64);
         let some: Vec<f64> = (0..600).map(|_| random.double(&f)).collect();
         let mut found = vec![0.0; some.len()];
         ArrayOperation::rounding(f).expect("a format of registers").doubles([&some, &[], &[]], &mut found);
@@ -78,7 +78,7 @@ fn operations_are_those_of_the_definition() {
     let operations: Vec<Op> = operations.collect();
     assert_eq!(operations.len(), 18);
     for (k, f) in LAYOUTS.split(' ').flat_map(variants).enumerate() {
-        let mut random = Random(0x1234_5678_9abc_def1 + k as u64);
+        let mut random = Random::new(0x1234_5678_9abc_def1 + k as u64);
         let operands = [0; 3].map(|_| (0..300).map(|_| random.double(&f)).collect::<Vec<f64>>());
         let bits = operands.each_ref().map(|some| some.iter().map(|&x| from_f64(f, x).bits).collect::<Vec<u32>>());
         for &operation in &operations {

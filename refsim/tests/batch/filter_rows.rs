@@ -2,6 +2,8 @@
 //! executor: every texel format, kind of texture, address mode, number of weight bits and register format, at arbitrary
 //! coordinates and derivatives. Also tests reads at coordinates that are constant over a draw or a triangle.
 
+use crate::environment::by_form;
+use crate::random::Random;
 use crate::sampling::switched;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -99,15 +101,9 @@ fn texture(kind: TextureKind) -> impl Strategy<Value = Image> {
             };
             let most = Image::most_levels(kind, extents);
             let mut image = Image::new(format, kind, extents, if chain { most } else { 1 }).unwrap();
-            let mut state = seed | 1;
-            for byte in image.bytes_mut() {
-                state ^= state << 13;
-                state ^= state >> 7;
-                state ^= state << 17;
-                // Includes codes at the ends of their range, infinities and NaN.
-                *byte =
-                    if state & 7 == 0 { [0, 0xff, 0x7f, 0x80][(state >> 3 & 3) as usize] } else { (state >> 16) as u8 };
-            }
+            let mut random = Random::new(seed);
+            // Includes codes at the ends of their range, infinities and NaN.
+            image.bytes_mut().fill_with(|| random.code());
             image
         },
     )
@@ -292,7 +288,7 @@ fn agrees(read: &Read) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("CROSSBAR_FULL").is_some() { 30_000 } else { 2000 }))]
+    #![proptest_config(ProptestConfig::with_cases(by_form(2000, 30_000)))]
 
     #[test]
     fn filtered_reads_agree(read in read()) {
@@ -308,22 +304,18 @@ proptest! {
 /// The same for a texture that is too large for a table, and for one with more texels than a byte has codes.
 #[test]
 fn large_textures_are_filtered_alike() {
-    let mut state = 1u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 32) as u32
-    };
+    let mut random = Random::new(1);
     let cases = TexelFormat::ALL.iter().zip(MODES.into_iter().cycle());
     let cases = cases.flat_map(|(&format, mode)| [[601, 600], [43, 42]].map(|size| (format, mode, size)));
     // Exact fractions, then bytes.
     for ((format, mode, [width, height]), switches) in cases.flat_map(|case| [(case, 0), (case, 31)]) {
         let mut texture = Image::new_2d(format, width, height).unwrap();
-        texture.bytes_mut().iter_mut().for_each(|byte| *byte = next() as u8);
+        texture.bytes_mut().fill_with(|| random.next() as u8);
         let filter = Filter::Linear;
         let border = [0x3e80_0000, 0x3f00_0000, 0x3f40_0000, ONE];
         let modes = SamplerState { address_u: mode, address_v: mode, border, ..SamplerState::NEAREST_CLAMP };
         let state = SamplerState { min: filter, mag: filter, ..modes };
-        let mut coordinate = || ((next() >> 8) as f32 / 4_194_304.0 - 1.5).to_bits();
+        let mut coordinate = || random.between(-1.5, 2.5).to_bits();
         let coordinates: Vec<_> = (0..SIDE * SIDE).map(|_| [coordinate(), coordinate(), 0, ONE]).collect();
         let (minimum, lookup) = (SignedTexelMinimum::Clamp, Lookup::Implicit);
         let derivatives = vec![[0; 4]; coordinates.len()];

@@ -1,6 +1,7 @@
 //! Tests targets with a single row of quads, for which the batch executor uses flat tiles, and textures that are too
 //! large for its tables, against the scalar executor's bits and counts.
 
+use crate::random::Random;
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
@@ -11,16 +12,6 @@ use refsim::num::Format;
 use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{AddressMode, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
-
-/// Deterministic numbers in [0, 1).
-struct Numbers(u32);
-
-impl Numbers {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (self.0 >> 8) as f32 / 16_777_216.0
-    }
-}
 
 /// A program that takes differences, reads its position, and reads texture 0.
 const PROGRAM: &str = "!!FP1.0
@@ -51,15 +42,15 @@ struct Case {
     target: TexelFormat,
 }
 
-fn image(format: TexelFormat, side: u32, random: &mut Numbers) -> Image {
-    let values: Vec<[u32; 4]> = (0..side * side).map(|_| [(); 4].map(|()| random.next().to_bits())).collect();
+fn image(format: TexelFormat, side: u32, random: &mut Random) -> Image {
+    let values: Vec<[u32; 4]> = (0..side * side).map(|_| [(); 4].map(|()| random.unit().to_bits())).collect();
     let (kind, extents) = (TextureKind::D2, [side, side, 1]);
     Image::from_values(format, kind, extents, Format::FP32, &values, TargetRounding::Nearest).unwrap()
 }
 
-fn triangles(count: usize, random: &mut Numbers) -> Vec<Vertex> {
-    let vertex = |random: &mut Numbers| {
-        let mut spread = |by: f32| by * (2.0 * random.next() - 1.0);
+fn triangles(count: usize, random: &mut Random) -> Vec<Vertex> {
+    let vertex = |random: &mut Random| {
+        let mut spread = |by: f32| by * (2.0 * random.unit() - 1.0);
         let position = [spread(1.5), spread(2.5), 0.5 + spread(0.4), 1.0 + spread(0.3)].map(f32::to_bits);
         let mut vertex = Vertex { position, ..Vertex::default() };
         for set in &mut vertex.texcoords[..2] {
@@ -113,7 +104,7 @@ fn agrees_in(case: &Case, program: &str, vertices: &[Vertex]) {
 
 #[test]
 fn targets_of_one_row_of_quads_are_drawn_alike() {
-    let mut random = Numbers(1);
+    let mut random = Random::new(1);
     let texture = image(TexelFormat::Rgba32f, 20, &mut random);
     let region = |x, y, width, height| Some(Region { x, y, width, height });
     let flat =
@@ -144,7 +135,7 @@ fn targets_of_one_row_of_quads_are_drawn_alike() {
 
 #[test]
 fn textures_without_a_table_are_read_alike() {
-    let mut random = Numbers(2);
+    let mut random = Random::new(2);
     let formats = [TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::R32f, TexelFormat::Bgra8, TexelFormat::L16];
     for format in formats {
         let texture = image(format, 600, &mut random);

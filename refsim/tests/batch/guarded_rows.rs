@@ -1,6 +1,7 @@
 //! Rows of lanes of which some leave the range of their format or come from its ends: the batch executor, which
 //! computes whole rows as if nothing happened there and then mends what came out infinite, against the scalar one.
 
+use crate::random::Random;
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
@@ -52,10 +53,10 @@ const FORMATS: [&str; 20] = [
 ];
 
 /// Texels of ordinary numbers, with now and then one from the ends of the range.
-fn texels(f: Format, random: &mut impl FnMut() -> u32) -> Vec<[u32; 4]> {
+fn texels(f: Format, random: &mut Random) -> Vec<[u32; 4]> {
     let ends = [0, 1, 2, f.one(), f.max_finite(), f.max_finite() - 1, f.max_finite() / 2, f.min_finite()];
     let mut number = || {
-        let (r, more) = (random(), random());
+        let (r, more) = (random.bits(), random.bits());
         let pattern = match r % 16 {
             0 => ends[more as usize % ends.len()],
             1 => f.infinity(more % 2 == 0).unwrap_or(f.one()),
@@ -97,13 +98,7 @@ fn drawn(profile: &Profile, kind: ExecutorKind, operation: &str, images: &[Vec<[
 
 #[test]
 fn rows_agree_at_the_ends_of_the_range() {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut random = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 24) as u32
-    };
+    let mut random = Random::new(1);
     for name in FORMATS {
         let f: Format = name.parse().unwrap();
         let profile = Profile::named(&format!("ideal-{name}")).unwrap();

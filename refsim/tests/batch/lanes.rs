@@ -5,6 +5,8 @@
 //! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` covers the
 //! whole range, the short form a part of it.
 
+use crate::environment::is_full;
+use crate::random::Random;
 use rayon::prelude::*;
 use refsim::exec::batch::{convert, evaluate, exact_dot};
 use refsim::num::{Denormals, DotOrder, Format, NumberOperation as Op, Overflow, Rounding, Specials, ops};
@@ -77,21 +79,7 @@ fn variants(base: Format) -> Vec<Format> {
     out
 }
 
-/// Xorshift generator of operands.
-struct Random(u64);
-
 impl Random {
-    fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
     /// A random pattern: uniform, near an edge, or near a power of two.
     fn pattern(&mut self, f: &Format) -> u32 {
         let r = self.next();
@@ -115,17 +103,13 @@ impl Random {
     }
 }
 
-fn full() -> bool {
-    std::env::var_os("CROSSBAR_FULL").is_some()
-}
-
 fn layout(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
 #[test]
 fn short_formats_agree_on_all_pairs() {
-    let layouts: &[&str] = if full() {
+    let layouts: &[&str] = if is_full() {
         &[
             "s0.1", "s1.1", "s2.0", "s0.4", "s3.4", "s7.0", "s2.5", "n0.2", "n2.3", "n0.6", "e2m1", "e2m3", "e3m2",
             "e2m1fn", "e3m2fn", "e4m3fn", "e5m2fnuz", "e3m2fnuz", "e4m3", "e5m2", "e3m4", "e2m5", "e6m1",
@@ -194,7 +178,7 @@ fn all_formats_agree_on_random_operands() {
         "e7m16fnuz",
         "e2m3fn",
     ];
-    let n = if full() { 65536 } else { 512 };
+    let n = if is_full() { 65536 } else { 512 };
     for (seed, text) in layouts.iter().enumerate() {
         for (k, f) in variants(layout(text)).into_iter().enumerate() {
             let mut random = Random::new((seed * 64 + k + 1) as u64);
@@ -209,7 +193,7 @@ fn all_formats_agree_on_random_operands() {
 
 #[test]
 fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
-    let stride = if full() { 1 } else { 97 };
+    let stride = if is_full() { 1 } else { 97 };
     for f in
         ["fp16", "bf16", "s3.12", "s0.15", "n3.8", "n7.8", "n9.6"].into_iter().flat_map(|text| variants(layout(text)))
     {
@@ -225,7 +209,7 @@ fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
 /// All pairs of the registers of NV2x in the full form; every thirteenth first operand in the short one.
 #[test]
 fn normalized_registers_agree_on_pairs() {
-    let step = if full() { 1 } else { 13 };
+    let step = if is_full() { 1 } else { 13 };
     for text in ["n3.8:rna", "n3.8:rtz", "n3.8:rdn", "n0.8:rna", "n3.8:rne:wrap"] {
         let f = layout(text);
         let all: Vec<u32> = (0..=f.mask()).collect();
@@ -241,7 +225,7 @@ fn normalized_registers_agree_on_pairs() {
 /// Sums and products of all pairs of fp16; the short form takes every 997th first and every 61st second operand.
 fn fp16_agrees_on_pairs(rules: &str) {
     let f = layout(&format!("fp16:{rules}"));
-    let (first, second) = if full() { (1, 1) } else { (997, 61) };
+    let (first, second) = if is_full() { (1, 1) } else { (997, 61) };
     let all: Vec<u32> = (0..=0xffff).step_by(second).collect();
     (0..=0xffff_u32).step_by(first).collect::<Vec<_>>().into_par_iter().for_each(|a| {
         let a = vec![a; all.len()];
@@ -272,7 +256,7 @@ fp16_pairs! {
 
 #[test]
 fn fp16_agrees_on_quotients() {
-    let stride = if full() { 7 } else { 997 };
+    let stride = if is_full() { 7 } else { 997 };
     for text in ["fp16", "fp16:rna:sat", "fp16:rtz", "fp16:rdn:ftz"] {
         let f = layout(text);
         let all: Vec<u32> = (0..=0xffff).step_by(stride).collect();
@@ -307,9 +291,9 @@ fn wide_floats_agree_at_their_edges() {
     for (exp_bits, man_bits) in [(8, 23), (7, 16), (8, 10), (8, 7), (7, 22), (6, 10), (8, 22), (5, 10)] {
         let base = layout(&format!("e{exp_bits}m{man_bits}"));
         let all = edges(exp_bits, man_bits);
-        variants(base).into_par_iter().enumerate().filter(|(_, f)| full() || f.specials == Specials::Ieee).for_each(
+        variants(base).into_par_iter().enumerate().filter(|(_, f)| is_full() || f.specials == Specials::Ieee).for_each(
             |(k, f)| {
-                let step = if full() { 1 } else { 5 };
+                let step = if is_full() { 1 } else { 5 };
                 let b: Vec<u32> = all.iter().copied().skip(k % step).step_by(step).collect();
                 let c: Vec<u32> = b.iter().rev().copied().collect();
                 for &a in &all {
@@ -353,7 +337,7 @@ fn conversions_agree() {
                  fp24:rdn fp24:sat fp32 fp32:ftz fp32:ftz:nvovf:nv fp32:rdn bf16 e3m4 e8m10:rna \
                  s3.12:rup s0.8:rod n3.8:rup:wrap n3.8:rod fp16:rup fp16:rod fp32:rod e4m3fn e4m3fn:sat e5m2fnuz e2m1fn";
     let layouts: Vec<Format> = texts.split(' ').map(layout).collect();
-    let n = if full() { 100_000 } else { 1000 };
+    let n = if is_full() { 100_000 } else { 1000 };
     for &from in &layouts {
         for &to in &layouts {
             let bits = Random::new(u64::from(from.mask()) * 31 + u64::from(to.width())).patterns(&from, n);

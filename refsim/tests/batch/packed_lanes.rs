@@ -1,6 +1,7 @@
 //! Tests small triangles, whose fragments the batch executor packs into the lanes of a batch, against the scalar
 //! executor's bits and counts, for all kinds of programs and output state.
 
+use crate::environment::by_form;
 use crate::random::Random;
 use refsim::asm::assemble;
 use refsim::check::check;
@@ -16,14 +17,6 @@ use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Filter, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
 impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        ((self.next() >> 8) % n as u64) as usize
-    }
-
-    fn choose<T: Copy>(&mut self, list: &[T]) -> T {
-        list[self.below(list.len())]
-    }
-
     /// Within [-1, 1].
     fn spread(&mut self) -> f32 {
         self.below(2001) as f32 / 1000.0 - 1.0
@@ -61,25 +54,25 @@ struct SmallTriangles {
 
 impl SmallTriangles {
     fn new(r: &mut Random) -> Self {
-        let size = r.choose(&[[16, 16], [40, 33], [17, 30], [300, 1], [290, 2], [7, 5], [1, 1]]);
+        let size = r.of(&[[16, 16], [40, 33], [17, 30], [300, 1], [290, 2], [7, 5], [1, 1]]);
         let ops = [BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max];
         let factors = BlendFactor::ALL;
-        let blend = BlendState::both(r.choose(factors), r.choose(factors), r.choose(&ops));
+        let blend = BlendState::both(r.of(factors), r.of(factors), r.of(&ops));
         let add = BlendState::both(BlendFactor::One, BlendFactor::One, BlendOp::Add);
-        let test = (r.below(5) > 0).then(|| r.choose(CompareFunction::ALL));
-        let function = r.choose(CompareFunction::ALL);
+        let test = (r.below(5) > 0).then(|| r.of(CompareFunction::ALL));
+        let function = r.of(CompareFunction::ALL);
         Self {
             size,
-            program: r.choose(&PROGRAMS),
+            program: r.of(&PROGRAMS),
             vertices: triangles(size, r),
-            target: r.choose(&[TexelFormat::Bgra8, TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rg16]),
-            blend: r.choose(&[None, Some(add), Some(blend)]),
+            target: r.of(&[TexelFormat::Bgra8, TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rg16]),
+            blend: r.of(&[None, Some(add), Some(blend)]),
             depth: DepthState { test, write: r.below(2) == 0 },
-            depth_format: r.choose(DepthFormat::ALL),
+            depth_format: r.of(DepthFormat::ALL),
             alpha: (r.below(4) == 0).then_some(AlphaTest { function, reference: 0x3e80_0000 }),
             mask: WriteMask(if r.below(3) == 0 { r.below(16) as u8 } else { 15 }),
-            iterators: r.choose(&["fp32", "fp32", "fp32", "fp16", "s7.16"]),
-            register: r.choose(&["fp32", "fp24", "s3.12", "n3.8:rna", "fp16:rtz"]),
+            iterators: r.of(&["fp32", "fp32", "fp32", "fp16", "s7.16"]),
+            register: r.of(&["fp32", "fp24", "s3.12", "n3.8:rna", "fp16:rtz"]),
         }
     }
 }
@@ -156,8 +149,8 @@ fn drawn(fine: &SmallTriangles, kind: ExecutorKind, threads: usize, budget: Opti
 
 #[test]
 fn fine_triangles_are_drawn_alike() {
-    let cases = if std::env::var_os("CROSSBAR_FULL").is_some() { 20_000 } else { 500 };
-    let (mut r, mut passed) = (Random(0x9e37_79b9_7f4a_7c15), 0);
+    let cases = by_form(500, 20_000);
+    let (mut r, mut passed) = (Random::new(1), 0);
     for case in 0..cases {
         let fine = SmallTriangles::new(&mut r);
         let what = || {
@@ -195,7 +188,7 @@ fn fine_triangles_are_drawn_alike() {
 /// The first fragment of many small triangles that exceeds the step budget is the one reported.
 #[test]
 fn overruns_in_fine_triangles_are_reported_alike() {
-    let mut r = Random(7);
+    let mut r = Random::new(7);
     let mut overruns = 0;
     for case in 0..60 {
         let fine = SmallTriangles { program: PROGRAMS[5], ..SmallTriangles::new(&mut r) };

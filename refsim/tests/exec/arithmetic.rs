@@ -1,6 +1,7 @@
 //! Tests every arithmetic operation of the scalar executor against the steps in its documentation, carried out with the
 //! operations of `num`.
 
+use crate::random::Random;
 use crate::running::{bits, constants, ideal, into, run, run_vertex};
 use refsim::device::{LrpMode, MadMode, Profile, Rules};
 use refsim::exec::Constants;
@@ -79,12 +80,9 @@ impl Reference<'_> {
     }
 }
 
-/// Pseudo-random vectors with components in (-1, 1).
-fn vectors(seed: &mut u64) -> [[f32; 4]; 3] {
-    let mut next = || {
-        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((*seed >> 40) as f32 - 8_388_608.0) / 8_388_609.0
-    };
+/// Vectors with components in [-1, 1).
+fn vectors(random: &mut Random) -> [[f32; 4]; 3] {
+    let mut next = || random.between(-1.0, 1.0);
     let mut vector = || [next(), next(), next(), next()];
     [vector(), vector(), vector()]
 }
@@ -125,13 +123,13 @@ fn ps_1_4_operations_are_their_documented_steps() {
         ("cnd", 3),
         ("cmp", 3),
     ];
-    let mut seed = 1;
+    let mut random = Random::new(1);
     for profile in profiles() {
         let format = profile.rules.format;
         let reference = Reference(&profile.rules, format);
         for (op, count) in table {
             for _ in 0..8 {
-                let values = vectors(&mut seed);
+                let values = vectors(&mut random);
                 let line = operands(op, count, "");
                 let text = format!("ps_1_4\nmov r0, c0\nmov r1, c1\nmov r2, c2\n{line}\nmov r0, r4");
                 let ran = run(&text, &profile, &values);
@@ -160,13 +158,13 @@ fn ps_2_0_operations_are_their_documented_steps() {
         ("dp4", 2, ""),
         ("cmp", 3, ""),
     ];
-    let mut seed = 2;
+    let mut random = Random::new(2);
     for profile in profiles() {
         let format = profile.rules.format;
         let reference = Reference(&profile.rules, format);
         for (op, count, suffix) in table {
             for _ in 0..8 {
-                let mut values = vectors(&mut seed);
+                let mut values = vectors(&mut random);
                 if matches!(op, "rsq" | "log" | "pow") {
                     values[0][0] = values[0][0].abs() + 0.01;
                 }
@@ -182,11 +180,11 @@ fn ps_2_0_operations_are_their_documented_steps() {
 
 #[test]
 fn cross_products_dp2add_and_matrices() {
-    let mut seed = 3;
+    let mut random = Random::new(3);
     for profile in profiles() {
         let format = profile.rules.format;
         let reference = Reference(&profile.rules, format);
-        let values = vectors(&mut seed);
+        let values = vectors(&mut random);
         let [a, b, c] = values.map(|v| into(format, v));
         let load = "ps_2_0\nmov r0, c0\nmov r1, c1\nmov r2, c2\n";
         let ran = run(&format!("{load}crs r3.xyz, r0, r1\nmov r3.w, r0.x\nmov oC0, r3"), &profile, &values);

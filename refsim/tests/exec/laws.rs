@@ -1,5 +1,6 @@
 //! Properties of the scalar executor over random programs, random data and every device.
 
+use crate::random::Random;
 use crate::{legal, running};
 use proptest::{collection::vec, prelude::*, sample::select};
 use refsim::asm::assemble;
@@ -158,17 +159,12 @@ proptest! {
 
 #[test]
 fn the_generator_makes_legal_programs() {
-    let mut seed = 3u64;
+    let mut random = Random::new(3);
     for version in Version::ALL {
         let ideal = Profile::named("ideal-e8m23").unwrap();
         let mut rejected = Vec::new();
         for _ in 0..200 {
-            let choices: Vec<u32> = (0..160)
-                .map(|_| {
-                    seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                    (seed >> 33) as u32
-                })
-                .collect();
+            let choices: Vec<u32> = (0..160).map(|_| random.bits()).collect();
             let text = legal::program(version, &choices);
             let program = assemble(&text).unwrap_or_else(|e| panic!("{text}\n{e:?}"));
             if let Err(why) = running::ready(program, &ideal) {

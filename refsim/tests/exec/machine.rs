@@ -3,6 +3,7 @@
 mod mipmaps;
 mod mistakes;
 
+use crate::random::Random;
 use crate::running::{bits, checked, constants, ideal};
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
@@ -108,11 +109,8 @@ fn programs_of_any_length_agree() {
 
 /// Random small quads with random colours and depths.
 fn random_quads(count: usize) -> Vec<Vertex> {
-    let mut seed = 7u64;
-    let mut next = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 40) as f32 / 16_777_216.0
-    };
+    let mut random = Random::new(7);
+    let mut next = || random.unit();
     let mut out = Vec::new();
     for _ in 0..count {
         let (x, y, w, h) = (next() * 2.0 - 1.2, next() * 2.0 - 1.2, next() * 1.5, next() * 1.5);

@@ -12,6 +12,8 @@ mod legal;
 mod machine;
 #[path = "../common/quads.rs"]
 mod quads;
+#[path = "../common/random.rs"]
+mod random;
 mod rules;
 #[path = "../common/running.rs"]
 mod running;

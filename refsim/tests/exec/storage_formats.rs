@@ -2,6 +2,7 @@
 //! rounded inputs; dot products of the executors against the arithmetic itself; refusals.
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
+use crate::random::Random;
 use crate::{legal, running};
 use proptest::{collection::vec, prelude::*, sample::select};
 use refsim::asm::assemble;
@@ -177,13 +178,9 @@ const SIDE: u32 = 32;
 /// Numbers of single precision whose products lie near the middle between two numbers of an accumulator, or at the ends
 /// of the ranges.
 fn factors(seed: u64) -> Vec<[u32; 4]> {
-    let mut state = seed;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state ^ state >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 20
-    };
+    let mut random = Random::new(seed);
     let mut number = || {
-        let (kind, bits) = (next() % 8, next() as u32);
+        let (kind, bits) = (random.below(8), random.bits());
         let few = bits & 0x8000_0000 | (120 + bits % 14) << 23 | ((bits >> 4) % 32) << 18;
         match kind {
             0..3 => few,

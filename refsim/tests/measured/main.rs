@@ -12,6 +12,8 @@ mod combiners;
 mod coverage;
 mod depth;
 mod draws;
+#[path = "../common/environment.rs"]
+mod environment;
 mod filters;
 mod iterated;
 mod page;

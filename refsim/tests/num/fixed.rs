@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use refsim::num::{Flags, Format, Overflow, Rounding, ops};
 
-use crate::full;
+use crate::environment::is_full;
 
 /// `p / 4096` rounded, in 64-bit integer arithmetic.
 fn round(p: i64, rounding: Rounding) -> i64 {
@@ -22,7 +22,7 @@ fn round(p: i64, rounding: Rounding) -> i64 {
 
 #[test]
 fn s3_12_products_equal_integers() {
-    let stride = if full() { 1 } else { 509 };
+    let stride = if is_full() { 1 } else { 509 };
     for (_, rounding) in Rounding::ALL {
         for overflow in [Overflow::Saturate, Overflow::Wrap] {
             let f = Format::S3_12.with_rounding(rounding).with_overflow(overflow);
@@ -50,7 +50,7 @@ fn s3_12_products_equal_integers() {
 /// Widths up to 32 bits, with the longest intermediate results.
 #[test]
 fn wide_fixed_point_equals_integers() {
-    let mut cases = crate::Cases(7);
+    let mut cases = crate::random::Random::new(7);
     for (int_bits, frac_bits) in [(0, 31), (31, 0), (15, 16), (1, 30), (8, 23), (3, 12), (1, 10)] {
         let f = Format::fixed(int_bits, frac_bits).expect("a format").with_rounding(Rounding::Down);
         let signed = |bits: u32| i128::from((bits << (32 - f.width())).cast_signed() >> (32 - f.width()));

@@ -5,7 +5,7 @@ use refsim::num::{Flags, Format, Outcome, Rounding, ops};
 use rustc_apfloat::ieee::{Double, Half, Single};
 use rustc_apfloat::{Float, FloatConvert, Round, Status, StatusAnd};
 
-use crate::full;
+use crate::environment::is_full;
 
 pub(crate) const MODES: [(Rounding, Round); 3] = [
     (Rounding::NearestEven, Round::NearestTiesToEven),
@@ -52,7 +52,7 @@ type Theirs = fn(Half, Half, Round) -> StatusAnd<Half>;
 
 /// First operands of the short form: every n-th pattern, and the ends of every range.
 fn first_operands() -> Vec<u32> {
-    if full() {
+    if is_full() {
         return (0..=0xffff).collect();
     }
     let edges = [0, 1, 2, 0x3ff, 0x400, 0x401, 0x3bff, 0x3c00, 0x3c01, 0x7bff, 0x7c00, 0x7c01, 0x7e00];
@@ -119,7 +119,7 @@ fn sqrt_equals_double() {
 #[test]
 fn conversion_from_single_equals_apfloat() {
     // An odd stride visits every exponent and, over all exponents, every low mantissa pattern.
-    let stride = if full() { 1 } else { 1021 };
+    let stride = if is_full() { 1 } else { 1021 };
     for (rounding, round) in MODES {
         let f = Format::FP16.with_rounding(rounding);
         (0..=u32::MAX / stride).into_par_iter().for_each(|i| {
@@ -134,11 +134,11 @@ fn conversion_from_single_equals_apfloat() {
 /// Random and extreme triples; exhausting three operands is infeasible.
 #[test]
 fn fused_equals_apfloat() {
-    let rounds = if full() { 200_000_000 } else { 400_000 };
+    let rounds = if is_full() { 200_000_000 } else { 400_000 };
     for (rounding, round) in MODES {
         let f = Format::FP16.with_rounding(rounding);
         (0..64u64).into_par_iter().for_each(|seed| {
-            let mut cases = crate::Cases(seed);
+            let mut cases = crate::random::Random::new(seed);
             for _ in 0..rounds / 64 {
                 let [a, b, c] = std::array::from_fn(|_| cases.float_bits(5, 10));
                 let [ha, hb, hc] = [a, b, c].map(|x| Half::from_bits(x.into()));

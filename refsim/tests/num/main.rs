@@ -14,10 +14,14 @@
 //!
 //! By default each test covers a sample of its range; `CROSSBAR_FULL=1` covers everything.
 
+#[path = "../common/environment.rs"]
+mod environment;
 mod fixed;
 mod half;
 mod laws;
 mod normalized;
+#[path = "../common/random.rs"]
+mod random;
 mod rational;
 mod small;
 mod small_ops;
@@ -26,23 +30,9 @@ mod transcendental;
 mod values;
 mod wide;
 
-/// Returns `true` if the whole range is requested.
-fn full() -> bool {
-    std::env::var_os("CROSSBAR_FULL").is_some_and(|v| v != "0" && !v.is_empty())
-}
+use random::Random;
 
-/// A number generator for reproducible cases (the splitmix64 recurrence).
-struct Cases(u64);
-
-impl Cases {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
+impl Random {
     /// A pattern of a float format: uniform bits, or an interesting exponent and mantissa.
     fn float_bits(&mut self, exp_bits: u32, man_bits: u32) -> u32 {
         let random = self.next();

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use refsim::num::{DotOrder, Flags, Format, Outcome, Overflow, Rounding, Unpacked, ops, unpack};
 
-use crate::{Cases, full};
+use crate::environment::is_full;
+use crate::random::Random;
 
 const ROUNDINGS: [Rounding; 6] =
     [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
@@ -79,9 +80,9 @@ fn every_pair() {
         for rounding in ROUNDINGS {
             for overflow in [Overflow::Saturate, Overflow::Wrap] {
                 let r = Reference::new(int_bits, frac_bits, rounding, overflow);
-                let step = if full() { 1 } else { step };
+                let step = if is_full() { 1 } else { step };
                 (0..=r.f.mask()).step_by(step).collect::<Vec<_>>().into_par_iter().for_each(|a| {
-                    let mut cases = Cases(a.into());
+                    let mut cases = Random::new(a.into());
                     (0..=r.f.mask()).for_each(|b| r.check(a, b, cases.next() as u32 & r.f.mask()));
                 });
             }
@@ -135,7 +136,7 @@ fn conversions() {
         }
         for text in dyadic {
             let other: Format = text.parse().expect("a format");
-            let mut cases = Cases(7);
+            let mut cases = Random::new(7);
             for _ in 0..20_000 {
                 let a = (cases.next() as u32 >> (cases.next() % 24)) & other.mask();
                 let Unpacked::Finite { sign, sig, exp, .. } = unpack(&other, a) else { continue };

@@ -8,9 +8,10 @@ use refsim::num::{
     Denormals, DotOrder, Encoding, Format, Outcome, Overflow, Rounding, Specials, Tininess, from_parts, from_ratio, ops,
 };
 
+use crate::environment::is_full;
+use crate::random::Random;
 use crate::rational::{self, Q};
 use crate::small_ops::Reference;
-use crate::{Cases, full};
 
 const ROUNDINGS: [Rounding; 6] =
     [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
@@ -124,7 +125,7 @@ fn binary_operations() {
 /// `pow` consists of three operations; the references of its steps are slow, so the short form takes some bases only.
 #[test]
 fn powers() {
-    let step = if full() { 1 } else { 7 };
+    let step = if is_full() { 1 } else { 7 };
     for_all(|r| {
         for a in (0..=r.f.mask()).step_by(step) {
             for b in (0..=r.f.mask()).step_by(step) {
@@ -137,7 +138,7 @@ fn powers() {
 /// All triples in the full form, a sample in the short one.
 #[test]
 fn multiply_add() {
-    let step = if full() { 1 } else { 61 };
+    let step = if is_full() { 1 } else { 61 };
     for_all(|r| {
         let f = r.f.tininess(r.tininess);
         let width = r.f.width();
@@ -154,9 +155,9 @@ fn multiply_add() {
 
 #[test]
 fn dot_products() {
-    let rounds = if full() { 50_000 } else { 300 };
+    let rounds = if is_full() { 50_000 } else { 300 };
     for_all(|r| {
-        let mut cases = Cases(11);
+        let mut cases = Random::new(11);
         for round in 0..rounds {
             let random = cases.next();
             let terms: [(u32, u32); 4] = std::array::from_fn(|i| {
@@ -176,13 +177,13 @@ fn dot_products() {
 /// Sums in accumulators that are wider, narrower, and of another kind than the operands.
 #[test]
 fn accumulated_dot_products() {
-    let rounds = if full() { 5_000 } else { 100 };
+    let rounds = if is_full() { 5_000 } else { 100 };
     let accumulators = ["e5m10", "e3m2:rup", "e4m3fn:sat", "e2m1fn", "s7.8:rod", "s2.1:wrap", "n3.4:rna"];
     let accumulators = accumulators.map(|text| text.parse::<Format>().expect("a format"));
     let defaults =
         formats().into_iter().filter(|f| f.specials == Specials::Ieee && f.rounding == Rounding::NearestEven);
     defaults.collect::<Vec<_>>().par_iter().for_each(|&f| {
-        let mut cases = Cases(13);
+        let mut cases = Random::new(13);
         for round in 0..rounds {
             let random = cases.next();
             let bits = |shift: usize| (random >> shift) as u32 & f.mask();
@@ -224,15 +225,15 @@ fn conversions() {
 /// Quotients of integers of any length, and truncated magnitudes, against cross products.
 #[test]
 fn ratios_and_parts() {
-    let rounds = if full() { 100_000 } else { 400 };
+    let rounds = if is_full() { 100_000 } else { 400 };
     for_all(|r| {
         if r.f.overflow == Overflow::Wrap {
             return;
         }
-        let mut cases = Cases(5);
+        let mut cases = Random::new(5);
         for _ in 0..rounds {
             let choice = cases.next();
-            let wide = |cases: &mut Cases, bits: u64| {
+            let wide = |cases: &mut Random, bits: u64| {
                 let raw = u128::from(cases.next()) << 64 | u128::from(cases.next());
                 (raw >> (127 - bits % 128)).max(1)
             };

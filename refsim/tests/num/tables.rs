@@ -3,7 +3,7 @@
 
 use refsim::num::{Format, Outcome, Rounding, block::BlockFormat, ops, random_word, to_f64};
 
-use crate::Cases;
+use crate::random::Random;
 
 const TABLES: &str = include_str!("../../../fixtures/formats/tables.txt");
 
@@ -127,7 +127,7 @@ fn chance_is_the_fraction() {
 
 /// Blocks of 32 finite singles: an exponent of the block, and up to 15 less for each number, or zero.
 fn blocks() -> Vec<Vec<u32>> {
-    let mut cases = Cases(1);
+    let mut cases = Random::new(1);
     let mut block = || {
         let middle = (cases.next() % 255) as u32;
         let number = |word: u64| {

@@ -5,16 +5,17 @@ use refsim::num::{Format, Rounding, from_ratio, ops};
 use rustc_apfloat::Float;
 use rustc_apfloat::ieee::Single;
 
+use crate::environment::is_full;
 use crate::half::{MODES, agree};
-use crate::{Cases, full};
+use crate::random::Random;
 
 const ROUNDINGS: [Rounding; 6] =
     [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
 
 /// Runs `body` on generators of 64 seeds, in parallel.
-fn seeds(cases: u64, body: impl Fn(&mut Cases) + Sync) {
+fn seeds(cases: u64, body: impl Fn(&mut Random) + Sync) {
     (0..64u64).into_par_iter().for_each(|seed| {
-        let mut generator = Cases(seed << 32);
+        let mut generator = Random::new(seed << 32);
         for _ in 0..cases / 64 {
             body(&mut generator);
         }
@@ -105,7 +106,7 @@ fn add_to_odd(a: f64, b: f64) -> f64 {
 /// are never closer than a relative 2^-36 to a number or midpoint of fp24 that they don't equal.
 #[test]
 fn fp24_equals_double() {
-    let cases = if full() { 100_000_000 } else { 1_000_000 };
+    let cases = if is_full() { 100_000_000 } else { 1_000_000 };
     for rounding in ROUNDINGS {
         let f = Format::FP24.with_rounding(rounding);
         let zero = |bits: u32| bits & 0x7f_ffff == 0;
@@ -131,7 +132,7 @@ fn fp24_equals_double() {
 
 #[test]
 fn fp32_equals_host() {
-    let cases = if full() { 1_000_000_000 } else { 3_000_000 };
+    let cases = if is_full() { 1_000_000_000 } else { 3_000_000 };
     let f = Format::FP32;
     seeds(cases, |generator| {
         let (a, b) = (generator.float_bits(8, 23), generator.float_bits(8, 23));
@@ -161,7 +162,7 @@ fn fp32_equals_host() {
 
 #[test]
 fn fp32_equals_apfloat() {
-    let cases = if full() { 100_000_000 } else { 400_000 };
+    let cases = if is_full() { 100_000_000 } else { 400_000 };
     for (rounding, round) in MODES {
         let f = Format::FP32.with_rounding(rounding);
         seeds(cases, |generator| {

@@ -125,20 +125,20 @@ fn store(channel: &Channel, Fraction(n, d): Fraction, truncate: bool) -> i64 {
 
 #[test]
 fn blending_is_the_equation_of_the_page() {
-    let mut r = Random(4);
+    let mut r = Random::new(4);
     for (format, bytes, channels) in table() {
         let is_float = channels.iter().all(|c| matches!(c.class, Class::Float(..)));
         let widest = channels.iter().map(|c| c.bits).max().expect("a channel");
         for _ in 0..probes(600) {
             let raw = (u128::from(r.next()) << 64 | u128::from(r.next())) & u128::MAX >> (128 - 8 * bytes);
             let mut equation = || BlendEquation {
-                source: r.choose(BlendFactor::ALL),
-                destination: r.choose(BlendFactor::ALL),
-                op: r.choose(&OPERATIONS),
+                source: r.of(BlendFactor::ALL),
+                destination: r.of(BlendFactor::ALL),
+                op: r.of(&OPERATIONS),
             };
             let state = BlendState { color: equation(), alpha: equation() };
             let color = [0; 4].map(|_| r.single());
-            let (rounding, truncate) = r.choose(&[(TargetRounding::Nearest, false), (TargetRounding::Truncate, true)]);
+            let (rounding, truncate) = r.of(&[(TargetRounding::Nearest, false), (TargetRounding::Truncate, true)]);
             let of = |i: usize| if i == 3 { &state.alpha } else { &state.color };
             let code = |channel: &Channel| {
                 let i = channel.component();

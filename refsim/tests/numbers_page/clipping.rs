@@ -124,20 +124,20 @@ fn parts(triangle: [Corner; 3], state: &RasterState, grid: Grid) -> Vec<[(Snappe
 
 #[test]
 fn clipped_triangles_are_the_fans_of_the_page() {
-    let mut r = Random(6);
+    let mut r = Random::new(6);
     let (mut cut, mut dropped) = (0, 0);
     for _ in 0..probes(6_000) {
-        let (bits, rounding) = (r.choose(&[4, 8]), r.choose(SubpixelRounding::ALL));
-        let (width, height) = r.choose(&[(640, 480), (64, 64), (7, 33)]);
+        let (bits, rounding) = (r.of(&[4, 8]), r.of(SubpixelRounding::ALL));
+        let (width, height) = r.of(&[(640, 480), (64, 64), (7, 33)]);
         let viewport = Viewport { min_depth: 0.25f32.to_bits(), ..Viewport::new(width, height) };
         let state = RasterState {
             viewport,
-            center: r.choose(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
-            clip_space: r.choose(&[ClipSpace::Direct3d, ClipSpace::OpenGl]),
+            center: r.of(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
+            clip_space: r.of(&[ClipSpace::Direct3d, ClipSpace::OpenGl]),
             cull: Cull::None,
             scissor: Region { x: 0, y: 0, width, height },
         };
-        let reach = r.choose(&[1.0, 4.0, 40.0]);
+        let reach = r.of(&[1.0, 4.0, 40.0]);
         let triangle = [0; 3].map(|_| {
             let mut position = [0; 2].map(|_| r.between(-reach, reach)).to_vec();
             position.extend([r.between(-1.0, 2.0), r.between(-0.5, 3.0)]);

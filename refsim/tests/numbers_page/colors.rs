@@ -22,7 +22,7 @@ fn clamped(clamp: ColorClamp, by_program: bool, x: f32) -> Option<f32> {
 /// The middle of three colors, one at each corner, in the pixel's center, to the next code of 8 bits.
 #[test]
 fn vertex_colors_are_clamped_where_the_page_says() {
-    let mut r = Random(31);
+    let mut r = Random::new(31);
     let place = [[-1.0f32, 1.0], [7.0, 1.0], [-1.0, -7.0]].map(|[x, y]| [x, y, 0.5, 1.0].map(f32::to_bits));
     for &clamp in ColorClamp::ALL {
         let mut profile = Profile::named("ideal-fp32").expect("a device");
@@ -31,7 +31,7 @@ fn vertex_colors_are_clamped_where_the_page_says() {
         let vertex = checked("vs_1_1\ndcl_position v0\ndcl_color v1\nmov oPos, v0\nmov oD0, v1", &profile);
         let host = Constants::default();
         for _ in 0..probes(60) {
-            let (constant, by_program) = (r.below(2) == 0, r.below(2) == 0);
+            let (constant, by_program) = (r.coin(), r.coin());
             let first = clean(r.single());
             let colors = [(); 3].map(|()| if constant { first } else { clean(r.between(-3.0, 3.0)) });
             let values = colors.map(|bits| {

@@ -23,7 +23,7 @@ fn stored(storage: ConstantStorage, before_2_0: bool, x: f32) -> f32 {
 
 #[test]
 fn constants_are_stored_as_the_page_says() {
-    let mut r = Random(47);
+    let mut r = Random::new(47);
     for (&storage, version) in ConstantStorage::ALL.iter().flat_map(|s| [(s, "ps_1_4"), (s, "ps_2_0")]) {
         let mut profile = Profile::named("ideal-fp32").expect("a device");
         profile.rules.constant_storage = storage;

@@ -108,21 +108,21 @@ fn lerp(a: [Byte; 4], b: [Byte; 4], weight: i64, bits: u8) -> [Byte; 4] {
 
 fn rules(r: &mut Random) -> SampleRules {
     SampleRules {
-        filter_fraction_bits: r.choose(&[4, 5, 6, 8]),
+        filter_fraction_bits: r.of(&[4, 5, 6, 8]),
         lod_fraction_bits: 8,
-        signed_texel_minimum: r.choose(SignedTexelMinimum::ALL),
-        filter_weight_rounding: r.choose(WeightRounding::ALL),
+        signed_texel_minimum: r.of(SignedTexelMinimum::ALL),
+        filter_weight_rounding: r.of(WeightRounding::ALL),
         filter_arithmetic: FilterArithmetic::ByteLerps,
-        texel_values: r.choose(TexelValues::ALL),
-        missing_channels: r.choose(MissingChannels::ALL),
-        border_storage: r.choose(BorderStorage::ALL),
+        texel_values: r.of(TexelValues::ALL),
+        missing_channels: r.of(MissingChannels::ALL),
+        border_storage: r.of(BorderStorage::ALL),
         ..SampleRules::exact(Format::FP32)
     }
 }
 
 #[test]
 fn bytes_are_filtered_as_the_page_says() {
-    let mut r = Random(17);
+    let mut r = Random::new(17);
     let formats = table();
     for _ in 0..probes(3_000) {
         let rules = rules(&mut r);
@@ -134,10 +134,9 @@ fn bytes_are_filtered_as_the_page_says() {
         let (format, bytes, channels) = usable[r.below(usable.len())];
         let case = Case { format: *format, channels, rules };
         let extents = [SIZE[0] as u32, SIZE[1] as u32, 1];
-        let data =
-            (0..bytes * 40).map(|_| if r.below(4) == 0 { r.choose(&[0, 127, 128, 255]) } else { r.next() as u8 });
+        let data = (0..bytes * 40).map(|_| if r.below(4) == 0 { r.of(&[0, 127, 128, 255]) } else { r.next() as u8 });
         let image = Image::from_bytes(case.format, TextureKind::D2, extents, 2, data.collect()).unwrap();
-        let mode = r.choose(&[AddressMode::Wrap, AddressMode::Border]);
+        let mode = r.of(&[AddressMode::Wrap, AddressMode::Border]);
         let state = SamplerState {
             min: Filter::Linear,
             mag: Filter::Linear,
@@ -147,10 +146,10 @@ fn bytes_are_filtered_as_the_page_says() {
             border: [0; 4].map(|_| r.between(-0.2, 1.2).to_bits()),
             ..SamplerState::NEAREST_CLAMP
         };
-        let (at, level) = ([r.between(-1.5, 1.5), r.between(-1.5, 1.5)], r.below(257));
+        let (at, level) = ([r.between(-1.5, 1.5), r.between(-1.5, 1.5)], r.below(257_i16));
         let [fine, coarse] = [0, 1].map(|level| case.level(&image, level, &state, at));
-        let expected = lerp(fine, coarse, level.cast_signed() as i64, 8).map(|byte| case.value(byte));
-        let lod = Lod::Level((level as f32 / 256.0).to_bits());
+        let expected = lerp(fine, coarse, i64::from(level), 8).map(|byte| case.value(byte));
+        let lod = Lod::Level((f32::from(level) / 256.0).to_bits());
         let coordinates = [at[0].to_bits(), at[1].to_bits(), 0, 0];
         let found = sample(Some(&image), &state, &rules, coordinates, lod).map(f32::from_bits);
         assert_eq!(found, expected, "{format}, {at:?}, level {level} / 256, {state:?}, {rules:?}");

@@ -31,20 +31,20 @@ impl Words {
     }
 
     fn random(r: &mut Random) -> Self {
-        let rounding = r.choose(&["rne", "rna", "rtz", "rdn", "rup", "rod"]);
-        if r.below(2) == 0 {
-            let normalized = r.below(2) == 0;
+        let rounding = r.of(&["rne", "rna", "rtz", "rdn", "rup", "rod"]);
+        if r.coin() {
+            let normalized = r.coin();
             let layout = match normalized {
-                true => r.choose(&[(3, 8), (0, 8), (7, 8), (13, 2), (2, 5)]),
-                false => r.choose(&[(3, 12), (1, 10), (0, 8), (0, 15), (7, 0), (15, 16)]),
+                true => r.of(&[(3, 8), (0, 8), (7, 8), (13, 2), (2, 5)]),
+                false => r.of(&[(3, 12), (1, 10), (0, 8), (0, 15), (7, 0), (15, 16)]),
             };
-            let overflow = r.choose(&["sat", "wrap"]);
+            let overflow = r.of(&["sat", "wrap"]);
             return Self { layout, fixed: true, normalized, encoding: "", rounding, overflow, flush: false };
         }
-        let layout = r.choose(&[(5, 10), (7, 16), (8, 23), (4, 3), (2, 1), (8, 7)]);
-        let overflow = r.choose(&["inf", "sat", "nvovf"]);
-        let encoding = if layout.0 == 8 { "" } else { r.choose(&["", "fn", "fnuz"]) };
-        Self { layout, fixed: false, normalized: false, encoding, rounding, overflow, flush: r.below(2) == 0 }
+        let layout = r.of(&[(5, 10), (7, 16), (8, 23), (4, 3), (2, 1), (8, 7)]);
+        let overflow = r.of(&["inf", "sat", "nvovf"]);
+        let encoding = if layout.0 == 8 { "" } else { r.of(&["", "fn", "fnuz"]) };
+        Self { layout, fixed: false, normalized: false, encoding, rounding, overflow, flush: r.coin() }
     }
 
     fn text(&self) -> String {
@@ -208,7 +208,7 @@ impl Words {
 
 #[test]
 fn one_rounding_into_every_format() {
-    let mut r = Random(1);
+    let mut r = Random::new(1);
     for probe in 0..probes(60_000) {
         let (from, into) = (Words::random(&mut r), Words::random(&mut r));
         let [source, target]: [Format; 2] = [&from, &into].map(|w| w.text().parse().unwrap());
@@ -239,7 +239,7 @@ fn one_rounding_into_every_format() {
 /// Sums, products and quotients of singles: the page's rules for zeros, infinities and NaN equal the host's.
 #[test]
 fn special_values_are_those_of_the_page() {
-    let mut r = Random(2);
+    let mut r = Random::new(2);
     for _ in 0..probes(20_000) {
         let (a, b) = (r.single(), r.single());
         let (x, y) = (a.to_bits(), b.to_bits());

@@ -69,28 +69,28 @@ fn on_grid(level: f32, bits: u32) -> f32 {
 
 #[test]
 fn levels_come_from_the_lanes_and_biases_of_the_page() {
-    let mut r = Random(5);
+    let mut r = Random::new(5);
     let image = image();
     let mut profile = ideal("fp32");
     let text = |read: &str| format!("ps_2_0\ndcl t0\ndcl_2d s0\n{read} r0, t0, s0\nmov oC0, r0");
     let programs = ["texld", "texldb"].map(|read| checked(&text(read), &profile));
     let host = Constants::default();
     for _ in 0..probes(3_000) {
-        let bits = r.choose(&[4, 5, 6, 8]);
+        let bits = r.of(&[4, 5, 6, 8]);
         profile.rules.lod_fraction_bits = bits as u8;
-        let scale = r.choose(&[0.01, 0.1, 1.0, 10.0, 1e-30]);
+        let scale = r.of(&[0.01, 0.1, 1.0, 10.0, 1e-30]);
         let lane = |r: &mut Random| [r.between(0.0, scale), r.between(0.0, scale), 0.0, r.between(-2.0, 2.0)];
         let mut t = [0; 4].map(|_| lane(&mut r));
         if r.below(20) == 0 {
             t[r.below(4)][r.below(2)] = r.single();
         }
         let sampler_bias = if r.below(3) == 0 { r.single() } else { r.between(-1.0, 1.0) };
-        let mip = r.choose(&[MipFilter::None, MipFilter::Nearest, MipFilter::Linear]);
+        let mip = r.of(&[MipFilter::None, MipFilter::Nearest, MipFilter::Linear]);
         let state = SamplerState {
             min: Filter::Linear,
             mip,
             lod_bias: sampler_bias.to_bits(),
-            max_mip_level: r.below(4) as u8,
+            max_mip_level: r.below(4),
             ..SamplerState::NEAREST_CLAMP
         };
         let mut bindings = PixelBindings::new(&host);

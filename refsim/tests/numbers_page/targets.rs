@@ -20,7 +20,7 @@ fn profile(format: &str, truncate: bool) -> Profile {
 
 #[test]
 fn clears_go_from_singles_into_the_target() {
-    let mut r = Random(7);
+    let mut r = Random::new(7);
     for (format, _, channels) in table() {
         for truncate in [false, true] {
             let mut machine = Machine::new(profile("s3.12", truncate), ExecutorKind::Scalar);
@@ -74,7 +74,7 @@ fn ps_1_x_is_clamped_for_float_targets_too() {
 
 #[test]
 fn depth_of_opengl() {
-    let mut r = Random(8);
+    let mut r = Random::new(8);
     let mut machine = Machine::new(profile("fp32", false), ExecutorKind::Scalar);
     for _ in 0..probes(200) {
         let (w, near, far) = (r.between(0.1, 5.0), r.between(0.0, 0.5), r.between(0.5, 1.0));

@@ -137,7 +137,7 @@ fn every_format_is_in_the_table() {
 
 #[test]
 fn texels_are_read_and_stored_as_the_table_says() {
-    let mut r = Random(3);
+    let mut r = Random::new(3);
     for (format, bytes, channels) in table() {
         assert_eq!(format.bytes(), bytes, "{format}");
         for _ in 0..probes(400) {

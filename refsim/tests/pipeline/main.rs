@@ -1,6 +1,8 @@
 //! What is fixed beside the programs: texture reads, rasteriser, and output.
 
 mod output;
+#[path = "../common/random.rs"]
+mod random;
 mod raster;
 #[path = "../common/sampling.rs"]
 mod sampling;

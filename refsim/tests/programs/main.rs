@@ -5,10 +5,14 @@ mod asm;
 mod asm_laws;
 mod check;
 mod check_laws;
+#[path = "../common/environment.rs"]
+mod environment;
 mod fragment_program;
 mod isa_table;
 #[path = "../common/programs.rs"]
 mod programs;
+#[path = "../common/random.rs"]
+mod random;
 #[path = "../common/running.rs"]
 mod running;
 #[path = "../common/spacing.rs"]

@@ -7,7 +7,8 @@ use refsim::exec::wgsl::number::{format_words, library, source_word};
 use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation, ops};
 
-use crate::operands::{Words, edges, formats, pattern};
+use crate::operands::{edges, formats, pattern};
+use crate::random::Random;
 use crate::reference::reference;
 
 /// Format of operands of step operations, whatever the format of the result.
@@ -71,7 +72,7 @@ fn check(gpu: &Gpu, formats: &[Format], items: &[Item]) {
 
 /// Random operands of an operation.
 fn random_item(
-    words: &mut Words,
+    words: &mut Random,
     formats: &[Format],
     all: &[Vec<u32>],
     operation: NumberOperation,
@@ -87,8 +88,8 @@ fn random_item(
         NumberOperation::Scale => operands[1] = words.around(7).cast_unsigned(),
         NumberOperation::Steps => {
             operands[0] = pattern(words, &SINGLE, &edges(&SINGLE));
-            if words.below(2) == 0 {
-                operands[0] = 0x3f80_0000 - (words.next() >> words.below(32)).min(0x3f80_0000);
+            if words.coin() {
+                operands[0] = 0x3f80_0000 - (words.bits() >> words.below(32)).min(0x3f80_0000);
             }
             operands[1] = [255, 1, 3, 7, 15, 31, 63, 127, 1023, 65535][words.below(10)];
         }
@@ -104,13 +105,13 @@ fn random_item(
             }
             // The word's bits at the position are zero.
             operands[2] = place(words, matches!(operation, NumberOperation::JoinPattern | NumberOperation::JoinShort));
-            operands[0] = words.next() & !(0xffff << operands[2]);
+            operands[0] = words.bits() & !(0xffff << operands[2]);
         }
         NumberOperation::SplitPattern
         | NumberOperation::SplitShort
         | NumberOperation::SplitByte
         | NumberOperation::SplitSignedByte => {
-            operands[0] = words.next() >> words.below(32);
+            operands[0] = words.bits() >> words.below(32);
             operands[1] =
                 place(words, matches!(operation, NumberOperation::SplitPattern | NumberOperation::SplitShort));
         }
@@ -120,22 +121,22 @@ fn random_item(
 }
 
 /// Bit position of a half or a quarter of a word.
-fn place(words: &mut Words, half: bool) -> u32 {
+fn place(words: &mut Random, half: bool) -> u32 {
     if half { [0, 16][words.below(2)] } else { [0, 8, 16, 24][words.below(4)] }
 }
 
 /// An angle near a multiple of a quarter turn.
-fn angle(words: &mut Words, format: &Format) -> u32 {
-    let quarters = f64::from(words.next() >> words.below(32));
+fn angle(words: &mut Random, format: &Format) -> u32 {
+    let quarters = f64::from(words.bits() >> words.below(32));
     let near = (quarters * std::f64::consts::FRAC_PI_2) as f32;
     let near = f32::from_bits(near.to_bits().wrapping_add_signed(words.around(2)));
     let bits = ops::convert(&SINGLE, *format, near.to_bits()).bits;
-    if words.below(2) == 0 { bits } else { ops::neg(format, bits).bits }
+    if words.coin() { bits } else { ops::neg(format, bits).bits }
 }
 
 /// A single-precision number near the steps of packed ones.
-fn packed_number(words: &mut Words) -> u32 {
-    if words.below(2) == 0 {
+fn packed_number(words: &mut Random) -> u32 {
+    if words.coin() {
         return pattern(words, &SINGLE, &edges(&SINGLE));
     }
     let steps = [127, 255, 65535][words.below(3)];
@@ -158,7 +159,7 @@ pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
     let formats = formats();
     let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
     let count = std::env::var("CROSSBAR_LONG").ok().map_or(300, |_| 20_000);
-    let mut words = Words(1);
+    let mut words = Random::new(1);
     for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o)) {
         let mut items = Vec::new();
         for format in 0..formats.len() {

@@ -6,7 +6,8 @@ use refsim::num::{DotOrder, Format, from_parts, ops};
 use std::sync::Arc;
 
 use crate::device::text;
-use crate::operands::{Words, edges, formats, pattern};
+use crate::operands::{edges, formats, pattern};
+use crate::random::Random;
 
 /// Number of a function in `functions.wgsl`, indices of two formats, operands.
 struct Call {
@@ -16,7 +17,7 @@ struct Call {
 }
 
 impl Call {
-    fn random(words: &mut Words, all: &[Format], edges_of: &[Vec<u32>]) -> Self {
+    fn random(words: &mut Random, all: &[Format], edges_of: &[Vec<u32>]) -> Self {
         let function = [2, 3, 4, 5, 7, 8][words.below(6)];
         let mut places = [words.below(all.len()), words.below(all.len())];
         if function == 8 {
@@ -31,15 +32,15 @@ impl Call {
             2..=4 => {
                 // Sums that cancel, partially or completely.
                 let [first, second] = [words.below(3), words.below(4)];
-                if first != second && words.below(2) == 0 {
+                if first != second && words.coin() {
                     operands[second] = operands[first] ^ all[places[0]].sign_bit();
                     operands[second + 4] = operands[first + 4];
                 }
             }
             7 => {
-                let [high, low] = [words.next() >> words.below(32), words.next()];
+                let [high, low] = [words.bits() >> words.below(32), words.bits()];
                 operands[0] = low;
-                operands[1] = if words.below(2) == 0 { 0 } else { high };
+                operands[1] = if words.coin() { 0 } else { high };
                 // With a sticky bit, the unit must be small enough for a determined result.
                 operands[2] = words.below(2) as u32;
                 operands[3] = (words.around(150) - 50).cast_unsigned();
@@ -76,7 +77,7 @@ pub(crate) fn functions_beside_the_switch(gpu: &Arc<Gpu>) {
     let edges_of: Vec<Vec<u32>> = all.iter().map(edges).collect();
     let table: Vec<u32> = all.iter().flat_map(format_words).collect();
     let shader = text(include_str!("functions.wgsl"), "run_functions");
-    let mut words = Words(3);
+    let mut words = Random::new(3);
     let rounds = if std::env::var("CROSSBAR_LONG").is_ok() { 40 } else { 1 };
     for _ in 0..rounds {
         let calls: Vec<Call> = (0..100_000).map(|_| Call::random(&mut words, &all, &edges_of)).collect();

@@ -10,6 +10,8 @@ mod functions;
 mod operands;
 #[cfg(feature = "wgpu")]
 mod probe;
+#[path = "../common/random.rs"]
+mod random;
 #[cfg(feature = "wgpu")]
 mod reference;
 

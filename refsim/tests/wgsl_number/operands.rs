@@ -1,26 +1,12 @@
 //! Formats and operands: edges, patterns near them, and pseudo-random ones.
 
+use crate::random::Random;
 use refsim::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
-/// Deterministic generator of words (splitmix64).
-pub(crate) struct Words(pub(crate) u64);
-
-impl Words {
-    pub(crate) fn next(&mut self) -> u32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 32) as u32
-    }
-
-    pub(crate) fn below(&mut self, n: usize) -> usize {
-        self.next() as usize % n
-    }
-
+impl Random {
     /// An integer within `-reach..=reach`.
     pub(crate) fn around(&mut self, reach: u32) -> i32 {
-        (self.next() % (2 * reach + 1)).cast_signed() - reach.cast_signed()
+        self.below(2 * reach + 1).cast_signed() - reach.cast_signed()
     }
 }
 
@@ -48,8 +34,8 @@ pub(crate) fn edges(format: &Format) -> Vec<u32> {
 }
 
 /// A pattern: any, near one, small, or an edge.
-pub(crate) fn pattern(words: &mut Words, format: &Format, edges: &[u32]) -> u32 {
-    let word = words.next();
+pub(crate) fn pattern(words: &mut Random, format: &Format, edges: &[u32]) -> u32 {
+    let word = words.bits();
     let bits = match words.below(8) {
         0 | 1 => edges[words.below(edges.len())],
         2 => format.one() ^ (word >> 12) & (format.mask() >> 4),

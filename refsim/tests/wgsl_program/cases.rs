@@ -33,14 +33,6 @@ pub(crate) const FORMATS: [&str; 17] = [
     "e3m2fn",
 ];
 
-/// Seeds: only `CROSSBAR_SEED` if set; thirty times as many with `CROSSBAR_FULL`.
-pub(crate) fn seeds(quick: u64) -> std::ops::Range<u64> {
-    if let Some(seed) = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()) {
-        return seed..seed + 1;
-    }
-    0..if std::env::var_os("CROSSBAR_FULL").is_some() { 30 * quick } else { quick }
-}
-
 /// An ideal device of a format.
 pub(crate) fn ideal(format: &str) -> Profile {
     static KNOWN: LazyLock<Mutex<BTreeMap<String, Profile>>> = LazyLock::new(Mutex::default);

@@ -11,6 +11,8 @@ mod random;
 #[path = "../common/adapter.rs"]
 mod adapter;
 mod cases;
+#[path = "../common/environment.rs"]
+mod environment;
 mod modules;
 #[cfg(feature = "wgpu")]
 mod runs;

@@ -1,6 +1,7 @@
 //! Programs on an adapter compared with the scalar executor, bit for bit: `shade()` alone, on random inputs.
 
-use crate::cases::{self, FORMATS, PIXEL, ideal, seeds};
+use crate::cases::{self, FORMATS, PIXEL, ideal};
+use crate::environment::seeds;
 use crate::modules;
 use crate::random::Random;
 use refsim::device::{Profile, Rules};
@@ -213,7 +214,7 @@ fn comparable(mut words: Vec<u32>, rules: &Rules) -> Vec<u32> {
 
 pub(crate) fn the_machine_runs_random_programs(gpu: &Arc<Gpu>) {
     let runner = Runner::new(gpu, &modules::pixel());
-    for seed in seeds(140) {
+    for seed in seeds(140, 30) {
         let (profile, text, checked, mut r) = random_case(seed, 2);
         let constants = random_constants(&mut r, 32);
         let bindings = PixelBindings::new(&constants);
@@ -231,7 +232,7 @@ pub(crate) fn the_machine_runs_random_programs(gpu: &Arc<Gpu>) {
 pub(crate) fn the_machine_tells_what_instructions_write(gpu: &Arc<Gpu>) {
     let runner = Runner::new(gpu, &modules::followed());
     let mut told = 0;
-    for seed in seeds(70) {
+    for seed in seeds(70, 30) {
         let (profile, text, checked, mut r) = random_case(seed ^ 0x7ace, 2);
         let constants = random_constants(&mut r, 32);
         let bindings = PixelBindings::new(&constants);
@@ -296,7 +297,7 @@ fn random_texture(kind: TextureKind, r: &mut Random) -> (Image, SamplerState) {
 pub(crate) fn the_machine_reads_textures(gpu: &Arc<Gpu>) {
     let runner = Runner::new(gpu, &modules::textured());
     let mut reads = 0;
-    for seed in seeds(70) {
+    for seed in seeds(70, 30) {
         let (profile, text, checked, mut r) = random_case(seed ^ 0x7e71, 2);
         let kinds = [TextureKind::D2, TextureKind::Cube, TextureKind::D2, TextureKind::Volume];
         let textures = kinds.map(|kind| random_texture(kind, &mut r));

@@ -1,6 +1,7 @@
 //! Texts and words, without an adapter.
 
-use crate::cases::{self, FORMATS, PIXEL, ideal, seeds};
+use crate::cases::{self, FORMATS, PIXEL, ideal};
+use crate::environment::seeds;
 use crate::modules;
 use crate::random::Random;
 use refsim::device::Profile;
@@ -98,7 +99,7 @@ pub(crate) fn files_become_sound_words() {
 }
 
 pub(crate) fn random_programs_become_sound_words() {
-    for seed in seeds(400) {
+    for seed in seeds(400, 30) {
         let mut r = Random::new(seed);
         let version = PIXEL[seed as usize % PIXEL.len()];
         let profile = ideal(FORMATS[seed as usize / PIXEL.len() % FORMATS.len()]);

@@ -62,7 +62,7 @@ pub(crate) fn cases(random: &mut Random, main: Format) -> Result<Vec<Case>, Text
     let mut out = vec![Case { image: None, state: SamplerState::default(), rules: rules(random, main) }];
     for &format in TexelFormat::ALL {
         for kind in KINDS {
-            let side = |r: &mut Random| if r.below(2) == 0 { 1 << r.below(5) } else { 1 + r.below(13) };
+            let side = |r: &mut Random| if r.coin() { 1 << r.below(5) } else { 1 + r.below(13) };
             let (width, height, depth) = (side(random), side(random), side(random).min(6));
             let extents = match kind {
                 TextureKind::D1 => [width, 1, 1],
@@ -117,9 +117,9 @@ fn state(random: &mut Random, levels: u32) -> SamplerState {
         address_v: random.of(&MODES),
         address_w: random.of(&MODES),
         border: [0; 4]
-            .map(|_: u32| if random.below(8) == 0 { random.edge() } else { random.real(-1.5, 1.5).to_bits() }),
+            .map(|_: u32| if random.below(8) == 0 { random.edge() } else { random.between(-1.5, 1.5).to_bits() }),
         lod_bias: match random.below(4) {
-            0 => random.real(-3.0, 3.0).to_bits(),
+            0 => random.between(-3.0, 3.0).to_bits(),
             1 if random.below(6) == 0 => random.edge(),
             _ => 0,
         },
@@ -129,8 +129,8 @@ fn state(random: &mut Random, levels: u32) -> SamplerState {
 
 pub(crate) fn rules(random: &mut Random, format: Format) -> SampleRules {
     let mut rules = SampleRules {
-        filter_fraction_bits: if random.below(2) == 0 { 8 } else { random.below(13) as u8 },
-        lod_fraction_bits: if random.below(2) == 0 { 8 } else { random.below(9) as u8 },
+        filter_fraction_bits: if random.coin() { 8 } else { random.below(13) },
+        lod_fraction_bits: if random.coin() { 8 } else { random.below(9) },
         signed_texel_minimum: random.of(&[SignedTexelMinimum::Clamp, SignedTexelMinimum::BelowMinusOne]),
         ..SampleRules::exact(format)
     };
@@ -165,15 +165,16 @@ pub(crate) fn read(random: &mut Random, number: usize, case: &Case) -> Read {
             };
         }
     }
-    let gradients = [0; 4].map(|_: u32| {
-        [0; 2].map(|_: u32| {
-            [0; 4].map(
-                |_: u32| if random.below(24) == 0 { random.edge() } else { (step * random.real(-1.0, 1.0)).to_bits() },
-            )
-        })
-    });
+    let gradients =
+        [0; 4].map(|_: u32| {
+            [0; 2].map(|_: u32| {
+                [0; 4].map(|_: u32| {
+                    if random.below(24) == 0 { random.edge() } else { (step * random.between(-1.0, 1.0)).to_bits() }
+                })
+            })
+        });
     let bias =
-        [0; 4].map(|_: u32| if random.below(12) == 0 { random.edge() } else { random.real(-5.0, 5.0).to_bits() });
+        [0; 4].map(|_: u32| if random.below(12) == 0 { random.edge() } else { random.between(-5.0, 5.0).to_bits() });
     let run = if random.below(4) == 0 { random.below(16) } else { 15 };
     Read { sampler: number, coordinates, detail: random.below(3), bias, gradients, run }
 }
@@ -191,6 +192,6 @@ fn coordinate(random: &mut Random, kind: TextureKind, size: u32) -> u32 {
         8 => random.spread(-30, 30).to_bits(),
         // Equal magnitudes matter for cube maps.
         9..11 if kind == TextureKind::Cube => random.of(&[1.0f32, -1.0, 0.5]).to_bits(),
-        _ => (random.real(-1.5, 2.5) * scale).to_bits(),
+        _ => (random.between(-1.5, 2.5) * scale).to_bits(),
     }
 }

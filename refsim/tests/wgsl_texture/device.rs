@@ -33,7 +33,7 @@ fn tables(cases: &[Case]) -> (Vec<u32>, Vec<u32>) {
 /// The first read whose results differ.
 fn difference(gpu: &Gpu, text: &str, seed: u64, name: &str) -> Option<String> {
     let format: Format = name.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let cases = cases::cases(&mut random, format).unwrap_or_else(|e| panic!("{e}"));
     let (samplers, video) = tables(&cases);
     let mut reads: Vec<Read> = Vec::new();
@@ -74,7 +74,7 @@ pub(crate) fn texels_decode_as_the_texture_room_has_it(gpu: &Arc<Gpu>) {
     let text = module::decoding();
     for (seed, name) in (100..).zip(FORMATS.split(' ')) {
         let main: Format = name.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let (mut words, mut expected) = (Vec::new(), Vec::new());
         for i in 0..64 * TexelFormat::ALL.len() {
             let format = TexelFormat::ALL[i % TexelFormat::ALL.len()];

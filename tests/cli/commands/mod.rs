@@ -8,6 +8,7 @@
 mod cargo;
 mod texts;
 
+use crate::environment::blesses;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -162,7 +163,7 @@ fn outputs_on_pages_are_those_of_the_program() {
         let ran = run(root.path(), &output.arguments, "");
         assert_eq!(ran.stderr, "", "{}", output.place);
         let found = ran.stdout.trim_end();
-        if std::env::var_os("CROSSBAR_BLESS").is_some() {
+        if blesses() {
             let page = fs::read_to_string(&output.page).expect("the page");
             let heading = format!("{}\n```text\n", output.heading);
             let blessed =

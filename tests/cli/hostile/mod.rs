@@ -3,6 +3,7 @@
 
 mod files;
 
+use crate::environment::is_full;
 use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
@@ -10,6 +11,7 @@ use std::process::{Command, Stdio};
 
 use rayon::prelude::*;
 
+use crate::answers::words;
 use crate::tree;
 
 /// Hostile values for any option.
@@ -120,7 +122,6 @@ fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
 
 /// A cause, printed behind an arrow, that repeats the words of the message before it.
 fn twice(stderr: &str) -> Option<String> {
-    let words = |text: &str| text.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
     let (_, rest) = stderr.split_once("  x ")?;
     let (message, causes) = rest.split_once("-> ")?;
     let cause = words(
@@ -160,7 +161,7 @@ fn every_command_is_here() {
 fn hostile_values() {
     let mut runs: Vec<Vec<OsString>> = Vec::new();
     // In the short form each option gets a sixth of the values, a different one than its neighbours.
-    let full = std::env::var_os("CROSSBAR_FULL").is_some();
+    let full = is_full();
     for (number, (base, option)) in all_options().into_iter().enumerate() {
         let base = || base.iter().map(OsString::from).chain([OsString::from(&option)]);
         let (first, step) = if full { (0, 1) } else { (number % 6, 6) };
@@ -285,11 +286,10 @@ fn what_is_wrong_is_said() {
     ];
     for (arguments, words) in cases {
         let arguments: Vec<OsString> = arguments.split(' ').map(OsString::from).collect();
-        let flat = |text: &str| text.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
         let folder = tempfile::tempdir().expect("a folder for the test");
         let Said { code, stdout, stderr } = said(folder.path(), &arguments);
         assert_eq!((code, stdout.as_str()), (Some(2), ""), "{arguments:?}: {stderr}");
-        assert!(flat(&stderr).contains(words), "{arguments:?}: {stderr}");
+        assert!(crate::answers::words(&stderr).contains(words), "{arguments:?}: {stderr}");
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{arguments:?}");
     }
 }

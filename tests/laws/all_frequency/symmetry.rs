@@ -1,5 +1,6 @@
 //! Turning mesh, light and frames together by a symmetry of the cube permutes directions: bits move, radiance stays.
 
+use crate::environment::by_form;
 use std::collections::BTreeMap;
 
 use crossbar::all_frequency::transfer::FactoredTransfer;
@@ -69,7 +70,7 @@ fn turns_of_the_cube_permute_bits_and_keep_radiance() {
     };
     let (vertices, maps) = of_mesh(&mesh, tangent);
     let expected = radiance(&vertices, &maps, &light);
-    let step = if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { 4 };
+    let step = by_form(4, 1);
     for turn in turns().into_iter().step_by(step) {
         let (turned_vertices, found) = of_mesh(&turned(&mesh, &turn), turn * tangent);
         let fine = places(&turn, FINE_SIDE);

@@ -1,5 +1,6 @@
 //! The model reader: what it writes it reads back, and no bytes make it panic.
 
+use crate::environment::blesses;
 use std::path::Path;
 
 use crossbar::geom::classify::Candidate;
@@ -90,7 +91,7 @@ fn the_fixture_is_the_teapot_at_rate_two() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/teapot_2.obj");
     let mut text = Vec::new();
     write_obj(&teapot::teapot(2).expect("a teapot"), &mut text).expect("written");
-    if std::env::var_os("CROSSBAR_BLESS").is_some() {
+    if blesses() {
         std::fs::write(&path, &text).expect("written");
     }
     assert_eq!(

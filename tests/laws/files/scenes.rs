@@ -1,6 +1,7 @@
 //! Scene files: writing and reading gives the same bits, the fixtures equal the built scenes, and no bytes cause a
 //! panic.
 
+use crate::environment::blesses;
 use std::io;
 use std::path::Path;
 
@@ -87,7 +88,7 @@ fn fixtures_are_the_scenes() {
         let scene = built::build(name).expect("a scene");
         for (file, bytes) in scene_files(&scene, &name.replace('-', "_")).expect("files") {
             let path = folder.join(file);
-            if std::env::var_os("CROSSBAR_BLESS").is_some() {
+            if blesses() {
                 std::fs::create_dir_all(&folder).expect("a folder");
                 std::fs::write(&path, &bytes).expect("written");
             }

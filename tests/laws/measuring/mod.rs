@@ -4,6 +4,7 @@
 mod draft;
 mod search;
 
+use crate::environment::blesses;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -49,10 +50,6 @@ fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
     search::open(profile).filter(|switch| undrawn(&profile.name, &switch.name).is_none())
 }
 
-fn is_blessed() -> bool {
-    env::var_os("CROSSBAR_BLESS").is_some()
-}
-
 /// A value of each switch draws other codes than another one, and the batch executor has the bits of the reference.
 /// `CROSSBAR_BLESS=1` searches cases that are missing.
 #[test]
@@ -65,14 +62,14 @@ fn each_open_switch_has_a_probe() {
             let tells = |text: &String| search::groups(text, switch).is_some_and(|groups| groups.len() > 1);
             let there = fs::read_to_string(file(&path)).ok().filter(tells);
             let text = match there {
-                None if is_blessed() => search::smallest(&profile, switch).map(|draft| draft.text(device)),
+                None if blesses() => search::smallest(&profile, switch).map(|draft| draft.text(device)),
                 there => there,
             };
             let Some(text) = text else {
                 missing.push(path);
                 continue;
             };
-            if is_blessed() {
+            if blesses() {
                 fs::create_dir_all(file(&path).parent().expect("a folder")).expect("it can be made");
                 fs::write(file(&path), &text).expect("it can be written");
             }
@@ -133,8 +130,8 @@ fn the_page_lists_the_probes() {
     let (before, rest) = page.split_once("<!-- probes -->\n").expect("the mark");
     let (_, after) = rest.split_once("<!-- /probes -->").expect("the end mark");
     let expected = format!("{before}<!-- probes -->\n\n{table}\n<!-- /probes -->{after}");
-    if is_blessed() {
+    if blesses() {
         fs::write(file("docs/measuring.md"), &expected).expect("it can be written");
     }
-    assert!(is_blessed() || page == expected, "docs/measuring.md is out of date: CROSSBAR_BLESS=1 writes it");
+    assert!(blesses() || page == expected, "docs/measuring.md is out of date: CROSSBAR_BLESS=1 writes it");
 }

@@ -1,5 +1,6 @@
 //! A bucket's beam never passes by a cell that one of its rays visits.
 
+use crate::environment::by_form;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
@@ -36,7 +37,7 @@ fn scene() -> Mesh {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("CROSSBAR_FULL").is_some() { 20_000 } else { 600 }))]
+    #![proptest_config(ProptestConfig::with_cases(by_form(600, 20_000)))]
 
     #[test]
     fn no_cell_that_a_ray_visits_is_passed_by(

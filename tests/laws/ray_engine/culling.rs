@@ -1,6 +1,7 @@
 //! Culling in the vertex program loses no hit: a pass that culls finds, bit for bit, what a pass that draws everything
 //! finds.
 
+use crate::environment::by_form;
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
@@ -97,7 +98,7 @@ fn bits(answer: &Answer) -> Vec<Option<(u32, u32)>> {
 const DEVICES: [&str; 7] = ["ideal-fp32", "r200", "r300", "nv35", "ideal-s3.12", "ideal-fp16", "ideal-s2.8"];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("CROSSBAR_FULL").is_some() { 20_000 } else { 400 }))]
+    #![proptest_config(ProptestConfig::with_cases(by_form(400, 20_000)))]
 
     #[test]
     fn a_pass_that_culls_finds_what_one_that_does_not_finds(

@@ -1,5 +1,6 @@
 //! Photon maps: biased, and by how much.
 
+use crate::environment::by_form;
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::photon::{self, Photons};
 use crossbar::renderer::{RenderedPicture, Settings, path};
@@ -28,7 +29,7 @@ fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     let scene = room(1.0, block);
     let camera = room_camera(12, 12);
     // Long form: so many samples that hardly more than the bias is left.
-    let full = if std::env::var_os("CROSSBAR_FULL").is_some() { 20 } else { 1 };
+    let full = by_form(1, 20);
     let settings = |samples: u32| Settings { samples: samples * full, depth: 30, ..settings() };
     let photons = Photons { global: 20_000, caustic: 20_000, nearest: 50, radius: 0.3, gather };
     let mapped = photon::render(&scene, &camera, &settings(16), &photons, &mut host(&scene), &mut |_| {});

@@ -1,5 +1,6 @@
 //! Squares of texels that gather together against texels that gather alone.
 
+use crate::environment::by_form;
 use crossbar::geom::Mesh;
 use crossbar::subsurface::Dipole;
 use crossbar::subsurface::factor::Factors;
@@ -29,7 +30,7 @@ fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64
 #[test]
 fn links_keep_their_tolerance() {
     let [fixed, adaptive] = [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 64 }];
-    let step = if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { 3 };
+    let step = by_form(3, 1);
     let all = [(1.5, figure_7()), (5.0, figure_7()), (15.0, figure_7()), (8.0, medium(0.74, 0.9))];
     for (mm_per_unit, dipole) in all.into_iter().step_by(step) {
         for choice in [fixed, adaptive] {

@@ -1,5 +1,6 @@
 //! Laws of throughput factors: reciprocity, the tolerance, independent integrals, spheres, bad input.
 
+use crate::environment::by_form;
 use approx::assert_relative_eq;
 use crossbar::subsurface::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
 use crossbar::subsurface::{Reference, point_to_polygon, uniform_sphere};
@@ -96,7 +97,7 @@ fn the_reference_and_the_factors_agree_texel_by_texel() {
 #[test]
 fn a_sphere_under_uniform_light_has_its_closed_form() {
     let dipole = figure_7();
-    let step = if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { 2 };
+    let step = by_form(2, 1);
     for radius in [1.0, 5.0, 20.0].into_iter().step_by(step) {
         let exact = uniform_sphere(&dipole, radius);
         let mut errors = Vec::new();

@@ -1,5 +1,6 @@
 //! Models and media for the laws of links.
 
+use crate::environment::by_form;
 use crossbar::atlas::Atlas;
 use crossbar::geom::Mesh;
 use crossbar::subsurface::factor::{ClusterId, SurfaceMoments};
@@ -80,5 +81,5 @@ pub(crate) fn texels(side: u32) -> impl Iterator<Item = [u32; 2]> {
 
 /// The tolerance of factors that others are held against: a tenth of theirs, in the full form a hundredth.
 pub(crate) fn fine_tolerance() -> f64 {
-    if std::env::var_os("CROSSBAR_FULL").is_some() { 1e-4 } else { 1e-3 }
+    by_form(1e-3, 1e-4)
 }

@@ -1,5 +1,6 @@
 //! Exact answers on polygons, cubes and spheres: contour integrals and Legendre series against brute force.
 
+use crate::environment::is_full;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use crossbar::elementary::{atan2, exp, sin_cos};
 use crossbar::quadrature::{EIGHT, graded_integral, integral};
@@ -126,7 +127,7 @@ fn without_absorption_a_cube_loses_or_makes_energy() {
     let dipole = dipole(1.0, 0.0);
     let sums = [(10.0, 3, "0.8957"), (100.0, 6, "1.0238"), (1000.0, 8, "1.0068")];
     let others = [(20.0, 4, "0.9859"), (30.0, 4, "1.0101"), (50.0, 5, "1.0228"), (200.0, 7, "1.0184")];
-    let full = std::env::var_os("CROSSBAR_FULL").is_some();
+    let full = is_full();
     for (side, panels, printed) in sums.into_iter().chain(others.into_iter().filter(|_| full)) {
         assert_eq!(format!("{:.4}", cube(&dipole, side, panels)), printed, "side {side}");
     }

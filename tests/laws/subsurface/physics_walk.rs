@@ -1,6 +1,7 @@
 //! Photons followed through a medium, against what is exactly true of them: counts balance, mean paths depend on
 //! volume and surface alone, half spaces have the albedo of Chandrasekhar's H function.
 
+use crate::environment::by_form;
 use approx::assert_relative_eq;
 use crossbar::geom::{Hit, Mesh, Ray};
 use crossbar::quadrature::SIXTEEN;
@@ -15,7 +16,7 @@ use std::f64::consts::PI;
 const FAR: f64 = 2.3;
 
 fn medium(sigma_s_prime: f64, sigma_a: f64, eta: f64, photons: u64) -> PhotonWalk {
-    let full = if std::env::var_os("CROSSBAR_FULL").is_some() { 50 } else { 1 };
+    let full = by_form(1, 50);
     let walk = PhotonWalk::new(Coefficients { sigma_s_prime, sigma_a }, eta).unwrap();
     PhotonWalk { photons: photons * full, max_steps: 100_000, ..walk }
 }

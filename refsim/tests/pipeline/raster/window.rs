@@ -1,6 +1,7 @@
 //! Tests the batch executor's viewport transform and clip tests in rows against [`refsim::raster::setup`].
 
 use super::support::{CONVENTIONS, RULES, state, vertex};
+use crate::random::Random;
 use proptest::prelude::*;
 use refsim::device::SubpixelRounding;
 use refsim::exec::batch::{Instances, SimdLevel, Surfaces, VertexRows};
@@ -173,11 +174,8 @@ fn cut_positions_move_toward_the_corner_of_the_window() {
 /// More vertices and triangles than one task processes.
 #[test]
 fn many_vertices_arrive_like_few() {
-    let mut seed = 1u32;
-    let mut next = |low: f32, high: f32| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (low + (high - low) * ((seed >> 8) as f32 / 16_777_216.0)).to_bits()
-    };
+    let mut random = Random::new(1);
+    let mut next = |low, high| random.between(low, high).to_bits();
     let mut vertex = |_| {
         let position = [next(-9.0, 9.0), next(-9.0, 9.0), next(-0.1, 1.1), next(0.5, 1.5)];
         Vertex { position, ..Vertex::default() }

@@ -1,6 +1,7 @@
 //! Generated mip levels compared with exact fractions, texel by texel.
 
 use super::rational::Rational;
+use crate::random::Random;
 use num_bigint::BigInt;
 use proptest::prelude::*;
 use refsim::num::Format;
@@ -20,12 +21,8 @@ fn noise(format: TexelFormat, kind: TextureKind, [w, h, d]: [u32; 3], seed: u64)
         _ => [w, h, 1],
     };
     let mut image = Image::new(format, kind, extents, Image::most_levels(kind, extents)).unwrap();
-    let mut state = seed | 1;
-    for byte in image.bytes_mut() {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        // One byte in four at the end of its range.
-        *byte = if state >> 62 == 0 { [0, 0x7f, 0x80, 0xff][(state >> 40) as usize % 4] } else { (state >> 33) as u8 };
-    }
+    let mut random = Random::new(seed);
+    image.bytes_mut().fill_with(|| random.code());
     image
 }
 

@@ -2,6 +2,7 @@
 //! form, with all pipeline state, is `tests/agree` of the root package.
 
 use super::text::{Choices, statement};
+use crate::environment::by_form;
 use proptest::prelude::*;
 use refsim::asm::assemble;
 use refsim::check::check;
@@ -82,7 +83,7 @@ fn vertices(choices: &[u32]) -> [Vertex; 4] {
 
 /// Number of programs tested.
 fn cases() -> u32 {
-    if std::env::var_os("CROSSBAR_FULL").is_some() { 3000 } else { 60 }
+    by_form(60, 3000)
 }
 
 fn drawn(kind: ExecutorKind, profile: &Profile, program: &CheckedProgram, quad: &[Vertex], texels: u32) -> Vec<u8> {

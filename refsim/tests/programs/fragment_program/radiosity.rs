@@ -2,6 +2,7 @@
 //! time: two reads, a multiply-add and a coordinate step per texel, 1024 instructions.
 
 use super::nv35;
+use crate::random::Random;
 use refsim::asm::assemble;
 use refsim::check::{RuleId, check};
 use refsim::event::{FlowConstants, ProgramWork};
@@ -23,12 +24,9 @@ fn kernel(texels: usize) -> String {
 }
 
 /// Deterministic numbers between 0 and 1.
-fn numbers(count: usize, mut seed: u32) -> Vec<f32> {
-    let mut next = || {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 / 16_777_216.0
-    };
-    (0..count).map(|_| next()).collect()
+fn numbers(count: usize, seed: u64) -> Vec<f32> {
+    let mut random = Random::new(seed);
+    (0..count).map(|_| random.unit()).collect()
 }
 
 fn texture(width: u32, height: u32, values: &[f32]) -> Image {

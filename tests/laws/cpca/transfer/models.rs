@@ -1,5 +1,6 @@
 //! The models of the papers on transfer: counts of their tables, closed, with tangents everywhere.
 
+use crate::environment::is_full;
 use std::path::Path;
 
 use crossbar::io::load_mesh;
@@ -11,7 +12,7 @@ const SMALL: usize = 20_000;
 
 #[test]
 fn they_have_as_many_vertices_as_table_1_prints() {
-    let full = std::env::var_os("CROSSBAR_FULL").is_some();
+    let full = is_full();
     let printed = [
         ("all-frequency-buddha", 54_100, true),
         ("all-frequency-bunny", 11_556, true),

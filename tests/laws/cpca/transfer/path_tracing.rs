@@ -4,6 +4,7 @@
 //! Per vertex the difference is held against the standard error of the paths. Interpolation between vertices is off by
 //! less, since the surfaces are divided finely enough; with `CROSSBAR_FULL` both are finer.
 
+use crate::environment::by_form;
 use crossbar::cpca::transfer::{Bounces, Incident, Response, Transfer};
 use crossbar::elementary::on_circle;
 use crossbar::geom::random::CounterRng;
@@ -24,7 +25,7 @@ const PER_PLACE: u64 = 2;
 
 /// Parts of each side of a square, and paths per vertex.
 fn size() -> (u32, u64) {
-    if std::env::var_os("CROSSBAR_FULL").is_some() { (16, 40_000) } else { (6, 4_000) }
+    by_form((6, 4_000), (16, 40_000))
 }
 
 /// The step of [`super::step`], of squares divided into `parts` x `parts`. The block comes last.

@@ -10,6 +10,7 @@
 mod cause;
 mod scene;
 
+use crate::environment::by_form;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::LazyLock;
@@ -106,7 +107,7 @@ fn sum(step: usize, each: impl Fn(u64, &Yardstick) -> usize + Sync + Send) -> us
 
 /// The step through the scenes: the one of the short form, or 1.
 fn every(step: usize) -> usize {
-    if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { step }
+    by_form(step, 1)
 }
 
 #[test]

@@ -11,6 +11,7 @@
 mod bounds;
 mod scene;
 
+use crate::environment::by_form;
 use approx::abs_diff_eq;
 use bounds::{Bounds, First};
 use crossbar::geom::exact::{self, Sides};
@@ -65,7 +66,7 @@ fn crossbar(device: (&str, &[(&str, &str)])) -> Crossbar {
 
 /// How many scenes a device sees.
 fn scenes() -> u64 {
-    if std::env::var_os("CROSSBAR_FULL").is_some() { 4000 } else { 60 }
+    by_form(60, 4000)
 }
 
 #[test]

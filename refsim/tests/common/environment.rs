@@ -1,0 +1,31 @@
+//! Environment variables by which tests are asked for more than their short form.
+#![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
+
+use std::env;
+use std::ops::Range;
+
+/// Returns `true` if tests walk their whole ranges: `CROSSBAR_FULL=1`.
+pub(crate) fn is_full() -> bool {
+    env::var_os("CROSSBAR_FULL").is_some_and(|value| !value.is_empty())
+}
+
+/// One of two parameters: that of the short form or that of the full one.
+pub(crate) fn by_form<T>(short: T, full: T) -> T {
+    if is_full() { full } else { short }
+}
+
+/// Seeds from 0, in the full form `times` as many; or only that in `CROSSBAR_SEED`.
+pub(crate) fn seeds(short: u64, times: u64) -> Range<u64> {
+    let one: Option<u64> = env::var("CROSSBAR_SEED").ok().and_then(|seed| seed.parse().ok());
+    one.map_or(0..by_form(short, times * short), |seed| seed..seed + 1)
+}
+
+/// Returns `true` if files that the program makes are written anew: `CROSSBAR_BLESS=1`.
+pub(crate) fn blesses() -> bool {
+    env::var_os("CROSSBAR_BLESS").is_some_and(|value| !value.is_empty())
+}
+
+/// Returns `true` if pages with printed results are written anew, with the snapshots: `INSTA_UPDATE=always`.
+pub(crate) fn writes_pages() -> bool {
+    env::var("INSTA_UPDATE").is_ok_and(|update| update == "always")
+}

@@ -1,0 +1,60 @@
+//! Answers of the program, in the forms in which tests look at them.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::{ProgramOutput, crossbar, crossbar_in};
+
+/// Text in one line: its words, without the line breaks and frames of its layout.
+pub(crate) fn words(text: &str) -> String {
+    text.replace(['|', '│'], " ").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The path of a file in a folder, as an argument.
+pub(crate) fn place(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().expect("a name in UTF-8").to_owned()
+}
+
+/// Document of a run in the project's folder, which succeeds without a message.
+pub(crate) fn document(arguments: &[&str]) -> Value {
+    let ran = crossbar(&[arguments, &["--json"]].concat(), "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+/// The same of arguments in one line, none of which has a space.
+pub(crate) fn document_of(line: &str) -> Value {
+    document(&line.split_whitespace().collect::<Vec<_>>())
+}
+
+pub(crate) fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
+}
+
+impl ProgramOutput {
+    /// Words of the message of a run that was refused: exit code 2, and nothing on standard output.
+    pub(crate) fn refusal(&self) -> String {
+        assert_eq!((self.code, self.stdout.as_str()), (Some(2), ""), "{}", self.stderr);
+        words(&self.stderr)
+    }
+}
+
+/// Words of the message of a run in the project's folder that is refused.
+pub(crate) fn refused(arguments: &[&str]) -> String {
+    crossbar(arguments, "").refusal()
+}
+
+/// The same of arguments in one line.
+pub(crate) fn refused_line(line: &str) -> String {
+    refused(&line.split_whitespace().collect::<Vec<_>>())
+}
+
+/// Words of the message of a run that is refused in a folder, in which it leaves nothing.
+pub(crate) fn refused_in(folder: &Path, arguments: &[&str]) -> String {
+    let entries = || std::fs::read_dir(folder).expect("a folder").count();
+    let before = entries();
+    let said = crossbar_in(folder, arguments, "").refusal();
+    assert_eq!(entries(), before, "{arguments:?} left something behind");
+    said
+}
