@@ -13,7 +13,9 @@ use super::{CommandLine, Out, Problem, ProgressBar};
 use crate::io::atomic::{FileSet, write_file};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 use crate::split::{KeptResults, SpentTime, SplitCommand};
-use crate::study::reproduce::{ENTRIES, EntryRecord, ModelSize, Parameters, RecordMade, SmokeRun, choose, sized};
+use crate::study::reproduce::{
+    ENTRIES, EntryRecord, ModelSize, Parameters, RecordMade, ReproduceEntry, SmokeRun, choose,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -115,7 +117,8 @@ fn list(out: &mut Out) -> miette::Result<Verdict> {
 
 /// Records the entries that are asked for, but for those whose record in the folder is of this program.
 fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> {
-    let entries = sized(&choose(&args.entries)?);
+    let mut entries = choose(&args.entries)?;
+    entries.retain(ReproduceEntry::is_sized);
     if entries.is_empty() {
         let help = "without names, `--record` records every entry whose rows depend on the size of models";
         return Err(Problem::usage("the entries have no choice of model size: there is nothing to record", help).into());

@@ -2,10 +2,21 @@
 
 use approx::abs_diff_eq;
 use crossbar::report::{Cell, Series};
-use crossbar::study::reproduce::{Bound, Method, PaperRow, RowVerdict, choose, printed};
+use crossbar::study::reproduce::{Bound, ENTRIES, Method, PaperRow, ReproducedPaper, RowVerdict, choose, printed};
+use strum::VariantArray;
 
 use super::pictures::pictures;
 use super::{FOUND, all, findings};
+
+#[test]
+fn every_entry_names_its_paper_and_every_paper_has_entries() {
+    for entry in ENTRIES {
+        assert!(entry.paper().is_some(), "{}", entry.title);
+    }
+    for paper in ReproducedPaper::VARIANTS {
+        assert!(ENTRIES.iter().any(|entry| entry.paper() == Some(*paper)), "{paper}");
+    }
+}
 
 /// Section 6.1, by the paper's own equation: to the digits, in the table; rows of what is drawn have the pipeline's.
 #[test]

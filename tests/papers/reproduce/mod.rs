@@ -3,6 +3,7 @@
 mod book;
 mod entries;
 mod pictures;
+mod printed;
 mod verdicts;
 
 use std::path::{Path, PathBuf};

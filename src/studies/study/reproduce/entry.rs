@@ -1,5 +1,6 @@
 //! Entries of the reproduction, and their findings.
 
+use super::full_size::{FullModel, FullSize};
 use super::shared::Shared;
 use super::{PaperRow, Prose, RecordStatus, RowVerdict, StudyError};
 use crate::report::{Chart, PictureGrid, Table};
@@ -48,7 +49,28 @@ pub struct ReproduceEntry {
     pub id: &'static str,
     /// Title, with the place where it is printed.
     pub title: &'static str,
-    pub(super) work: fn(&Shared) -> Result<EntryFindings, StudyError>,
+    pub(super) work: EntryWork,
+    /// For an entry whose rows depend on the size of models.
+    pub(super) full_size: Option<FullSize>,
+}
+
+type EntryWork = fn(&Shared) -> Result<EntryFindings, StudyError>;
+
+impl ReproduceEntry {
+    /// Entry whose rows do not depend on the size of models.
+    pub(super) const fn new(id: &'static str, title: &'static str, work: EntryWork) -> Self {
+        Self { id, title, work, full_size: None }
+    }
+
+    /// The same with rows that depend on the size of models: these at full size, and the parameters of such runs.
+    pub(super) const fn sized(self, models: &'static [FullModel], parameters: fn() -> String) -> Self {
+        Self { full_size: Some(FullSize { models, parameters }), ..self }
+    }
+
+    /// Returns `true` if the entry's rows depend on the size of models: it can be recorded.
+    pub const fn is_sized(&self) -> bool {
+        self.full_size.is_some()
+    }
 }
 
 /// Entries with their findings.

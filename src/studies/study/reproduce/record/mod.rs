@@ -15,11 +15,8 @@ mod inputs;
 mod smoke;
 mod status;
 
-use inputs::is_sized;
-
 pub use error::{RecordError, StaleRecord};
 pub use file::EntryRecord;
-pub use inputs::sized;
 pub use smoke::SmokeRun;
 pub use status::{RecordMade, RecordStatus};
 
@@ -64,7 +61,7 @@ pub fn recorded(entry: &ReproduceEntry) -> Result<Option<EntryRecord>, StudyErro
 /// Computes an entry. Its rows are those of its record where the size of models decides them and `shared` has reduced
 /// ones; a record whose run is [quick](EntryRecord::is_quick) is computed again.
 pub(super) fn findings(entry: &ReproduceEntry, shared: &Shared) -> Result<EntryFindings, StudyError> {
-    if !is_sized(entry) {
+    if !entry.is_sized() {
         return (entry.work)(shared);
     }
     let record = recorded(entry)?;

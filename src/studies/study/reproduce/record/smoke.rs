@@ -33,7 +33,7 @@ impl SmokeRun {
     /// Those of the entry.
     pub fn of(entry: &ReproduceEntry) -> Result<Option<Self>, StudyError> {
         let run = || Self::new(entry, &Shared::new(ModelSize::Reduced));
-        super::inputs::is_sized(entry).then(run).transpose()
+        entry.is_sized().then(run).transpose()
     }
 
     /// Runs an entry alone at full size.
@@ -175,7 +175,7 @@ mod tests {
     use super::*;
     use crate::report::{Cell, Table};
     use crate::study::reproduce::row::tests::{row, target};
-    use crate::study::reproduce::{ENTRIES, RowVerdict, Setting};
+    use crate::study::reproduce::{RowVerdict, Setting};
 
     /// Findings whose rows are 1 and 2 times `value`, the second explained by a sweep that reaches what is printed.
     fn found(value: f64, points: &str) -> EntryFindings {
@@ -191,7 +191,7 @@ mod tests {
     }
 
     fn entry() -> ReproduceEntry {
-        *ENTRIES.iter().find(|entry| entry.id == "bi-scale-figure-8").expect("an entry")
+        ReproduceEntry::new("bi-scale-figure-8", "A figure", |_| Ok(EntryFindings::default()))
     }
 
     fn smoke(value: f64) -> SmokeRun {
