@@ -114,11 +114,15 @@ fn said(name: &str) -> String {
             let recorded = || counted().filter(|row| row.source != RowSource::Computed);
             let confirmed = recorded().filter(|row| row.source == RowSource::Confirmed).count();
             let count = |verdict| judged().filter(|row| row.verdict() == verdict).count();
+            let reduced = match all().count() - counted().count() {
+                0 => String::new(),
+                reduced => format!("; {reduced} more have reduced models alone and are not judged"),
+            };
             return format!(
                 "of {} figures {} are predicted within bounds in numbers, {} are met in order only, and {} are the papers' \
                  own values set against each other; {} are explained and {} missed, outside their bounds; {} are contradicted \
                  by their own paper; {} are too vague to judge. {} are recorded at full size, {confirmed} of them computed anew with \
-                 the same bits; {} more have reduced models alone and are not judged",
+                 the same bits{reduced}",
                 judged().count(),
                 count(RowVerdict::Predicted),
                 count(RowVerdict::OrderOnly),
@@ -128,7 +132,6 @@ fn said(name: &str) -> String {
                 count(RowVerdict::Contradictory),
                 count(RowVerdict::TooVague),
                 recorded().filter(|row| row.source != RowSource::Reduced).count(),
-                all().count() - counted().count(),
             );
         }
         ["missed"] => return missed_by_place(),

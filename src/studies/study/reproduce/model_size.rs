@@ -6,7 +6,7 @@ pub enum ModelSize {
     /// Reduced: seconds per entry. Rows are then those of a recorded run at full size, where there is one.
     #[default]
     Reduced,
-    /// As printed: half a minute to an hour per entry.
+    /// As printed: half a minute to three hours of processor time per entry.
     Printed,
 }
 

@@ -10,7 +10,8 @@ const JUDGED: &str = "Of {} figures that chose no constant, {} are predicted wit
 const ROUNDED: &str = "{} of those that are met need the rounding of the printed value.";
 const MISSED: &str = "Missed for what is in the way: {}.";
 const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
-const SOURCES: &str = "{} are recorded at full size, {} of them computed anew with the same bits; {} more have reduced models alone and are not judged.";
+const RECORDED: &str = "{} are recorded at full size, {} of them computed anew with the same bits.";
+const REDUCED: &str = "{} more have reduced models alone and are not judged.";
 const DIFFER: &str = "Not as recorded: {}.";
 const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
 
@@ -22,7 +23,8 @@ pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
         judged(&rows),
         differ(&rows),
         classes(&rows),
-        sources(&all_rows),
+        recorded(&all_rows),
+        reduced(&all_rows),
         rounded(&rows),
         calibrated(&rows),
         farthest(&rows),
@@ -99,12 +101,16 @@ fn classes(rows: &[&PaperRow]) -> Option<Prose> {
 }
 
 /// Numbers of rows by the run that they are from, where one is not this run.
-fn sources(rows: &[&PaperRow]) -> Option<Prose> {
+fn recorded(rows: &[&PaperRow]) -> Option<Prose> {
     let confirmed = count(rows, |row| row.source == RowSource::Confirmed);
     let recorded = count(rows, |row| matches!(row.source, RowSource::Recorded { .. } | RowSource::Differs { .. }));
+    let counts = [confirmed + recorded, confirmed];
+    (counts != [0; 2]).then(|| Prose::new(RECORDED, counts.map(|count| count.to_string())))
+}
+
+fn reduced(rows: &[&PaperRow]) -> Option<Prose> {
     let reduced = count(rows, |row| row.verdict() == RowVerdict::Reduced);
-    let counts = [confirmed + recorded, confirmed, reduced];
-    (counts != [0; 3]).then(|| Prose::new(SOURCES, counts.map(|count| count.to_string())))
+    (reduced > 0).then(|| Prose::new(REDUCED, [reduced.to_string()]))
 }
 
 /// Names of the rows that are not as recorded.

@@ -42,6 +42,7 @@ pub(super) const RECORDS: &[(&str, &str)] = records![
     "cpca-figure-11",
     "cpca-coherence",
     "cpca-table-1",
+    "all-frequency-figures",
     "all-frequency-table-1",
     "bi-scale-figure-8",
     "bi-scale-figure-6",
