@@ -58,7 +58,8 @@ pub(super) struct Args {
     #[arg(long)]
     list: bool,
 
-    /// Compute anew on models as large as the papers', where rows are recorded by default: an hour or two
+    /// Compute anew on models as large as the papers', where rows are recorded by default: minutes for most entries, hours
+    /// for two
     #[arg(long)]
     full_size: bool,
 

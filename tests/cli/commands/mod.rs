@@ -59,7 +59,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ),
     ("reproduce", "takes minutes; tests/papers runs every entry"),
     ("reproduce cpca-table-1 --full-size", "takes minutes; tests/papers runs the entry on reduced models"),
-    ("reproduce --record", "takes an hour or two; tests/cli holds that what is recorded stays"),
+    ("reproduce --record", "takes hours; tests/cli holds that what is recorded stays"),
 ];
 
 /// A temporary copy of the folders that commands read.
