@@ -58,8 +58,8 @@ pub(super) struct Args {
     #[arg(long)]
     list: bool,
 
-    /// Compute anew on models as large as the papers', where rows are recorded by default: minutes for most entries, hours
-    /// for two
+    /// Compute anew on models as large as the papers', where rows are recorded by default: minutes for most entries,
+    /// hours for two
     #[arg(long)]
     full_size: bool,
 
