@@ -81,7 +81,7 @@ fn lines_of_many_numbers() {
         ("dot --format fp32", "0 0 0", "line 1: expected 1 to 32 pairs of numbers, found 3 fields"),
         ("dequantize --format fp32 --block mxint8", "7F 100", "expected at most 2 hexadecimal digits (8 bits)"),
     ] {
-        let said = alu(arguments, input).refusal();
+        let said = alu(arguments, input).refusal(arguments);
         assert!(said.contains(expected), "alu {arguments}: {said}");
     }
 }

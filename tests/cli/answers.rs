@@ -1,5 +1,6 @@
 //! Answers of the program, in the forms in which tests look at them.
 
+use std::fmt::Debug;
 use std::path::Path;
 
 use serde_json::Value;
@@ -33,16 +34,16 @@ pub(crate) fn number(value: &Value) -> f64 {
 }
 
 impl ProgramOutput {
-    /// Words of the message of a run that was refused: exit code 2, and nothing on standard output.
-    pub(crate) fn refusal(&self) -> String {
-        assert_eq!((self.code, self.stdout.as_str()), (Some(2), ""), "{}", self.stderr);
+    /// Words of the message of a run with `arguments` that was refused: exit code 2, and nothing on standard output.
+    pub(crate) fn refusal(&self, arguments: impl Debug) -> String {
+        assert_eq!((self.code, self.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", self.stderr);
         words(&self.stderr)
     }
 }
 
 /// Words of the message of a run in the project's folder that is refused.
 pub(crate) fn refused(arguments: &[&str]) -> String {
-    crossbar(arguments, "").refusal()
+    crossbar(arguments, "").refusal(arguments)
 }
 
 /// The same of arguments in one line.
@@ -54,7 +55,7 @@ pub(crate) fn refused_line(line: &str) -> String {
 pub(crate) fn refused_in(folder: &Path, arguments: &[&str]) -> String {
     let entries = || std::fs::read_dir(folder).expect("a folder").count();
     let before = entries();
-    let said = crossbar_in(folder, arguments, "").refusal();
+    let said = crossbar_in(folder, arguments, "").refusal(arguments);
     assert_eq!(entries(), before, "{arguments:?} left something behind");
     said
 }

@@ -144,7 +144,7 @@ fn done(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
 
 fn refused(more: &[&str], expected: &str) {
     let (ran, folder) = subsurface(more);
-    let told = ran.refusal();
+    let told = ran.refusal(more);
     assert!(told.contains(expected), "{more:?}: {told}");
     assert!(!folder.path().join("out/subsurface").exists(), "nothing is left behind");
 }

@@ -50,7 +50,7 @@ fn image(format: TexelFormat, side: u32, random: &mut Random) -> Image {
 
 fn triangles(count: usize, random: &mut Random) -> Vec<Vertex> {
     let vertex = |random: &mut Random| {
-        let mut spread = |by: f32| by * (2.0 * random.unit() - 1.0);
+        let mut spread = |by: f32| random.between(-by, by);
         let position = [spread(1.5), spread(2.5), 0.5 + spread(0.4), 1.0 + spread(0.3)].map(f32::to_bits);
         let mut vertex = Vertex { position, ..Vertex::default() };
         for set in &mut vertex.texcoords[..2] {

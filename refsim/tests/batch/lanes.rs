@@ -5,7 +5,7 @@
 //! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` covers the
 //! whole range, the short form a part of it.
 
-use crate::environment::is_full;
+use crate::environment::{by_form, is_full};
 use crate::random::Random;
 use rayon::prelude::*;
 use refsim::exec::batch::{convert, evaluate, exact_dot};
@@ -178,7 +178,7 @@ fn all_formats_agree_on_random_operands() {
         "e7m16fnuz",
         "e2m3fn",
     ];
-    let n = if is_full() { 65536 } else { 512 };
+    let n = by_form(512, 65536);
     for (seed, text) in layouts.iter().enumerate() {
         for (k, f) in variants(layout(text)).into_iter().enumerate() {
             let mut random = Random::new((seed * 64 + k + 1) as u64);
@@ -193,7 +193,7 @@ fn all_formats_agree_on_random_operands() {
 
 #[test]
 fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
-    let stride = if is_full() { 1 } else { 97 };
+    let stride = by_form(97, 1);
     for f in
         ["fp16", "bf16", "s3.12", "s0.15", "n3.8", "n7.8", "n9.6"].into_iter().flat_map(|text| variants(layout(text)))
     {
@@ -209,7 +209,7 @@ fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
 /// All pairs of the registers of NV2x in the full form; every thirteenth first operand in the short one.
 #[test]
 fn normalized_registers_agree_on_pairs() {
-    let step = if is_full() { 1 } else { 13 };
+    let step = by_form(13, 1);
     for text in ["n3.8:rna", "n3.8:rtz", "n3.8:rdn", "n0.8:rna", "n3.8:rne:wrap"] {
         let f = layout(text);
         let all: Vec<u32> = (0..=f.mask()).collect();
@@ -225,7 +225,7 @@ fn normalized_registers_agree_on_pairs() {
 /// Sums and products of all pairs of fp16; the short form takes every 997th first and every 61st second operand.
 fn fp16_agrees_on_pairs(rules: &str) {
     let f = layout(&format!("fp16:{rules}"));
-    let (first, second) = if is_full() { (1, 1) } else { (997, 61) };
+    let (first, second) = by_form((997, 61), (1, 1));
     let all: Vec<u32> = (0..=0xffff).step_by(second).collect();
     (0..=0xffff_u32).step_by(first).collect::<Vec<_>>().into_par_iter().for_each(|a| {
         let a = vec![a; all.len()];
@@ -256,7 +256,7 @@ fp16_pairs! {
 
 #[test]
 fn fp16_agrees_on_quotients() {
-    let stride = if is_full() { 7 } else { 997 };
+    let stride = by_form(997, 7);
     for text in ["fp16", "fp16:rna:sat", "fp16:rtz", "fp16:rdn:ftz"] {
         let f = layout(text);
         let all: Vec<u32> = (0..=0xffff).step_by(stride).collect();
@@ -293,7 +293,7 @@ fn wide_floats_agree_at_their_edges() {
         let all = edges(exp_bits, man_bits);
         variants(base).into_par_iter().enumerate().filter(|(_, f)| is_full() || f.specials == Specials::Ieee).for_each(
             |(k, f)| {
-                let step = if is_full() { 1 } else { 5 };
+                let step = by_form(5, 1);
                 let b: Vec<u32> = all.iter().copied().skip(k % step).step_by(step).collect();
                 let c: Vec<u32> = b.iter().rev().copied().collect();
                 for &a in &all {
@@ -337,7 +337,7 @@ fn conversions_agree() {
                  fp24:rdn fp24:sat fp32 fp32:ftz fp32:ftz:nvovf:nv fp32:rdn bf16 e3m4 e8m10:rna \
                  s3.12:rup s0.8:rod n3.8:rup:wrap n3.8:rod fp16:rup fp16:rod fp32:rod e4m3fn e4m3fn:sat e5m2fnuz e2m1fn";
     let layouts: Vec<Format> = texts.split(' ').map(layout).collect();
-    let n = if is_full() { 100_000 } else { 1000 };
+    let n = by_form(1000, 100_000);
     for &from in &layouts {
         for &to in &layouts {
             let bits = Random::new(u64::from(from.mask()) * 31 + u64::from(to.width())).patterns(&from, n);

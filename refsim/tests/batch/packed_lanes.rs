@@ -67,10 +67,10 @@ impl SmallTriangles {
             vertices: triangles(size, r),
             target: r.of(&[TexelFormat::Bgra8, TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rg16]),
             blend: r.of(&[None, Some(add), Some(blend)]),
-            depth: DepthState { test, write: r.below(2) == 0 },
+            depth: DepthState { test, write: r.coin() },
             depth_format: r.of(DepthFormat::ALL),
             alpha: (r.below(4) == 0).then_some(AlphaTest { function, reference: 0x3e80_0000 }),
-            mask: WriteMask(if r.below(3) == 0 { r.below(16) as u8 } else { 15 }),
+            mask: WriteMask(if r.below(3) == 0 { r.below(16) } else { 15 }),
             iterators: r.of(&["fp32", "fp32", "fp32", "fp16", "s7.16"]),
             register: r.of(&["fp32", "fp24", "s3.12", "n3.8:rna", "fp16:rtz"]),
         }
@@ -78,7 +78,7 @@ impl SmallTriangles {
 }
 
 fn triangles(size: [u32; 2], r: &mut Random) -> Vec<Vertex> {
-    let (flat, plane) = (r.below(3) == 0, r.below(2) == 0);
+    let (flat, plane) = (r.below(3) == 0, r.coin());
     let mut out = Vec::new();
     let mut shared = Vertex::default();
     let mut center = [0.0, 0.0];

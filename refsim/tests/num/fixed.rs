@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use refsim::num::{Flags, Format, Overflow, Rounding, ops};
 
-use crate::environment::is_full;
+use crate::environment::by_form;
 
 /// `p / 4096` rounded, in 64-bit integer arithmetic.
 fn round(p: i64, rounding: Rounding) -> i64 {
@@ -22,7 +22,7 @@ fn round(p: i64, rounding: Rounding) -> i64 {
 
 #[test]
 fn s3_12_products_equal_integers() {
-    let stride = if is_full() { 1 } else { 509 };
+    let stride = by_form(509, 1);
     for (_, rounding) in Rounding::ALL {
         for overflow in [Overflow::Saturate, Overflow::Wrap] {
             let f = Format::S3_12.with_rounding(rounding).with_overflow(overflow);

@@ -5,7 +5,7 @@ use refsim::num::{Flags, Format, Outcome, Rounding, ops};
 use rustc_apfloat::ieee::{Double, Half, Single};
 use rustc_apfloat::{Float, FloatConvert, Round, Status, StatusAnd};
 
-use crate::environment::is_full;
+use crate::environment::{by_form, is_full};
 
 pub(crate) const MODES: [(Rounding, Round); 3] = [
     (Rounding::NearestEven, Round::NearestTiesToEven),
@@ -119,7 +119,7 @@ fn sqrt_equals_double() {
 #[test]
 fn conversion_from_single_equals_apfloat() {
     // An odd stride visits every exponent and, over all exponents, every low mantissa pattern.
-    let stride = if is_full() { 1 } else { 1021 };
+    let stride = by_form(1021, 1);
     for (rounding, round) in MODES {
         let f = Format::FP16.with_rounding(rounding);
         (0..=u32::MAX / stride).into_par_iter().for_each(|i| {
@@ -134,7 +134,7 @@ fn conversion_from_single_equals_apfloat() {
 /// Random and extreme triples; exhausting three operands is infeasible.
 #[test]
 fn fused_equals_apfloat() {
-    let rounds = if is_full() { 200_000_000 } else { 400_000 };
+    let rounds = by_form(400_000, 200_000_000);
     for (rounding, round) in MODES {
         let f = Format::FP16.with_rounding(rounding);
         (0..64u64).into_par_iter().for_each(|seed| {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use refsim::num::{DotOrder, Flags, Format, Outcome, Overflow, Rounding, Unpacked, ops, unpack};
 
-use crate::environment::is_full;
+use crate::environment::by_form;
 use crate::random::Random;
 
 const ROUNDINGS: [Rounding; 6] =
@@ -80,7 +80,7 @@ fn every_pair() {
         for rounding in ROUNDINGS {
             for overflow in [Overflow::Saturate, Overflow::Wrap] {
                 let r = Reference::new(int_bits, frac_bits, rounding, overflow);
-                let step = if is_full() { 1 } else { step };
+                let step = by_form(step, 1);
                 (0..=r.f.mask()).step_by(step).collect::<Vec<_>>().into_par_iter().for_each(|a| {
                     let mut cases = Random::new(a.into());
                     (0..=r.f.mask()).for_each(|b| r.check(a, b, cases.next() as u32 & r.f.mask()));

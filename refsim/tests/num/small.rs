@@ -8,7 +8,7 @@ use refsim::num::{
     Denormals, DotOrder, Encoding, Format, Outcome, Overflow, Rounding, Specials, Tininess, from_parts, from_ratio, ops,
 };
 
-use crate::environment::is_full;
+use crate::environment::by_form;
 use crate::random::Random;
 use crate::rational::{self, Q};
 use crate::small_ops::Reference;
@@ -125,7 +125,7 @@ fn binary_operations() {
 /// `pow` consists of three operations; the references of its steps are slow, so the short form takes some bases only.
 #[test]
 fn powers() {
-    let step = if is_full() { 1 } else { 7 };
+    let step = by_form(7, 1);
     for_all(|r| {
         for a in (0..=r.f.mask()).step_by(step) {
             for b in (0..=r.f.mask()).step_by(step) {
@@ -138,7 +138,7 @@ fn powers() {
 /// All triples in the full form, a sample in the short one.
 #[test]
 fn multiply_add() {
-    let step = if is_full() { 1 } else { 61 };
+    let step = by_form(61, 1);
     for_all(|r| {
         let f = r.f.tininess(r.tininess);
         let width = r.f.width();
@@ -155,7 +155,7 @@ fn multiply_add() {
 
 #[test]
 fn dot_products() {
-    let rounds = if is_full() { 50_000 } else { 300 };
+    let rounds = by_form(300, 50_000);
     for_all(|r| {
         let mut cases = Random::new(11);
         for round in 0..rounds {
@@ -177,7 +177,7 @@ fn dot_products() {
 /// Sums in accumulators that are wider, narrower, and of another kind than the operands.
 #[test]
 fn accumulated_dot_products() {
-    let rounds = if is_full() { 5_000 } else { 100 };
+    let rounds = by_form(100, 5_000);
     let accumulators = ["e5m10", "e3m2:rup", "e4m3fn:sat", "e2m1fn", "s7.8:rod", "s2.1:wrap", "n3.4:rna"];
     let accumulators = accumulators.map(|text| text.parse::<Format>().expect("a format"));
     let defaults =
@@ -225,7 +225,7 @@ fn conversions() {
 /// Quotients of integers of any length, and truncated magnitudes, against cross products.
 #[test]
 fn ratios_and_parts() {
-    let rounds = if is_full() { 100_000 } else { 400 };
+    let rounds = by_form(400, 100_000);
     for_all(|r| {
         if r.f.overflow == Overflow::Wrap {
             return;

@@ -6,7 +6,7 @@ use num_traits::One;
 use rayon::prelude::*;
 use refsim::num::{Flags, Format, Rounding, Unpacked, ops, unpack};
 
-use crate::environment::is_full;
+use crate::environment::by_form;
 use crate::random::Random;
 
 const PLACES: u32 = 320;
@@ -89,10 +89,10 @@ fn check(f: &Format, name: &str, x: u32, bits: u32, exact: &BigInt) {
 /// Operands of a format: all of a short one, else a sample.
 fn operands(f: &Format, exp_bits: u32, man_bits: u32) -> Vec<u32> {
     if f.width() <= 16 {
-        let step = if is_full() { 1 } else { 7 };
+        let step = by_form(7, 1);
         return (0..=f.mask()).step_by(step).collect();
     }
-    let count = if is_full() { 400_000 } else { 6_000 };
+    let count = by_form(6_000, 400_000);
     let mut cases = Random::new(99);
     (0..count).map(|_| cases.float_bits(exp_bits, man_bits)).collect()
 }

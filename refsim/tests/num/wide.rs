@@ -5,7 +5,7 @@ use refsim::num::{Format, Rounding, from_ratio, ops};
 use rustc_apfloat::Float;
 use rustc_apfloat::ieee::Single;
 
-use crate::environment::is_full;
+use crate::environment::by_form;
 use crate::half::{MODES, agree};
 use crate::random::Random;
 
@@ -106,7 +106,7 @@ fn add_to_odd(a: f64, b: f64) -> f64 {
 /// are never closer than a relative 2^-36 to a number or midpoint of fp24 that they don't equal.
 #[test]
 fn fp24_equals_double() {
-    let cases = if is_full() { 100_000_000 } else { 1_000_000 };
+    let cases = by_form(1_000_000, 100_000_000);
     for rounding in ROUNDINGS {
         let f = Format::FP24.with_rounding(rounding);
         let zero = |bits: u32| bits & 0x7f_ffff == 0;
@@ -132,7 +132,7 @@ fn fp24_equals_double() {
 
 #[test]
 fn fp32_equals_host() {
-    let cases = if is_full() { 1_000_000_000 } else { 3_000_000 };
+    let cases = by_form(3_000_000, 1_000_000_000);
     let f = Format::FP32;
     seeds(cases, |generator| {
         let (a, b) = (generator.float_bits(8, 23), generator.float_bits(8, 23));
@@ -162,7 +162,7 @@ fn fp32_equals_host() {
 
 #[test]
 fn fp32_equals_apfloat() {
-    let cases = if is_full() { 100_000_000 } else { 400_000 };
+    let cases = by_form(400_000, 100_000_000);
     for (rounding, round) in MODES {
         let f = Format::FP32.with_rounding(rounding);
         seeds(cases, |generator| {

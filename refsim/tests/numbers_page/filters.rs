@@ -134,7 +134,7 @@ fn bytes_are_filtered_as_the_page_says() {
         let (format, bytes, channels) = usable[r.below(usable.len())];
         let case = Case { format: *format, channels, rules };
         let extents = [SIZE[0] as u32, SIZE[1] as u32, 1];
-        let data = (0..bytes * 40).map(|_| if r.below(4) == 0 { r.of(&[0, 127, 128, 255]) } else { r.next() as u8 });
+        let data = (0..bytes * 40).map(|_| r.code());
         let image = Image::from_bytes(case.format, TextureKind::D2, extents, 2, data.collect()).unwrap();
         let mode = r.of(&[AddressMode::Wrap, AddressMode::Border]);
         let state = SamplerState {
