@@ -2,6 +2,7 @@
 //! that this can be tested on one machine.
 
 use multiversion::multiversion;
+use multiversion::target::match_target;
 
 /// A set of vector instructions, each level with those of the ones before it.
 #[non_exhaustive]
@@ -62,20 +63,36 @@ impl SimdLevel {
     /// be `#[inline(always)]` to be compiled for the level at all.
     #[inline(always)]
     pub fn run<R>(self, work: impl FnOnce() -> R) -> R {
-        match self {
-            Self::Baseline => work(),
-            Self::Avx2 => avx2(work),
-            Self::Avx512 => avx512(work),
-        }
+        let work = match self {
+            Self::Baseline => work,
+            Self::Avx2 => match avx2(work) {
+                Ok(done) => return done,
+                Err(work) => work,
+            },
+            Self::Avx512 => match avx512(work).or_else(avx2) {
+                Ok(done) => return done,
+                Err(work) => work,
+            },
+        };
+        work()
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
-fn avx512<R, F: FnOnce() -> R>(work: F) -> R {
-    work()
+/// Runs `work` with AVX-512, or gives it back on a processor without. The version for such processors has no copy of
+/// `work`: each level is compiled once.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl+fma"))]
+fn avx512<R, F: FnOnce() -> R>(work: F) -> Result<R, F> {
+    match_target! {
+        "x86_64+avx512f" => Ok(work()),
+        _ => Err(work),
+    }
 }
 
+/// Runs `work` with AVX2 and FMA, likewise.
 #[multiversion(targets("x86_64+avx2+fma"))]
-fn avx2<R, F: FnOnce() -> R>(work: F) -> R {
-    work()
+fn avx2<R, F: FnOnce() -> R>(work: F) -> Result<R, F> {
+    match_target! {
+        "x86_64+avx2" => Ok(work()),
+        _ => Err(work),
+    }
 }
