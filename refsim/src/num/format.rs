@@ -153,12 +153,14 @@ impl Format {
 
     /// Returns `true` for fixed-point formats, normalized ones among them: a pattern is a two's complement integer in
     /// units of the format, and there is one zero, no infinity and no NaN.
+    #[inline]
     pub const fn is_fixed(&self) -> bool {
         !matches!(self.kind, FormatKind::Float { .. })
     }
 
     /// The odd part of what numbers are divided by: every number is an integer times a power of two, over this.
     /// `2^frac_bits - 1` in normalized formats, else 1.
+    #[inline]
     pub const fn denominator(&self) -> u32 {
         match self.kind {
             FormatKind::Normalized { frac_bits, .. } => (1 << frac_bits) - 1,
@@ -167,6 +169,7 @@ impl Format {
     }
 
     /// Width in bits, 2 to 32.
+    #[inline]
     pub const fn width(&self) -> u32 {
         match self.kind {
             FormatKind::Fixed { int_bits, frac_bits } | FormatKind::Normalized { int_bits, frac_bits } => {
@@ -177,11 +180,13 @@ impl Format {
     }
 
     /// Returns `true` if the format has negative numbers: all but [`Format::E8M0`].
+    #[inline]
     pub const fn is_signed(&self) -> bool {
         !matches!(self.encoding, Encoding::Scale)
     }
 
     /// Returns `true` if there are two zeros.
+    #[inline]
     pub const fn has_negative_zero(&self) -> bool {
         !self.is_fixed() && matches!(self.encoding, Encoding::Ieee | Encoding::Finite)
     }
@@ -192,6 +197,7 @@ impl Format {
     }
 
     /// Exponents of the smallest normal and of the largest finite number; `(0, 0)` in fixed point.
+    #[inline]
     pub const fn exponents(&self) -> (i32, i32) {
         let FormatKind::Float { exp_bits, .. } = self.kind else { return (0, 0) };
         let half = 1 << (exp_bits - 1);
@@ -250,11 +256,13 @@ impl Format {
     }
 
     /// Bit mask of the width.
+    #[inline]
     pub const fn mask(&self) -> u32 {
         u32::MAX >> (32 - self.width())
     }
 
     /// The sign bit; in [`Format::E8M0`], which has none, the bit above the width.
+    #[inline]
     pub const fn sign_bit(&self) -> u32 {
         1 << (self.width() - self.is_signed() as u32)
     }
@@ -304,6 +312,7 @@ impl Format {
     }
 
     /// The pattern of an infinity; `None` in fixed point and in encodings without one.
+    #[inline]
     pub const fn infinity(&self, negative: bool) -> Option<u32> {
         match (self.kind, self.encoding) {
             (FormatKind::Float { man_bits, .. }, Encoding::Ieee) => {
@@ -328,6 +337,7 @@ impl Format {
     }
 
     /// Returns `true` if the pattern is a NaN. Bits above the width are ignored.
+    #[inline]
     pub const fn is_nan(&self, bits: u32) -> bool {
         let magnitude = bits & (self.sign_bit() - 1);
         match (self.kind, self.encoding) {
@@ -339,6 +349,7 @@ impl Format {
     }
 
     /// Returns `true` if the pattern is an infinity.
+    #[inline]
     pub const fn is_infinite(&self, bits: u32) -> bool {
         match self.infinity(false) {
             Some(infinity) => bits & (self.sign_bit() - 1) == infinity,
@@ -352,11 +363,13 @@ impl Format {
     }
 
     /// Returns `true` if the sign bit is set (a negative number, -0, or a negative NaN).
+    #[inline]
     pub const fn is_negative(&self, bits: u32) -> bool {
         bits & self.mask() & self.sign_bit() != 0
     }
 
     /// Returns `true` if operations treat the pattern as zero: either zero, or a subnormal of a flushing format.
+    #[inline]
     pub const fn is_zero(&self, bits: u32) -> bool {
         match self.kind {
             FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => bits & self.mask() == 0,
@@ -369,6 +382,7 @@ impl Format {
     }
 
     /// Returns `true` if the pattern is a subnormal float, whatever the denormal rule.
+    #[inline]
     pub const fn is_subnormal(&self, bits: u32) -> bool {
         match self.kind {
             FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
