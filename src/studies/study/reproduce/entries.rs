@@ -2,10 +2,7 @@
 
 use super::error::unknown;
 use super::full_size::FullModel::{Flat, Teapot, Transfer};
-use super::{
-    ReproduceEntry, StudyError, all_frequency, bi_scale, cpca, equation_11, figure_7, radeon_8500, radiosity,
-    subsurface, tables, vertex_variant,
-};
+use super::{ReproduceEntry, StudyError, all_frequency, bi_scale, cpca, radiosity, ray_engine, subsurface};
 use crate::scene::built::flat_models::FlatModel::{Chair, Temple};
 use crate::scene::built::transfer_models::TransferModel::{
     BiScaleArmor, BiScaleBunny, Bird, Buddha, Bunny, FoldedBuddha, Head, Polygons, Tweety,
@@ -14,38 +11,38 @@ use crate::scene::built::transfer_models::TransferModel::{
 /// All entries, in the order of the papers.
 pub const ENTRIES: &[ReproduceEntry] = &[
     ReproduceEntry::new("radeon-8500", "114 M tests a second on a Radeon 8500 (Ray Engine, section 4.4)", |_| {
-        radeon_8500::findings()
+        ray_engine::radeon_8500()
     }),
     ReproduceEntry::new("vertex-variant", "4.1 M tests a second in a vertex program (Ray Engine, section 3.4)", |_| {
-        vertex_variant::findings()
+        ray_engine::vertex_variant()
     }),
     ReproduceEntry::new(
         "equation-11",
         "Fill rate, read-back and their worked numbers (Ray Engine, section 6.1)",
-        |_| equation_11::findings(),
+        |_| ray_engine::equation_11(),
     ),
     ReproduceEntry::new("figure-7", "Tests a second by the number of triangles (Ray Engine, figure 7)", |_| {
-        figure_7::findings()
+        ray_engine::figure_7()
     }),
     ReproduceEntry::new(
         "ray-engine-tables-1-2",
         "Rays a second of five scenes, and the share of them on the card (Ray Engine, tables 1 and 2)",
-        tables::table_1,
+        ray_engine::table_1,
     ),
     ReproduceEntry::new(
         "ray-engine-table-3",
         "What the card, asynchronous read-back and an infinitely fast card bring (Ray Engine, table 3)",
-        tables::table_3,
+        ray_engine::table_3,
     ),
     ReproduceEntry::new(
         "ray-engine-table-4",
         "The number of triangles that go to the card (Ray Engine, table 4)",
-        tables::table_4,
+        ray_engine::table_4,
     ),
     ReproduceEntry::new(
         "ray-engine-table-5",
         "The number of rays that go to the card (Ray Engine, table 5)",
-        tables::table_5,
+        ray_engine::table_5,
     ),
     ReproduceEntry::new(
         "radiosity-figure-3",

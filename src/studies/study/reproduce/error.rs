@@ -1,5 +1,7 @@
 //! Errors of the reproduction.
 
+use std::fmt::Display;
+
 use refsim::device::Profile;
 use refsim::timing::TimingError;
 
@@ -21,9 +23,12 @@ pub(super) fn papers_error(reason: &str) -> StudyError {
     StudyError::new("reproduce::papers", format!("printed figures of the papers: {reason}")).with_help(BUG)
 }
 
-/// Error of a run: a machine refuses a draw of an entry, or a program of an entry does not assemble.
-pub(super) fn run_error(device: &str, reason: &str) -> StudyError {
-    StudyError::new("reproduce::run", format!("a run of this entry failed on `{device}`: {reason}")).with_help(BUG)
+/// Returns a function that converts the failure of a run to an entry's error: a machine refuses a draw, or a program
+/// does not assemble.
+pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> StudyError + '_ {
+    move |reason| {
+        StudyError::new("reproduce::run", format!("a run of this entry failed on `{device}`: {reason}")).with_help(BUG)
+    }
 }
 
 /// Error of a timing model that lacks a value.

@@ -94,7 +94,7 @@ mod tests {
     use std::cell::Cell;
 
     use super::*;
-    use crate::study::reproduce::error::run_error;
+    use crate::study::reproduce::error::failed;
 
     thread_local!(static COMPUTED: Cell<usize> = const { Cell::new(0) });
 
@@ -108,7 +108,7 @@ mod tests {
             COMPUTED.set(COMPUTED.get() + 1);
             match key {
                 0 => Ok(Self(0)),
-                13 => Err(run_error("none", "unlucky")),
+                13 => Err(failed("none")(&"unlucky")),
                 key => Ok(Self(shared.get::<Self>(key - 1)?.0 + key - 1)),
             }
         }

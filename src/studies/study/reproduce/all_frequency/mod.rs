@@ -15,7 +15,7 @@ pub(super) use factors::findings as factors;
 pub(super) use figures::{findings as figures, full_size};
 pub(super) use table_1::findings as table_1;
 
-use super::pipeline::failed;
+use super::error::failed;
 use super::shared::Shared;
 use super::{
     EntryFindings, Method, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number, paper_row, printed,

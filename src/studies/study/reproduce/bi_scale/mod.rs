@@ -19,7 +19,7 @@ pub(super) use frames::findings as frames;
 pub(super) use table_1::findings as table_1;
 pub(super) use table_2::findings as table_2;
 
-use super::pipeline::failed;
+use super::error::failed;
 use super::shared::Shared;
 use super::{
     Contradiction, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, Prose, Standing, StudyError, number,

@@ -40,7 +40,7 @@ pub(super) use table_1::findings as table_1;
 use mesh_cost::REGISTERS;
 use signals::HOST;
 
-use super::pipeline::failed;
+use super::error::failed;
 use super::shared::Shared;
 use super::{
     Contradiction, EntryChart, EntryFindings, Method, ModelSize, PaperRow, Prose, Setting, Standing, StudyError, Sweep,

@@ -7,7 +7,7 @@ mod rates;
 
 use refsim::device::Profile;
 
-use super::{EntryFindings, StudyError, pipeline::failed, printed_value};
+use super::{EntryFindings, StudyError, error::failed, printed_value};
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};

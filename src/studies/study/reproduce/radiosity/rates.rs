@@ -6,6 +6,7 @@ use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
 use crate::report::{Cell, Table};
+use crate::study::reproduce::error::figure;
 use crate::study::reproduce::{Method, PaperRow, Prose, Standing, number, paper_row};
 
 /// Numbers of patches that are compared: six full blocks; six sides of 16 x 16; the four consistent with both pairs of
@@ -61,7 +62,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
 /// Bytes of a texel that a texture unit of the card fetches per clock.
 fn profile_width() -> Result<f64, StudyError> {
     let profile = refsim::device::Profile::named(CARD)?;
-    crate::study::reproduce::figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
+    figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
 }
 
 fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<PaperRow>, StudyError> {

@@ -12,8 +12,8 @@ use gather::CARD;
 use gather::LINKS;
 pub(super) use table_1::findings as table_1;
 
+use super::error::failed;
 use super::error::no_time;
-use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
     Contradiction, EntryFindings, Method, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number, paper_row,

@@ -8,9 +8,8 @@ use refsim::timing::queue::QueueFigures;
 use refsim::timing::replay::{Costs, Options, replay};
 use refsim::timing::{DrawCost, Level, Model, Picoseconds};
 
-use super::super::error::no_time;
-use super::super::pipeline::failed;
 use super::workload::{OCTREE, TIMES, Workload};
+use super::{failed, no_time};
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crate::study::StudyError;

@@ -6,11 +6,11 @@ use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
-use super::super::{Setting, StudyError, Sweep};
 use super::commands as stated;
 use super::engine_run::{Commands, Run, rays_per_s};
 use super::teapot::TeapotRoom;
 use super::workload::OCTREE;
+use super::{Setting, StudyError, Sweep};
 use crate::tracer::octree::OctreeParameters;
 
 /// Factors of the guessed costs of commands, in halves: 1, 1.5, 2 and 3.

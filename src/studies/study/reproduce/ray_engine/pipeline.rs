@@ -1,7 +1,5 @@
 //! Draws on the emulated cards, timed by the pipeline model.
 
-use std::fmt::Display;
-
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
@@ -13,7 +11,7 @@ use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{DrawCost, Level, Model};
 
-use super::error::{no_time, run_error};
+use super::{failed, no_time};
 use crate::report::{Cell, Table};
 use crate::study::StudyError;
 
@@ -36,11 +34,6 @@ impl TimedDraw {
     pub(super) fn pixels_per_s(&self) -> f64 {
         self.record.counts.fragments.generated as f64 / self.cost.total.seconds()
     }
-}
-
-/// Returns a function that converts a failure to an entry's error.
-pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> StudyError + '_ {
-    move |reason| run_error(device, &reason.to_string())
 }
 
 /// Pipeline model of a card.

@@ -30,7 +30,7 @@ pub(super) fn rates(device: &str) -> Result<CostRates, StudyError> {
 
 const READ_BACK: &str = "250 MB/s (read-back)";
 
-pub(super) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let mut worked = Table::of("Worked numbers, M/s", "figure device printed equation pipeline");
     let mut rows = Vec::new();
     for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {

@@ -1,7 +1,7 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two interpretations.
 
-use super::super::{Method, PaperRow, Setting, Standing, StudyError, Sweep, paper_row, printed};
 use super::workload::TIMES;
+use super::{Method, PaperRow, Setting, Standing, StudyError, Sweep, paper_row, printed};
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
 

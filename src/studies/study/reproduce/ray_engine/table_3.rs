@@ -1,13 +1,13 @@
 //! Table 3: the teapot room with and without card, asynchronous read-back, an infinitely fast card. And the octree of
 //! the host alone.
 
-use super::super::prose::{Prose, number};
-use super::super::shared::Shared;
-use super::super::{EntryChart, EntryFindings, Method, PaperRow, StudyError, paper_row};
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
 use super::teapot::TeapotRoom;
 use super::workload::TIMES;
-use super::{QUESTION, RATE, host_work, how, sensitivity};
+use super::{
+    EntryChart, EntryFindings, Method, PaperRow, Prose, QUESTION, RATE, Shared, StudyError, host_work, how, number,
+    paper_row, sensitivity,
+};
 use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 3";
@@ -17,7 +17,7 @@ const OCTREE: &str = "The octree of the host alone decides more than anything el
     triangles the infinitely fast card's speed-up goes from {} to {} %, the largest step of the sweep: the rays of our room fall either side of \
     a knife-edge of our mesh. Rows take {}, which was chosen before any of them was worked out, for host and engine alike.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);

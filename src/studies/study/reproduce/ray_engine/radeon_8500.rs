@@ -4,8 +4,10 @@ use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::equation_11::MEGA;
-use super::pipeline::{TimedDraw, failed, model, timed};
-use super::{EntryFindings, Method, PaperRow, Prose, Standing, StudyError, figure, number, paper_row, printed_value};
+use super::pipeline::{TimedDraw, model, timed};
+use super::{
+    EntryFindings, Method, PaperRow, Prose, Standing, StudyError, failed, figure, number, paper_row, printed_value,
+};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::geom::{Mesh, Ray};
@@ -27,7 +29,7 @@ const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and 
     figure. So this row is a calibration, by a whole number; it has our program for rays of any origin, and the one for rays of one origin as \
     another reading. The printed figure is {} clocks of a pipeline a test.";
 
-pub(super) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let (row, slots) = kernels()?;
     let profile = Profile::named(DEVICE)?;
     let rates = &profile.rates;

@@ -4,8 +4,8 @@ use refsim::device::Profile;
 use refsim::machine::{ExecutorKind, Machine};
 
 use super::equation_11::MEGA;
-use super::pipeline::{failed, model, timed};
-use super::{EntryFindings, Method, Prose, Standing, StudyError, figure, number, paper_row, printed_value};
+use super::pipeline::{model, timed};
+use super::{EntryFindings, Method, Prose, Standing, StudyError, failed, figure, number, paper_row, printed_value};
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::{Cell, Table};
@@ -21,7 +21,7 @@ const HOW: &str = "The road not taken: a ray as constants, a triangle as three v
     program for it (vertex_test.vsa) runs, finds what the pixel pipelines find, and has {} instructions; a test is {} vertices. The printed \
     figure has no card: on {} it would be {} clocks a test.";
 
-pub(super) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let (mut rates, mut seen) = (Vec::new(), None);
     let mut table = Table::of(
         "A test in the vertex units",

@@ -7,10 +7,9 @@ use std::rc::Rc;
 use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 
-use super::super::StudyError;
-use super::super::shared::{Shared, SharedResult};
 use super::engine_run::{Commands, Run, rays_per_s};
 use super::workload::{CLASSICAL_TEAPOT, Workload};
+use super::{Shared, SharedResult, StudyError};
 use crate::ray_engine::engine::{EngineParameters, Readback};
 use crate::scene::built;
 

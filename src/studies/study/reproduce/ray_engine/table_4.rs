@@ -1,11 +1,9 @@
 //! Table 4: the teapot room by the range of triangles that goes to the card.
 
-use super::super::shared::Shared;
-use super::super::{EntryChart, EntryFindings, Prose, StudyError, number};
 use super::shares::{self, Share};
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::teapot::TeapotRoom;
-use super::{QUESTION, how};
+use super::{EntryChart, EntryFindings, Prose, QUESTION, Shared, StudyError, how, number};
 use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 4";
@@ -16,7 +14,7 @@ const ORDER: &str = "Printed, the widest range brings the fewest rays to the car
     cell whose triangles lie in the range, so a wider range has more of them, and more rays meet one. Our speed-ups are {}, {} and {} % \
     for the printed {}, {} and {} %.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);

@@ -5,12 +5,11 @@ use std::rc::Rc;
 use refsim::timing::host::{HostOperation, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
-use super::super::StudyError;
 use super::engine_run::{Commands, Run};
-use super::speed_up;
 use super::speed_ups::SpeedUpRun;
 use super::sweeps::rates;
 use super::workload::HostOnly;
+use super::{StudyError, speed_up};
 use crate::report::{Cell, Table};
 
 /// Names of the guesses that are doubled: of the host's operations, and of the queue's commands.

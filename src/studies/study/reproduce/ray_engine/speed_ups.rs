@@ -3,12 +3,12 @@
 
 use std::rc::Rc;
 
-use super::super::shared::{Shared, SharedResult};
-use super::super::{Method, PaperRow, Standing, StudyError, Sweep, paper_row};
 use super::engine_run::{Commands, Run};
 use super::teapot::{TeapotRoom, Variant};
 use super::workload::TIMES;
-use super::{RATE, commands, speed_up, sweeps};
+use super::{
+    Method, PaperRow, RATE, Shared, SharedResult, Standing, StudyError, Sweep, commands, paper_row, speed_up, sweeps,
+};
 use crate::ray_engine::engine::Readback;
 use crate::report::{Cell, Table};
 

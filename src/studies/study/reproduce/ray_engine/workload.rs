@@ -2,8 +2,7 @@
 
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
 
-use super::super::StudyError;
-use super::super::pipeline::failed;
+use super::{StudyError, failed};
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::picture::RgbImage;

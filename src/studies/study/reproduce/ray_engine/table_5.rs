@@ -1,11 +1,11 @@
 //! Table 5: the teapot room by the number of rays in a pass. And the costs of commands.
 
-use super::super::shared::Shared;
-use super::super::{EntryChart, EntryFindings, Method, PaperRow, Prose, Standing, StudyError, number, paper_row};
 use super::engine_run::Run;
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::teapot::{TeapotRoom, Variant};
-use super::{QUESTION, how};
+use super::{
+    EntryChart, EntryFindings, Method, PaperRow, Prose, QUESTION, Shared, Standing, StudyError, how, number, paper_row,
+};
 use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 5";
@@ -15,7 +15,7 @@ const SIZE: &str = "Larger passes cost less a ray, but more caches never fill, a
 const FILL: &str = "Section 5.3 says how full the buckets of the ray tree typically are: the rows have the mean of those with rays after each bundle of the room's rays, \
     while none leaves for want of others. Figure 4 and figure 6 of the paper are pictures: `crossbar leaky-teapot` and `crossbar render` draw them.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);

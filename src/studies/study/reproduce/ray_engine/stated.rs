@@ -3,10 +3,9 @@
 use refsim::timing::host::CPU_ONLY_RAYS_PER_SECOND;
 use refsim::timing::queue::QueueFigures;
 
-use super::super::Standing;
-use super::super::prose::{Prose, number};
 use super::engine_run::Commands;
 use super::teapot::TeapotRoom;
+use super::{Prose, Standing, number};
 
 /// Inputs of every predicted rate.
 pub(super) const RATE: Standing = Standing::Predicted {

@@ -4,15 +4,14 @@ use std::rc::Rc;
 
 use rayon::prelude::*;
 
-use super::super::shared::Shared;
-use super::super::{
-    EntryChart, EntryFindings, Method, ModelSize, PaperRow, StudyError, paper_row, printed, printed_value,
-};
 use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::{TeapotRoom, Variant};
 use super::workload::{CLASSICAL_TEAPOT, Job, JobRenderer, TIMES};
-use super::{QUESTION, RATE, commands};
+use super::{
+    EntryChart, EntryFindings, Method, ModelSize, PaperRow, QUESTION, RATE, Shared, StudyError, commands, paper_row,
+    printed, printed_value,
+};
 use crate::report::{Cell, Chart, NamedPicture, PictureGrid, Series, Table};
 
 /// Line of both tables, with the names of its printed figures.
@@ -90,7 +89,7 @@ struct SceneRun {
     alone_rays_per_s: f64,
 }
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let first = room.runs(&[Variant { rays: SCENES[0].rays, ..Variant::PLUS_CARD }])?;
     let others = SCENES.par_iter().filter_map(|scene| Some((scene, scene.job?)));
