@@ -1,6 +1,7 @@
 //! Models and parameters of runs at full size.
 
 use super::StudyError;
+use super::shared::{Shared, SharedResult};
 use crate::geom::Mesh;
 use crate::geom::teapot::teapot;
 use crate::scene::built::flat_models::FlatModel;
@@ -30,12 +31,17 @@ impl FullModel {
             Self::Teapot => "Teapot".to_owned(),
         }
     }
+}
 
-    pub(super) fn mesh(self) -> Result<Mesh, StudyError> {
-        Ok(match self {
-            Self::Transfer(model) => model.mesh(1),
-            Self::Flat(model) => model.model(1).mesh,
-            Self::Teapot => teapot(40).map_err(|error| StudyError::coded("reproduce::record", error))?,
+/// Mesh at full size.
+impl SharedResult for Mesh {
+    type Key = FullModel;
+
+    fn compute(model: &FullModel, _: &Shared) -> Result<Self, StudyError> {
+        Ok(match model {
+            FullModel::Transfer(model) => model.mesh(1),
+            FullModel::Flat(model) => model.model(1).mesh,
+            FullModel::Teapot => teapot(40).map_err(|error| StudyError::coded("reproduce::record", error))?,
         })
     }
 }

@@ -43,13 +43,20 @@ const QUESTION: &str = "the model, its BRDF and the lights of Figure 7.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = &SIGNALS[BIRD];
-    let stated = ProjectedPictures::new(paper.material.brdf(), shared.models, true)?;
+    let brdfs = NORMAL_INCIDENCES.map(anisotropic);
+    let is_stated = |brdf: &Brdf| *brdf == paper.material.brdf();
+    let mut exact = None;
+    let found = brdfs.iter().enumerate().map(|(at, brdf)| {
+        let exact = (&mut exact, &brdfs[..], at);
+        ProjectedPictures::new(exact, shared.models, is_stated(brdf))
+    });
+    let mut found = found.collect::<Result<Vec<_>, StudyError>>()?;
+    let settings = NORMAL_INCIDENCES.iter().zip(&found);
+    let settings =
+        settings.map(|(&at, found)| Setting { at: number(at, 2), values: found.ratios().to_vec() }).collect();
+    let stated = brdfs.iter().position(is_stated).ok_or_else(|| failed(HOST)(&"the figure's BRDF is not swept"))?;
+    let stated = found.swap_remove(stated);
     let mut rows = stated.rows()?;
-    let setting = |&at: &f64| -> Result<Setting, StudyError> {
-        let found = ProjectedPictures::new(anisotropic(at), shared.models, false)?;
-        Ok(Setting { at: number(at, 2), values: found.ratios().to_vec() })
-    };
-    let settings = NORMAL_INCIDENCES.iter().map(setting).collect::<Result<_, _>>()?;
     let sweep = Sweep { name: "Fresnel factors of the BRDF", parameter: "reflectance at normal incidence", settings };
     sweep.explain(&mut rows);
     let swept = sweep.table("Rows by the reflectance at normal incidence", &rows, (None, |value| value));
@@ -66,6 +73,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
+/// Exit radiance of all vertices, with each BRDF.
+type ExactRadiance = Vec<Vec<[f64; 3]>>;
+
 /// All projections with one BRDF.
 struct ProjectedPictures {
     /// Errors of the picture and of its silhouettes, per projection.
@@ -77,25 +87,30 @@ struct ProjectedPictures {
 }
 
 impl ProjectedPictures {
-    fn new(brdf: Brdf, models: ModelSize, draws: bool) -> Result<Self, StudyError> {
+    /// Computes those of `brdfs[at]`. Exact radiance is computed with all of the BRDFs at once, on first use.
+    fn new(
+        (exact_radiance, brdfs, at): (&mut Option<ExactRadiance>, &[Brdf], usize),
+        models: ModelSize,
+        draws: bool,
+    ) -> Result<Self, StudyError> {
         let light = HarmonicLight::red_and_blue(5);
         let glossy = |order: usize, least_squares: bool, incident: Incident| ExitRadiance::Glossy {
             basis: ExitBasis::of_order(order),
             least_squares,
             incident,
         };
-        let (mut exact, mut exact_radiance) = (Vec::new(), Vec::new());
         let table = Table::of("Errors of pictures", "figure projection rows error_% silhouettes_%");
         let mut found = Self { errors: Vec::new(), table, pictures: Vec::new(), points: 0 };
         for (mark, name, order, least_squares) in PROJECTIONS {
             let incident = Incident::Harmonics { order: 5, inverse: least_squares };
             let exit = glossy(order, least_squares, incident);
-            let computed = ComputedSignal::with_brdf(&SIGNALS[BIRD], brdf, exit, models)?;
+            let computed = ComputedSignal::with_brdf(&SIGNALS[BIRD], brdfs[at], exit, models)?;
             let mut view = ModelView::new(&computed, &light, EYE)?;
-            if exact.is_empty() {
-                exact_radiance = exit_radiance(&computed, brdf, (&light, view.eye()))?;
-                exact = view.of_vertices(&exact_radiance);
+            if exact_radiance.is_none() {
+                *exact_radiance = Some(exit_radiance(&computed, brdfs, (&light, view.eye()))?);
             }
+            let exact_radiance = exact_radiance.as_ref().map_or(&[][..], |all| &all[at]);
+            let exact = view.of_vertices(exact_radiance);
             view.expose(&exact);
             let error = view.difference(None, &exact, |_| true)?;
             let rim = view.difference(None, &exact, |cosine| cosine < RIM)?;
@@ -107,7 +122,7 @@ impl ProjectedPictures {
                 if found.points == 0 {
                     let file = "cpca-figure-7-exact".to_owned();
                     let caption = "what they are held against".to_owned();
-                    found.pictures.push(view.shown(&exact_radiance, file, caption)?);
+                    found.pictures.push(view.shown(exact_radiance, file, caption)?);
                 }
                 let file = format!("cpca-figure-7-{}-{rows}", name.replace(' ', "-"));
                 found.pictures.push(view.picture(None, file, format!("{name}, {rows} rows"))?);
@@ -143,13 +158,13 @@ impl ProjectedPictures {
     }
 }
 
-/// Radiance of every vertex towards an eye from BRDF and light alone: section 3.1 without harmonics, direct light with
-/// shadows only.
+/// Radiance of every vertex towards an eye from each BRDF and light alone: section 3.1 without harmonics, direct light
+/// with shadows only.
 fn exit_radiance(
     computed: &ComputedSignal,
-    brdf: Brdf,
+    brdfs: &[Brdf],
     (light, eye): (&HarmonicLight, DVec3),
-) -> Result<Vec<[f64; 3]>, StudyError> {
+) -> Result<ExactRadiance, StudyError> {
     let vertices = &computed.vertices;
     let mut tracer = HostTracer::new(&computed.mesh, Sides::Both);
     let rays = TracedRays::trace(vertices, DirectionRule::hemisphere(DEGREE), &mut tracer, false);
@@ -157,15 +172,18 @@ fn exit_radiance(
     let of_vertex = |vertex: usize| {
         let frame = &vertices.frames()[vertex];
         let view = frame.to_local((eye - wide(vertices.positions()[vertex])).normalize_or_zero());
-        let mut sum = [0.0; 3];
+        let mut sums = vec![[0.0; 3]; brdfs.len()];
         for (at, (&s, weight)) in rays.rule().directions().iter().zip(rays.rule().weights()).enumerate() {
             if view.z > 0.0 && !rays.is_blocked(vertex, at) {
                 let radiance = light.radiance(frame.to_global(s));
-                let factor = weight * brdf.value(view, s) * s.z;
-                (0..3).for_each(|channel| sum[channel] += factor * radiance[channel]);
+                for (sum, brdf) in sums.iter_mut().zip(brdfs) {
+                    let factor = weight * brdf.value(view, s) * s.z;
+                    (0..3).for_each(|channel| sum[channel] += factor * radiance[channel]);
+                }
             }
         }
-        sum
+        sums
     };
-    Ok((0..vertices.len()).into_par_iter().map(of_vertex).collect())
+    let by_vertex: Vec<_> = (0..vertices.len()).into_par_iter().map(of_vertex).collect();
+    Ok((0..brdfs.len()).map(|brdf| by_vertex.iter().map(|sums| sums[brdf]).collect()).collect())
 }

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::event::vertex_cache_misses;
 
 use super::StudyError;
-use crate::scene::built::transfer_models::TransferModel;
+use crate::geom::Mesh;
 
 /// "a Radeon 9700".
 pub(super) const CARD: &str = "r300";
@@ -20,9 +20,9 @@ pub(super) struct MeshCost {
 }
 
 impl MeshCost {
-    /// Measures our model of the printed size, with its triangles in the order of construction.
-    pub(super) fn new(model: TransferModel) -> Result<Self, StudyError> {
-        let (profile, mesh) = (Profile::named(CARD)?, model.mesh(1));
+    /// Measures a mesh, with its triangles in their order.
+    pub(super) fn new(mesh: &Mesh) -> Result<Self, StudyError> {
+        let profile = Profile::named(CARD)?;
         let entries = profile.rates.vertex_cache_entries.unwrap_or(0);
         let run = vertex_cache_misses(mesh.triangles().as_flattened(), mesh.positions().len(), entries);
         Ok(Self { triangles: mesh.len() as u64, run_per_triangle: run as f64 / mesh.len().max(1) as f64 })

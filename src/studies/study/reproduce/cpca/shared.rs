@@ -5,6 +5,7 @@ use super::mesh_cost::MeshCost;
 use super::signals::{ComputedSignal, SIGNALS};
 use super::{Shared, StudyError};
 use crate::scene::built::transfer_models::TransferModel;
+use crate::study::reproduce::full_size::FullModel;
 use crate::study::reproduce::shared::SharedResult;
 use crate::transfer::clustering::{Clustering, CpcaMethod};
 
@@ -44,10 +45,11 @@ impl SharedResult for DrawnClusters {
     }
 }
 
+/// Drawing cost of our model of the printed size.
 impl SharedResult for MeshCost {
     type Key = TransferModel;
 
-    fn compute(&model: &TransferModel, _: &Shared) -> Result<Self, StudyError> {
-        Self::new(model)
+    fn compute(&model: &TransferModel, shared: &Shared) -> Result<Self, StudyError> {
+        Self::new(shared.get(FullModel::Transfer(model))?)
     }
 }

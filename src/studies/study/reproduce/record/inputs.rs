@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::error::StaleRecord;
+use crate::geom::Mesh;
 use crate::report::sha256;
 use crate::study::reproduce::full_size::{FullModel, FullSize};
 use crate::study::reproduce::shared::{Shared, SharedResult};
@@ -65,8 +66,8 @@ struct ModelDigest(String);
 impl SharedResult for ModelDigest {
     type Key = FullModel;
 
-    fn compute(model: &FullModel, _: &Shared) -> Result<Self, StudyError> {
-        let mesh = model.mesh()?;
+    fn compute(model: &FullModel, shared: &Shared) -> Result<Self, StudyError> {
+        let mesh = shared.get::<Mesh>(*model)?;
         let mut bytes = Vec::new();
         let mut floats = |values: &[f32]| bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
         floats(mesh.positions().as_flattened());
