@@ -38,7 +38,7 @@ run), calibrated (within its bound, but no evidence), explained (a sweep of the 
 something that the paper leaves open reaches the value), missed, contradictory (the paper
 contradicts itself: the computation is shown), or too vague to judge.
 Where the size of models decides, rows are those of recorded runs at full size, which the program
-contains; what is quick of them is computed anew and held against the record. The source of each row
+contains; --full-size computes them anew and holds them against the record. The source of each row
 says which. Pictures, and rows without a record, are of reduced models: these are not judged.
 Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
 entries that are named. --record goes on: what it has recorded stays, unless it is of another

@@ -112,7 +112,6 @@ fn said(name: &str) -> String {
             let counted = || all().filter(|row| row.verdict() != RowVerdict::Reduced);
             let judged = || counted().filter(|row| !matches!(row.standing, Standing::Calibrated { .. }));
             let recorded = || counted().filter(|row| row.source != RowSource::Computed);
-            let confirmed = recorded().filter(|row| row.source == RowSource::Confirmed).count();
             let count = |verdict| judged().filter(|row| row.verdict() == verdict).count();
             let reduced = match all().count() - counted().count() {
                 0 => String::new(),
@@ -121,8 +120,7 @@ fn said(name: &str) -> String {
             return format!(
                 "of {} figures {} are predicted within bounds in numbers, {} are met in order only, and {} are the papers' \
                  own values set against each other; {} are explained and {} missed, outside their bounds; {} are contradicted \
-                 by their own paper; {} are too vague to judge. {} are recorded at full size, {confirmed} of them computed anew with \
-                 the same bits{reduced}",
+                 by their own paper; {} are too vague to judge. {} are recorded at full size{reduced}",
                 judged().count(),
                 count(RowVerdict::Predicted),
                 count(RowVerdict::OrderOnly),

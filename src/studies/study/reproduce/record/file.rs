@@ -69,9 +69,6 @@ struct RecordedCells {
 }
 
 impl EntryRecord {
-    /// Most processor time of a run that is computed again beside its record, in seconds.
-    pub const QUICK: f64 = 50.0;
-
     /// Creates the record of a run at full size, with the run of the same program on reduced models.
     pub(super) fn new(entry: &str, inputs: RecordInputs, (full, reduced): (&EntryFindings, &EntryFindings)) -> Self {
         let row = |(row, smaller): (&PaperRow, &PaperRow)| RecordedRow {
@@ -110,11 +107,6 @@ impl EntryRecord {
     /// Returns `true` if no row is recorded.
     pub const fn is_empty(&self) -> bool {
         self.row.is_empty()
-    }
-
-    /// Returns `true` if the run took at most [`Self::QUICK`] seconds of processor time.
-    pub fn is_quick(&self) -> bool {
-        self.made.processor_s.is_some_and(|seconds| seconds <= Self::QUICK)
     }
 
     /// Formats the file.

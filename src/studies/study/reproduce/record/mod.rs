@@ -60,16 +60,14 @@ pub fn recorded(entry: &ReproduceEntry) -> Result<Option<EntryRecord>, StudyErro
 }
 
 /// Computes an entry. Its rows are those of its record where the size of models decides them and `shared` has reduced
-/// ones; a record whose run is [quick](EntryRecord::is_quick) is computed again.
+/// ones.
 pub(super) fn findings(entry: &ReproduceEntry, shared: &Shared) -> Result<EntryFindings, StudyError> {
     if !entry.is_sized() {
         return (entry.work)(shared);
     }
     let record = recorded(entry)?;
-    Ok(match &record {
-        _ if shared.models == ModelSize::Printed => smoke::compared(record.as_ref(), (entry.work)(shared)?),
-        // Alone, as its time was taken; its models are not kept beside the reduced ones.
-        Some(quick) if quick.is_quick() => smoke::compared(record.as_ref(), SmokeRun::full_size(entry, None)?),
-        _ => SmokeRun::new(entry, shared)?.judged_by(record.as_ref()),
-    })
+    if shared.models == ModelSize::Printed {
+        return Ok(smoke::compared(record.as_ref(), (entry.work)(shared)?));
+    }
+    Ok(SmokeRun::new(entry, shared)?.judged_by(record.as_ref()))
 }

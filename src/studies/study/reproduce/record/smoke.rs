@@ -36,20 +36,12 @@ impl SmokeRun {
         entry.is_sized().then(run).transpose()
     }
 
-    /// Runs an entry alone at full size.
-    pub(super) fn full_size(
-        entry: &ReproduceEntry,
-        kept: Option<Rc<KeptResults>>,
-    ) -> Result<EntryFindings, StudyError> {
-        (entry.work)(&Shared::new(ModelSize::Printed).keeping(kept))
-    }
-
     /// Runs the entry at full size, and records it. Finished pieces of entries that take hours are kept, and taken.
     ///
     /// # Errors
     /// Those of the entry, and of a folder in which pieces cannot be kept.
     pub fn record(&self, kept: Rc<KeptResults>) -> Result<EntryRecord, StudyError> {
-        let full = Self::full_size(&self.entry, Some(kept))?;
+        let full = (self.entry.work)(&Shared::new(ModelSize::Printed).keeping(Some(kept)))?;
         Ok(EntryRecord::new(self.entry.id, self.inputs.clone(), (&full, &self.found)))
     }
 
@@ -274,6 +266,5 @@ mod tests {
         assert_eq!(sources(31.2), [RowSource::Confirmed; 2]);
         assert_eq!(sources(31.0)[0], RowSource::Differs { recorded: 31.2 });
         assert_eq!(compared(None, found(31.2, "")).record, Some(RecordStatus::New));
-        assert!(!record().is_quick());
     }
 }
