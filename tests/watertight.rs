@@ -6,6 +6,8 @@
 #[path = "../docs/examples/watertight.rs"]
 mod watertight;
 
+use std::sync::LazyLock;
+
 use crossbar::geom::vector::wide;
 use crossbar::geom::{Adjacency, Hit, Mesh, Ray, Sides, exact};
 use crossbar::oracle::{Aim, Disagreement, DisagreementKind, HardRay, Oracle, Report, Tolerance, hard_rays};
@@ -13,8 +15,15 @@ use watertight::{TriangleTest, closed_surface, moeller_trumbore, nearest, tables
 
 const SIZE: f64 = 1.37;
 
-fn report(size: f64, test: TriangleTest, nearby_ulps: u32) -> (Mesh, Vec<HardRay>, Report) {
-    let mesh = closed_surface(size);
+/// Mesh, rays, and report on a triangle test.
+type Examined = (Mesh, Vec<HardRay>, Report);
+
+/// Reports that several tests look at, each with the oracle's nearby rays.
+static WOOP: LazyLock<Examined> = LazyLock::new(|| examined(woop, 8));
+static MOELLER_TRUMBORE: LazyLock<Examined> = LazyLock::new(|| examined(moeller_trumbore, 8));
+
+fn examined(test: TriangleTest, nearby_ulps: u32) -> Examined {
+    let mesh = closed_surface(SIZE);
     let rays = hard_rays(&mesh, 984, 1);
     let oracle = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T).with_nearby_ulps(nearby_ulps);
     let report = oracle.examine(&rays, |ray| nearest(&mesh, ray, test));
@@ -59,12 +68,12 @@ fn a_watertight_test_is_faithful() {
 /// with it in depth, and its direction is within 9 epsilon of that of the ray examined.
 #[test]
 fn touching_rays_prove_what_is_said() {
-    let (mesh, _, report) = report(SIZE, woop, 8);
+    let (mesh, _, report) = &*WOOP;
     let tied = |wrong: &&Disagreement| wrong.kind == DisagreementKind::Silhouette && wrong.touched_by.is_some();
     let mut seen = 0;
     for wrong in report.disagreements().iter().filter(tied) {
         let by = wrong.touched_by.expect("a ray");
-        let truth = exact::nearest(&mesh, &by, Sides::Both).expect("a hit");
+        let truth = exact::nearest(mesh, &by, Sides::Both).expect("a hit");
         let found = wrong.found.expect("a hit").triangle;
         let adjacent = truth.ties.iter().any(|&first| mesh.are_adjacent(first, found));
         let along = wide(by.direction());
@@ -106,7 +115,7 @@ fn blown_up_triangles_are_false_hits() {
 
 #[test]
 fn what_it_misses_lies_beside_outlines() {
-    let (mesh, rays, report) = report(SIZE, woop, 8);
+    let (mesh, rays, report) = &*WOOP;
     let adjacency = mesh.adjacency();
     let missed = |wrong: &&Disagreement| {
         // Seen from far away a triangle is smaller than an ULP, so its missed edges may be on the outline of another
@@ -116,22 +125,22 @@ fn what_it_misses_lies_beside_outlines() {
     };
     let mut silhouettes = 0;
     for wrong in report.disagreements().iter().filter(missed) {
-        assert!(passes_outline(&mesh, &adjacency, wrong), "{wrong}");
+        assert!(passes_outline(mesh, &adjacency, wrong), "{wrong}");
         silhouettes += 1;
     }
     assert!(silhouettes > 10, "{silhouettes}");
-    let strict = self::report(SIZE, woop, 0).2;
+    let strict = examined(woop, 0).2;
     assert!(strict.leaks() > 10 && strict.count(DisagreementKind::Silhouette) == 0, "{strict}");
 }
 
 #[test]
 fn leaks_of_another_test_are_holes() {
-    let (mesh, rays, report) = report(SIZE, moeller_trumbore, 8);
+    let (mesh, rays, report) = &*MOELLER_TRUMBORE;
     let adjacency = mesh.adjacency();
-    assert!(report.by_aim(&rays).count(Aim::Edge, DisagreementKind::LeakThrough) > 10, "{report}");
+    assert!(report.by_aim(rays).count(Aim::Edge, DisagreementKind::LeakThrough) > 10, "{report}");
     let at_edges = report.disagreements().iter().filter(|wrong| rays[wrong.ray].aim == Aim::Edge);
     for wrong in at_edges.filter(|wrong| wrong.kind.is_leak()) {
-        assert!(!aimed_edge_is_outline(&mesh, &adjacency, wrong), "{wrong}");
+        assert!(!aimed_edge_is_outline(mesh, &adjacency, wrong), "{wrong}");
         assert_eq!(wrong.right_for, None);
     }
 }
@@ -140,11 +149,10 @@ fn leaks_of_another_test_are_holes() {
 /// of that of the ray examined.
 #[test]
 fn nearby_rays_prove_what_is_said() {
-    for test in [woop, moeller_trumbore] {
-        let (mesh, _, report) = report(SIZE, test, 8);
+    for (mesh, _, report) in [&*WOOP, &*MOELLER_TRUMBORE] {
         let proved = report.disagreements().iter().filter_map(|wrong| Some((wrong, wrong.right_for?)));
         for (wrong, right) in proved {
-            let truth = exact::nearest(&mesh, &right, Sides::Both);
+            let truth = exact::nearest(mesh, &right, Sides::Both);
             match wrong.found {
                 None => assert_eq!(truth, None, "{wrong}"),
                 Some(hit) => assert!(truth.is_some_and(|truth| truth.ties.contains(&hit.triangle)), "{wrong}"),
@@ -189,8 +197,7 @@ fn the_page_says_what_is_measured() {
 #[test]
 fn the_readme_says_what_is_measured() {
     let readme = include_str!("../README.md").replace(['\r', '\n'], " ");
-    let (_, rays, leaky) = report(SIZE, moeller_trumbore, 8);
-    let (_, _, tight) = report(SIZE, woop, 8);
+    let ((_, rays, leaky), (_, _, tight)) = (&*MOELLER_TRUMBORE, &*WOOP);
     assert_eq!(tight.leaks(), 0);
     let count = rays.len().to_string();
     let (thousands, rest) = count.split_at(count.len() - 3);

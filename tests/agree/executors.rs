@@ -92,9 +92,11 @@ pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
 #[cfg(feature = "wgpu")]
 fn on_gpu() -> Option<Executor> {
     testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
-    Some(Executor { name: "wgpu".to_owned(), kind: ExecutorKind::Wgpu, every: EVERY_GPU, ..REFERENCE.clone() })
+    Some(Executor { name: "wgpu".to_owned(), kind: ExecutorKind::Wgpu, every: every_gpu(), ..REFERENCE.clone() })
 }
 
 /// On the GPU one case in this many: software drivers take milliseconds where the batch executor takes microseconds.
 #[cfg(feature = "wgpu")]
-const EVERY_GPU: u64 = 4;
+fn every_gpu() -> u64 {
+    crate::environment::by_form(8, 4)
+}

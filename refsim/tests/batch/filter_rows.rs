@@ -288,7 +288,7 @@ fn agrees(read: &Read) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(by_form(2000, 30_000)))]
+    #![proptest_config(ProptestConfig::with_cases(by_form(1000, 30_000)))]
 
     #[test]
     fn filtered_reads_agree(read in read()) {

@@ -7,6 +7,7 @@ use refsim::exec::wgsl::number::{format_words, library, source_word};
 use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation, ops};
 
+use crate::environment::by_form;
 use crate::operands::{edges, formats, pattern};
 use crate::random::Random;
 use crate::reference::reference;
@@ -158,7 +159,7 @@ fn tried(operation: NumberOperation) -> bool {
 pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
     let formats = formats();
     let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
-    let count = std::env::var("CROSSBAR_LONG").ok().map_or(300, |_| 20_000);
+    let count = by_form(300, 20_000);
     let mut words = Random::new(1);
     for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o)) {
         let mut items = Vec::new();

@@ -6,6 +6,7 @@ use refsim::num::{DotOrder, Format, from_parts, ops};
 use std::sync::Arc;
 
 use crate::device::text;
+use crate::environment::by_form;
 use crate::operands::{edges, formats, pattern};
 use crate::random::Random;
 
@@ -78,7 +79,7 @@ pub(crate) fn functions_beside_the_switch(gpu: &Arc<Gpu>) {
     let table: Vec<u32> = all.iter().flat_map(format_words).collect();
     let shader = text(include_str!("functions.wgsl"), "run_functions");
     let mut words = Random::new(3);
-    let rounds = if std::env::var("CROSSBAR_LONG").is_ok() { 40 } else { 1 };
+    let rounds = by_form(1, 40);
     for _ in 0..rounds {
         let calls: Vec<Call> = (0..100_000).map(|_| Call::random(&mut words, &all, &edges_of)).collect();
         let items: Vec<u32> = calls

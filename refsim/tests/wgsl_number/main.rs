@@ -5,6 +5,9 @@ mod adapter;
 #[cfg(feature = "wgpu")]
 mod device;
 #[cfg(feature = "wgpu")]
+#[path = "../common/environment.rs"]
+mod environment;
+#[cfg(feature = "wgpu")]
 mod functions;
 #[cfg(feature = "wgpu")]
 mod operands;

@@ -1,11 +1,12 @@
 //! The adapter's own single precision: the probe's results, and the accuracy required by WGSL.
 
-use refsim::exec::gpu::{Gpu, probe};
+use crate::environment::by_form;
+use refsim::exec::gpu::{FULL_PROBE, Gpu, probe};
 use refsim::exec::wgsl::accuracy::{Allowed, SingleOperation, allowed};
 use std::sync::Arc;
 
 pub(crate) fn the_probe_finds_nothing_outside_the_standard(gpu: &Arc<Gpu>) {
-    let count = if std::env::var("CROSSBAR_LONG").is_ok() { refsim::exec::gpu::FULL_PROBE } else { 1 << 14 };
+    let count = by_form(1 << 14, FULL_PROBE);
     let report = probe(gpu, count).expect("the probe runs");
     assert!(report.conforms(), "results outside what WGSL allows: {:#?}", report.operations);
 }
