@@ -332,10 +332,8 @@ mod tests {
 
     #[test]
     fn the_result_is_that_of_the_full_search() {
-        const SCALES: [(f32, f32); 4] = [(1.0, 0.0), (1.0, 1e4), (1e-38, 3.0), (1e33, 100.0)];
         for (dimension, vectors) in [(3, 0), (3, 3), (40, 5), (300, 0), (300, 7)] {
-            let scales = if dimension < 300 { &SCALES[..] } else { &SCALES[1..3] };
-            for &(scale, offset) in scales {
+            for (scale, offset) in [(1.0, 0.0), (1.0, 1e4), (1e-38, 3.0), (1e33, 100.0)] {
                 let (signal, subspaces) = far_apart(dimension, scale, offset, vectors);
                 let what = format!("{dimension} numbers, scale {scale}, offset {offset}");
                 assert_full_while_they_move(&signal, subspaces, &what);
@@ -414,7 +412,7 @@ mod tests {
     /// Bounds that hold no cluster back would pass every other test.
     #[test]
     fn few_pairs_are_looked_at_and_fewer_later() {
-        for (dimension, vectors) in [(25, 0), (25, 3), (100, 3), (400, 3)] {
+        for (dimension, vectors) in [(25, 0), (25, 3), (100, 3), (400, 0), (400, 3)] {
             let signal = torus_signal(6000, dimension, 3);
             let fitted = |iterations| {
                 let (method, form, start) = (CpcaMethod::Doubling, CpcaForm::Affine, StartPoints::Seed(1));

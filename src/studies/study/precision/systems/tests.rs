@@ -60,7 +60,7 @@ fn each_system_is_run_with_formats_of_its_instructions() {
 }
 
 /// Instructions of a system that are sampled, at most.
-const SAMPLED: usize = 12;
+const SAMPLED: usize = 24;
 
 /// Each instruction is sampled in the same fragments in the exact run and when it is rounded. Single precision rounds
 /// nothing, four bits do, and moves by half a unit at most.

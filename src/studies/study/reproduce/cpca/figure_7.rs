@@ -106,10 +106,11 @@ impl ProjectedPictures {
             let exit = glossy(order, least_squares, incident);
             let computed = ComputedSignal::with_brdf(&SIGNALS[BIRD], brdfs[at], exit, models)?;
             let mut view = ModelView::new(&computed, &light, EYE)?;
-            if exact_radiance.is_none() {
-                *exact_radiance = Some(exit_radiance(&computed, brdfs, (&light, view.eye()))?);
-            }
-            let exact_radiance = exact_radiance.as_ref().map_or(&[][..], |all| &all[at]);
+            let all = match &mut *exact_radiance {
+                Some(all) => all,
+                none => none.insert(exit_radiance(&computed, brdfs, (&light, view.eye()))?),
+            };
+            let exact_radiance = &all[at];
             let exact = view.of_vertices(exact_radiance);
             view.expose(&exact);
             let error = view.difference(None, &exact, |_| true)?;

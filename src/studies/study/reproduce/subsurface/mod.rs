@@ -12,8 +12,7 @@ use gather::CARD;
 use gather::LINKS;
 pub(super) use table_1::findings as table_1;
 
-use super::error::failed;
-use super::error::no_time;
+use super::error::{failed, no_time};
 use super::shared::Shared;
 use super::{
     Contradiction, EntryFindings, Method, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number, paper_row,
