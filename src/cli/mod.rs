@@ -19,6 +19,7 @@ mod diff;
 mod error;
 mod executor;
 mod given;
+mod groups;
 mod interrupt;
 mod intersect;
 mod leaky_teapot;
@@ -29,7 +30,6 @@ mod memory;
 mod merge;
 mod model_file;
 mod model_name;
-mod moved;
 mod number;
 mod one_of;
 mod out;
@@ -109,13 +109,17 @@ struct Cli {
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
+    /// Show no progress
+    #[arg(short, long, global = true, display_order = 902)]
+    quiet: bool,
+
     /// Show every error of a text, not just the first 20
-    #[arg(long, global = true, display_order = 902)]
+    #[arg(long, global = true, display_order = 903)]
     all_errors: bool,
 
     /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or
     /// `ulimit -v` leaves]
-    #[arg(long, global = true, value_name = "BYTES", display_order = 903, value_parser = memory::byte_size)]
+    #[arg(long, global = true, value_name = "BYTES", display_order = 904, value_parser = memory::byte_size)]
     memory_limit: Option<ByteSize>,
 }
 
@@ -162,16 +166,15 @@ enum Command {
 
 /// The program with all its options: a tree of commands, verbs and arguments.
 pub fn program() -> clap::Command {
-    outputs::with_negative_numbers(model_file::with_options(Cli::command()))
+    groups::grouped(outputs::with_common_settings(model_file::with_options(Cli::command())))
 }
 
 /// A parsed command line, the same line with its defaults, and the check that its options go together.
 type Parsed = (Cli, CommandLine, Result<(), Problem>);
 
 fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
-    let mut program = moved::with_old_name(program());
+    let mut program = program();
     let matches = program.try_get_matches_from_mut(arguments)?;
-    moved::refuse(&mut program, &matches)?;
     let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
     let fits = model_file::choose(&matches).and_then(|()| outputs::require_different(&program, &matches));
     Ok((cli, resolved::command_line(&program, &matches), fits))
@@ -179,15 +182,6 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
-    match completions::answer(program) {
-        Ok(false) => {}
-        Ok(true) => return ExitCode::SUCCESS,
-        Err(error) => {
-            // Nothing is to be done if nobody reads this.
-            error.print().ok();
-            return ExitCode::from(BAD_INPUT);
-        }
-    }
     let arguments: Vec<_> = std::env::args_os().collect();
     if arguments.len() < 2 {
         // Nothing is to be done if nobody reads this.
@@ -203,7 +197,7 @@ pub fn main() -> ExitCode {
         }
     };
     memory::limit_to(cli.memory_limit);
-    if cli.json {
+    if cli.json || cli.quiet {
         progress::silence();
     }
     match memory::threads_to_start(cli.threads) {
@@ -255,7 +249,7 @@ fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::
         Command::BiScale(args) => bi_scale::run(&args, command_line, out),
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
-        Command::Completions(args) => completions::run(&args, out),
+        Command::Completions(args) => completions::run(&args, program(), out),
         Command::Cpca(args) => cpca::run(&args, command_line, out),
         Command::Devices(args) => devices::run(&args, out),
         Command::Diff(args) => diff::run(&args, command_line, out),

@@ -49,13 +49,21 @@ fn place(path: &Path) -> Option<PathBuf> {
     Some(parent.canonicalize().map_or_else(|_| absolute.clone(), |parent| parent.join(name)))
 }
 
-/// Every option takes `-1` as its value, which then says itself what is wrong with it.
-pub(super) fn with_negative_numbers(program: Command) -> Command {
+/// Short names of options that many commands have.
+const SHORT: [(&str, char); 3] = [("out", 'o'), ("device", 'd'), ("format", 'f')];
+
+/// Gives common options their short names, and lets every option take `-1` as its value, which then says itself what
+/// is wrong with it.
+pub(super) fn with_common_settings(program: Command) -> Command {
     let commands: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
-    let program = program.mut_args(|arg| match arg.get_action().takes_values() && !arg.is_positional() {
-        // One that takes all that begins with a hyphen takes numbers too.
-        true if !arg.is_allow_hyphen_values_set() => arg.allow_negative_numbers(true),
-        _ => arg,
+    let program = program.mut_args(|arg| {
+        let short = SHORT.into_iter().find(|(long, _)| arg.get_long() == Some(long));
+        let arg = short.map_or(arg.clone(), |(_, short)| arg.short(short));
+        match arg.get_action().takes_values() && !arg.is_positional() {
+            // One that takes all that begins with a hyphen takes numbers too.
+            true if !arg.is_allow_hyphen_values_set() => arg.allow_negative_numbers(true),
+            _ => arg,
+        }
     });
-    commands.into_iter().fold(program, |program, name| program.mut_subcommand(name, with_negative_numbers))
+    commands.into_iter().fold(program, |program, name| program.mut_subcommand(name, with_common_settings))
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::ProgressStyle;
+use indicatif::{ProgressDrawTarget, ProgressStyle};
 
 use crate::report::digits::count;
 use crate::report::visible::visible_line;
@@ -18,10 +18,10 @@ const EVERY: Duration = Duration::from_secs(10);
 /// Work that will take longer than this from now says so.
 const LONG: Duration = Duration::from_secs(45);
 
-/// True if errors are JSON for machines, which plain lines would disturb.
+/// True with `--quiet`, and where errors are JSON for machines, which other lines would disturb.
 static SILENT: AtomicBool = AtomicBool::new(false);
 
-/// Shows no plain lines from here on.
+/// Shows no progress from here on.
 pub(super) fn silence() {
     SILENT.store(true, Ordering::Relaxed);
 }
@@ -45,8 +45,8 @@ impl ProgressBar {
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {human_pos}/{human_len} {eta} left") {
             bar.set_style(style.progress_chars("=> "));
         }
-        bar.enable_steady_tick(Duration::from_millis(200));
-        let plain = !io::stderr().is_terminal() && !SILENT.load(Ordering::Relaxed);
+        let is_silent = begin(&bar);
+        let plain = !io::stderr().is_terminal() && !is_silent;
         let lines = plain.then(|| Mutex::new(PlainLines::new(Instant::now())));
         Self { bar, lines, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
     }
@@ -61,7 +61,7 @@ impl ProgressBar {
     /// A spinner beside `what`.
     pub fn unending(what: &str) -> Self {
         let bar = indicatif::ProgressBar::new_spinner().with_message(what.to_owned());
-        bar.enable_steady_tick(Duration::from_millis(200));
+        begin(&bar);
         Self { bar, lines: None, pace: Mutex::new(Pace::new(Instant::now(), 0)), quicker: "" }
     }
 
@@ -101,6 +101,16 @@ impl ProgressBar {
             Some(_) => drop(writeln!(io::stderr().lock(), "progress: {line}")),
         }
     }
+}
+
+/// Lets a bar move, or hides it where no progress is shown; returns whether it is hidden.
+fn begin(bar: &indicatif::ProgressBar) -> bool {
+    let is_silent = SILENT.load(Ordering::Relaxed);
+    if is_silent {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    is_silent
 }
 
 impl Drop for ProgressBar {

@@ -1,11 +1,9 @@
 //! Laws of the source: rooms use only those that docs/architecture.md allows them; the files of a room have no circular
-//! needs; names, words and lines of documentation keep their bounds.
+//! needs; names and lines of documentation keep their bounds.
 
 mod circles;
-mod mirrors;
 mod names;
 mod source;
-mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

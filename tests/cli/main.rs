@@ -26,7 +26,6 @@ mod interrupted;
 mod materials;
 mod memory;
 mod models;
-mod moved;
 mod options;
 mod page;
 mod parts;

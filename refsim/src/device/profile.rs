@@ -38,6 +38,27 @@ const IDEAL: &str = include_str!("profiles/ideal.toml");
 /// Switches that change limits instead of rules.
 const LIMIT_SWITCHES: [&str; 2] = ["ray-textures", "instruction-slots"];
 
+/// Returns the name and file of a card by its name or by words of its title; all words of a title win over a part.
+fn card_named(name: &str) -> Option<(&'static str, &'static str)> {
+    let plain = |text: &str| text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
+    let wanted = plain(name);
+    let all = || CARDS.into_iter().chain(VARIANTS);
+    if let Some(card) = all().find(|(card, _)| *card == wanted) {
+        return Some(card);
+    }
+    // The words of a title without the chip in parentheses: maker, then the card.
+    let title = |text: &'static str| text.lines().find_map(|line| line.strip_prefix("title = \"")?.split(" (").next());
+    let words = |text| title(text).unwrap_or_default().split(' ').map(plain).collect::<Vec<_>>();
+    let whole = all().find(|(_, text)| (0..2).any(|maker| words(text)[maker..].concat() == wanted));
+    whole.or_else(|| {
+        let has = |words: Vec<String>| {
+            (0..words.len()).any(|start| (start..words.len()).any(|end| words[start..=end].concat() == wanted))
+        };
+        let mut found = all().filter(|(_, text)| has(words(text)));
+        found.next().filter(|_| found.next().is_none())
+    })
+}
+
 /// A profile's file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -107,7 +128,8 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Returns the profile of a card, or of `ideal-<format>` for any number format string.
+    /// Returns the profile of a card, or of `ideal-<format>` for any number format string. A card is named by its chip,
+    /// or by words of its title that no other card has, in any case: `Radeon 8500`, `geforce3`.
     ///
     /// ```
     /// use refsim::device::Profile;
@@ -115,14 +137,15 @@ impl Profile {
     /// let radeon = Profile::named("r200").expect("a card of the project");
     /// assert_eq!(radeon.name, "r200");
     /// assert!(radeon.figures().iter().all(|figure| !figure.source.is_empty()));
+    /// assert_eq!(Profile::named("Radeon 8500"), Ok(radeon));
     /// assert!(Profile::named("ideal-s3.12").is_ok());
     /// ```
     ///
     /// # Errors [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if the part
     /// after `ideal-` is not a number format.
     pub fn named(name: &str) -> Result<Self, DeviceError> {
-        if let Some((_, text)) = CARDS.iter().chain(&VARIANTS).find(|(card, _)| *card == name) {
-            return Self::from_toml(name, text);
+        if let Some((card, text)) = card_named(name) {
+            return Self::from_toml(card, text);
         }
         if let Some(format) = name.strip_prefix("ideal-") {
             let mut profile = Self::from_toml("ideal", IDEAL)?;

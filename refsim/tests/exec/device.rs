@@ -32,6 +32,27 @@ fn every_profile_loads_and_every_value_of_every_switch_can_be_set() {
     }
 }
 
+/// A card is found by the words of its title; words that several cards share name none.
+#[test]
+fn cards_are_found_by_the_names_that_people_know() {
+    for (name, card) in [
+        ("Radeon 8500", "r200"),
+        ("R200", "r200"),
+        ("ati radeon 9800 pro", "r350"),
+        ("geforce3", "nv20"),
+        ("GeForce 4", "nv25"),
+        ("Ti4600", "nv25"),
+        ("GeForce FX 5800", "fx5800"),
+        ("GeForce FX 5800 Ultra", "nv30"),
+        ("gtx-280", "gt200"),
+    ] {
+        assert_eq!(Profile::named(name).expect(name).name, card);
+    }
+    for name in ["", "Radeon", "GeForce FX", "8500 Pro", "Voodoo"] {
+        assert!(matches!(Profile::named(name), Err(DeviceError::UnknownDevice { .. })), "{name}");
+    }
+}
+
 #[test]
 fn every_figure_has_a_source() {
     for name in Profile::card_names().into_iter().chain(Profile::variant_names()) {

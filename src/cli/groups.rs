@@ -1,0 +1,39 @@
+//! The list of commands in `crossbar --help`, by what they are for.
+
+use clap::Command;
+
+use crate::report::layout::wrapped;
+
+/// Each group's heading and its commands.
+const GROUPS: [(&str, &str); 5] = [
+    ("Start here", "leaky-teapot render reproduce scene"),
+    ("Systems", "intersect radiosity subsurface cpca all-frequency bi-scale atlas materials"),
+    ("Cards and shaders", "devices check run compare timeline measure page"),
+    ("Numbers", "alu precision"),
+    ("Tools", "diff merge completions man help"),
+];
+/// Width of the list: clap's, too, has at most so many columns.
+const WIDTH: usize = 100;
+/// Column at which descriptions begin.
+const COLUMN: usize = 17;
+
+/// The program, whose help lists its commands in groups.
+pub(super) fn grouped(program: Command) -> Command {
+    let about = |name: &str| match program.find_subcommand(name) {
+        Some(command) => command.get_about().map(ToString::to_string).unwrap_or_default(),
+        None => "Print this message or the help of the given commands".to_owned(),
+    };
+    let mut list = String::new();
+    for (heading, names) in GROUPS {
+        list.push_str(heading);
+        list.push_str(":\n");
+        for name in names.split(' ') {
+            for (index, line) in wrapped(&about(name), WIDTH - COLUMN, "").iter().enumerate() {
+                let name = if index == 0 { name } else { "" };
+                list.push_str(&format!("  {name:<width$}{line}\n", width = COLUMN - 2));
+            }
+        }
+        list.push('\n');
+    }
+    program.help_template(format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}Options:\n{{options}}{{after-help}}"))
+}
