@@ -49,7 +49,6 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = AtlasStudy;
-    const COMMAND: &'static str = "atlas";
     const QUICKER: &'static str = "a smaller `--side`";
 
     fn folder(&self) -> Option<&Path> {

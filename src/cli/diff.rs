@@ -93,8 +93,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
 impl StudyArgs for Args {
     type Study = PictureDifference;
 
-    const COMMAND: &'static str = "diff";
-
     fn folder(&self) -> Option<&Path> {
         self.out.as_deref()
     }

@@ -105,7 +105,6 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = Parameters;
-    const COMMAND: &'static str = "leaky-teapot";
     const QUICKER: &'static str = "a smaller `--size` or `--tessellation`";
 
     fn folder(&self) -> Option<&Path> {

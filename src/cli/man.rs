@@ -25,7 +25,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, program: clap::Command, out: &mut Out) -> miette::Result<Verdict> {
-    let folder = FileSet::by("man", &args.out).map_err(Problem::from)?;
+    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let written = view::write_folder(folder, &pages(program))?;
     if out.json() {
         out.document(&json!({ "files": written }))?;

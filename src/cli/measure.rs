@@ -39,7 +39,6 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = Measure;
-    const COMMAND: &'static str = "measure";
     const QUICKER: &'static str = "`--switch NAME=VALUE` for what is known";
 
     fn folder(&self) -> Option<&Path> {

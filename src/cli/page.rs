@@ -35,7 +35,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     // Before the work, so that a folder that cannot be written is found out at once.
-    let folder = FileSet::by("page", &args.out).map_err(Problem::from)?;
+    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let emulator = args.emulator.as_deref().map(read_emulator).transpose()?;
     let bar = ProgressBar::new("", 1);
     let text = page(emulator.as_deref(), &mut |what, done, of| bar.show(what.to_owned(), done, of))?;

@@ -90,7 +90,6 @@ fn families() -> OneOf<Families> {
 
 impl StudyArgs for Args {
     type Study = Precision;
-    const COMMAND: &'static str = "precision";
     const QUICKER: &'static str = "`--family`, a smaller `--budget` or smaller targets";
 
     fn folder(&self) -> Option<&Path> {

@@ -82,7 +82,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
 
 impl StudyArgs for Args {
     type Study = Parameters;
-    const COMMAND: &'static str = "reproduce";
     const QUICKER: &'static str = "the names of single entries (`crossbar reproduce --list`)";
 
     fn folder(&self) -> Option<&Path> {

@@ -136,33 +136,6 @@ fn what_is_ignored_stays_ignored() {
     assert_eq!(staging(folder.path()), 0);
 }
 
-/// The next run removes the staging folder of a killed one.
-#[test]
-fn the_next_run_clears_up_after_a_kill() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let mut child = begin(folder.path(), &[LONG, &["--out", "new"]].concat());
-    begun(&mut child, folder.path());
-    // The lock is taken a moment after the folder is made.
-    std::thread::sleep(Duration::from_millis(200));
-    child.kill().expect("a child");
-    child.wait().expect("a child");
-    assert_eq!(staging(folder.path()), 1, "nobody cleans up after SIGKILL");
-    let ran = crate::crossbar_in(folder.path(), &["scene", "white-box", "--out", "new"], "");
-    assert_eq!((ran.code, staging(folder.path())), (Some(0), 0), "{}", ran.stderr);
-    assert_eq!(fs::read_dir(folder.path().join("new")).expect("a folder").count(), 3);
-}
-
-/// A staging folder without a lock is abandoned: a run that creates one holds the lock of the parent folder meanwhile.
-#[test]
-fn the_next_run_clears_up_what_has_no_lock() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::create_dir(folder.path().join(".crossbar-killed")).expect("a folder");
-    fs::create_dir_all(folder.path().join(".crossbar-failed/new/x")).expect("folders");
-    let ran = crate::crossbar_in(folder.path(), &["scene", "white-box", "--out", "new"], "");
-    assert_eq!((ran.code, staging(folder.path())), (Some(0), 0), "{}", ran.stderr);
-    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "nor is a lock left");
-}
-
 /// A program with a low limit of open files cleans up all the same.
 #[test]
 fn without_files_to_open_nothing_is_left() {

@@ -177,7 +177,7 @@ fn leaky_teapot_writes_everything_it_promises() {
         .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    let expected = ".crossbar_files edges.csv exact.exr exact.png index.html r200-map.png \
+    let expected = "edges.csv exact.exr exact.png index.html r200-map.png \
                     r200.exr r200.png r300-map.png r300.exr r300.png rows.csv study.json";
     assert_eq!(names.join(" "), expected, "these files and no others");
     let page = fs::read_to_string(out.join("index.html")).expect("the page");

@@ -14,7 +14,7 @@ use crate::transfer::grid::FINE_DIRECTIONS;
 /// Writes them into a folder, whole or not at all: factors, and each segment's representatives, weights, and vertices
 /// with their clusters; of a vertex what it sees and its decoded transfer.
 pub(super) fn write(file: &AllFrequencyFile, vertex: Option<usize>, folder: &Path) -> Result<Vec<PathBuf>, Problem> {
-    let mut set = FileSet::by("all-frequency show", folder)?;
+    let mut set = FileSet::new(folder)?;
     let mut put = |name: String, columns: usize, values: &mut dyn Iterator<Item = f32>| {
         let table = NumberTable { columns, values: values.collect() };
         set.write(Path::new(&name), |out: &mut dyn io::Write| write_npy(&table, out))

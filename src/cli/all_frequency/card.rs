@@ -115,7 +115,6 @@ impl Args {
 
 impl StudyArgs for Args {
     type Study = AllFrequencyOnCard;
-    const COMMAND: &'static str = "all-frequency card";
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn folder(&self) -> Option<&Path> {

@@ -213,7 +213,6 @@ fn refused(error: &crate::transfer::brdf::BrdfError) -> Problem {
 
 impl StudyArgs for Args {
     type Study = BrdfFactors;
-    const COMMAND: &'static str = "all-frequency factor";
     const QUICKER: &'static str = "fewer `--terms`";
 
     fn folder(&self) -> Option<&Path> {

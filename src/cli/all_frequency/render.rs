@@ -48,7 +48,6 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = AllFrequencyRendering;
-    const COMMAND: &'static str = "all-frequency render";
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn folder(&self) -> Option<&Path> {

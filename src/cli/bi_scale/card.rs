@@ -71,7 +71,6 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = BiScaleOnCard;
-    const COMMAND: &'static str = "bi-scale card";
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn folder(&self) -> Option<&Path> {

@@ -55,7 +55,6 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = BiScaleRendering;
-    const COMMAND: &'static str = "bi-scale render";
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn folder(&self) -> Option<&Path> {

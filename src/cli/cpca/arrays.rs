@@ -12,7 +12,7 @@ use crate::transfer::file::PrtFile;
 /// Writes them into a folder, whole or not at all: the transfer of each point; of clusters their means, vectors, and
 /// the weights and cluster of each point.
 pub(super) fn write(file: &PrtFile, folder: &Path) -> Result<Vec<PathBuf>, Problem> {
-    let mut set = FileSet::by("cpca show", folder)?;
+    let mut set = FileSet::new(folder)?;
     let mut put = |name: &str, columns: usize, values: Vec<f32>| {
         let table = NumberTable { columns, values };
         set.write(Path::new(name), |out: &mut dyn io::Write| write_npy(&table, out))

@@ -86,7 +86,6 @@ impl Args {
 
 impl StudyArgs for Args {
     type Study = OnCard;
-    const COMMAND: &'static str = "cpca card";
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn folder(&self) -> Option<&Path> {

@@ -53,7 +53,6 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = Rendering;
-    const COMMAND: &'static str = "cpca render";
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn folder(&self) -> Option<&Path> {

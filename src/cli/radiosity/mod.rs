@@ -19,7 +19,6 @@ pub(super) use args::Args;
 
 impl StudyArgs for Args {
     type Study = Parameters;
-    const COMMAND: &'static str = "radiosity";
     const QUICKER: &'static str = "fewer `--patches`";
 
     fn folder(&self) -> Option<&Path> {

@@ -2,7 +2,6 @@
 
 mod trace;
 
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use refsim::machine::{Executor, ExecutorKind};
@@ -71,7 +70,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         knows_flags: executor.kind() == ExecutorKind::Scalar,
     });
     // Before the work: a folder that cannot be written is found out early.
-    let files = FileSet::by(format!("run {}", name(&args.case)), &folder).map_err(Problem::from)?;
+    let files = FileSet::new(&folder).map_err(Problem::from)?;
     let outcome = case::run(&setup, &executor)?;
     let written = view::write_folder(files, &outcome.pictures)?;
     out.outlive_reader();
@@ -105,11 +104,6 @@ fn follow(setup: &Setup, executor: &Executor, place: [u32; 2]) -> miette::Result
 
 fn default_folder(case: &Path) -> PathBuf {
     Path::new("out").join(case.file_stem().unwrap_or_else(|| "case".as_ref()))
-}
-
-/// The case's name, by which a later run knows its pictures again.
-fn name(case: &Path) -> Cow<'_, str> {
-    case.file_stem().unwrap_or_default().to_string_lossy()
 }
 
 fn counts(outcome: &CaseOutcome) -> Table {

@@ -24,7 +24,6 @@ const DIFFUSE: f64 = 0.1;
 
 impl StudyArgs for Args {
     type Study = Parameters;
-    const COMMAND: &'static str = "subsurface";
     const QUICKER: &'static str = "a smaller `--atlas`, fewer `--links`, or `--all-pairs no`";
 
     fn folder(&self) -> Option<&Path> {

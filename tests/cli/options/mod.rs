@@ -207,7 +207,7 @@ fn leaves(key: String, value: &Value, put: &mut impl FnMut(String, &str)) {
     }
 }
 
-/// Files by name and digest; pages and lists of files, which name the options, by name only.
+/// Files by name and digest; pages, which name the options, by name only.
 fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let name = format!("{under}/{}", entry.file_name().to_string_lossy());
@@ -215,7 +215,7 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
             files(&entry.path(), &name, put);
             continue;
         }
-        let is_page = ["index.html", "study.json", ".crossbar_files"].iter().any(|page| name.ends_with(page));
+        let is_page = ["index.html", "study.json"].iter().any(|page| name.ends_with(page));
         let bytes = if is_page { Vec::new() } else { fs::read(entry.path()).expect("a file") };
         let bytes = without_provenance(bytes);
         // A CRC would be equal for all files that end with their own CRC. Of pictures, which name the options too, only

@@ -1,7 +1,5 @@
 //! Files that appear whole or not at all: written beside their place, then renamed into it.
 
-mod lock;
-mod manifest;
 mod staging;
 
 use std::fs::{self, File};
@@ -10,8 +8,6 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
-use self::lock::FolderLock;
-use self::manifest::Manifest;
 use self::staging::Staging;
 pub use self::staging::abandon;
 
@@ -96,10 +92,8 @@ fn fill_file(
 ///
 /// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed
 /// one after another, because the folder itself stays: programs may be at work in it, and it may hold other files. A
-/// lock on the folder (`.crossbar_lock`, while files are put there) keeps the sets of two processes apart. A
-/// process that is killed in the midst of these renames leaves old files beside new ones, and `.crossbar-XXXXXX` with
-/// the rest; the next set for the folder first finishes them. Files of other names are never touched, but for those of
-/// an earlier set of the same writer ([`FileSet::by`]).
+/// lock on the folder keeps the renames of two processes apart. A process that is killed in the midst of them leaves
+/// old files beside new ones, and `.crossbar-XXXXXX` with the rest.
 #[derive(Debug)]
 pub struct FileSet {
     /// The folder as it was named.
@@ -110,8 +104,6 @@ pub struct FileSet {
     rest: PathBuf,
     staging: Staging,
     names: Vec<PathBuf>,
-    /// In whose name, if files that are written no more are to go.
-    writer: Option<String>,
 }
 
 impl FileSet {
@@ -128,23 +120,13 @@ impl FileSet {
             return Err(fail(io::Error::new(io::ErrorKind::NotFound, "a link leads nowhere")));
         }
         let staging = Staging::within(&base).map_err(fail)?;
-        let set = Self { folder: folder.into(), base, rest, staging, names: Vec::new(), writer: None };
+        let set = Self { folder: folder.into(), base, rest, staging, names: Vec::new() };
         fs::create_dir_all(set.staged(Path::new(""))).map_err(fail)?;
         Ok(set)
     }
 
-    /// A set for `folder` that replaces the one that `writer` (for example a command) wrote there before: files of the
-    /// old set that are not in the new one are removed, unless the user has changed them. A list in the folder,
-    /// `.crossbar_files`, holds the writer of each file.
-    ///
-    /// # Errors
-    /// [`WriteError::Folder`].
-    pub fn by(writer: impl Into<String>, folder: &Path) -> Result<Self, WriteError> {
-        Ok(Self { writer: Some(writer.into()), ..Self::new(folder)? })
-    }
-
     fn staged(&self, name: &Path) -> PathBuf {
-        self.staging.new_files().join(&self.rest).join(name)
+        self.staging.path().join(&self.rest).join(name)
     }
 
     /// The path at which the file `name` (relative, without `..`) must be written now, for writers that need a path.
@@ -183,87 +165,44 @@ impl FileSet {
     ///
     /// # Errors
     /// [`WriteError`]; unless a rename itself fails, nothing has been moved then.
-    pub fn commit(mut self) -> Result<Vec<PathBuf>, WriteError> {
-        let places = self.names.iter().map(|name| self.folder.join(name)).collect();
-        self.commit_at_most(usize::MAX)?;
-        Ok(places)
-    }
-
-    /// Stages the list of writers, if there is to be one, and adds its name to `names`; returns the files to be
-    /// removed.
-    fn stage_manifest(&self, names: &mut Vec<PathBuf>) -> Result<Manifest, WriteError> {
-        let Some(writer) = &self.writer else { return Ok(Manifest::default()) };
-        let fail = |name: &Path, source| WriteError::File { path: self.folder.join(name), source };
-        let mut written = Manifest::default();
-        for name in &self.names {
-            written.add(writer, name, &self.staged(name)).map_err(|source| fail(name, source))?;
-        }
-        let name = Path::new(manifest::FILE_NAME);
-        let (list, stale) = Manifest::read(&self.folder.join(name)).replaced(writer, written);
-        fs::write(self.staged(name), list.to_string()).map_err(|source| fail(name, source))?;
-        names.push(name.into());
-        Ok(stale)
-    }
-
-    /// Commits, but stops in the midst of the renames, after `most` of them.
-    fn commit_at_most(&mut self, most: usize) -> Result<(), WriteError> {
-        for name in &self.names {
-            let fail = |source| WriteError::File { path: self.folder.join(name), source };
+    pub fn commit(self) -> Result<Vec<PathBuf>, WriteError> {
+        let places: Vec<PathBuf> = self.names.iter().map(|name| self.folder.join(name)).collect();
+        for (name, place) in self.names.iter().zip(&places) {
+            let fail = |source| WriteError::File { path: place.clone(), source };
             fs::metadata(self.staged(name)).map_err(fail)?;
-            if self.folder.join(name).is_dir() {
+            if place.is_dir() {
                 return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
             }
         }
         if let Some(first) = self.rest.iter().next() {
-            self.stage_manifest(&mut Vec::new())?;
             let place = self.base.join(first);
             match self.staging.rename_folder(first.as_ref(), &place) {
-                Ok(()) => return Ok(()),
+                Ok(()) => return Ok(places),
                 // Another process has created the folder meanwhile: move file by file then.
                 Err(_) if place.is_dir() => {}
                 Err(source) => return Err(WriteError::Folder { path: self.folder.clone(), source }),
             }
         }
-        let made = missing_folders(&self.folder);
-        let committed = self.commit_into_existing(most);
-        if committed.is_err() {
-            // Fails, as it should, if the folder is no longer empty.
-            made.iter().for_each(|folder| drop(fs::remove_dir(folder)));
+        let mut made = Vec::new();
+        let moved = self.move_into_existing(&mut made);
+        if moved.is_err() {
+            // Fails, as it should, where something has come in.
+            made.iter().rev().for_each(|folder| drop(fs::remove_dir(folder)));
         }
-        committed
+        moved.map(|()| places)
     }
 
-    /// Puts the files into the folder one by one, under its lock.
-    fn commit_into_existing(&mut self, most: usize) -> Result<(), WriteError> {
-        let fail = |source| WriteError::Folder { path: self.folder.clone(), source };
-        if self.rest != Path::new("") {
-            fs::create_dir_all(&self.folder).map_err(fail)?;
-            let moved = self.staging.moved(&self.rest, &self.folder).map_err(fail)?;
-            (self.staging, self.base, self.rest) = (moved, self.folder.clone(), PathBuf::new());
+    /// Puts the files into the folder one by one; adds the folders that it makes to `made`.
+    fn move_into_existing(&self, made: &mut Vec<PathBuf>) -> Result<(), WriteError> {
+        // Paths that begin at the base: the folder's own name may go through what is not there yet.
+        let folder = self.base.join(&self.rest);
+        let parents = self.names.iter().filter_map(|name| Some(folder.join(name).parent()?.to_path_buf()));
+        for parent in std::iter::once(folder.clone()).chain(parents) {
+            made.extend(missing_folders(&parent).into_iter().rev());
+            fs::create_dir_all(&parent).map_err(|source| WriteError::Folder { path: parent, source })?;
         }
-        let fail = |source| WriteError::Folder { path: self.folder.clone(), source };
-        let held = FolderLock::of(&self.base).map_err(fail)?;
-        // A set that was left half-way since is older than this one.
-        staging::sweep(&self.base, &held);
-        let mut names = self.names.clone();
-        let stale = self.stage_manifest(&mut names)?;
-        let mut made = Vec::new();
-        let rename = || {
-            for folder in names.iter().filter_map(|name| Some(self.base.join(name).parent()?.to_path_buf())) {
-                made.extend(missing_folders(&folder).into_iter().rev());
-                fs::create_dir_all(&folder).map_err(|source| WriteError::Folder { path: folder, source })?;
-            }
-            let renamed = self.staging.rename_files(&self.base, &names, &stale, most, &held);
-            renamed.map_err(|(path, source)| WriteError::File { path, source })
-        };
-        let renamed = { rename }();
-        if renamed.is_err() {
-            for folder in made.iter().rev() {
-                // It fails, as it should, where something has come in.
-                let _ = fs::remove_dir(folder);
-            }
-        }
-        renamed
+        let renamed = self.staging.rename_files(&self.rest, &folder, &self.names);
+        renamed.map_err(|(path, source)| WriteError::File { path, source })
     }
 }
 
