@@ -1,13 +1,8 @@
 //! Invalid input of a radiosity solution is refused with helpful messages.
 
 use crossbar::geom::Mesh;
-use crossbar::linalg::{MatrixError, Singular};
-use crossbar::radiosity::form_factor::FormFactorError;
 use crossbar::radiosity::rooms::{self, CornellBox};
-use crossbar::radiosity::solve::{SolveError, Solver};
-use crossbar::radiosity::{
-    DrawError, FormFactors, MAX_PATCHES, PatchError, Patches, Subdivision, System, SystemError, packing,
-};
+use crossbar::radiosity::{FormFactors, MAX_PATCHES, PatchError, Patches, Subdivision, System, packing};
 use crossbar::scene::{Material, Scene, Surface};
 
 fn scene(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>, material: Material) -> Scene {
@@ -71,46 +66,4 @@ fn a_matrix_beyond_the_cards_textures_names_the_limit() {
     let refused = packing::rgb_vector(&[[0.0; 3]; 2049], 2048).expect_err("2049 > 2048").to_string();
     let words = "expected a vector that fits a texture of 2048 x 2048 texels, the card's largest, found 2049 x 1; use fewer patches";
     assert_eq!(refused, words);
-}
-
-#[test]
-fn every_refusal_in_its_words() {
-    let factor: [FormFactorError; 9] = [
-        MatrixError::TooLarge { rows: 20_000, columns: 20_000 }.into(),
-        MatrixError::Count { rows: 3, columns: 3, values: 8 }.into(),
-        FormFactorError::Areas { rows: 6, areas: 5 },
-        FormFactorError::Value { expected: "an area above 0", value: -1.0, patch: 2 },
-        FormFactorError::Open { patch: 7, sum: 0.75, open: 3, blind: 2, patches: 60, tolerance: 1e-3 },
-        FormFactorError::NoScaling { rounds: 500, patch: 7, sum: 0.5 },
-        FormFactorError::Resolution { found: 7, most: 2048, device: "nv35".to_owned(), limit: 4096 },
-        FormFactorError::NoSamples,
-        DrawError::Count { patches: 6, found: 5 }.into(),
-    ];
-    let solve: [SolveError; 5] = [
-        SolveError::Count { what: "emittances", rows: 6, found: 5 },
-        SolveError::Relaxation(2.5),
-        SolveError::Diagonal { row: 3 },
-        SolveError::Diverged { iterations: 40 },
-        Singular { column: 4 }.into(),
-    ];
-    let patches = [
-        PatchError::Empty,
-        PatchError::ZeroArea { triangle: 1 },
-        PatchError::TooMany { found: 40_000 },
-        PatchError::NoParts,
-        PatchError::NotDiffuse { name: "white".to_owned(), found: "a mirror" },
-    ];
-    let system = [
-        SystemError::Empty,
-        SystemError::Count { what: "reflectances", patches: 6, found: 5 },
-        SystemError::Reflectance { patch: 0, value: 1.0 },
-        SystemError::Emittance { patch: 0, value: -1.0 },
-    ];
-    let mut words: Vec<String> = patches.iter().map(ToString::to_string).collect();
-    words.extend(factor.iter().map(ToString::to_string));
-    words.extend(system.iter().map(ToString::to_string));
-    words.extend(solve.iter().map(ToString::to_string));
-    words.push("gauss".parse::<Solver>().expect_err("no solver").to_string());
-    words.push(packing::rgb_vector(&[[0.0; 3]; 2049], 2048).expect_err("too long").to_string());
-    insta::assert_snapshot!("every_refusal", words.join("\n"));
 }
