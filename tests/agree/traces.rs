@@ -1,5 +1,5 @@
-//! Traces: for random programs and draws, every executor's trace of every pixel equals the scalar executor's step by
-//! step, and the last fragment of a trace agrees with the drawn target.
+//! Traces: for random programs and draws, a GPU's trace of every pixel equals the scalar executor's step by step, and the
+//! last fragment of a trace is what every executor draws.
 
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
@@ -8,7 +8,7 @@ use crate::suite;
 use refsim::machine::FragmentTrace;
 use refsim::num::Flags;
 
-/// Removes flags, which only the scalar executor computes.
+/// Removes flags, which a GPU does not compute.
 fn without_flags(mut traces: Vec<Vec<FragmentTrace>>) -> Vec<Vec<FragmentTrace>> {
     for step in traces.iter_mut().flatten().flat_map(|trace| &mut trace.shading.steps) {
         step.flags = Flags::empty();
@@ -49,12 +49,12 @@ fn same(seed: u64, case: &Case, other: &Executor) -> (usize, usize) {
             fragments += 1;
         }
     }
-    follows_the_draw(case, &programs, &a, seed);
+    follows_the_draw(case, other, &programs, &a, seed);
     (steps, fragments)
 }
 
 #[test]
-fn the_batch_trace_is_the_scalar_trace() {
+fn the_trace_is_what_the_batch_executor_draws() {
     let (mut steps, mut fragments) = (0, 0);
     let batch = EXECUTORS.iter().find(|e| e.name.starts_with("batch")).unwrap_or_else(|| panic!("a batch executor"));
     let seeds = seeds(150, 30);
@@ -84,8 +84,8 @@ fn the_gpu_trace_is_the_scalar_trace() {
 }
 
 /// Checks that the last fragment of every pixel leaves the same as the draw, and that the numbers of fragments agree.
-fn follows_the_draw(case: &Case, programs: &Programs, traces: &[Vec<FragmentTrace>], seed: u64) {
-    let drawn = case.scene.draw(&REFERENCE, programs).unwrap_or_else(|e| panic!("{e}"));
+fn follows_the_draw(case: &Case, executor: &Executor, programs: &Programs, traces: &[Vec<FragmentTrace>], seed: u64) {
+    let drawn = case.scene.draw(executor, programs).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(traces.iter().flatten().count() as u64, drawn.fragments(), "seed {seed}");
     for (pixel, last) in traces.iter().enumerate().filter_map(|(pixel, t)| Some((pixel, t.last()?))) {
         for ((format, _, bytes), color) in drawn.targets.iter().zip(last.after.colors) {

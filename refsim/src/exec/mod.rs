@@ -38,7 +38,7 @@ pub use observer::{NoObserver, Observer, Step, TextureRead, Trace};
 pub use result::{DepthValue, FragmentResult};
 pub use state::{FixedFunctionState, FogState, LightState, MaterialState, MatrixRows};
 pub use tile::{TILE, TileDraw, output_rules};
-pub use trace::{PixelTracer, Shading};
+pub use trace::Shading;
 pub use usage::{colors_written, inputs_read};
 
 use crate::check::Checked;

@@ -1,13 +1,14 @@
-//! Per-pixel execution traces: the [`PixelTracer`] interface between the machine and the executors.
+//! Per-pixel execution traces.
 //!
 //! Traces are made independently of draws, so that drawing pays nothing: the machine finds the triangles that cover the
-//! pixel and passes each to a [`PixelTracer`] with the pixel's targets.
+//! pixel, and the scalar executor or a GPU shades each into the pixel's targets. The batch executor has no tracer: its
+//! values are those of the scalar one.
 
-use super::{FragmentResult, Overrun, Step};
+use super::{FragmentResult, Step};
 use crate::isa::{Instruction, Mask, OpcodeClass, Program, Register, RegisterFile};
 use crate::num::{Format, ops};
-use crate::output::{FragmentFate, TargetTile};
-use crate::raster::{FragmentInput, TriangleSetup};
+use crate::output::FragmentFate;
+use crate::raster::FragmentInput;
 
 /// Execution of a fragment.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,21 +18,12 @@ pub struct Shading {
     /// Input registers with interpolated values as read by instructions, in the register format.
     pub delivered: Vec<(Register, [u32; 4])>,
     /// The executed instructions that write registers, read texels, kill or write depth, in order. Components outside a
-    /// step's mask are zero; `oDepth` has one component, the lowest of its mask. Only the scalar executor knows flags.
+    /// step's mask are zero; `oDepth` has one component, the lowest of its mask. A GPU knows no flags.
     pub steps: Vec<Step>,
     /// Output of the program.
     pub output: FragmentResult,
     /// Outcome of the fragment.
     pub fate: FragmentFate,
-}
-
-/// Executes single fragments and records every step.
-pub trait PixelTracer: Send + Sync {
-    /// Draws the fragment of a triangle into the single pixel of `tile`, which the triangle must cover.
-    ///
-    /// # Errors
-    /// If the fragment exceeds the step budget; its triangle is reported as 0.
-    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun>;
 }
 
 /// Returns `true` if an instruction produces a step.

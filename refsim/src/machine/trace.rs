@@ -11,7 +11,7 @@ use super::walk::load;
 use super::{DrawCall, ExecutorKind, Machine, MachineError, PixelState, validate};
 use crate::exec::batch::BatchExecutor;
 use crate::exec::scalar::ScalarTiles;
-use crate::exec::{Overrun, PixelTracer, Shading, TileDraw, program};
+use crate::exec::{Overrun, Shading, program};
 use crate::isa::Stage;
 use crate::output::TargetTile;
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
@@ -67,18 +67,14 @@ impl Machine {
                 overrun |= self.trace_on_gpu(call, &plan, some)?;
             }
             if overrun {
-                // The batch executor determines which fragment it was.
+                // The scalar executor determines which fragment it was.
                 traced = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
-                let tracer = tracer((ExecutorKind::Batch, &self.batch), &tile_draw(&self.profile, &self.memory, call));
-                self.trace_on_host(call, &plan, tracer.as_ref(), &mut traced)?;
+                self.trace_on_host(call, &plan, &mut traced)?;
                 return Err(self.disagreement());
             }
             return Ok(traced.into_iter().map(|pixel| pixel.fragments).collect());
         }
-        let mut work = || {
-            let tracer = tracer((self.executor, &self.batch), &tile_draw(&self.profile, &self.memory, call));
-            self.trace_on_host(call, &plan, tracer.as_ref(), &mut traced)
-        };
+        let mut work = || self.trace_on_host(call, &plan, &mut traced);
         match &self.pool {
             Some(pool) => pool.install(work),
             None => work(),
@@ -128,15 +124,10 @@ impl Machine {
     }
 
     /// Traces all pixels through all triangles of a call, in the same rounds as a draw.
-    fn trace_on_host(
-        &self,
-        call: &DrawCall<'_>,
-        plan: &Plan,
-        tracer: &dyn PixelTracer,
-        traced: &mut [TracedPixel],
-    ) -> Result<(), MachineError> {
+    fn trace_on_host(&self, call: &DrawCall<'_>, plan: &Plan, traced: &mut [TracedPixel]) -> Result<(), MachineError> {
+        let tracer = ScalarTiles::new(&tile_draw(&self.profile, &self.memory, call));
         self.rounds(call, plan, |setups| {
-            let passed: Vec<_> = traced.par_iter_mut().map(|pixel| pixel.pass(setups, tracer)).collect();
+            let passed: Vec<_> = traced.par_iter_mut().map(|pixel| pixel.pass(setups, &tracer)).collect();
             let budget = self.profile.limits.step_budget(Stage::Pixel);
             match passed.into_iter().filter_map(Result::err).min() {
                 Some(overrun) => Err(MachineError::overrun(overrun, program(call.pixel_program), budget)),
@@ -227,7 +218,7 @@ pub(super) struct TracedPixel {
 }
 
 impl TracedPixel {
-    fn pass(&mut self, setups: &[PlacedSetup], tracer: &dyn PixelTracer) -> Result<(), Overrun> {
+    fn pass(&mut self, setups: &[PlacedSetup], tracer: &ScalarTiles<'_>) -> Result<(), Overrun> {
         let pixel = self.tile.region;
         for (number, (instance, triangle, part, setup)) in (0..).zip(setups) {
             let inside = setup.bounds.intersect(pixel);
@@ -242,19 +233,5 @@ impl TracedPixel {
             self.fragments.push(FragmentTrace { instance, triangle, part, before, shading, after });
         }
         Ok(())
-    }
-}
-
-/// Creates the pixel tracer of an executor.
-fn tracer<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
-    match kind {
-        ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
-        ExecutorKind::Batch => match batch.tracer(draw) {
-            Some(tracer) => Box::new(tracer),
-            None => Box::new(ScalarTiles::new(draw)),
-        },
-        // GPU machines trace pixels elsewhere.
-        #[cfg(feature = "wgpu")]
-        ExecutorKind::Wgpu => Box::new(ScalarTiles::new(draw)),
     }
 }

@@ -67,7 +67,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let traced = traced.as_ref().map(|trace| Traced {
         setup: &setup,
         trace,
-        knows_flags: executor.kind() == ExecutorKind::Scalar,
+        knows_flags: matches!(executor.kind(), ExecutorKind::Scalar | ExecutorKind::Batch),
     });
     // Before the work: a folder that cannot be written is found out early.
     let files = FileSet::new(&folder).map_err(Problem::from)?;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::lanes::SimdLevel;
 use super::run::TextureTables;
-use super::tile::{BatchTiles, BatchTracer, PixelPrograms};
+use super::tile::{BatchTiles, PixelPrograms};
 use super::vertex::{BatchVertices, VertexPrograms};
 use crate::device::Rules;
 use crate::exec::{Constants, TileDraw};
@@ -41,11 +41,6 @@ impl BatchExecutor {
     /// or every fragment exceeds the step budget.
     pub fn tiles<'a>(&self, draw: &TileDraw<'a>) -> Option<BatchTiles<'a>> {
         BatchTiles::new(draw, (&self.decoded.pixel, &self.decoded.textures), self.simd())
-    }
-
-    /// Prepares pixel traces of a draw; `None` as for [`Self::tiles`].
-    pub fn tracer<'a>(&self, draw: &TileDraw<'a>) -> Option<BatchTracer<'a>> {
-        Some(BatchTracer::new(draw, self.tiles(draw)?, &self.decoded.textures))
     }
 
     /// Prepares a vertex program that computes the position and the `needed` components. `None` if the scalar executor

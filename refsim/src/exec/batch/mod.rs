@@ -20,5 +20,5 @@ mod vertex;
 pub use executor::BatchExecutor;
 pub use lanes::{SimdLevel, convert, evaluate, exact_dot};
 pub use run::ArrayOperation;
-pub use tile::{BatchTiles, BatchTracer, TileRound};
+pub use tile::{BatchTiles, TileRound};
 pub use vertex::{AttributeRows, BatchVertices, Instances, Surfaces, VertexRows};

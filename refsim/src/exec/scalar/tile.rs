@@ -4,7 +4,7 @@ use super::pixel::PixelProgram;
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::trace::{as_written, canonical};
 use crate::exec::{
-    CheckedProgram, DepthValue, FragmentResult, NoObserver, Observer, Overrun, PixelTracer, Shading, TileDraw, Trace,
+    CheckedProgram, DepthValue, FragmentResult, NoObserver, Observer, Overrun, Shading, TileDraw, Trace,
     colors_written, output_rules, program,
 };
 use crate::num::Format;
@@ -139,8 +139,13 @@ fn overrun(quad: &PixelQuad, cut_at: &[Option<usize>; 4]) -> Option<Overrun> {
     (0..4).filter_map(of).min()
 }
 
-impl PixelTracer for ScalarTiles<'_> {
-    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun> {
+impl ScalarTiles<'_> {
+    /// Draws the fragment of a triangle into the single pixel of `tile`, which the triangle must cover, and records
+    /// every step.
+    ///
+    /// # Errors
+    /// If the fragment exceeds the step budget; its triangle is reported as 0.
+    pub fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun> {
         let (x, y) = (tile.region.x, tile.region.y);
         let lane = ((x & 1) | (y & 1) << 1) as usize;
         let quad = PixelQuad { x: x & !1, y: y & !1, mask: 1 << lane };

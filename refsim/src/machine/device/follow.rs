@@ -1,7 +1,7 @@
 //! Pixel tracing on the GPU: each round advances every pixel to the next triangle that covers it.
 //!
 //! The kernel works on copies of the pixels' targets, so a trace changes nothing. All pixels of a round share a
-//! dispatch, so this does not implement [`crate::exec::PixelTracer`].
+//! dispatch.
 
 use super::shader::FOLLOW;
 use super::{Card, draw};

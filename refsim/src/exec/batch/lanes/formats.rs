@@ -20,11 +20,6 @@ impl LaneFormats {
         Self { table, lanes, simd }
     }
 
-    /// The formats without arithmetic.
-    pub(crate) fn table(&self) -> &Formats {
-        &self.table
-    }
-
     pub(crate) fn format(&self, arith: Arith) -> Format {
         self.table.format(arith)
     }

@@ -27,19 +27,6 @@ impl OpenBlock {
     }
 }
 
-/// Called around every executed instruction except flow control. The default does nothing.
-pub(crate) trait FlowObserver {
-    /// Called before an instruction runs.
-    fn before(&mut self, _at: usize, _slots: &Slots) {}
-    /// Called after it has run.
-    fn after(&mut self, _at: usize, _slots: &Slots) {}
-}
-
-/// Observer that does nothing.
-struct NoFlowObserver;
-
-impl FlowObserver for NoFlowObserver {}
-
 /// An execution of a program over a batch.
 pub(crate) struct FlowRun<'p> {
     plan: &'p FlowPlan,
@@ -80,16 +67,6 @@ impl<'p> FlowRun<'p> {
 
     /// Executes the program to its end.
     pub(crate) fn run(&mut self, slots: &mut Slots, fetches: &mut [u64; SAMPLERS]) {
-        self.run_watched(slots, fetches, &mut NoFlowObserver);
-    }
-
-    /// [`Self::run`] with an observer.
-    pub(crate) fn run_watched(
-        &mut self,
-        slots: &mut Slots,
-        fetches: &mut [u64; SAMPLERS],
-        watch: &mut impl FlowObserver,
-    ) {
         *slots.row_mut(ACTIVE) = *self.run;
         for slot in [KILLED, DECIDED, COUNTER].into_iter().chain(self.plan.registers.values().copied()) {
             slots.fill(slot, 0);
@@ -120,13 +97,11 @@ impl<'p> FlowRun<'p> {
                 continue;
             }
             if running {
-                watch.before(at, slots);
                 run_steps(&instruction.block.steps, self.around, self.run, slots);
                 // Swapping rows avoids copying them.
                 for (&root, &to) in instruction.block.roots.iter().zip(&instruction.to) {
                     slots.rows.swap(root.into(), to.into());
                 }
-                watch.after(at, slots);
             }
             at += 1;
         }

@@ -29,6 +29,6 @@ mod table;
 
 pub use array::ArrayOperation;
 pub(crate) use fetch::{BatchTexture, TextureTables};
-pub(crate) use flow::{FlowObserver, FlowRun, fill_plan, first_lanes};
+pub(crate) use flow::{FlowRun, fill_plan, first_lanes};
 pub(crate) use slots::Slots;
 pub(crate) use steps::{Surroundings, fill_constants, raw_constants, run_steps};

@@ -3,7 +3,7 @@
 //! - `raster`: coverage and interpolation; `shader`: grouping of triangles; `packed`, `packed_rows`: packing of small
 //!   triangles; `round`: per-triangle constants; `shading`: a thread's work on a tile; `tiles`: the tiles of a draw;
 //!   `pieces`: division of a tile among threads; `decoded`: cache of programs.
-//! - `output`, `early`, `store`, `blend`, `targets`: tests, texels, targets. `trace`: pixel traces.
+//! - `output`, `early`, `store`, `blend`, `targets`: tests, texels, targets.
 
 mod blend;
 mod decoded;
@@ -19,9 +19,7 @@ mod shading;
 mod store;
 mod targets;
 mod tiles;
-mod trace;
 
 pub(crate) use decoded::PixelPrograms;
 pub use round::TileRound;
 pub use tiles::BatchTiles;
-pub use trace::BatchTracer;

@@ -200,15 +200,6 @@ impl TileWeights {
         }
     }
 
-    /// A component in every lane, single precision.
-    pub(crate) fn component(&self, setup: &TriangleSetup, component: usize, single: &AnyLane, out: &mut LaneRow) {
-        match setup.planes.get(component) {
-            None => out.fill(0),
-            Some(plane) if setup.constant.has(component) => out.fill(single.decode(plane.base)),
-            Some(plane) => self.plane(plane, setup.iterator_format, single, out),
-        }
-    }
-
     /// A component of the window position in every lane, single precision.
     pub(crate) fn position(&self, setup: &TriangleSetup, axis: usize, frame: TileFrame, out: &mut LaneRow) {
         let half = setup.half_pixels() as f32 * 0.5;

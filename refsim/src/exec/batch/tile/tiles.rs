@@ -147,12 +147,6 @@ impl<'a> BatchTiles<'a> {
         Ok(counts)
     }
 
-    /// Draws one triangle into a tile.
-    pub(crate) fn draw_one(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<FragmentCounts, Overrun> {
-        let surfaces = Surfaces::from_setups(std::slice::from_ref(triangle), self.inputs);
-        self.draw(&self.round(&surfaces), &[0], tile, 1)
-    }
-
     /// Shades pieces from the back until all are taken.
     fn shade_behind(
         &self,
