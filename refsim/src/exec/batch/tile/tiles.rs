@@ -17,7 +17,7 @@ use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{Arith, Formats, has_flow};
 use crate::exec::{Overrun, ResolvedConstants, TileDraw, colors_written, inputs_read, output_rules, sample_rules};
 use crate::output::{DepthFormat, TargetTile};
-use crate::raster::{ComponentMask, TriangleSetup};
+use crate::raster::ComponentMask;
 use crate::texture::Region;
 
 /// Batch tile executor of one draw.
