@@ -54,12 +54,12 @@ impl Family {
                 "n3.8:rna",
                 "n2.6:rtz",
                 "s1.10:rup",
-                "s0.8:rod",
+                "s0.8:rup",
                 "n3.8:rup",
-                "n2.6:rod:wrap",
+                "n2.6:rup:wrap",
             ],
             Self::LongFixed => {
-                &["s7.16", "s15.16:rtz", "s0.31", "s8.20:rdn", "s15.0:rna", "s7.24:wrap", "s7.16:rup", "s15.16:rod"]
+                &["s7.16", "s15.16:rtz", "s0.31", "s8.20:rdn", "s15.0:rna", "s7.24:wrap", "s7.16:rup", "s15.16:rup"]
             }
             Self::Fp16 => &["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "fp16:sat", "fp16:rna", "fp16:rdn:ftz"],
             Self::Fp24 => &["fp24", "fp24:ftz", "fp24:rtz", "fp24:rdn:sat", "fp24:rna", "fp24:nvovf:nv"],

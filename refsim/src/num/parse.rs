@@ -106,7 +106,8 @@ pub enum FormatError {
     #[diagnostic(
         code(num::format_registers),
         help(
-            "devices take every layout but `e8m0` and every rounding but `:rst`; `crossbar alu` computes with these too"
+            "devices take every layout but `e8m0`, every rounding but `:rst`, and `:rod` for floats; `crossbar alu` \
+             computes with all of them"
         )
     )]
     Registers {
@@ -119,13 +120,14 @@ pub enum FormatError {
 
 impl Format {
     /// The format itself, if registers and instructions of a device can have it: all but [`Format::E8M0`], and all
-    /// roundings but [`Rounding::Stochastic`].
+    /// roundings but [`Rounding::Stochastic`] and, in fixed point and normalized integers, [`Rounding::Odd`].
     ///
     /// # Errors
     /// [`FormatError::Registers`].
     pub fn for_registers(self) -> Result<Format, FormatError> {
         let reason = match self.rounding {
             Rounding::Stochastic(_) => "executors that work on many pixels at once number no operations",
+            Rounding::Odd if !matches!(self.kind, FormatKind::Float { .. }) => "rounding to odd is for intermediate results, which are floats",
             _ if !self.is_signed() => "scales have neither zero nor negative numbers",
             _ => return Ok(self),
         };

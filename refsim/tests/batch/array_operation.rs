@@ -14,6 +14,9 @@ fn variants(text: &str) -> Vec<Format> {
     let base: Format = text.parse().expect("a layout");
     let mut all = Vec::new();
     for rounding in [NearestEven, NearestAway, TowardZero, Down, Up, Odd] {
+        if base.with_rounding(rounding).for_registers().is_err() {
+            continue;
+        }
         let overflows: &[Overflow] = match base.kind {
             FormatKind::Float { .. } => &[Overflow::Infinity, Overflow::Saturate, Overflow::Nv30],
             _ => &[Overflow::Saturate, Overflow::Wrap],

@@ -62,7 +62,7 @@ const ROUNDINGS: [Rounding; 6] =
 fn variants(base: Format) -> Vec<Format> {
     let mut out = Vec::new();
     for rounding in ROUNDINGS {
-        let f = base.with_rounding(rounding);
+        let Ok(f) = base.with_rounding(rounding).for_registers() else { continue };
         if f.is_fixed() {
             out.push(f.with_overflow(Overflow::Saturate));
             out.push(f.with_overflow(Overflow::Wrap));
@@ -335,7 +335,7 @@ fn conversions_agree() {
     let texts = "s3.12 s3.12:rna s3.12:rtz:wrap s3.12:rdn s3.12:rne:wrap s3.12:rna:wrap s3.12:rdn:wrap \
                  n3.8 n3.8:rna n3.8:rtz n3.8:rdn:wrap n0.8:rdn n7.8:rna:wrap n0.5:rtz s1.10 s0.8:wrap s0.31 s31.0:wrap s15.16:rtz fp16 fp16:rtz fp16:ftz fp16:nvovf fp24 \
                  fp24:rdn fp24:sat fp32 fp32:ftz fp32:ftz:nvovf:nv fp32:rdn bf16 e3m4 e8m10:rna \
-                 s3.12:rup s0.8:rod n3.8:rup:wrap n3.8:rod fp16:rup fp16:rod fp32:rod e4m3fn e4m3fn:sat e5m2fnuz e2m1fn";
+                 s3.12:rup s0.8:rup n3.8:rup:wrap fp16:rup fp16:rod fp32:rod e4m3fn e4m3fn:sat e5m2fnuz e2m1fn";
     let layouts: Vec<Format> = texts.split(' ').map(layout).collect();
     let n = by_form(1000, 100_000);
     for &from in &layouts {

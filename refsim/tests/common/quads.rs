@@ -11,7 +11,7 @@ pub(crate) const PS_2: [Version; 3] = [Version::Ps2_0, Version::Ps2A, Version::P
 
 /// Formats whose numbers are all numbers of fp32.
 pub(crate) const WITHIN_FP32: [&str; 8] =
-    ["fp16:rup", "e5m2", "e4m3fn:sat", "fp24:ftz", "s3.12:rod", "s0.7:wrap", "e2m1fn", "e5m2fnuz"];
+    ["fp16:rup", "e5m2", "e4m3fn:sat", "fp24:ftz", "s3.12:rup", "s0.7:wrap", "e2m1fn", "e5m2fnuz"];
 
 fn number() -> impl Strategy<Value = u32> {
     prop_oneof![

@@ -176,7 +176,9 @@ fn ends_of_scales_and_blocks() {
     assert_eq!(ops::rcp(scale, 129), Outcome::exact(125));
     assert_eq!(ops::log2(scale, 130), Outcome::new(129, Flags::INEXACT), "3, a tie, goes up");
     assert!(scale.for_registers().is_err() && format("e4m3fn").for_registers().is_ok());
-    assert!(format("fp16:rst").for_registers().is_err());
+    for (text, is_for_registers) in [("fp16:rst", false), ("s3.12:rod", false), ("n0.8:rod", false), ("fp16:rod", true)] {
+        assert_eq!(format(text).for_registers().is_ok(), is_for_registers, "{text}");
+    }
     let mx: BlockFormat = "mxfp8-e4m3".parse().expect("a block format");
     assert_eq!(mx.quantize(&Format::FP32, &[0; 32]).scale, 0);
     let nan = mx.quantize(&Format::FP32, &[0x3f80_0000, 0x7fc0_0000]);

@@ -1,7 +1,6 @@
 //! Which lane arithmetic a format gets.
 
 use super::fixed::FixedLane;
-use super::fixed_odd::OddLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, GENERAL, HOST, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
@@ -38,7 +37,6 @@ any_lane! {
     Fixed32Wrap(FixedLane<true, true>),
     Normalized(NormalizedLane<false>),
     NormalizedWrap(NormalizedLane<true>),
-    FixedOdd(OddLane),
     IeeeHost(IeeeLane<HOST>),
     IeeeSingle(IeeeLane<SINGLE>),
     IeeeDouble(IeeeLane<DOUBLE>),
@@ -59,14 +57,11 @@ any_lane! {
 pub(crate) use with_any_lane;
 
 impl AnyLane {
-    /// The arithmetic of a format.
+    /// The arithmetic of a format that registers can have ([`Format::for_registers`]).
     pub(crate) fn new(format: Format) -> Self {
         use Rounding::{Down, NearestAway, NearestEven, TowardZero};
         let f = &format;
         match format.kind {
-            FormatKind::Fixed { .. } | FormatKind::Normalized { .. } if format.rounding == Rounding::Odd => {
-                Self::FixedOdd(OddLane::new(f))
-            }
             FormatKind::Fixed { int_bits: i, frac_bits: b } => {
                 match (format.width() > 16, format.overflow == Overflow::Wrap) {
                     (false, false) => Self::Fixed16(FixedLane::new(f, i, b)),

@@ -1,6 +1,6 @@
 //! The arithmetic of number formats on single lanes, and the vector instructions that it is compiled for.
 //!
-//! - `lane`: what an arithmetic has to offer; `fixed`, `fixed_odd`, `normalized`, `ieee`, `float`: in host integers
+//! - `lane`: what an arithmetic has to offer; `fixed`, `normalized`, `ieee`, `float`: in host integers
 //!   and host floats; `round`: to formats that are narrower than the host's; `toward`: in roundings that the host does
 //!   not have; `odd`, `power`: exact results rounded to odd into doubles; `any`: which format gets which; `formats`:
 //!   those of a program.
@@ -9,7 +9,6 @@
 mod any;
 mod evaluate;
 mod fixed;
-mod fixed_odd;
 mod float;
 mod formats;
 mod ieee;
