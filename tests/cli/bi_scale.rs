@@ -1,6 +1,6 @@
 //! `crossbar bi-scale`, from the command line.
 
-use crate::environment::blesses;
+use crate::environment::writes_files;
 use std::fs;
 
 use approx::assert_relative_eq;
@@ -41,10 +41,13 @@ fn light_takes_every_way() {
         let files = [&matrix, &text, &biclusters].map(|path| fs::read(path).expect("written")).to_vec();
         assert!(before.get_or_insert_with(|| files.clone()) == &files, "{threads} threads");
     }
-    if blesses() {
+    if writes_files() {
         fs::copy(&biclusters, BICLUSTERS).expect("written");
     }
-    assert!(fs::read(&biclusters).expect("written") == fs::read(BICLUSTERS).expect("an example"), "CROSSBAR_BLESS=1");
+    assert!(
+        fs::read(&biclusters).expect("written") == fs::read(BICLUSTERS).expect("an example"),
+        "INSTA_UPDATE=always"
+    );
     let product = |file: &str| {
         let out = place(folder.path(), "y.csv");
         let said = document(&format!("bi-scale multiply {file} --light sky:1,-1,1 --rotate 30 --values {out}"));
@@ -216,12 +219,12 @@ fn the_court_has_its_transfer() {
     let options = "--directions 4 --tangents texture";
     document(&format!("bi-scale precompute {COURT} {options} --out {matrix}"));
     document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
-    if blesses() {
+    if writes_files() {
         fs::copy(&biclusters, COURT_BICLUSTERS).expect("written");
     }
     assert!(
         fs::read(&biclusters).expect("written") == fs::read(COURT_BICLUSTERS).expect("an example"),
-        "CROSSBAR_BLESS=1"
+        "INSTA_UPDATE=always"
     );
     // The matrix is drawn as its biclusters are, up to single precision.
     let [one, other] = [&matrix, COURT_BICLUSTERS].map(|file| {

@@ -1,6 +1,6 @@
 //! docs/examples: the files that documentation and help name are what the library makes today.
 
-use crate::environment::blesses;
+use crate::environment::writes_files;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
@@ -92,11 +92,11 @@ fn examples_are_what_the_library_makes() {
     files.extend(scene_files(&built::build("cornell-box").expect("a scene"), "room").expect("files"));
     for (name, bytes) in files {
         let path = folder().join(&name);
-        if blesses() {
+        if writes_files() {
             fs::write(&path, &bytes).expect("written");
         }
         let there = fs::read(&path).expect("an example");
-        assert!(there == bytes, "run with CROSSBAR_BLESS=1 to write {}", path.display());
+        assert!(there == bytes, "run with INSTA_UPDATE=always to write {}", path.display());
     }
 }
 
@@ -118,11 +118,11 @@ fn example_pictures_are_what_the_program_draws() {
         let ran = crossbar(&arguments, "");
         assert_eq!(ran.code, Some(0), "{}", ran.transcript());
         let (drawn, example) = (out.path().join(file), folder().join(name));
-        if blesses() {
+        if writes_files() {
             fs::copy(&drawn, &example).expect("written");
         }
         let [drawn, example] = [&drawn, &example].map(|path| path.to_str().expect("a name in UTF-8"));
         let ran = crossbar(&["diff", example, drawn], "");
-        assert_eq!(ran.code, Some(0), "run with CROSSBAR_BLESS=1 to write {example}\n{}", ran.transcript());
+        assert_eq!(ran.code, Some(0), "run with INSTA_UPDATE=always to write {example}\n{}", ran.transcript());
     }
 }

@@ -1,6 +1,6 @@
 //! `crossbar subsurface`.
 
-use crate::environment::writes_pages;
+use crate::environment::writes_files;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -202,7 +202,7 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     let text = std::fs::read_to_string(&page).expect("the page");
     let (before, rest) = text.split_once("<!-- subsurface: angles -->").expect("the mark");
     let (found, after) = rest.split_once("<!-- /subsurface -->").expect("the end mark");
-    if writes_pages() {
+    if writes_files() {
         let text = format!("{before}<!-- subsurface: angles -->{expected}<!-- /subsurface -->{after}");
         std::fs::write(&page, text).expect("written");
     } else {

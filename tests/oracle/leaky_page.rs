@@ -1,7 +1,7 @@
 //! Checks that docs/studies/leaky_teapot.md quotes the program's figures: the blocks between marks are generated here.
 //! `INSTA_UPDATE=always` writes them.
 
-use crate::environment::{is_full, writes_pages};
+use crate::environment::{is_full, writes_files};
 use std::path::{Path, PathBuf};
 
 use crossbar::report::Cell;
@@ -99,7 +99,7 @@ fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
 /// in the full form, and when the page is written, they too are computed at full size.
 #[test]
 fn the_page_says_what_the_program_prints() {
-    let writes = writes_pages();
+    let writes = writes_files();
     let text = std::fs::read_to_string(page()).expect("the page").replace('\r', "");
     let mut configurations = defaults();
     let full = writes || is_full();

@@ -1,7 +1,7 @@
 //! Golden clocks: what every kernel costs on every card that runs it. A change of a figure or of a formula shows here
 //! first.
 
-use crate::environment::blesses;
+use crate::environment::writes_files;
 use crossbar::ray_engine::kernels;
 use refsim::asm::assemble;
 use refsim::check::check;
@@ -140,7 +140,7 @@ fn all() -> String {
     let mut out = format!(
         "# Clocks of every kernel on every card that runs it: a fragment (arithmetic, texture issue, fp32 registers live) or a vertex;\n\
          # then a draw of {QUADS} screen-filling quads over {SIDE} x {SIDE} pixels: quads of pixels shaded, core clocks, bytes of memory, cache misses.\n\
-         # A change is accepted with CROSSBAR_BLESS=1 cargo test --test oracle golden_clocks\n"
+         # A change is accepted with INSTA_UPDATE=always cargo test --test oracle golden_clocks\n"
     );
     for device in Profile::card_names() {
         let profile = Profile::named(device).expect("a card");
@@ -161,7 +161,7 @@ fn golden_clocks() {
     let found = all();
     let parsed: toml::Table = found.parse().expect("what is stored is TOML");
     assert_eq!(parsed.len(), Profile::card_names().len());
-    if blesses() {
+    if writes_files() {
         std::fs::write(&path, &found).expect("the fixture can be written");
         return;
     }
@@ -169,7 +169,7 @@ fn golden_clocks() {
     for (ours, theirs) in found.lines().zip(stored.lines()) {
         assert_eq!(
             ours, theirs,
-            "clocks changed; if that is meant: CROSSBAR_BLESS=1 cargo test --test oracle golden_clocks"
+            "clocks changed; if that is meant: INSTA_UPDATE=always cargo test --test oracle golden_clocks"
         );
     }
     assert_eq!(found, stored, "kernels or cards came or went");

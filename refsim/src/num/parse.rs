@@ -127,7 +127,9 @@ impl Format {
     pub fn for_registers(self) -> Result<Format, FormatError> {
         let reason = match self.rounding {
             Rounding::Stochastic(_) => "executors that work on many pixels at once number no operations",
-            Rounding::Odd if !matches!(self.kind, FormatKind::Float { .. }) => "rounding to odd is for intermediate results, which are floats",
+            Rounding::Odd if !matches!(self.kind, FormatKind::Float { .. }) => {
+                "rounding to odd is for intermediate results, which are floats"
+            }
             _ if !self.is_signed() => "scales have neither zero nor negative numbers",
             _ => return Ok(self),
         };

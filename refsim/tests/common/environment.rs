@@ -20,12 +20,7 @@ pub(crate) fn seeds(short: u64, times: u64) -> Range<u64> {
     one.map_or(0..by_form(short, times * short), |seed| seed..seed + 1)
 }
 
-/// Returns `true` if files that the program makes are written anew: `CROSSBAR_BLESS=1`.
-pub(crate) fn blesses() -> bool {
-    env::var_os("CROSSBAR_BLESS").is_some_and(|value| !value.is_empty())
-}
-
-/// Returns `true` if pages with printed results are written anew, with the snapshots: `INSTA_UPDATE=always`.
-pub(crate) fn writes_pages() -> bool {
+/// Returns `true` if files and pages that the program makes are written anew, with the snapshots: `INSTA_UPDATE=always`.
+pub(crate) fn writes_files() -> bool {
     env::var("INSTA_UPDATE").is_ok_and(|update| update == "always")
 }

@@ -3,7 +3,7 @@
 use super::pictures;
 use super::rule::Measured;
 use super::values::Values;
-use crate::environment::writes_pages;
+use crate::environment::writes_files;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ pub(crate) fn the_page_has_the_counts() {
     let text = std::fs::read_to_string(&path).expect("the page").replace('\r', "");
     let made = replaced(&text, TABLE, &table(&measured));
     let made = replaced(&made, PICTURES, &pictures::section(&measured));
-    let write = writes_pages();
+    let write = writes_files();
     pictures::hold(&measured, write);
     if write {
         return std::fs::write(path, made).expect("written");

@@ -176,7 +176,8 @@ fn ends_of_scales_and_blocks() {
     assert_eq!(ops::rcp(scale, 129), Outcome::exact(125));
     assert_eq!(ops::log2(scale, 130), Outcome::new(129, Flags::INEXACT), "3, a tie, goes up");
     assert!(scale.for_registers().is_err() && format("e4m3fn").for_registers().is_ok());
-    for (text, is_for_registers) in [("fp16:rst", false), ("s3.12:rod", false), ("n0.8:rod", false), ("fp16:rod", true)] {
+    for (text, is_for_registers) in [("fp16:rst", false), ("s3.12:rod", false), ("n0.8:rod", false), ("fp16:rod", true)]
+    {
         assert_eq!(format(text).for_registers().is_ok(), is_for_registers, "{text}");
     }
     let mx: BlockFormat = "mxfp8-e4m3".parse().expect("a block format");

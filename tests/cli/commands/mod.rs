@@ -8,7 +8,7 @@
 mod cargo;
 mod texts;
 
-use crate::environment::blesses;
+use crate::environment::writes_files;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -153,7 +153,7 @@ fn every_command_of_cargo_names_what_exists() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Outputs on pages, behind `<!-- output of: COMMAND -->`, equal the command's output. `CROSSBAR_BLESS=1` writes them.
+/// Outputs on pages, behind `<!-- output of: COMMAND -->`, equal the command's output. `INSTA_UPDATE=always` writes them.
 #[test]
 fn outputs_on_pages_are_those_of_the_program() {
     let root = copy_of_the_repository();
@@ -163,14 +163,14 @@ fn outputs_on_pages_are_those_of_the_program() {
         let ran = run(root.path(), &output.arguments, "");
         assert_eq!(ran.stderr, "", "{}", output.place);
         let found = ran.stdout.trim_end();
-        if blesses() {
+        if writes_files() {
             let page = fs::read_to_string(&output.page).expect("the page");
             let heading = format!("{}\n```text\n", output.heading);
             let blessed =
                 page.replace(&format!("{heading}{}\n```\n", output.text), &format!("{heading}{found}\n```\n"));
             fs::write(&output.page, blessed).expect("written");
         } else {
-            assert_eq!(output.text, found, "{}: run with CROSSBAR_BLESS=1 to write it", output.place);
+            assert_eq!(output.text, found, "{}: run with INSTA_UPDATE=always to write it", output.place);
         }
     }
 }

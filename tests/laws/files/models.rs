@@ -1,6 +1,6 @@
 //! The model reader: what it writes it reads back, and no bytes make it panic.
 
-use crate::environment::blesses;
+use crate::environment::writes_files;
 use std::path::Path;
 
 use crossbar::geom::classify::Candidate;
@@ -91,13 +91,13 @@ fn the_fixture_is_the_teapot_at_rate_two() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/teapot_2.obj");
     let mut text = Vec::new();
     write_obj(&teapot::teapot(2).expect("a teapot"), &mut text).expect("written");
-    if blesses() {
+    if writes_files() {
         std::fs::write(&path, &text).expect("written");
     }
     assert_eq!(
         std::fs::read(&path).expect("the fixture"),
         text,
-        "run with CROSSBAR_BLESS=1 to write {}",
+        "run with INSTA_UPDATE=always to write {}",
         path.display()
     );
 }

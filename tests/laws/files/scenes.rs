@@ -1,7 +1,7 @@
 //! Scene files: writing and reading gives the same bits, the fixtures equal the built scenes, and no bytes cause a
 //! panic.
 
-use crate::environment::blesses;
+use crate::environment::writes_files;
 use std::io;
 use std::path::Path;
 
@@ -88,7 +88,7 @@ fn fixtures_are_the_scenes() {
         let scene = built::build(name).expect("a scene");
         for (file, bytes) in scene_files(&scene, &name.replace('-', "_")).expect("files") {
             let path = folder.join(file);
-            if blesses() {
+            if writes_files() {
                 std::fs::create_dir_all(&folder).expect("a folder");
                 std::fs::write(&path, &bytes).expect("written");
             }
@@ -96,7 +96,7 @@ fn fixtures_are_the_scenes() {
             let fixture = std::fs::read(&path).expect("the fixture");
             assert!(
                 fixture == bytes,
-                "run with CROSSBAR_BLESS=1 to write {}, if the scene is to change",
+                "run with INSTA_UPDATE=always to write {}, if the scene is to change",
                 path.display()
             );
         }

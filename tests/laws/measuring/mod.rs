@@ -4,7 +4,7 @@
 mod draft;
 mod search;
 
-use crate::environment::blesses;
+use crate::environment::writes_files;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -51,7 +51,7 @@ fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
 }
 
 /// A value of each switch draws other codes than another one, and the batch executor has the bits of the reference.
-/// `CROSSBAR_BLESS=1` searches cases that are missing.
+/// `INSTA_UPDATE=always` searches cases that are missing.
 #[test]
 fn each_open_switch_has_a_probe() {
     let mut missing = Vec::new();
@@ -62,14 +62,14 @@ fn each_open_switch_has_a_probe() {
             let tells = |text: &String| search::groups(text, switch).is_some_and(|groups| groups.len() > 1);
             let there = fs::read_to_string(file(&path)).ok().filter(tells);
             let text = match there {
-                None if blesses() => search::smallest(&profile, switch).map(|draft| draft.text(device)),
+                None if writes_files() => search::smallest(&profile, switch).map(|draft| draft.text(device)),
                 there => there,
             };
             let Some(text) = text else {
                 missing.push(path);
                 continue;
             };
-            if blesses() {
+            if writes_files() {
                 fs::create_dir_all(file(&path).parent().expect("a folder")).expect("it can be made");
                 fs::write(file(&path), &text).expect("it can be written");
             }
@@ -80,7 +80,7 @@ fn each_open_switch_has_a_probe() {
             }
         }
     }
-    assert!(missing.is_empty(), "no case tells the values apart: run with CROSSBAR_BLESS=1 to search {missing:?}");
+    assert!(missing.is_empty(), "no case tells the values apart: run with INSTA_UPDATE=always to search {missing:?}");
 }
 
 /// The folder has no other files, so that a switch that was settled leaves no probe behind.
@@ -130,8 +130,8 @@ fn the_page_lists_the_probes() {
     let (before, rest) = page.split_once("<!-- probes -->\n").expect("the mark");
     let (_, after) = rest.split_once("<!-- /probes -->").expect("the end mark");
     let expected = format!("{before}<!-- probes -->\n\n{table}\n<!-- /probes -->{after}");
-    if blesses() {
+    if writes_files() {
         fs::write(file("docs/measuring.md"), &expected).expect("it can be written");
     }
-    assert!(blesses() || page == expected, "docs/measuring.md is out of date: CROSSBAR_BLESS=1 writes it");
+    assert!(writes_files() || page == expected, "docs/measuring.md is out of date: INSTA_UPDATE=always writes it");
 }

@@ -1,6 +1,6 @@
 //! The book's text on the figures: `docs/papers` and `docs/status.md` are the program's own text.
 
-use crate::environment::writes_pages;
+use crate::environment::writes_files;
 use std::collections::BTreeSet;
 
 use crossbar::report::Table;
@@ -47,7 +47,7 @@ fn figures_are_told_from_names() {
 
 /// Holds a file against what it should be, or writes it: as snapshots do, by `INSTA_UPDATE=always`.
 fn hold(path: &str, expected: &str) {
-    if writes_pages() {
+    if writes_files() {
         std::fs::write(file(path), expected).expect("it can be written");
     }
     let found = std::fs::read_to_string(file(path)).unwrap_or_default();
