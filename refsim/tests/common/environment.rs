@@ -20,7 +20,8 @@ pub(crate) fn seeds(short: u64, times: u64) -> Range<u64> {
     one.map_or(0..by_form(short, times * short), |seed| seed..seed + 1)
 }
 
-/// Returns `true` if files and pages that the program makes are written anew, with the snapshots: `INSTA_UPDATE=always`.
+/// Returns `true` if files and pages that the program makes are written anew, with the snapshots:
+/// `INSTA_UPDATE=always`.
 pub(crate) fn writes_files() -> bool {
     env::var("INSTA_UPDATE").is_ok_and(|update| update == "always")
 }
