@@ -1,5 +1,6 @@
 //! Parser of Direct3D programs: statements and their prefixes.
 
+use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
 
 use super::cursor::Cursor;
@@ -74,6 +75,7 @@ impl<'a> Parser<'a> {
                 constants: self.constants,
                 declarations: self.declarations,
                 instructions: self.instructions,
+                resources: BTreeMap::new(),
                 parameters: Vec::new(),
                 fog: None,
                 text: ProgramText::default(),

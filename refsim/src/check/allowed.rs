@@ -20,6 +20,10 @@ pub(super) enum Limit {
     LoopDepth,
     CallDepth,
     StaticFlowCount,
+    /// Parameters that an OpenGL program binds.
+    BoundParameters,
+    /// Attributes that an OpenGL program binds.
+    Attributes,
 }
 
 /// An effective limit, its origin (device or version), and its key in the profile.
@@ -62,7 +66,8 @@ impl Limit {
             (Self::ArithmeticInstructions, _) => (Stage::Pixel, figure!(arithmetic_instructions_per_phase)),
             (Self::Instructions, _) => (Stage::Pixel, figure!(instructions)),
             (Self::Temporaries, _) => (Stage::Pixel, figure!(temporaries)),
-            (Self::Constants, _) => (Stage::Pixel, figure!(constants)),
+            (Self::Constants | Self::BoundParameters, _) => (Stage::Pixel, figure!(constants)),
+            (Self::Attributes, _) => (Stage::Pixel, ("version", None)),
             (Self::TextureCoordinates, _) => (Stage::Pixel, figure!(texture_coordinates)),
             (Self::Samplers, _) => (Stage::Pixel, figure!(samplers)),
             (Self::ColorInputs, _) => (Stage::Pixel, figure!(color_inputs)),
@@ -109,7 +114,10 @@ impl Limit {
             (Self::LoopDepth | Self::CallDepth, Ps2A | Ps2B) => 4,
             (Self::LoopDepth | Self::CallDepth, Vs2_0) => 1,
             (Self::StaticFlowCount, Vs2_0) => 16,
-            // GL_NV_fragment_program: minimum.
+            // GL_ARB_fragment_program, section 3.11.3.6, and GL_NV_fragment_program: minima.
+            (Self::Temporaries, ArbFp1_0) => 16,
+            (Self::BoundParameters, ArbFp1_0) => 24,
+            (Self::Attributes, ArbFp1_0) => 10,
             (Self::Instructions, Fp1_0) => 1024,
             (Self::Constants, Fp1_0) => 64,
             (Self::TextureCoordinates, Fp1_0 | ArbFp1_0) => 8,
@@ -137,6 +145,12 @@ impl Limit {
         let (key, device) = match self {
             Self::Instructions => ("limits.fragment_instructions", l.fragment_instructions),
             Self::Constants => ("limits.fragment_parameters", l.fragment_parameters),
+            Self::BoundParameters if l.fragment_parameters.is_some() => {
+                ("limits.fragment_parameters", l.fragment_parameters)
+            }
+            Self::Temporaries if l.fragment_temporaries.is_some() => {
+                ("limits.fragment_temporaries", l.fragment_temporaries)
+            }
             Self::TextureInstructions | Self::ArithmeticInstructions | Self::DependentReads if !arb => return None,
             _ => self.of_device(profile, Stage::Pixel),
         };

@@ -28,6 +28,7 @@ pub(super) fn check(context: &mut Context<'_>) {
         registers(context, instruction);
         operands(context, instruction);
         if nv {
+            reflection(context, instruction);
             suffixes(context, instruction);
             packing(context, instruction);
             distinct(context, instruction);
@@ -137,6 +138,17 @@ fn suffixes(context: &mut Context<'_>, instruction: &Instruction) {
     };
     let message = format!("`{}` has no suffix {wrong}", spelling.name);
     context.breach(RuleId::InvalidSuffix, instruction.span, message).help("see the extension's table of instructions");
+}
+
+/// V14: `RFL` writes three components (section 3.11.5.26).
+fn reflection(context: &mut Context<'_>, instruction: &Instruction) {
+    let Some(destination) = instruction.destination.filter(|d| instruction.opcode == Opcode::Rfl && d.mask.contains(3))
+    else {
+        return;
+    };
+    let message = "`RFL` gives x, y and z, found a write mask with w";
+    let violation = context.breach(RuleId::InvalidMask, destination.span, message);
+    violation.label("writes w too").help("write the mask out: `.xyz`");
 }
 
 /// V61: packed words have full precision.

@@ -24,6 +24,7 @@ mod ps_1_4;
 mod ps_2;
 mod reads;
 mod report;
+mod resources;
 mod rule;
 mod shape;
 mod slots;
@@ -57,6 +58,7 @@ use context::Context;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, CheckReport> {
+    let fog = program.fog;
     let mut program = fog::expand(program);
     if let Some(log) = &profile.log {
         log.add(&program);
@@ -66,6 +68,7 @@ pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, Ch
     let facts = {
         let mut context = Context::new(&program, profile);
         run(&mut context);
+        resources::check(&mut context, fog);
         violations.append(&mut context.violations);
         warnings.append(&mut context.warnings);
         violations.is_empty().then(|| facts::derive(&context))

@@ -107,6 +107,7 @@ rules! {
     ImageUnitTarget V64 "an image unit is read as one kind of texture (OpenGL)";
     RegisterWeight V65 "registers weigh 64 at most: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
     Indirections V66 "texture reads depend on one another over so many levels at most (!!ARBfp1.0)";
+    TooManyResources V67 "temporaries, parameters and attributes, used or not, fit the device (!!ARBfp1.0)";
 }
 
 rules! {

@@ -58,8 +58,10 @@ figures! {
         instructions,
         /// Instructions of an OpenGL fragment program.
         fragment_instructions,
-        /// Host-set parameters of an OpenGL fragment program, per kind.
+        /// Host-set parameters of an OpenGL fragment program, per kind; in `!!ARBfp1.0` all bound parameters together.
         fragment_parameters,
+        /// Temporaries of an `!!ARBfp1.0` program, if others than `temporaries`.
+        fragment_temporaries,
         /// Temporaries `r#` of a pixel program.
         temporaries,
         /// Constants `c#` of a pixel program.

@@ -1,8 +1,11 @@
-//! Number formats of OpenGL fragment programs, shared by the executors.
+//! Number formats and texels of OpenGL fragment programs, shared by the executors.
+
+use std::ops::Range;
 
 use crate::device::Rules;
-use crate::isa::{Precision, RegisterFile};
+use crate::isa::{Precision, RegisterFile, Version};
 use crate::num::{Format, Overflow, Specials};
+use crate::texture::TexelFormat;
 
 /// Formats of the precision suffixes R, H and X.
 ///
@@ -43,5 +46,17 @@ impl FragmentFormats {
     /// The format of a register file.
     pub const fn of_file(&self, file: RegisterFile) -> Format {
         if file.is_half() { self.half } else { self.full }
+    }
+}
+
+/// The components of a texel that a program of `version` reads as 0, whatever the sampler delivers: in `!!FP1.0` green
+/// and blue that a float format does not store, and all of an unbound sampler. Source: GL_NV_fragment_program, table X.5
+/// and section 3.11.5.38. Its other formats have no certain counterpart among Direct3D's, whose defaults they keep.
+pub(crate) fn zero_components(version: Version, format: Option<TexelFormat>) -> Range<usize> {
+    match format.map(TexelFormat::record) {
+        _ if version != Version::Fp1_0 => 0..0,
+        None => 0..4,
+        Some(record) if record.is_float() => usize::from(record.channel_count.min(3))..3,
+        Some(_) => 0..0,
     }
 }

@@ -20,7 +20,9 @@ pub use fragment::{
 };
 pub use opcode::{Comparison, DestinationRule, OpInfo, Opcode, OpcodeClass, SlotCost};
 pub use operand::{Destination, Mask, Modifier, Predicate, Source, Swizzle};
-pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Parameter, ParameterSource, Program, Usage};
+pub use program::{
+    ConstantDef, ConstantValue, Declaration, Instruction, Parameter, ParameterSource, Program, ProgramResource, Usage,
+};
 pub use register::{Register, RegisterFile, Relative};
 pub use span::Span;
 pub use state::{

@@ -1,5 +1,7 @@
 //! Programs: instructions, declarations, constants and parameters.
 
+use std::collections::BTreeMap;
+
 use super::{
     Comparison, Destination, FogOption, FragmentPart, Opcode, Precision, Predicate, ProgramText, Register,
     RegisterFile, Source, Span, StateBinding, Version,
@@ -130,6 +132,8 @@ pub struct Program {
     pub instructions: Vec<Instruction>,
     /// Host-set constants without a register number, in the order in which the text names them.
     pub parameters: Vec<Parameter>,
+    /// What an `!!ARBfp1.0` program declares or binds, used or not, and where it does so first.
+    pub resources: BTreeMap<ProgramResource, Span>,
     /// The OpenGL fog option that is applied at the end of the program, if any.
     pub fog: Option<FogOption>,
     /// The text that it was assembled from.
@@ -147,6 +151,37 @@ pub struct Parameter {
     pub source: ParameterSource,
     /// Location in the program text.
     pub span: Span,
+}
+
+/// What counts against a limit of `!!ARBfp1.0` programs where it is declared or bound.
+///
+/// Source: GL_ARB_fragment_program, section 3.11.3.6.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ProgramResource {
+    /// A temporary, an attribute, `program.local[#]` or `program.env[#]`.
+    Register(Register),
+    /// A constant vector, IEEE single bit patterns; zeros are positive.
+    Constant([u32; 4]),
+    /// A piece of pipeline state.
+    State(StateBinding),
+}
+
+impl ProgramResource {
+    /// The constant vector, in which both zeros are the same number.
+    pub fn constant(vector: [u32; 4]) -> Self {
+        Self::Constant(vector.map(|bits| if bits == 1 << 31 { 0 } else { bits }))
+    }
+
+    /// What a source register of a program stands for.
+    pub fn of_source(program: &Program, register: Register) -> Self {
+        let literal = program.constants.iter().find(|d| d.register == register).map(|d| d.value);
+        let parameter = program.parameters.iter().find(|p| p.register == register).map(|p| p.source);
+        match (literal, parameter) {
+            (Some(ConstantValue::Float(vector)), _) => Self::constant(vector),
+            (_, Some(ParameterSource::State(binding))) => Self::State(binding),
+            _ => Self::Register(register),
+        }
+    }
 }
 
 /// Source of the value of a [`Parameter`].

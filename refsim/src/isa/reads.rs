@@ -1,6 +1,6 @@
 //! Operand components that an operation reads; used by the checker, the executors and the timing model.
 
-use super::{Mask, Opcode};
+use super::{Mask, Opcode, Version};
 
 impl Opcode {
     /// Returns `true` if the operation reads one component per operand and replicates its result.
@@ -8,6 +8,16 @@ impl Opcode {
         matches!(self, Self::Rcp | Self::Rsq | Self::Exp | Self::Log | Self::Expp | Self::Logp | Self::Pow)
             || matches!(self, Self::Cos | Self::Sin | Self::Scs)
             || matches!(self, Self::Up2h | Self::Up2us | Self::Up4b | Self::Up4ub)
+    }
+
+    /// Returns `true` if the language takes the magnitude of the operation's first operand: Direct3D in `rsq`, `log`,
+    /// `logp` and `pow` (pages of these instructions), GL_ARB_fragment_program in `RSQ`.
+    pub const fn ignores_sign(self, version: Version) -> bool {
+        match version {
+            Version::Fp1_0 => false,
+            Version::ArbFp1_0 => matches!(self, Self::Rsq),
+            _ => matches!(self, Self::Rsq | Self::Log | Self::Logp | Self::Pow),
+        }
     }
 
     /// The lanes of source `index` that an arithmetic operation reads to write the components `written`, before

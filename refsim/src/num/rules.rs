@@ -95,7 +95,7 @@ pub enum Specials {
     /// Direct3D 9 on IEEE 754 values (`:ieee`): `min` is `a < b ? a : b` and `max` is `a >= b ? a : b`, so a NaN
     /// in either place gives `b`; `rsq`, `log2` and `pow` take the magnitude of their operand.
     Ieee,
-    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN; `rsq(-0)` is -inf; `rsq` and `log2` of a
-    /// negative number are NaN.
+    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN, and take -0 for less than +0; `rsq(-0)` is -inf;
+    /// `rsq` and `log2` of a negative number are NaN.
     Nv,
 }

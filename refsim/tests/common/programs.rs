@@ -165,6 +165,7 @@ pub(crate) fn program_of(version: Version) -> impl Strategy<Value = Program> {
                 declarations,
                 instructions,
                 parameters: Vec::new(),
+                resources: std::collections::BTreeMap::new(),
                 fog: None,
                 text: ProgramText::default(),
             }

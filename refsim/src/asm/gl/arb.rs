@@ -1,7 +1,6 @@
 //! Parser of `!!ARBfp1.0`: GL_ARB_fragment_program.
 
-use std::collections::BTreeMap;
-use std::fmt::Write;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError};
 use super::build::Build;
@@ -10,7 +9,7 @@ use crate::asm::cursor::Cursor;
 use crate::asm::lexer::{Dialect, Token, TokenKind};
 use crate::isa::{
     Destination, FIRST_ENVIRONMENT, FogMode, FogOption, FragmentPart, Instruction, Modifier, Opcode, OpcodeClass,
-    Program, Register, RegisterFile, Source, Span, StateBinding, Swizzle, Version,
+    Program, ProgramResource, Register, RegisterFile, Source, Span, StateBinding, Swizzle, Version,
 };
 
 /// Maximum number of declared temporaries; the checker enforces the device's limit.
@@ -38,16 +37,33 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
     }
 }
 
-/// Writes the declaration of a program's temporaries, `R0` to the highest one used.
+/// Writes the declarations of a program: its temporaries, `R0` to the highest one, and what it binds without using it.
 pub(super) fn declarations(program: &Program, out: &mut String) {
     let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
     let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);
-    let temporaries = written.chain(read).filter(|r| r.file == RegisterFile::Temp);
-    let Some(most) = temporaries.map(|r| r.index).max() else { return };
-    let names: Vec<String> = (0..=most).map(|n| format!("R{n}")).collect();
-    if writeln!(out, "TEMP {};", names.join(", ")).is_err() {
-        unreachable!("a string takes everything");
+    let used: BTreeSet<_> = written.chain(read).map(|r| ProgramResource::of_source(program, r)).collect();
+    let (mut temporaries, mut unused) = (0, String::new());
+    for (number, resource) in used.iter().chain(program.resources.keys()).enumerate() {
+        let (word, text) = match *resource {
+            ProgramResource::Register(Register { file: RegisterFile::Temp, index, .. }) => {
+                temporaries = temporaries.max(index + 1);
+                continue;
+            }
+            _ if used.contains(resource) => continue,
+            ProgramResource::Register(r) if r.file != RegisterFile::Constant => {
+                ("ATTRIB", super::print::register_name(program, &r))
+            }
+            ProgramResource::Register(r) => ("PARAM", super::print::register_name(program, &r)),
+            ProgramResource::Constant(vector) => ("PARAM", super::print::vector(vector)),
+            ProgramResource::State(binding) => ("PARAM", binding.to_string()),
+        };
+        unused += &format!("{word} unused{number} = {text};\n");
     }
+    if temporaries > 0 {
+        let names: Vec<String> = (0..temporaries).map(|n| format!("R{n}")).collect();
+        *out += &format!("TEMP {};\n", names.join(", "));
+    }
+    *out += &unused;
 }
 
 /// Meaning of a name.
@@ -121,11 +137,14 @@ impl<'a> Parser<'a> {
 
     fn temporaries(&mut self) -> Parsed<()> {
         loop {
+            let start = self.cursor.peek().span.start;
             let name = self.new_name()?;
             if self.temporaries >= MAX_TEMPORARIES {
                 return Err(self.cursor.unexpected("fewer temporaries", "256 names of temporaries are the most"));
             }
-            self.names.insert(name, Name::Register(Register::new(RegisterFile::Temp, self.temporaries)));
+            let temporary = Name::Register(Register::new(RegisterFile::Temp, self.temporaries));
+            self.bind(&temporary, start);
+            self.names.insert(name, temporary);
             self.temporaries += 1;
             if !self.cursor.accept_mark(",") {
                 return Ok(());
@@ -137,9 +156,24 @@ impl<'a> Parser<'a> {
     fn bound(&mut self, what: fn(&mut Self) -> Parsed<Register>) -> Parsed<()> {
         let name = self.new_name()?;
         self.cursor.expect("=", "the name stands for something")?;
+        let start = self.cursor.peek().span.start;
         let register = what(self)?;
+        if !is_written(register.file) {
+            self.bind(&Name::Register(register), start);
+        }
         self.names.insert(name, Name::Register(register));
         Ok(())
+    }
+
+    /// Notes that the text from `start` on binds what a name stands for.
+    pub(super) fn bind(&mut self, name: &Name, start: u32) {
+        let resource = match name {
+            Name::Register(register) => ProgramResource::Register(*register),
+            Name::Constant(vector) => ProgramResource::constant(*vector),
+            Name::State(binding) => ProgramResource::State(*binding),
+            Name::Array(all) => return all.iter().for_each(|element| self.bind(element, start)),
+        };
+        self.build.bind(resource, Span::new(start, self.cursor.last_end()));
     }
 
     fn alias(&mut self) -> Parsed<()> {
@@ -276,10 +310,13 @@ impl<'a> Parser<'a> {
         let token = self.cursor.peek();
         if token.text == "{" || token.kind == TokenKind::Number {
             let value = operand::constant(&mut self.cursor)?;
-            return self.build.literal(value, Span::new(token.span.start, self.cursor.last_end()));
+            return self.read(Some(Name::Constant(value)), token);
         }
         match token.text {
-            "fragment" => return self.attribute(),
+            "fragment" => {
+                let attribute = self.attribute()?;
+                return self.read(Some(Name::Register(attribute)), token);
+            }
             "program" | "state" => {
                 let element = self.element()?;
                 return self.read(Some(element), token);
@@ -303,14 +340,20 @@ impl<'a> Parser<'a> {
 
     /// The register for a name in a source operand.
     fn read(&mut self, name: Option<Name>, token: Token<'a>) -> Parsed<Register> {
+        let span = Span::new(token.span.start, self.cursor.last_end());
         match name {
             Some(Name::State(binding)) => {
-                self.build.state(binding, Span::new(token.span.start, self.cursor.last_end()))
+                self.build.bind(ProgramResource::State(binding), span);
+                self.build.state(binding, span)
             }
             Some(Name::Register(register)) if !is_written(register.file) || register.file == RegisterFile::Temp => {
+                self.build.bind(ProgramResource::Register(register), span);
                 Ok(register)
             }
-            Some(Name::Constant(value)) => self.build.literal(value, token.span),
+            Some(Name::Constant(value)) => {
+                self.build.bind(ProgramResource::constant(value), span);
+                self.build.literal(value, span)
+            }
             _ => Err(unknown(
                 token,
                 "a temporary, fragment.*, program.*, state.*, a constant or a name of one",

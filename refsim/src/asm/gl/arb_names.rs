@@ -12,7 +12,9 @@ impl<'a> Parser<'a> {
         let name = self.new_name()?;
         if !self.cursor.accept_mark("[") {
             self.cursor.expect("=", "a parameter stands for a constant or for something that the host sets")?;
+            let start = self.cursor.peek().span.start;
             let value = self.element()?;
+            self.bind(&value, start);
             self.names.insert(name, value);
             return Ok(());
         }
@@ -23,7 +25,9 @@ impl<'a> Parser<'a> {
         self.cursor.expect("{", "an array's elements stand between braces")?;
         let mut all = Vec::new();
         loop {
+            let (first, start) = (all.len(), self.cursor.peek().span.start);
             self.elements(&mut all)?;
+            all[first..].iter().for_each(|element| self.bind(element, start));
             if !self.cursor.accept_mark(",") {
                 break;
             }

@@ -6,7 +6,7 @@ use super::super::error::{ErrorKind, Parsed, SyntaxError, quote};
 use crate::asm::lexer::Token;
 use crate::isa::{
     ConstantDef, ConstantValue, FIRST_LITERAL, FIRST_NAMED, FogOption, Instruction, Parameter, ParameterSource,
-    Program, ProgramText, Register, RegisterFile, Span, StateBinding, Version,
+    Program, ProgramResource, ProgramText, Register, RegisterFile, Span, StateBinding, Version,
 };
 
 /// Maximum numbers of literals and of parameters. The last two parameters are reserved for a fog option.
@@ -20,10 +20,16 @@ pub(super) struct Build {
     constants: Vec<ConstantDef>,
     literals: BTreeMap<[u32; 4], u16>,
     parameters: Vec<Parameter>,
+    pub(super) resources: BTreeMap<ProgramResource, Span>,
     pub(super) fog: Option<FogOption>,
 }
 
 impl Build {
+    /// Notes what the program declares or binds.
+    pub(super) fn bind(&mut self, resource: ProgramResource, span: Span) {
+        self.resources.entry(resource).or_insert(span);
+    }
+
     /// Register of a literal; equal literals share one.
     pub(super) fn literal(&mut self, value: [u32; 4], span: Span) -> Parsed<Register> {
         let count = self.constants.len();
@@ -85,6 +91,7 @@ impl Build {
             declarations: Vec::new(),
             instructions: self.instructions,
             parameters: self.parameters,
+            resources: self.resources,
             fog: self.fog,
             text: ProgramText::default(),
         }

@@ -52,7 +52,7 @@ pub(in super::super) fn register_name(program: &Program, register: &Register) ->
     out
 }
 
-fn vector(bits: [u32; 4]) -> String {
+pub(super) fn vector(bits: [u32; 4]) -> String {
     let [x, y, z, w] = bits.map(float_text);
     format!("{{{x}, {y}, {z}, {w}}}")
 }

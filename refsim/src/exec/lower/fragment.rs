@@ -6,7 +6,8 @@ use super::graph::TRUE;
 use super::graph::{Arith, Detail, NodeId, NodeKind};
 use super::translate::{CodeNodes, Effect, Translator};
 use crate::isa::{
-    Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version,
+    Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source,
+    TextureTarget, Version,
 };
 use crate::num::NumberOperation as Op;
 
@@ -202,9 +203,6 @@ impl Translator<'_> {
         for (slot, source) in s.iter_mut().zip(&instruction.sources) {
             *slot = self.fragment_operand(source, k, instruction.fragment.negate);
         }
-        if opcode == Opcode::Rsq && self.program.version == Version::ArbFp1_0 {
-            s[0] = s[0].map(|x| self.make.unary(k, Op::Abs, x));
-        }
         match opcode {
             Opcode::Dsx => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, false, x))),
             Opcode::Dsy => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, true, x))),
@@ -212,7 +210,7 @@ impl Translator<'_> {
                 let below = self.make.holds(k, Op::Less, s[0][i], zero);
                 self.make.select(below, s[1][i], s[2][i])
             }),
-            _ => self.make.operation(k, opcode, &s, &[zero; 4]),
+            _ => self.make.operation(k, (opcode, self.program.version), &s, &[zero; 4]),
         }
     }
 
@@ -222,7 +220,8 @@ impl Translator<'_> {
             return [zero; 4];
         };
         let mut coordinates = self.place(source);
-        if instruction.opcode == Opcode::TexLdP {
+        let cube = instruction.fragment.target == Some(TextureTarget::Cube);
+        if instruction.opcode == Opcode::TexLdP && !(cube && self.program.version == Version::Fp1_0) {
             let w = coordinates[3];
             for c in &mut coordinates[..3] {
                 *c = self.make.div(Arith::Single, *c, w);

@@ -2,13 +2,22 @@
 
 use super::arith::{GraphBuilder, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
-use crate::isa::Opcode;
+use crate::isa::{Opcode, Version};
 use crate::num::{self, NumberOperation as Op};
 
 impl GraphBuilder<'_> {
-    /// The result of an arithmetic operation; missing operands are zeros.
-    pub(crate) fn operation(&mut self, k: Arith, opcode: Opcode, s: &[NodeVector; 3], bump: &NodeVector) -> NodeVector {
-        let [a, b, c] = *s;
+    /// The result of an arithmetic operation of a language; missing operands are zeros.
+    pub(crate) fn operation(
+        &mut self,
+        k: Arith,
+        (opcode, version): (Opcode, Version),
+        s: &[NodeVector; 3],
+        bump: &NodeVector,
+    ) -> NodeVector {
+        let [mut a, b, c] = *s;
+        if opcode.ignores_sign(version) {
+            a = a.map(|x| self.unary(k, Op::Abs, x));
+        }
         match opcode {
             Opcode::Mov => a,
             Opcode::Add => std::array::from_fn(|i| self.add(k, a[i], b[i])),
@@ -36,19 +45,21 @@ impl GraphBuilder<'_> {
             Opcode::Exp => [self.unary(k, Op::Exp2, a[0]); 4],
             Opcode::Log => [self.unary(k, Op::Log2, a[0]); 4],
             Opcode::Pow => [self.pow(k, a[0], b[0]); 4],
-            Opcode::Expp => {
+            Opcode::Expp if version == Version::Vs1_1 => {
                 let floor = self.unary(k, Op::Floor, a[3]);
                 let [x, y, z] =
                     [(Op::Exp2, floor), (Op::Frc, a[3]), (Op::Exp2, a[3])].map(|(code, n)| self.unary(k, code, n));
                 [x, y, z, self.one(k)]
             }
-            Opcode::Logp => self.logp(k, a[3]),
+            Opcode::Expp => [self.unary(k, Op::Exp2, a[3]); 4],
+            Opcode::Logp if version == Version::Vs1_1 => self.logp(k, a[3]),
+            Opcode::Logp => [self.unary(k, Op::Log2, a[3]); 4],
             Opcode::Crs => self.crs(k, &a, &b),
             Opcode::Nrm => self.nrm(k, &a),
             Opcode::Sgn => a.map(|x| self.sgn(k, x)),
             Opcode::SinCos => self.sincos(k, a[0], &b, &c),
             Opcode::Dst => [self.one(k), self.mul(k, a[1], b[1]), a[2], b[3]],
-            Opcode::Lit => self.lit(k, &a),
+            Opcode::Lit => self.lit(k, version, &a),
             Opcode::Flr => a.map(|x| self.unary(k, Op::Floor, x)),
             Opcode::Cos => [self.circle(k, false, a[0]); 4],
             Opcode::Sin => [self.circle(k, true, a[0]); 4],
@@ -95,8 +106,7 @@ impl GraphBuilder<'_> {
         self.unary(k, Op::Exp2, product)
     }
 
-    fn logp(&mut self, k: Arith, w: NodeId) -> NodeVector {
-        let magnitude = self.unary(k, Op::Abs, w);
+    fn logp(&mut self, k: Arith, magnitude: NodeId) -> NodeVector {
         let log = self.unary(k, Op::Log2, magnitude);
         let exponent = self.unary(k, Op::Floor, log);
         let back = self.neg(k, exponent);
@@ -130,10 +140,10 @@ impl GraphBuilder<'_> {
     fn sgn(&mut self, k: Arith, a: NodeId) -> NodeId {
         let (zero, one) = (self.zero(), self.one(k));
         let minus = self.neg(k, one);
-        let above = self.holds(k, Op::Less, zero, a);
         let below = self.holds(k, Op::Less, a, zero);
-        let rest = self.select(below, minus, zero);
-        self.select(above, one, rest)
+        let is_zero = self.holds(k, Op::Equal, a, zero);
+        let rest = self.select(is_zero, zero, one);
+        self.select(below, minus, rest)
     }
 
     fn sincos(&mut self, k: Arith, x: NodeId, p: &NodeVector, r: &NodeVector) -> NodeVector {
@@ -178,17 +188,37 @@ impl GraphBuilder<'_> {
         [x, y, x, y]
     }
 
-    fn lit(&mut self, k: Arith, a: &NodeVector) -> NodeVector {
+    fn lit(&mut self, k: Arith, version: Version, a: &NodeVector) -> NodeVector {
+        let [x, y, _, w] = *a;
+        let (zero, one) = (self.zero(), self.one(k));
+        let exponent = if version == Version::Fp1_0 { w } else { self.held_exponent(k, w) };
+        let lit = self.holds(k, Op::Less, zero, x);
+        if !version.is_fragment_program() {
+            let shines = self.holds(k, Op::Less, zero, y);
+            let both = self.binary(Arith::Single, Op::And, lit, shines);
+            let power = self.pow(k, y, exponent);
+            return [one, self.select(lit, x, zero), self.select(both, power, zero), one];
+        }
+        let [x, y] = [x, y].map(|n| {
+            let below = self.holds(k, Op::Less, n, zero);
+            self.select(below, zero, n)
+        });
+        let mut power = self.pow(k, y, exponent);
+        if version == Version::ArbFp1_0 {
+            let [base, exponent] = [y, exponent].map(|n| self.holds(k, Op::Equal, n, zero));
+            let unit = self.binary(Arith::Single, Op::And, base, exponent);
+            power = self.select(unit, one, power);
+        }
+        [one, x, self.select(lit, power, zero), one]
+    }
+
+    /// Brings a number within +-32767/256; NaN stays.
+    fn held_exponent(&mut self, k: Arith, w: NodeId) -> NodeId {
         let limit_bits = num::from_ratio(self.formats.format(k), false, 32767, 256).bits;
         let limit = self.pattern(k, limit_bits);
         let lowest = self.neg(k, limit);
-        let clamped = self.binary(k, Op::Max, a[3], lowest);
-        let exponent = self.binary(k, Op::Min, clamped, limit);
-        let (zero, one) = (self.zero(), self.one(k));
-        let lit = self.holds(k, Op::Less, zero, a[0]);
-        let shines = self.holds(k, Op::Less, zero, a[1]);
-        let both = self.binary(Arith::Single, Op::And, lit, shines);
-        let power = self.pow(k, a[1], exponent);
-        [one, self.select(lit, a[0], zero), self.select(both, power, zero), one]
+        let (below, above) = (self.holds(k, Op::Less, w, lowest), self.holds(k, Op::Less, limit, w));
+        let upper = self.select(above, limit, w);
+        self.select(below, lowest, upper)
     }
 }

@@ -311,7 +311,7 @@ impl<'a> Translator<'a> {
                         let main = self.make.convert(Arith::Single, Arith::Main, single);
                         self.make.convert(Arith::Main, k, main)
                     });
-                    self.make.operation(k, opcode, &s, &bump)
+                    self.make.operation(k, (opcode, self.program.version), &s, &bump)
                 }
             },
         };

@@ -5,6 +5,7 @@ use super::graph::{Arith, Detail, NodeId, NodeKind};
 use super::translate::{Effect, Translator};
 use crate::device::{Storage, TexcrdOverflow, TexdepthDenominator, TexkillComponents};
 use crate::exec::Projection;
+use crate::exec::fragment::zero_components;
 use crate::isa::{Destination, Instruction, Modifier, Opcode, Register, RegisterFile, Source, Version};
 use crate::num::NumberOperation as Op;
 use crate::texture::TextureKind;
@@ -195,7 +196,11 @@ impl Translator<'_> {
     /// A texture read, rounded to the format of texels.
     pub(super) fn fetch(&mut self, stage: usize, coordinates: NodeVector, detail: Detail) -> NodeVector {
         let storage = self.make.rules.storage.of(Storage::Texels);
-        self.sampled(stage, coordinates, detail).map(|x| self.make.stored(Arith::Main, storage, x))
+        let binding = self.bindings.and_then(|b| b.samplers.get(stage)).and_then(Option::as_ref);
+        let zeros = zero_components(self.program.version, binding.map(|binding| binding.image.format()));
+        let mut texel = self.sampled(stage, coordinates, detail);
+        texel[zeros].fill(self.make.zero());
+        texel.map(|x| self.make.stored(Arith::Main, storage, x))
     }
 
     fn sampled(&mut self, stage: usize, coordinates: NodeVector, detail: Detail) -> NodeVector {

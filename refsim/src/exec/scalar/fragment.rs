@@ -14,7 +14,7 @@ use super::operation::{self, Context};
 use super::pack;
 use super::registers::{Components, LANES};
 use crate::exec::{FragmentFormats, Observer};
-use crate::isa::{Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version};
+use crate::isa::{Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source};
 use crate::num::ops;
 
 impl<'a, O: Observer> Interpreter<'_, 'a, O> {
@@ -172,17 +172,13 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             let wanted = opcode.lanes_read(index, mask);
             *slot = self.fragment_operand(lane, source, k, wanted, instruction.fragment.negate);
         }
-        let arb = self.prepared.program.version == Version::ArbFp1_0;
+        let version = self.prepared.program.version;
         let unit = self.alu(k);
-        if arb && opcode == Opcode::Rsq {
-            // ARB takes the magnitude, unlike NV's instruction.
-            s[0] = s[0].map(|x| unit.abs(x));
-        }
         if opcode == Opcode::Cmp {
             // ARB selects by `< 0`, Direct3D by `>= 0`: a NaN selects the other operand.
             return operation::each(mask, |i| if unit.less(s[0][i], 0) { s[1][i] } else { s[2][i] });
         }
-        operation::compute(unit, opcode, &s, &Context { bump: [0; 4], mask })
+        operation::compute(unit, opcode, &s, &Context { version, bump: [0; 4], mask })
     }
 
     fn unpacked(&mut self, lane: usize, instruction: &Instruction) -> Components {

@@ -5,7 +5,7 @@ use super::interpreter::Interpreter;
 use super::registers::{Components, LANES, modified};
 use super::texture::{Detail, Quad};
 use crate::exec::Observer;
-use crate::isa::{Instruction, Mask, Opcode, RegisterFile, Source};
+use crate::isa::{Instruction, Mask, Opcode, RegisterFile, Source, TextureTarget, Version};
 use crate::num::{Format, ops};
 
 impl<O: Observer> Interpreter<'_, '_, O> {
@@ -15,12 +15,16 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         else {
             return;
         };
+        let nv = self.prepared.program.version == Version::Fp1_0;
+        // NV's instruction does not divide the directions of a cube map, ARB's does (sections 3.11.5.40 and 3.11.6.2).
+        let projects =
+            instruction.opcode == Opcode::TexLdP && !(nv && instruction.fragment.target == Some(TextureTarget::Cube));
         let mut coordinates: Quad = [[0; 4]; LANES];
         for (lane, slot) in coordinates.iter_mut().enumerate() {
             let [x, y, z, w] = self.address(lane, source);
-            *slot = match instruction.opcode {
-                Opcode::TexLdP => [self.address.div(x, w), self.address.div(y, w), self.address.div(z, w), w],
-                _ => [x, y, z, w],
+            *slot = match projects {
+                true => [self.address.div(x, w), self.address.div(y, w), self.address.div(z, w), w],
+                false => [x, y, z, w],
             };
             self.assign_flags(lane);
         }

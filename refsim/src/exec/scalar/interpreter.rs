@@ -273,6 +273,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 *slot = self.source(lane, &source, opcode.lanes_read(1, destination.mask), unit);
             }
         }
+        let version = self.prepared.program.version;
         let alu = self.alu(unit);
         let raw = match rows {
             Some((_, terms)) => {
@@ -284,7 +285,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             }
             None => {
                 let bump = bump.map(|element| alu.enter(registers, element));
-                let context = Context { bump, mask: destination.mask };
+                let context = Context { version, bump, mask: destination.mask };
                 operation::compute(alu, opcode, &s, &context)
             }
         };

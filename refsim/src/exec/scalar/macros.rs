@@ -3,6 +3,7 @@
 
 use super::alu::Alu;
 use super::registers::Components;
+use crate::isa::Version;
 use crate::num;
 
 /// `bem`: `u' = (u + M00*r) + M10*g`, `v' = (v + M01*r) + M11*g`, each `+ M*x` a `mad` under the rules; z and w give 0.
@@ -16,9 +17,8 @@ pub(super) fn bem(alu: &mut Alu<'_>, base: &Components, offset: &Components, bum
     [row(base[0], bump[0], bump[2]), row(base[1], bump[1], bump[3]), 0, 0]
 }
 
-/// `pow`: `exp2(exponent * log2(base))` in three rounded steps, as the slot cost of 3 and NV30's `pow(0, 0) = NaN`
-/// suggest. The format's rule for special values decides whether a negative base gives the result of its magnitude, or
-/// NaN. Source: Direct3D, "pow - ps".
+/// `pow`: `exp2(exponent * log2(base))` in three rounded steps, as the slot cost of 3 suggests and both OpenGL extensions
+/// define it; so `pow(0, 0)` is NaN. Sources: Direct3D, "pow - ps"; GL_NV_fragment_program 3.11.5.24.
 pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
     let log = alu.log2(base);
     let product = alu.mul(exponent, log);
@@ -32,10 +32,10 @@ pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
     [alu.exp2(floor), alu.frc(w), alu.exp2(w), alu.one()]
 }
 
-/// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once. For w = 0
-/// the first and third component are `log2(0)` and the second is 1. Source: Direct3D, "logp - vs".
-pub(super) fn logp(alu: &mut Alu<'_>, w: u32) -> Components {
-    let magnitude = alu.abs(w);
+/// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once, of a
+/// magnitude. For 0 the first and third component are `log2(0)` and the second is 1. Source: DirectX 8.1, "logp" (vs_1_0
+/// and 1_1); the Direct3D 9 page has one value in all components for every version.
+pub(super) fn logp(alu: &mut Alu<'_>, magnitude: u32) -> Components {
     let log = alu.log2(magnitude);
     if alu.format.is_zero(magnitude) {
         return [log, alu.one(), log, alu.one()];
@@ -68,14 +68,14 @@ pub(super) fn nrm(alu: &mut Alu<'_>, a: &Components) -> Components {
     [alu.mul(a[0], factor), alu.mul(a[1], factor), alu.mul(a[2], factor), alu.mul(a[3], factor)]
 }
 
-/// `sgn`: -1, 0 or 1; 0 for NaN.
+/// `sgn`: -1 below zero, 0 for zeros, else 1, for NaN too. Source: Direct3D, "sgn - vs".
 pub(super) fn sgn(alu: &mut Alu<'_>, a: u32) -> u32 {
-    if alu.less(0, a) {
-        alu.one()
-    } else if alu.less(a, 0) {
+    if alu.less(a, 0) {
         alu.neg(alu.one())
-    } else {
+    } else if alu.equal(a, 0) {
         0
+    } else {
+        alu.one()
     }
 }
 
@@ -101,20 +101,43 @@ pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Components, r: &Components) 
     [alu.sub(r[2], twice), sine, 0, 0]
 }
 
-/// `lit`: `(1, max(x, 0), x > 0 and y > 0 ? y^w : 0, 1)`, w clamped to +-127.9961 (32767/256) and the power as in
-/// [`pow`]. Source: Direct3D, "lit - vs".
-pub(super) fn lit(alu: &mut Alu<'_>, a: &Components) -> Components {
-    let limit = num::from_ratio(alu.format, false, 32767, 256).bits;
-    let lowest = alu.neg(limit);
-    let clamped = alu.max(a[3], lowest);
-    let power = alu.min(clamped, limit);
-    let lit = alu.less(0, a[0]);
-    let specular = if lit && alu.less(0, a[1]) { pow(alu, a[1], power) } else { 0 };
-    [alu.one(), if lit { a[0] } else { 0 }, specular, alu.one()]
+/// `lit`: with x and y clamped to 0 from below, `(1, x, x > 0 ? y^w : 0, 1)`, the power as in [`pow`].
+///
+/// Direct3D clamps w to +-127.9961 (32767/256) and gives 0 for the power of 0. GL_ARB_fragment_program clamps w, and `0^0`
+/// is 1. GL_NV_fragment_program does neither. A clamp leaves a NaN, and OpenGL's also a -0. Sources: Direct3D, "lit - vs";
+/// section 3.11.5.13 of both extensions.
+pub(super) fn lit(alu: &mut Alu<'_>, version: Version, a: &Components) -> Components {
+    let [mut x, mut y, _, mut w] = *a;
+    if version != Version::Fp1_0 {
+        let limit = num::from_ratio(alu.format, false, 32767, 256).bits;
+        let lowest = alu.neg(limit);
+        w = if alu.less(w, lowest) {
+            lowest
+        } else if alu.less(limit, w) {
+            limit
+        } else {
+            w
+        };
+    }
+    let (lit, shines) = (alu.less(0, x), alu.less(0, y));
+    if !version.is_fragment_program() {
+        let specular = if lit && shines { pow(alu, y, w) } else { 0 };
+        return [alu.one(), if lit { x } else { 0 }, specular, alu.one()];
+    }
+    for n in [&mut x, &mut y] {
+        *n = if alu.less(*n, 0) { 0 } else { *n };
+    }
+    let unit = version == Version::ArbFp1_0 && alu.equal(y, 0) && alu.equal(w, 0);
+    let specular = match (lit, unit) {
+        (true, false) => pow(alu, y, w),
+        (true, true) => alu.one(),
+        (false, _) => 0,
+    };
+    [alu.one(), x, specular, alu.one()]
 }
 
 /// `RFL`: the direction `d` reflected about the axis `a`: `q = (a.d + a.d) / (a.a)`, then `q * a - d`, a product and a
-/// difference per component; w gives 0. Source: GL_NV_fragment_program.
+/// difference per component; w gives 0, and is not written. Source: GL_NV_fragment_program.
 pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Components, direction: &Components) -> Components {
     let along = alu.dot(&axis[..3], &direction[..3]);
     let twice = alu.add(along, along);

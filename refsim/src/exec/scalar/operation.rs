@@ -1,14 +1,17 @@
 //! Arithmetic operations for one lane: map operands (after swizzle and source modifier) to a result (before shift,
-//! saturation and write mask). Follows the instruction pages of the Direct3D shader assembly reference.
+//! saturation and write mask). Follows the instruction pages of the Direct3D shader assembly reference, and where they
+//! differ the sections of GL_NV_fragment_program and GL_ARB_fragment_program.
 
 use super::alu::Alu;
 use super::macros;
 use super::registers::Components;
-use crate::isa::{Mask, Opcode};
+use crate::isa::{Mask, Opcode, Version};
 
 /// Inputs of an operation besides its operands.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Context {
+    /// The language: some operations differ from one to another.
+    pub(crate) version: Version,
     /// Bump matrix `M00 M01 M10 M11` of the destination's stage, in the format of the operation (`bem`).
     pub(crate) bump: [u32; 4],
     /// The components needed. Component-wise operations leave the others zero and raise no flags for them.
@@ -20,8 +23,11 @@ pub(crate) struct Context {
 /// Operations that need more than the values of their operands (`dsx`, `dsy`, `setp`, `mova`, the matrix products and
 /// all texture and flow operations) are computed elsewhere; here they return zero.
 pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], context: &Context) -> Components {
-    let [a, b, c] = *s;
-    let mask = context.mask;
+    let [mut a, b, c] = *s;
+    let Context { version, mask, .. } = *context;
+    if opcode.ignores_sign(version) {
+        a = a.map(|x| alu.abs(x));
+    }
     match opcode {
         Opcode::Mov => a,
         Opcode::Add => each(mask, |i| alu.add(a[i], b[i])),
@@ -49,14 +55,16 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Opcode::Exp => [alu.exp2(a[0]); 4],
         Opcode::Log => [alu.log2(a[0]); 4],
         Opcode::Pow => [macros::pow(alu, a[0], b[0]); 4],
-        Opcode::Expp => macros::expp(alu, a[3]),
-        Opcode::Logp => macros::logp(alu, a[3]),
+        Opcode::Expp if version == Version::Vs1_1 => macros::expp(alu, a[3]),
+        Opcode::Expp => [alu.exp2(a[3]); 4],
+        Opcode::Logp if version == Version::Vs1_1 => macros::logp(alu, a[3]),
+        Opcode::Logp => [alu.log2(a[3]); 4],
         Opcode::Crs => macros::crs(alu, &a, &b),
         Opcode::Nrm => macros::nrm(alu, &a),
         Opcode::Sgn => each(mask, |i| macros::sgn(alu, a[i])),
         Opcode::SinCos => macros::sincos(alu, a[0], &b, &c),
         Opcode::Dst => [alu.one(), alu.mul(a[1], b[1]), a[2], b[3]],
-        Opcode::Lit => macros::lit(alu, &a),
+        Opcode::Lit => macros::lit(alu, version, &a),
         Opcode::Flr => each(mask, |i| alu.floor(a[i])),
         Opcode::Cos => [alu.cos(a[0]); 4],
         Opcode::Sin => [alu.sin(a[0]); 4],
@@ -102,7 +110,8 @@ mod tests {
         let operands = operands.map(|operand: [f32; 4]| operand.map(f32::to_bits));
         for &opcode in Opcode::ALL.iter().filter(|opcode| opcode.info().class == OpcodeClass::Arithmetic) {
             let mut alu = Alu::new(&profile.rules, profile.rules.format);
-            let found = compute(&mut alu, opcode, &operands, &Context { bump: [0x3f80_0000; 4], mask: Mask::ALL });
+            let context = Context { version: Version::Vs2_0, bump: [0x3f80_0000; 4], mask: Mask::ALL };
+            let found = compute(&mut alu, opcode, &operands, &context);
             let packing = ["pk", "up"].iter().any(|start| opcode.info().mnemonic.starts_with(start));
             let elsewhere = ELSEWHERE.contains(&opcode) || opcode.matrix().is_some() || packing;
             // Set on false is zero by definition.

@@ -2,6 +2,8 @@
 //!
 //! Selected values are normalised: NaNs become canonical, and subnormals are flushed where the format flushes.
 
+use std::cmp::Ordering;
+
 use super::compare::order;
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
@@ -10,22 +12,26 @@ use crate::num::rules::Specials;
 use crate::num::unpack::{key, nan_bits, pass};
 
 /// `a < b ? a : b` (Direct3D 9 `min`), so that a NaN on either side, and a pair of zeros, give `b`; with
-/// [`Specials::Nv`] a NaN on either side gives NaN. `INVALID` for signalling NaNs only.
+/// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn min(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
-    choose(env.into(), a, b, std::cmp::Ordering::is_lt)
+    choose(env.into(), a, b, Ordering::is_lt)
 }
 
 /// `a >= b ? a : b` (Direct3D 9 `max`), so that a NaN on either side gives `b` and a pair of zeros `a`; with
-/// [`Specials::Nv`] a NaN on either side gives NaN. `INVALID` for signalling NaNs only.
+/// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn max(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
-    choose(env.into(), a, b, std::cmp::Ordering::is_ge)
+    choose(env.into(), a, b, Ordering::is_ge)
 }
 
-fn choose(env: Env, a: u32, b: u32, first: impl Fn(std::cmp::Ordering) -> bool) -> Outcome {
+fn choose(env: Env, a: u32, b: u32, first: impl Fn(Ordering) -> bool) -> Outcome {
     let format = &env.format;
     let (order, signaling) = order(&env, a, b);
+    let nv = format.specials == Specials::Nv;
     let bits = match order {
-        None if format.specials == Specials::Nv => nan_bits(format),
+        None if nv => nan_bits(format),
+        // Equal numbers differ in the sign of zeros alone: the maximum, which takes the first, is -0 if both are.
+        Some(Ordering::Equal) if nv && first(Ordering::Equal) => pass(format, a) & pass(format, b),
+        Some(Ordering::Equal) if nv => pass(format, a) | pass(format, b),
         Some(order) if first(order) => pass(format, a),
         _ => pass(format, b),
     };

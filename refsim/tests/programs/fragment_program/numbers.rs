@@ -137,7 +137,7 @@ fn sines_and_cosines_obey_their_identities_in_any_format() {
 #[test]
 fn reflection_and_the_two_dimensional_matrix() {
     // Reflection about (0, 2, 0): (1, 1, 0) becomes (-1, 1, 0).
-    let ran = run("MOVR R1, {0, 2, 0, 7}; RFLR R0, R1, p[0];", &[[1.0, 1.0, 0.0, 5.0]]);
+    let ran = run("MOVR R1, {0, 2, 0, 7}; RFLR R0.xyz, R1, p[0];", &[[1.0, 1.0, 0.0, 5.0]]);
     assert_eq!(color(&ran)[..3], [-1.0, 1.0, 0.0]);
     let ran = run("MOVR R1, {2, 3, 0, 0}; MOVR R2, {10, 20, 30, 40}; X2DR R0, p[0], R1, R2;", &[[1.0, 2.0, 0.0, 0.0]]);
     assert_eq!(color(&ran), [81.0, 182.0, 81.0, 182.0]);

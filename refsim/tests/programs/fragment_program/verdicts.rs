@@ -14,17 +14,18 @@ struct Verdicts {
 #[serde(deny_unknown_fields)]
 struct Verdict {
     body: Option<String>,
+    device: Option<String>,
     text: Option<String>,
     expected: String,
     why: String,
 }
 
-fn verdict(text: &str) -> String {
+fn verdict(text: &str, device: &str) -> String {
     let program = match assemble(text) {
         Ok(program) => program,
         Err(found) => return found.errors[0].kind.code(),
     };
-    match check(program, &Profile::named("nv35").unwrap()) {
+    match check(program, &Profile::named(device).unwrap()) {
         Ok(_) => "legal".to_owned(),
         Err(report) => report.violations[0].rule.to_string(),
     }
@@ -40,7 +41,7 @@ fn every_program_gets_its_verdict() {
             (None, Some(text)) => text.clone(),
             _ => panic!("program {number} has either `body` or `text`"),
         };
-        let found = verdict(&text);
+        let found = verdict(&text, program.device.as_deref().unwrap_or("nv35"));
         if !program.expected.split('|').any(|expected| expected == found) {
             wrong +=
                 &format!("{number}: expected {}, since {}: found {found}\n{text}\n", program.expected, program.why);

@@ -317,12 +317,14 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     #[inline(always)]
     fn min(&self, a: f32, b: f32) -> f32 {
         let chosen = if a < b { a } else { b };
+        let chosen = if self.nv & (a == b) { f32::from_bits(a.to_bits() | b.to_bits()) } else { chosen };
         if self.nv & (a.is_nan() | b.is_nan()) { f32::NAN } else { chosen }
     }
 
     #[inline(always)]
     fn max(&self, a: f32, b: f32) -> f32 {
         let chosen = if a >= b { a } else { b };
+        let chosen = if self.nv & (a == b) { f32::from_bits(a.to_bits() & b.to_bits()) } else { chosen };
         if self.nv & (a.is_nan() | b.is_nan()) { f32::NAN } else { chosen }
     }
 

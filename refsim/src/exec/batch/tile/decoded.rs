@@ -1,6 +1,7 @@
 //! Cache of decoded pixel programs.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::shader::TileShader;
@@ -9,6 +10,7 @@ use crate::event::SAMPLERS;
 use crate::exec::batch::cache::{Cache, Pool};
 use crate::exec::batch::run::Slots;
 use crate::exec::batch::schedule::{FlowPlan, StraightPlan, StraightProgram};
+use crate::exec::fragment::zero_components;
 use crate::exec::lower::{Formats, has_flow};
 use crate::exec::{BUMP_STAGES, BumpStage, Projection, ResolvedConstants, TileDraw};
 use crate::isa::Program;
@@ -37,8 +39,8 @@ pub(crate) struct PixelKey {
     rules: Rules,
     constants: ResolvedConstants,
     budget: u32,
-    /// For bound textures: `true` if reads need a level of detail, and the kind of texture.
-    samplers: [Option<(bool, TextureKind)>; SAMPLERS],
+    /// For bound textures: `true` if reads need a level of detail, the kind of texture, and the components read as 0.
+    samplers: [Option<(bool, TextureKind, Range<usize>)>; SAMPLERS],
     bump: [BumpStage; BUMP_STAGES],
     projections: [Projection; BUMP_STAGES],
 }
@@ -54,7 +56,10 @@ pub(crate) fn decoded(
     constants: &ResolvedConstants,
 ) -> Arc<DecodedPixel> {
     let (rules, bindings) = (draw.rules, &draw.bindings);
-    let samplers = bindings.samplers.map(|s| s.map(|binding| (binding.needs_detail(), binding.image.kind())));
+    let samplers = bindings.samplers.map(|s| {
+        let image = s?.image;
+        Some((s?.needs_detail(), image.kind(), zero_components(program.version, Some(image.format()))))
+    });
     let matches = |key: &PixelKey| {
         key.samplers == samplers
             && key.bump == bindings.bump
@@ -72,7 +77,15 @@ pub(crate) fn decoded(
             PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
         };
         let (bump, projections, budget) = (bindings.bump, bindings.projections, draw.step_budget);
-        let key = PixelKey { program, rules: rules.clone(), constants, budget, samplers, bump, projections };
+        let key = PixelKey {
+            program,
+            rules: rules.clone(),
+            constants,
+            budget,
+            samplers: samplers.clone(),
+            bump,
+            projections,
+        };
         (key, DecodedPixel { code, shaders: Pool::default(), uniforms: Pool::default() })
     })
 }

@@ -218,6 +218,9 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         case N_MIN, N_MAX: {
             let takes_first = !unordered && select((first < second), (first >= second), op == N_MAX);
             raw = select(select(b, a, takes_first), N_NAN, unordered && f.special == 1u);
+            if f.special == 1u && !unordered && first == second {
+                raw = select(a | b, a & b, op == N_MAX);
+            }
         }
         case N_NEG, N_ABS: {
             let flips = op == N_NEG || sign != 0u;
