@@ -49,10 +49,10 @@ impl Case {
         step_budget: Option<u32>,
     ) -> PyResult<Self> {
         let (source, folder) = source;
-        let format = format.map(|text| text.parse::<Format>().and_then(Format::for_registers)).transpose();
+        let is_format = |text: &str| text.parse::<Format>().and_then(Format::for_registers).map(|_| text.to_owned());
         let overrides = Overrides {
             device: device.map(device_named).transpose().map_err(|error| refused(&error))?,
-            format: format.map_err(|error: FormatError| refused(&error))?,
+            format: format.map(is_format).transpose().map_err(|error: FormatError| refused(&error))?,
             switches,
             step_budget,
         };

@@ -34,8 +34,8 @@ Examples:
   crossbar leaks --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --device r300 --out leaks
       rays of your own, as for `crossbar intersect`, on two cards
 
-With --device and --format both, every device runs in every format. Written to --out: index.html (self-contained), rows.csv,
-edges.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where),
+With --device and --format both, every device runs in every format; what a device file sets stays.
+Written to --out: index.html (self-contained), rows.csv, edges.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where),
 NAME.exr (t and triangle); rows with the same bits have them once: see same_bits in study.json.";
 
 /// Trace the teapot, or a model of your own, in each number format, against exact arithmetic: leaks, false hits, wrong
@@ -213,8 +213,8 @@ fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
         }
         (false, false) => {
             for device in &args.device {
-                for (_, format) in &formats {
-                    all.push(Configuration::device_in_format(device, *format)?);
+                for (text, _) in &formats {
+                    all.push(Configuration::device_in_format(device, text)?);
                 }
             }
         }

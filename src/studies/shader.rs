@@ -95,6 +95,13 @@ pub struct ShaderWarning {
     span: SourceSpan,
 }
 
+impl ShaderWarning {
+    /// Code of the warning, `W01` for example.
+    pub fn id(&self) -> &'static str {
+        self.code
+    }
+}
+
 fn count(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }

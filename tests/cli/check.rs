@@ -60,6 +60,32 @@ fn warnings() {
     assert_eq!((illegal.code, &report["warnings"][0]["code"]), (Some(1), &"W01".into()));
 }
 
+/// Fog and points are not drawn. The fog coordinate has a reader in OpenGL's pixel programs.
+#[test]
+fn outputs_that_change_no_pixel() {
+    let vertex = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmov oFog, v0.z\nmov oPts, v0.w\nmov oFog.x, v0.w\n";
+    let ran = check(vertex.as_bytes(), &["--device", "r300", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
+    let codes: Vec<&str> =
+        report["warnings"].as_array().expect("a list").iter().filter_map(|w| w["code"].as_str()).collect();
+    assert_eq!(codes, ["W02", "W03"], "once each");
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let said = |pixel: &str| {
+        let case = format!(
+            "device = \"r300\"\n[vertex]\nsource = '''\n{vertex}'''\n[pixel]\nsource = '''\n{pixel}'''\n[geometry]\nprimitive = \
+             \"triangles\"\nvertices = [{{ v0 = [0, 0] }}, {{ v0 = [0, 1] }}, {{ v0 = [1, 0] }}]\n[target]\nsize = [2, 2]\n\
+             format = \"bgra8\"\n"
+        );
+        fs::write(folder.path().join("case.toml"), case).expect("a file");
+        let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        ["W02", "W03"].map(|code| ran.stderr.contains(code))
+    };
+    assert_eq!(said("ps_2_0\nmov r0, c0\nmov oC0, r0\n"), [true, true]);
+    assert_eq!(said("!!ARBfp1.0\nMOV result.color, fragment.fogcoord;\nEND\n"), [false, true]);
+}
+
 #[test]
 fn what_is_no_program() {
     let ran = check(b"ps_1_4\nmov r0 c0 garbage\nfrobnicate r1\n", &["--device", "r200"]);

@@ -166,6 +166,29 @@ fn a_card_draws_what_the_host_draws() {
     assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
 }
 
+/// Half precision has no number for this light. Pixels that are not finite are counted as the file has them, shown in
+/// black, and seen.
+#[test]
+fn pixels_that_are_not_finite_are_not_right() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, _, small] = STEP;
+    let out = place(folder.path(), "out");
+    let options =
+        "--size 24x18 --device ideal-fp16 --target-format rgba32f --exposure 1 --light disk:1,0,2:40:1e6,1e6,1e6";
+    let fixed = ["cpca", "card", small, "--model", model, "--out", &out];
+    let found = document(&fixed.into_iter().chain(options.split(' ')).collect::<Vec<_>>());
+    let drawn = Picture::decode(&fs::read(folder.path().join("out/card.exr")).expect("written")).expect("a picture");
+    let drawn = drawn.linear().expect("color");
+    let lost = drawn.iter().filter(|color| color.iter().any(|value| !value.is_finite())).count();
+    let difference = &found["difference"];
+    assert!(lost > 0 && lost < drawn.len());
+    assert_eq!((&difference["not_finite"], &difference["rms_255ths"]), (&lost.into(), &"inf".into()));
+    let shown = image::open(folder.path().join("out/difference.png")).expect("a picture").into_rgb8();
+    assert_eq!(shown.pixels().filter(|pixel| pixel.0 == [0; 3]).count(), lost);
+    let pixels = drawn.iter().filter(|color| color.iter().any(|value| *value != 0.0)).count() as f64;
+    assert!(number(&difference["visible_share"]) >= lost as f64 / pixels, "{difference}");
+}
+
 /// Files and formats that a card does not support are refused with advice, and nothing is written.
 #[test]
 fn cards_refuse_what_they_have_no_programs_for() {

@@ -188,6 +188,23 @@ fn leaky_teapot_writes_everything_it_promises() {
     assert_eq!(fs::read_to_string(out.join("index.html")).expect("the page"), page, "and the same page");
 }
 
+/// Two device files that differ in their rounding alone keep it in another format.
+#[test]
+fn a_format_keeps_the_rounding_of_device_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for rounding in ["rne", "rdn"] {
+        let file = format!("device = \"r200\"\n[switches]\nrounding = \"{rounding}\"\n");
+        fs::write(folder.path().join(format!("{rounding}.toml")), file).expect("written");
+    }
+    let arguments = "leaky-teapot --size 32x32 --tessellation 2 --rays-per-edge 0 --device rne.toml --device rdn.toml \
+                     --format s3.11 --json";
+    let ran = crossbar_in(folder.path(), &arguments.split(' ').collect::<Vec<_>>(), "");
+    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!([0, 1].map(|row| report["rows"][row]["format"].as_str()), [Some("s3.11"), Some("s3.11:rdn")]);
+    assert_eq!(report["same_bits"], serde_json::json!({}), "they trace otherwise");
+}
+
 #[test]
 fn bad_input_ends_with_2_and_writes_nothing() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -54,7 +54,7 @@ fn scalar_and_batch_give_the_same_study() {
 fn cards_of_2003_trace_the_teapot_as_their_formats_do() {
     let mut configurations: Vec<_> =
         ["r300", "r350", "nv30", "nv35"].map(|c| Configuration::device(c).expect("a card")).to_vec();
-    configurations.push(Configuration::device_in_format("nv35", Format::FP16).expect("a card"));
+    configurations.push(Configuration::device_in_format("nv35", "fp16").expect("a card"));
     let mut parameters = parameters(96, 6, configurations);
     parameters.rays_per_edge = 0;
     for sides in [Sides::Front, Sides::Both] {

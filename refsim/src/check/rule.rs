@@ -114,4 +114,6 @@ rules! {
     /// A warning: something legal that does not do what its text says.
     WarningId:
     ClampedConstant W01 "constants of ps_1_x are clamped to -1 to 1";
+    FogIsNotBlended W02 "oFog blends no fog: fixed-function fog is not emulated";
+    PointsAreNotDrawn W03 "oPts sizes no points: points are not drawn";
 }

@@ -1,8 +1,8 @@
-//! V58, and the rules that vertex programs share with ps_2_0. `dataflow` checks V48 and V49.
+//! V58, W02, W03, and the rules that vertex programs share with ps_2_0. `dataflow` checks V48 and V49.
 
-use super::RuleId;
 use super::context::Context;
-use crate::isa::{Mask, RegisterFile, Version};
+use super::{RuleId, Warning, WarningId};
+use crate::isa::{Mask, RegisterFile, Span, Version};
 
 pub(super) fn check(context: &mut Context<'_>) {
     for (_, instruction) in context.instructions() {
@@ -16,10 +16,29 @@ pub(super) fn check(context: &mut Context<'_>) {
                     .breach(RuleId::FogAndPointSizeMask, destination.span, message)
                     .help("write it without a mask, or .x");
             }
+            RegisterFile::FogOut => warn(
+                context,
+                (WarningId::FogIsNotBlended, destination.span),
+                "`oFog` blends no fog, since fixed-function fog is not emulated",
+                "blend in the pixel program; of pixel programs OpenGL's alone read oFog, as FOGC and fragment.fogcoord",
+            ),
+            RegisterFile::PointSizeOut => warn(
+                context,
+                (WarningId::PointsAreNotDrawn, destination.span),
+                "`oPts` changes no pixel, since points are not drawn",
+                "draw two triangles for each point",
+            ),
             RegisterFile::Address if context.version == Version::Vs1_1 && destination.mask != Mask(1) => {
                 context.breach(RuleId::UnsetAddress, destination.span, "`a0` of vs_1_1 has no component but .x");
             }
             _ => {}
         }
+    }
+}
+
+/// Warns of the first place alone.
+fn warn(context: &mut Context<'_>, (id, span): (WarningId, Span), message: &str, help: &'static str) {
+    if context.warnings.iter().all(|warning| warning.id != id) {
+        context.warnings.push(Warning { id, span, message: message.to_owned(), help });
     }
 }

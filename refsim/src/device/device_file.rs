@@ -122,7 +122,8 @@ impl Profile {
     /// if its program is among `programs`.
     pub fn to_device_file(&self, programs: &[&Program]) -> String {
         let mut text = format!("device = \"{}\"\n", self.name);
-        let mut switched: Vec<_> = self.switches().iter().filter(|s| s.current != s.default).collect();
+        let mut switched: Vec<_> =
+            self.switches().iter().filter(|s| s.current != s.default || self.stated.0.contains(&s.name)).collect();
         let mut same = Self::named(&self.name).ok();
         for switch in &switched {
             same = same.and_then(|mut p| p.set_switch(&switch.name, &switch.current).ok().map(|()| p));
@@ -131,7 +132,8 @@ impl Profile {
         let of_file = (self.rules.storage, self.rules.accumulator);
         if same.is_none_or(|same| Rules { storage: of_file.0, accumulator: of_file.1, ..same.rules } != self.rules) {
             let _ = writeln!(text, "format = \"{}\"", self.rules.format);
-            switched.retain(|switch| !FORMAT_RULES.contains(&switch.name.as_str()) && switch.name != "format");
+            let of_format = |name: &str| name == "format" || FORMAT_RULES.contains(&name);
+            switched.retain(|switch| self.stated.0.contains(&switch.name) || !of_format(&switch.name));
         }
         if let Some(format) = self.rules.accumulator {
             let _ = writeln!(text, "accumulator = \"{format}\"");

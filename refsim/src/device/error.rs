@@ -26,6 +26,15 @@ pub enum DeviceError {
     #[error("switch `{switch}` of device `{device}`: expected one of {allowed}, found `{value}`")]
     #[diagnostic(code(device::switch_value), help("`crossbar devices {device}` lists the switches"))]
     SwitchValue { device: String, switch: String, value: String, allowed: String },
+    /// The switch sets a rule that the registers' format does not have.
+    #[error("switch `{switch}` of device `{device}` is `{value}`, which its format `{format}` cannot have")]
+    #[diagnostic(
+        code(device::format_rule),
+        help(
+            "leave the switch out, or end a format that replaces the device's with a rule of its own, `:sat` for example"
+        )
+    )]
+    FormatRule { device: String, switch: String, value: String, format: Format },
     /// The profile's file is malformed.
     #[error("profile `{device}`: {problem}")]
     #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]

@@ -1,6 +1,6 @@
 //! A profile, and its construction from TOML.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
@@ -15,8 +15,8 @@ use super::rules::{
     TexelValues, TexkillComponents, WeightRounding,
 };
 use super::storage_formats::StorageFormats;
-use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name};
-use crate::isa::Version;
+use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name, sets_rule};
+use crate::isa::{Opcode, Version};
 use crate::num::{DotOrder, Format, FormatError};
 
 /// The cards, by release date.
@@ -106,6 +106,17 @@ impl RawProfile {
     }
 }
 
+/// Rules of the format that [`Profile::set_switch`] set since the format was. Devices may be equal that came about in
+/// other ways.
+#[derive(Clone, Debug, Default, Eq)]
+pub(super) struct StatedRules(pub(super) BTreeSet<String>);
+
+impl PartialEq for StatedRules {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 /// A device: its arithmetic, limits and speeds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Profile {
@@ -122,6 +133,7 @@ pub struct Profile {
     /// Connection to the host.
     pub bus: Bus,
     switches: Vec<Switch>,
+    pub(super) stated: StatedRules,
     figures: Vec<FigureRow>,
     pub(super) instruction_formats: InstructionFormats,
     pub(crate) log: Option<ProgramLog>,
@@ -206,26 +218,32 @@ impl Profile {
                 allowed: if allowed.is_empty() { "none".to_owned() } else { allowed.join(" ") },
             });
         };
-        let error = DeviceError::SwitchValue {
-            device: self.name.clone(),
-            switch: name.to_owned(),
-            value: value.chars().take(60).collect(),
-            allowed: self.switches[index].values.join(" "),
-        };
         if !self.switches[index].values.iter().any(|v| v == value) {
-            return Err(error);
+            return Err(DeviceError::SwitchValue {
+                device: self.name.clone(),
+                switch: name.to_owned(),
+                value: value.chars().take(60).collect(),
+                allowed: self.switches[index].values.join(" "),
+            });
         }
         if LIMIT_SWITCHES.contains(&name) {
             self.set_limit_switch(name, value);
         } else {
             // Applied to a copy, so that an invalid value changes nothing.
             let mut rules = self.rules.clone();
-            apply(&mut rules, name, value).ok_or(error)?;
+            apply(&mut rules, name, value).ok_or_else(|| DeviceError::FormatRule {
+                device: self.name.clone(),
+                switch: name.to_owned(),
+                value: value.to_owned(),
+                format: self.rules.format,
+            })?;
             self.rules = rules;
         }
         value.clone_into(&mut self.switches[index].current);
         if name == "format" {
             self.refresh_format_switches();
+        } else if FORMAT_RULES.contains(&name) {
+            self.stated.0.insert(name.to_owned());
         }
         Ok(())
     }
@@ -246,8 +264,46 @@ impl Profile {
         Ok(())
     }
 
+    /// Replaces the format as `--format` and a case's `format` do: as [`Self::set_format`], but what was set for this
+    /// device stays. That is its switches of rounding, overflow and subnormal numbers, unless the text has a suffix for
+    /// the rule, and the formats of storages and sums.
+    ///
+    /// ```
+    /// use refsim::device::Profile;
+    ///
+    /// let mut down = Profile::from_device_file("device = \"r200\"\n[switches]\nrounding = \"rdn\"")?;
+    /// down.replace_format("s3.8")?;
+    /// assert_eq!(down.rules.format.to_string(), "s3.8:rdn");
+    /// down.replace_format("s3.8:rne")?;
+    /// assert_eq!(down.rules.format.to_string(), "s3.8");
+    /// # Ok::<(), refsim::device::DeviceError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`DeviceError::Format`] unless registers can have the format; [`DeviceError::FormatRule`] and
+    /// [`DeviceError::StorageFormat`] if what was set does not fit it. The profile is unchanged.
+    pub fn replace_format(&mut self, text: &str) -> Result<(), DeviceError> {
+        let format: Format = text.parse()?;
+        let mut new = self.clone();
+        new.set_format(format)?;
+        let has_suffix = |rule: &str| text.split(':').skip(1).any(|suffix| sets_rule(format, rule, suffix));
+        for switch in self.switches.iter().filter(|switch| self.stated.0.contains(&switch.name)) {
+            // The layout says what registers are counted in.
+            if switch.name != "registers" && !has_suffix(&switch.name) {
+                new.set_switch(&switch.name, &switch.current)?;
+            }
+        }
+        for (storage, format) in self.rules.storage.iter() {
+            new.set_storage_format(storage, Some(format))?;
+        }
+        new.set_accumulator(self.rules.accumulator)?;
+        *self = new;
+        Ok(())
+    }
+
     /// Updates the switches that depend on the format to show the new one.
     fn refresh_format_switches(&mut self) {
+        self.stated.0.clear();
         let format = self.rules.format;
         for switch in &mut self.switches {
             let current = match switch.name.as_str() {
@@ -315,6 +371,12 @@ impl Profile {
         part.finish()?;
         let mut part = section("clocks", raw.clocks);
         for mnemonic in part.figures.keys().cloned().collect::<Vec<_>>() {
+            if !Opcode::ALL.iter().any(|opcode| opcode.info().mnemonic == mnemonic) {
+                let known: Vec<&str> = Opcode::ALL.iter().map(|opcode| opcode.info().mnemonic).collect();
+                return Err(
+                    part.problem(&mnemonic, &format!("no such instruction; expected one of {}", known.join(" ")))
+                );
+            }
             let clocks = part.number(&mnemonic)?.unwrap_or(1);
             rates.instruction_clocks.insert(mnemonic, clocks);
         }
@@ -332,6 +394,7 @@ impl Profile {
             rates,
             bus,
             switches,
+            stated: StatedRules::default(),
             figures,
             instruction_formats: InstructionFormats::default(),
             log: None,
@@ -340,6 +403,7 @@ impl Profile {
         for (name, value) in profile.switches.iter().map(|s| (s.name.clone(), s.current.clone())).collect::<Vec<_>>() {
             profile.set_switch(&name, &value)?;
         }
+        profile.stated.0.clear();
         Ok(profile)
     }
 
@@ -437,4 +501,20 @@ fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
         }
     }
     Ok(rules)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clocks_are_of_instructions() {
+        let nv30 = CARDS.iter().find(|(name, _)| *name == "nv30").expect("a card").1;
+        let slip = nv30.replace("\nrsq = {", "\nrqs = {");
+        let error = Profile::from_toml("nv30", &slip).expect_err("no instruction").to_string();
+        assert!(
+            error.contains("clocks.rqs: no such instruction; expected one of ") && error.contains(" rsq "),
+            "{error}"
+        );
+    }
 }

@@ -126,6 +126,11 @@ fn set_format_rule(format: &mut Format, name: &str, value: &str) -> Option<()> {
     Some(())
 }
 
+/// Returns `true` if the format's rule of this name has this value among its own.
+pub(super) fn sets_rule(mut format: Format, name: &str, value: &str) -> bool {
+    set_format_rule(&mut format, name, value).is_some()
+}
+
 fn parse_bool(value: &str) -> Option<bool> {
     match value {
         "true" => Some(true),

@@ -2,7 +2,7 @@
 
 use refsim::device::{
     ColorClamp, ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, ResultRange,
-    SignedTexelMinimum, SubpixelRounding, TargetRounding, TexkillComponents,
+    SignedTexelMinimum, Storage, SubpixelRounding, TargetRounding, TexkillComponents,
 };
 use refsim::isa::Version;
 use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials};
@@ -123,8 +123,40 @@ fn switches_reach_the_formats() {
     // Floats cannot wrap, whatever the switch of the fixed-point card.
     let mut r200 = Profile::named("r200").unwrap();
     r200.set_format(Format::FP24).unwrap();
-    assert!(matches!(r200.set_switch("overflow", "wrap"), Err(DeviceError::SwitchValue { .. })));
+    assert!(matches!(r200.set_switch("overflow", "wrap"), Err(DeviceError::FormatRule { .. })));
     assert_eq!(r200.rules.format, Format::FP24);
+}
+
+/// A format that replaces the device's takes its default rules along, and not what was set for the device.
+#[test]
+fn what_is_set_stays_when_the_format_is_replaced() {
+    let with = |file: &str, format: &str| {
+        let mut profile = Profile::from_device_file(file).unwrap();
+        profile.replace_format(format).map(|()| (profile.rules.format.to_string(), profile))
+    };
+    let format = |switches: &str, format: &str| {
+        with(&format!("device = \"r200\"\n[switches]\n{switches}"), format).map(|(format, _)| format)
+    };
+    let down = "rounding = \"rdn\"";
+    assert_eq!(format("", "s3.8"), Ok("s3.8".to_owned()), "the card's own rounding belongs to its own format");
+    for (switches, asked, found) in [
+        (down, "s3.8", "s3.8:rdn"),
+        (down, "fp16", "e5m10:rdn"),
+        (down, "s3.8:rne", "s3.8"),
+        (down, "s3.8:rtz", "s3.8:rtz"),
+        (down, "s3.8:wrap", "s3.8:rdn:wrap"),
+        ("overflow = \"wrap\"", "s3.8:rtz", "s3.8:rtz:wrap"),
+        ("overflow = \"wrap\"", "fp16:inf", "e5m10"),
+    ] {
+        assert_eq!(format(switches, asked).as_deref(), Ok(found), "{switches}, {asked}");
+    }
+    let error = format("overflow = \"wrap\"", "fp16").unwrap_err().to_string();
+    assert_eq!(error, "switch `overflow` of device `r200` is `wrap`, which its format `e5m10` cannot have");
+    let stored = "device = \"ideal-fp32\"\naccumulator = \"e8m13\"\n[storage]\ntemporaries = \"fp16\"";
+    let (_, kept) = with(stored, "fp24").unwrap();
+    assert_eq!(kept.rules.storage.of(Storage::Temporaries), Some(Format::FP16));
+    assert_eq!(kept.rules.accumulator, Some("e8m13".parse().unwrap()));
+    assert!(matches!(with(stored, "e5m8"), Err(DeviceError::StorageFormat { what: "temporaries", .. })));
 }
 
 /// GL_NV_register_combiners: results are clamped to [-1, 1], sums within an instruction are not. Another format has its
@@ -144,7 +176,7 @@ fn nv2x_clamps_results_and_not_sums() {
         assert_eq!(range.value, "format");
         let registers = card.switches().iter().find(|switch| switch.name == "registers").unwrap();
         assert_eq!((registers.current.as_str(), registers.default.as_str()), ("256ths", "255ths"));
-        assert!(matches!(card.set_switch("registers", "255ths"), Err(DeviceError::SwitchValue { .. })), "not in fp16");
+        assert!(matches!(card.set_switch("registers", "255ths"), Err(DeviceError::FormatRule { .. })), "not in fp16");
     }
 }
 

@@ -144,10 +144,12 @@ fn request(
     executor: Executor,
 ) -> miette::Result<SideRequest> {
     let (device, format, switches) = settings;
+    let checked =
+        |text: &str| text.parse().and_then(Format::for_registers).map(|_| text.to_owned()).map_err(bad_format);
     let overrides = || -> miette::Result<Overrides> {
         Ok(Overrides {
             device: device.map(device_named).transpose()?,
-            format: format.map(|text| text.parse().and_then(Format::for_registers).map_err(bad_format)).transpose()?,
+            format: format.map(checked).transpose()?,
             switches: switches.to_vec(),
             step_budget,
         })

@@ -1,8 +1,10 @@
 //! OpenEXR files: floats and integers are kept to the bit.
 
 use std::io::Cursor;
+use std::ops::Range;
 
 use exr::meta::MetaData;
+use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, ReadChannels as _, ReadLayers as _,
     SmallVec, Text, WritableImage as _,
@@ -69,28 +71,31 @@ fn broken(error: exr::error::Error) -> PictureError {
     PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() }
 }
 
-/// Returns the size of the layer that takes the most memory, from the headers.
+/// Returns the size of the window that takes the most memory, of pixels or of display, from the headers.
 pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, PictureError> {
     /// Bytes of a chunk besides its data: entry in the offset table, coordinate and length.
     const PER_CHUNK: u64 = 16;
     let meta = MetaData::read_from_buffered(bytes, true).map_err(broken)?;
     let mut largest = PictureSize { width: 0, height: 0, channels: 0 };
     for header in &meta.headers {
-        let [width, height] = [header.layer_size.width(), header.layer_size.height()].map(|side| side as u64);
         let channels = header.channels.list.len();
-        require_size(width, height, channels, 4)?;
-        require_length(PictureFormat::Exr, [width, height], header.chunk_count as u64 * PER_CHUNK, bytes.len())?;
-        // Within the limit, which is below 2^32.
-        let found = PictureSize { width: width as u32, height: height as u32, channels };
-        if found.samples() > largest.samples() {
-            largest = found;
+        for window in [header.layer_size, header.shared_attributes.display_window.size] {
+            let [width, height] = [window.width(), window.height()].map(|side| side as u64);
+            require_size(width, height, channels, 4)?;
+            require_length(PictureFormat::Exr, [width, height], header.chunk_count as u64 * PER_CHUNK, bytes.len())?;
+            // Within the limit, which is below 2^32.
+            let found = PictureSize { width: width as u32, height: height as u32, channels };
+            if found.samples() > largest.samples() {
+                largest = found;
+            }
         }
     }
     Ok(largest)
 }
 
 /// The first layer of an EXR file whose [`size`] is right, in its largest resolution: the reader takes memory for what
-/// the header says. Halves become singles.
+/// the header says. Halves become singles. The picture is the display window: where the data window has no pixels,
+/// samples are 0, and pixels outside the display window are left out.
 pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
     let image = exr::prelude::read()
         .no_deep_data()
@@ -102,20 +107,71 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
         .from_buffered(Cursor::new(bytes))
         .map_err(broken)?;
     let layer = image.layer_data;
+    let windows = Windows {
+        data: IntegerBounds::new(layer.attributes.layer_position, layer.size),
+        display: image.attributes.display_window,
+    };
+    if (0..2).any(|axis| windows.shared(axis).is_empty()) {
+        let [data, display] = [windows.data, windows.display].map(|IntegerBounds { position, size }| {
+            format!("{}x{} at {}, {}", size.width(), size.height(), position.x(), position.y())
+        });
+        let reason = format!("no pixel of the data window ({data}) lies in the display window ({display})");
+        return Err(PictureError::Decode { format: PictureFormat::Exr, reason });
+    }
     // Within the limit, which is below 2^32.
-    let mut picture = Picture::new(layer.size.width() as u32, layer.size.height() as u32);
+    let mut picture = Picture::new(windows.display.size.width() as u32, windows.display.size.height() as u32);
     for channel in layer.channel_data.list {
         let name = channel.name.to_string();
         let unit =
             if matches!(name.as_str(), "R" | "G" | "B" | "Y") { ChannelUnit::Linear } else { ChannelUnit::Unknown };
         let samples = match channel.sample_data {
-            FlatSamples::U32(samples) => Samples::Uint(samples),
-            FlatSamples::F32(samples) => Samples::Float(samples),
-            halves @ FlatSamples::F16(_) => Samples::Float(halves.values_as_f32().collect()),
+            FlatSamples::U32(samples) => Samples::Uint(windows.displayed(samples)),
+            FlatSamples::F32(samples) => Samples::Float(windows.displayed(samples)),
+            halves @ FlatSamples::F16(_) => Samples::Float(windows.displayed(halves.values_as_f32().collect())),
         };
         picture = picture.with(&name, unit, samples)?;
     }
     Ok(picture)
+}
+
+/// Where the pixels of a layer are, and which a picture shows, in the coordinates of the file.
+struct Windows {
+    data: IntegerBounds,
+    display: IntegerBounds,
+}
+
+impl Windows {
+    /// Coordinates on an axis that both windows have.
+    fn shared(&self, axis: usize) -> Range<i64> {
+        let [[from, to], [first, last]] = [self.data, self.display].map(|window| {
+            let (start, size) = if axis == 0 {
+                (window.position.x(), window.size.width())
+            } else {
+                (window.position.y(), window.size.height())
+            };
+            [i64::from(start), i64::from(start) + size as i64]
+        });
+        from.max(first)..to.min(last)
+    }
+
+    /// Samples of the display window, row by row, out of those of the data window.
+    fn displayed<T: Copy + Default>(&self, samples: Vec<T>) -> Vec<T> {
+        if self.data == self.display {
+            return samples;
+        }
+        let (columns, mut shown) = (self.shared(0), vec![T::default(); self.display.size.area()]);
+        let width = (columns.end - columns.start) as usize;
+        // Not negative: both windows have the place.
+        let at = |window: &IntegerBounds, row: i64| {
+            let [x, y] = [columns.start - i64::from(window.position.x()), row - i64::from(window.position.y())];
+            y as usize * window.size.width() + x as usize
+        };
+        for row in self.shared(1) {
+            let (from, to) = (at(&self.data, row), at(&self.display, row));
+            shown[to..to + width].copy_from_slice(&samples[from..from + width]);
+        }
+        shown
+    }
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use super::channels::{ChannelUnit, Picture, Samples};
 use super::error::{PictureError, PictureFormat};
 use super::exr;
 use super::limits::{PictureSize, limits, require_length, require_size};
+use crate::elementary::pow;
 
 /// First bytes of Radiance HDR files, and the variant that other programs write.
 const RADIANCE: &[u8] = b"#?RADIANCE";
@@ -50,9 +51,10 @@ impl PictureSize {
 }
 
 impl Picture {
-    /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives sRGB values `R`, `G`, `B` (and
-    /// `A`, which is linear), Radiance HDR linear ones, divided by the factors of its EXPOSURE and COLORCORR lines; of
-    /// an EXR file the first layer is read.
+    /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
+    /// linear): sRGB values, or linear ones where a gAMA or cICP chunk says how to decode them. Radiance HDR gives
+    /// linear values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file the first layer is
+    /// read, as large as the display window, and 0 where the layer has no pixels.
     ///
     /// # Errors
     /// [`PictureError`], those of [`PictureSize::of`] before any pixel is decoded.
@@ -68,12 +70,15 @@ impl Picture {
                 let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| radiance(pixel.0)).collect();
                 Ok(Self::rgb(image.width(), image.height(), &pixels))
             }
-            Some(PictureFormat::Png) | None => from_png(&decoded(bytes, PictureFormat::Png)?),
+            Some(PictureFormat::Png) | None => {
+                let exponent = png_exponent(bytes)?;
+                from_png(&decoded(bytes, PictureFormat::Png)?, exponent)
+            }
         }
     }
 }
 
-/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel.
+/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, whatever light they stand for.
 ///
 /// # Errors
 /// [`PictureError`], those of [`PictureSize::of`] before any pixel is decoded.
@@ -92,6 +97,12 @@ fn with_known_beginning(bytes: &[u8]) -> Cow<'_, [u8]> {
 fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
     let refused = |reason: String| PictureError::Decode { format: PictureFormat::Hdr, reason };
     let header = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| refused(error.to_string()))?.metadata();
+    // Ward's tools write none; others say with it that pixels are not linear, each by a rule of its own.
+    let is_curve = |value: &str| value.trim().parse() != Ok(1.0);
+    if let Some((_, found)) = header.custom_attributes.iter().find(|(key, value)| key == "GAMMA" && is_curve(value)) {
+        let found: String = found.trim().chars().take(20).collect();
+        return Err(refused(format!("expected linear pixels (GAMMA=1 or no such line), found GAMMA={found}")));
+    }
     let (red, green, blue) = header.color_correction.unwrap_or((1.0, 1.0, 1.0));
     let scale = [red, green, blue].map(|correction| header.exposure.unwrap_or(1.0) * correction);
     match scale.into_iter().find(|factor| !(factor.is_finite() && *factor > 0.0)) {
@@ -133,15 +144,44 @@ fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, PictureE
     reader.decode().map_err(refused(format))
 }
 
-/// Converts codes k of n bits to k / (2^n - 1).
-fn from_png(image: &DynamicImage) -> Result<Picture, PictureError> {
+/// Exponent by which samples of a PNG file become linear light; `None` for sRGB's curve, which also holds for files
+/// that do not say. Of the chunks that say it, cICP goes before sRGB, and that before gAMA. ICC profiles and
+/// chromaticities are not looked at.
+fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, PictureError> {
+    let refused = |reason: String| PictureError::Decode { format: PictureFormat::Png, reason };
+    let reader = ::png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|error| refused(error.to_string()))?;
+    let info = reader.info();
+    // Transfer characteristics of ITU-T H.273: 8 is linear, 13 is sRGB.
+    match info.coding_independent_code_points.map(|points| points.transfer_function) {
+        Some(8) => return Ok(Some(1.0)),
+        Some(13) => return Ok(None),
+        Some(found) => {
+            return Err(refused(format!("expected a cICP chunk of transfer function 8 or 13, found {found}")));
+        }
+        None if info.srgb.is_some() => return Ok(None),
+        None => {}
+    }
+    match info.gama_chunk.map(::png::ScaledFloat::into_scaled) {
+        Some(0) => Err(refused("expected a gAMA chunk of more than 0, found 0".to_owned())),
+        // In units of 1 / 100,000.
+        Some(gamma) => Ok(Some(1e5 / f64::from(gamma))),
+        None => Ok(None),
+    }
+}
+
+/// Converts codes k of n bits to k / (2^n - 1), and colors to its power where there is an exponent.
+fn from_png(image: &DynamicImage, exponent: Option<f64>) -> Result<Picture, PictureError> {
     // k / 255 is 257 k / 65535, to the bit.
     let (alpha, image) = (image.color().has_alpha(), image.to_rgba16());
-    let names =
-        [("R", ChannelUnit::Srgb), ("G", ChannelUnit::Srgb), ("B", ChannelUnit::Srgb), ("A", ChannelUnit::Linear)];
+    let color = if exponent.is_some() { ChannelUnit::Linear } else { ChannelUnit::Srgb };
+    let names = [("R", color), ("G", color), ("B", color), ("A", ChannelUnit::Linear)];
     let mut named = names.into_iter().take(if alpha { 4 } else { 3 }).enumerate();
     named.try_fold(Picture::new(image.width(), image.height()), |picture, (channel, (name, unit))| {
-        let samples = image.pixels().map(|pixel| f32::from(pixel.0[channel]) / 65535.0).collect();
+        let sample = |code: u16| match exponent.filter(|_| channel < 3) {
+            Some(exponent) => pow(f64::from(code) / 65535.0, exponent) as f32,
+            None => f32::from(code) / 65535.0,
+        };
+        let samples = image.pixels().map(|pixel| sample(pixel.0[channel])).collect();
         picture.with(name, unit, Samples::Float(samples))
     })
 }

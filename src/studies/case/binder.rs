@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use refsim::{
-    device::{DeviceError, Profile},
-    num::Format,
-};
+use refsim::device::Profile;
 use toml::Spanned;
 
 use super::{CaseError, error::CaseText, value::Number};
@@ -16,8 +13,8 @@ use super::{CaseError, error::CaseText, value::Number};
 pub struct Overrides {
     /// Replaces `device`, or `shader_model` and `format`. Switches of the case that this device lacks are ignored.
     pub device: Option<Profile>,
-    /// Replaces the format of the pixel registers.
-    pub format: Option<Format>,
+    /// Replaces the format of the pixel registers; what device file and case set stays ([`Profile::replace_format`]).
+    pub format: Option<String>,
     /// Switches set after those of the case.
     pub switches: Vec<(String, String)>,
     /// Maximum number of instructions that a program may execute per pixel or vertex; replaces the settings of case and
@@ -28,8 +25,8 @@ pub struct Overrides {
 impl Overrides {
     /// Applies format and switches to a profile.
     pub(super) fn apply(&self, profile: &mut Profile) -> Result<(), CaseError> {
-        if let Some(format) = self.format {
-            profile.set_format(format).map_err(|error| CaseError::from(DeviceError::from(error)))?;
+        if let Some(format) = &self.format {
+            profile.replace_format(format).map_err(CaseError::from)?;
         }
         for (name, value) in &self.switches {
             profile.set_switch(name, value).map_err(CaseError::from)?;

@@ -32,8 +32,8 @@ impl Binder<'_> {
             })?;
         }
         if let (Some(_), Some(format), None) = (&case.device, &case.format, &self.overrides.device) {
-            let set = profile.set_format(self.format(format)?);
-            set.map_err(|error| CaseError::from(DeviceError::from(error)))?;
+            self.format(format)?;
+            profile.replace_format(format.get_ref()).map_err(CaseError::from)?;
         }
         if let Some(steps) = &case.step_budget {
             if *steps.get_ref() == 0 {

@@ -3,10 +3,10 @@
 use std::{collections::BTreeMap, path::Path};
 
 use refsim::{
-    check::Checked,
+    check::{Checked, WarningId},
     device::{Profile, Storage},
     exec::{BUMP_STAGES, BumpStage, Constants, Projection},
-    isa::{Program, Register, Stage, Version},
+    isa::{Program, Register, RegisterFile, Stage, Version},
     machine::{ExecutorKind, Machine, MachineError},
     output::{AlphaTest, BlendState, DepthFormat, DepthState},
     texture::TexelFormat,
@@ -180,6 +180,11 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
     instructions.chain(profile.rules.storage.unused(pixel).into_iter().map(of_storage)).collect()
 }
 
+fn reads_fog(pixel: &Program) -> bool {
+    let mut sources = pixel.instructions.iter().flat_map(|instruction| &instruction.sources);
+    sources.any(|source| source.register.file == RegisterFile::FogIn)
+}
+
 impl Binder<'_> {
     fn bind(&self, case: Case) -> Result<Setup, CaseError> {
         let (profile, model, left_out) = self.profile(&case)?;
@@ -194,6 +199,12 @@ impl Binder<'_> {
         let (vertex, vertex_text) = vertex.unzip();
         let stages = stages::bump(self, &case.bump)?;
         let mut warnings: Vec<CaseWarning> = pixel_text.warnings(&pixel).map(CaseWarning::Shader).collect();
+        if let (Some(text), Some(program)) = (&vertex_text, &vertex) {
+            // OpenGL's pixel programs read the fog coordinate.
+            let fog = reads_fog(&pixel).then_some(WarningId::FogIsNotBlended.code());
+            let ignored = text.warnings(program).filter(|warning| Some(warning.id()) != fog);
+            warnings.extend(ignored.map(CaseWarning::Shader));
+        }
         warnings.extend(stages::unset(self, &case.pixel, &pixel, &stages));
         warnings.extend(unused_formats(&profile, &pixel, vertex.as_deref()));
         let mut projections = [Projection::None; BUMP_STAGES];

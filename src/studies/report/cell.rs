@@ -111,7 +111,7 @@ impl Cell {
     }
 
     /// Converts the cell to JSON, without its mark. JSON has no infinity and no NaN: they are written as strings.
-    pub(super) fn json(&self) -> Value {
+    pub fn json(&self) -> Value {
         match self {
             Self::Empty => Value::Null,
             Self::Count(count) => (*count).into(),

@@ -4,27 +4,38 @@ use colorous::{Gradient, MAGMA, RED_BLUE};
 
 use crate::picture::{RgbImage, rgb8};
 
-/// Color of values that are not finite.
+/// Colors of values that are not finite: none that the gradient has.
 const NOT_FINITE: [u8; 3] = [0, 0, 0];
+const NOT_FINITE_MAGNITUDE: [u8; 3] = [0, 158, 115];
+
+/// End of the caption of a [`signed`] picture; empty if all values are finite.
+pub fn not_finite(values: &[f64]) -> &'static str {
+    if values.iter().all(|value| value.is_finite()) { "" } else { "; black where not finite" }
+}
 
 /// Maps signed numbers to colors, rows from the top: from blue at `-scale` or below over white at 0 to red at `scale`
 /// or above; black where they are not finite. Below the picture a color bar runs from `-scale` on the left to `scale`
 /// on the right.
 pub fn signed(width: u32, values: &[f64], scale: f64) -> RgbImage {
-    with_bar(width, values, RED_BLUE, |value| 0.5 - 0.5 * value / scale)
+    with_bar(width, values, (RED_BLUE, NOT_FINITE), |value| 0.5 - 0.5 * value / scale)
 }
 
-/// Maps numbers in [0, 1] to colors, rows from the top: from black over purple and orange to a pale yellow. Below the
-/// picture a color bar runs from 0 on the left to 1 on the right.
+/// Maps numbers in [0, 1] to colors, rows from the top: from black over purple and orange to a pale yellow; green
+/// where they are not finite. Below the picture a color bar runs from 0 on the left to 1 on the right.
 pub fn magnitude(width: u32, values: &[f64]) -> RgbImage {
-    with_bar(width, values, MAGMA, |value| value)
+    with_bar(width, values, (MAGMA, NOT_FINITE_MAGNITUDE), |value| value)
 }
 
-fn with_bar(width: u32, values: &[f64], gradient: Gradient, place: impl Fn(f64) -> f64) -> RgbImage {
+fn with_bar(
+    width: u32,
+    values: &[f64],
+    (gradient, not_finite): (Gradient, [u8; 3]),
+    place: impl Fn(f64) -> f64,
+) -> RgbImage {
     let color = |at: f64| gradient.eval_continuous(at.clamp(0.0, 1.0)).as_array();
     let rows = values.len() as u32 / width.max(1);
     let bar = (rows / 24).max(2);
-    let pixel = |value: &f64| if value.is_finite() { color(place(*value)) } else { NOT_FINITE };
+    let pixel = |value: &f64| if value.is_finite() { color(place(*value)) } else { not_finite };
     // The right end of a signed scale is the left end of its gradient.
     let [left, right] = [place(0.0).min(1.0), place(1.0)];
     let rises = right > left;
@@ -49,6 +60,8 @@ mod tests {
         assert!(b0 > r0 && r1 > b1 && white.iter().all(|&channel| channel > 225) && none == NOT_FINITE);
         let [[r0, _, b0], [r1, _, b1]] = [0, 3].map(|x| rgb(&image, x, 2));
         assert!(b0 > r0 && r1 > b1, "the bar");
+        let image = magnitude(2, &[0.0, f64::INFINITY]);
+        assert!(rgb(&image, 0, 0) != rgb(&image, 1, 0), "infinity is not 0");
         let image = magnitude(2, &[0.0, 1.0]);
         let sum = |color: [u8; 3]| color.map(u32::from).iter().sum::<u32>();
         assert!(sum(rgb(&image, 0, 0)) < sum(rgb(&image, 1, 0)) && sum(rgb(&image, 0, 2)) < sum(rgb(&image, 1, 2)));

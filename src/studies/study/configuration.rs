@@ -38,14 +38,15 @@ impl Configuration {
         Ok(configuration)
     }
 
-    /// Creates the configuration of a device with its format replaced by `format`.
+    /// Creates the configuration of a device with its format replaced by `format`. What a device file sets stays
+    /// ([`Profile::replace_format`]).
     ///
     /// # Errors
-    /// If there is no such device.
-    pub fn device_in_format(name: &str, format: Format) -> Result<Self, DeviceError> {
+    /// If there is no such device or format, or the file's settings do not fit the format.
+    pub fn device_in_format(name: &str, format: &str) -> Result<Self, DeviceError> {
         let mut configuration = Self::device(name)?;
-        configuration.profile.set_format(format)?;
-        configuration.label = file_name(&format!("{name}-{format}"));
+        configuration.profile.replace_format(format)?;
+        configuration.label = file_name(&format!("{name}-{}", format.parse::<Format>()?));
         Ok(configuration)
     }
 

@@ -70,9 +70,7 @@ impl<'a> Shooter<'a> {
 
     /// The rays that the caster must trace; sets the `bits` of directions that are certainly blocked.
     pub(crate) fn shadow_rays(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> VertexRays {
-        // AVX-512 is no faster than AVX2 here, and often slower.
-        let level = SimdLevel::widest().min(SimdLevel::Avx2);
-        level.run(
+        SimdLevel::widest().run(
             #[inline(always)]
             || self.shadow_packets(vertex, waiting, bits),
         )

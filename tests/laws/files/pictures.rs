@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crossbar::io::{PictureFileError, load_picture};
+use crossbar::picture::metrics::{ErrorSums, relative_error, value_error};
 use crossbar::picture::{ChannelUnit, Picture, PictureError, Samples, exr, hdr, png, rgb8};
 use proptest::prelude::*;
 
@@ -109,6 +110,83 @@ fn exposures_of_hdr_files_are_undone() {
         let error = read(lines).expect_err("refused").to_string();
         assert!(error.contains("positive product"), "{lines}: {error}");
     }
+}
+
+fn fixture(name: &str) -> Result<Picture, PictureFileError> {
+    load_picture(&Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/pictures").join(name))
+}
+
+/// A picture is what an EXR file displays: 4 x 3 pixels from (-1, 10). Red is 1 + column + 10 row where the data window
+/// has pixels, in files that OpenEXR's own library wrote.
+#[test]
+fn exr_files_show_their_display_window() {
+    let shown = |name: &str| {
+        let picture = fixture(name).expect("a picture");
+        assert_eq!([picture.width(), picture.height()], [4, 3]);
+        let red = picture.floats("R").expect("floats").1.to_vec();
+        assert!(picture.floats("B").expect("floats").1.iter().zip(&red).all(|(blue, red)| *blue == 4.0 * red));
+        red
+    };
+    assert_eq!(shown("inside.exr"), [0.0, 0.0, 0.0, 0.0, 0.0, 12.0, 13.0, 0.0, 0.0, 22.0, 23.0, 0.0]);
+    assert_eq!(shown("overscan.exr"), [1.0, 2.0, 0.0, 0.0, 11.0, 12.0, 0.0, 0.0, 21.0, 22.0, 0.0, 0.0]);
+    let error = fixture("beside.exr").expect_err("no pixel is shown").to_string();
+    let reason = "no pixel of the data window (2x3 at 3, 10) lies in the display window (4x3 at -1, 10)";
+    assert!(error.ends_with(reason), "{error}");
+}
+
+/// PNG's specification: light is a sample to the power of 1 / gamma, unless an sRGB or cICP chunk says otherwise. Samples
+/// are 0 to 5 fifths.
+#[test]
+fn png_files_say_what_light_samples_stand_for() {
+    let samples = |name: &str| {
+        let picture = fixture(name).expect("a picture");
+        let channels = ["R", "G", "B"].map(|name| picture.floats(name).expect("floats"));
+        (channels[0].0, [0, 1].map(|pixel| channels.map(|(_, samples)| samples[pixel])))
+    };
+    let fifths = [[0.0, 0.2, 0.4], [0.6, 0.8, 1.0]];
+    assert_eq!(samples("gama.png"), (ChannelUnit::Linear, [[0.0, 0.04, 0.16], [0.36, 0.64, 1.0]]));
+    assert_eq!(samples("gama_srgb.png"), (ChannelUnit::Srgb, fifths));
+    assert_eq!(samples("gama_linear.png"), (ChannelUnit::Linear, fifths));
+    for (name, reason) in [
+        ("pq.png", "expected a cICP chunk of transfer function 8 or 13, found 16"),
+        ("gama_0.png", "expected a gAMA chunk of more than 0, found 0"),
+    ] {
+        let error = fixture(name).expect_err("refused").to_string();
+        assert!(error.ends_with(reason), "{error}");
+    }
+}
+
+/// What Radiance HDR files can say besides exposures.
+#[test]
+fn hdr_files_that_are_not_linear_or_turned_are_refused() {
+    let plain = hdr(&Picture::rgb(2, 1, &[[1.0; 3]; 2])).expect("a file");
+    let text = |from: &str, to: &str| {
+        let at = plain.windows(from.len()).position(|bytes| bytes == from.as_bytes()).expect("it is there");
+        Picture::decode(&[&plain[..at], to.as_bytes(), &plain[at + from.len()..]].concat())
+    };
+    let said = |from, to| text(from, to).expect_err("refused").to_string();
+    assert_eq!(text("\n\n", "\nGAMMA= 1.0\n\n"), Picture::decode(&plain));
+    assert!(said("\n\n", "\nGAMMA=2.2\n\n").ends_with("(GAMMA=1 or no such line), found GAMMA=2.2"));
+    assert!(said("-Y 1 +X 2", "+Y 1 +X 2").contains("Orientation +Y +X"));
+    assert!(said("rle_rgbe", "rle_xyze").contains("32-bit_rle_xyze"));
+}
+
+/// One rule for `diff` and studies: NaN and infinities are right beside themselves, and infinitely wrong beside others.
+#[test]
+fn errors_that_are_not_finite_are_counted_apart() {
+    let (nan, infinity) = (f64::NAN, f64::INFINITY);
+    let pairs =
+        [(3.0, 1.0), (1.0, 1.0), (nan, nan), (infinity, infinity), (nan, 1.0), (1.0, infinity), (-infinity, infinity)];
+    let errors = pairs.map(|(found, right)| value_error(found, right));
+    assert_eq!(errors, [2.0, 0.0, 0.0, 0.0, infinity, infinity, infinity]);
+    assert_eq!(pairs.map(|(found, right)| relative_error(found, right))[..5], [2.0, 0.0, 0.0, 0.0, infinity]);
+    assert_eq!([relative_error(2.0, 0.0), relative_error(nan, 0.0), relative_error(0.0, 0.0)], [1.0, infinity, 0.0]);
+    let mut sums = ErrorSums::default();
+    errors.iter().for_each(|error| sums.add(*error, 2.0));
+    assert_eq!((sums.not_finite, sums.largest), (3, infinity));
+    assert_eq!([sums.mean(), sums.rms(), sums.squares()], [infinity; 3]);
+    let finite = sums.of_finite();
+    assert_eq!([finite.mean(), finite.rms(), finite.squares()], [0.5, 1.0, 8.0], "2, 0, 0 and 0, of weight 2");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
 use super::super::display;
+use super::error_sums::{ErrorSums, value_error};
 
 /// Error: two pictures have no samples to compare.
 #[non_exhaustive]
@@ -85,7 +86,7 @@ pub fn signed_differences(
     let signed = |pair: ChannelPair<'_>| {
         let of = |[a, b]: [f64; 2]| match pair.whole() {
             true => f32::from(u8::from(a != b)),
-            false if equal([a, b]) => 0.0,
+            false if value_error(b, a) == 0.0 => 0.0,
             false => (b - a) as f32,
         };
         (pair.left.name.clone(), (0..pair.left.samples.len()).map(|i| of(pair.samples(i))).collect())
@@ -115,10 +116,6 @@ impl ChannelPair<'_> {
             Samples::Uint(samples) => f64::from(samples[index]),
         })
     }
-}
-
-fn equal([a, b]: [f64; 2]) -> bool {
-    a == b || (a.is_nan() && b.is_nan())
 }
 
 fn pairs<'a>(left: &'a Picture, right: &'a Picture, names: &[String]) -> Result<Vec<ChannelPair<'a>>, MismatchError> {
@@ -162,36 +159,25 @@ fn difference(pair: ChannelPair<'_>, width: u32) -> ChannelDifference {
         maximum: 0.0,
         worst: None,
     };
-    let (mut sum, mut squares, mut counted) = (0.0, 0.0, 0_u64);
+    let mut sums = ErrorSums::default();
     for index in 0..pair.left.samples.len() {
         let [a, b] = pair.samples(index);
         found.nan[0] += u64::from(a.is_nan());
         found.nan[1] += u64::from(b.is_nan());
-        let finite = a.is_finite() && b.is_finite();
-        if finite {
-            counted += 1;
-            sum += b - a;
-            squares += (b - a) * (b - a);
+        let error = value_error(b, a);
+        // Values that are equal without being finite are none of those that means are over.
+        if error != 0.0 || a.is_finite() {
+            sums.add(error, 1.0);
         }
-        if equal([a, b]) {
-            continue;
-        }
-        found.differing += 1;
-        found.not_finite += u64::from(!finite);
-        let off = match (finite, found.whole) {
-            (false, _) => f64::INFINITY,
-            (true, true) => 1.0,
-            (true, false) => (b - a).abs(),
-        };
+        found.differing += u64::from(error != 0.0);
+        let off = if found.whole { error.abs().min(1.0) } else { error.abs() };
         if off > found.maximum {
             let (x, y) = ((index % width as usize) as u32, (index / width as usize) as u32);
             (found.maximum, found.worst) = (off, Some(WorstSample { x, y, left: a, right: b }));
         }
     }
-    if counted > 0 {
-        (found.mean, found.rmse) = (sum / counted as f64, (squares / counted as f64).sqrt());
-    }
-    found
+    let finite = sums.of_finite();
+    ChannelDifference { not_finite: sums.not_finite, mean: finite.mean(), rmse: finite.rms(), ..found }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::super::channels::Picture;
 use super::super::error::PictureError;
+use super::error_sums::value_error;
 
 /// Rec. 709 luma weights of red, green and blue.
 pub(super) const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
@@ -12,7 +13,7 @@ pub(super) const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// [`PictureError::NoColor`] if a picture has neither `R`, `G` and `B` nor `Y`.
 pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -> Result<Vec<f64>, PictureError> {
     let pairs = luminance(first)?.into_iter().zip(luminance(second)?);
-    Ok(pairs.map(|(a, b)| if a == b { 0.0 } else { exposure * (b - a) }).collect())
+    Ok(pairs.map(|(a, b)| exposure * value_error(b, a)).collect())
 }
 
 /// Computes the differences of luminance relative to the first picture: -0.1 is a tenth darker. Where the first is

@@ -6,6 +6,7 @@
 //! same bits.
 
 mod channel;
+mod error_sums;
 mod filter;
 mod flip;
 mod luminance;
@@ -13,6 +14,7 @@ mod screen;
 mod ssim;
 
 pub use channel::{ChannelDifference, MismatchError, WorstSample, channels, signed_differences};
+pub use error_sums::{ErrorSums, relative_error, value_error};
 pub use flip::{DEFAULT_PPD, FlipMap, MAX_PPD, MIN_PPD, flip};
 pub use luminance::{luminance_differences, relative_luminance_differences};
 pub use screen::ScreenPicture;

@@ -49,11 +49,12 @@ fn of_most_blamed(family: &FamilyOutcome, runs: &Runs<'_>) -> Result<Option<Name
     let shares: Vec<f64> = values.iter().map(|value| value / scale).collect();
     let line = tables::line(place, runs);
     let caption = format!(
-        "errors with `{}` (line {}) alone in {}; the bar ends at {} {unit}",
+        "errors with `{}` (line {}) alone in {}; the bar ends at {} {unit}{}",
         line.text,
         line.line,
         blamed.bits,
         number(scale),
+        if shares.iter().all(|share| share.is_finite()) { "" } else { "; green where not finite" },
     );
     let name = format!("errors-{}", family.curve.family.name());
     Ok(Some(NamedPicture::new(name, false_color::magnitude(width, &shares), caption)))

@@ -32,6 +32,12 @@ pub struct PrecisionMeasure {
     pub meaning: &'static str,
 }
 
+/// Measure that the subjects share.
+pub(super) const NOT_FINITE: PrecisionMeasure = PrecisionMeasure {
+    name: "not_finite",
+    meaning: "number of channels that are infinite or NaN where the exact ones are not, or the reverse",
+};
+
 /// Measured values of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measured {

@@ -38,12 +38,19 @@ pub(super) fn least_accurate(rows: &[MethodRow]) -> Option<&MethodRow> {
 fn accuracy(rows: &[MethodRow]) -> Option<String> {
     let worst = least_accurate(rows)?;
     let error = worst.error?;
-    Some(format!(
-        "{} is the least accurate: patches that do not shine are {} on average, and the worst one is off by {} of itself.",
-        worst.label,
-        shade(error.bias),
-        percent(error.relative),
-    ))
+    Some(match error.not_finite {
+        0 => format!(
+            "{} is the least accurate: patches that do not shine, large and small alike, are {} on average, and the worst \
+             of them is off by {} of itself.",
+            worst.label,
+            shade(error.bias),
+            percent(error.relative_unlit),
+        ),
+        count => {
+            let count = counted(count, "radiosity is", "radiosities are");
+            format!("{} is the least accurate: {count} not finite.", worst.label)
+        }
+    })
 }
 
 /// Formats a signed error as too dark or too bright.
@@ -65,15 +72,22 @@ fn speed(rows: &[MethodRow]) -> Option<String> {
     })
 }
 
-/// Sentence on the range of the sweep's mean errors; `None` without a sweep.
+/// Sentences on the range of the sweep's mean errors, and on rows that are not finite; `None` without a sweep.
 fn sweep(outcome: &RadiosityOutcome) -> Option<String> {
-    let rows = || outcome.sweep.iter().filter(|row| row.error.bias.is_finite());
-    let darkest = rows().min_by(|a, b| a.error.bias.total_cmp(&b.error.bias))?;
-    let brightest = rows().max_by(|a, b| a.error.bias.total_cmp(&b.error.bias))?;
-    let said = |row: &SweepRow| {
+    let (finite, others): (Vec<_>, Vec<_>) = outcome.sweep.iter().partition(|row| row.error.not_finite == 0);
+    let by_bias = |a: &&&SweepRow, b: &&&SweepRow| a.error.bias.total_cmp(&b.error.bias);
+    let place = |row: &SweepRow| {
         let switch = row.switch.as_ref().map_or_else(String::new, |_| format!(", {}", row.setting()));
-        let patches = counted(row.patches as u64, "patch", "patches");
-        format!("{} at {patches} ({}{switch})", shade(row.error.bias), row.method)
+        format!("{} ({}{switch})", counted(row.patches as u64, "patch", "patches"), row.method)
     };
-    Some(format!("Over the sweep the mean error goes from {} to {}.", said(darkest), said(brightest)))
+    let said = |row: &SweepRow| format!("{} at {}", shade(row.error.bias), place(row));
+    let ends = finite.iter().min_by(by_bias).zip(finite.iter().max_by(by_bias));
+    let range =
+        ends.map(|(least, most)| format!("Over the sweep the mean error goes from {} to {}.", said(least), said(most)));
+    let lost = others.first().map(|first| {
+        let rows = counted(others.len() as u64, "row of the sweep has", "rows of the sweep have");
+        format!("{rows} radiosities that are not finite, the first at {}.", place(first))
+    });
+    let sentences: Vec<String> = range.into_iter().chain(lost).collect();
+    (!sentences.is_empty()).then(|| sentences.join(" "))
 }

@@ -21,6 +21,7 @@ mod tables;
 mod time;
 
 use crate::atlas::AtlasError;
+use crate::picture::metrics::value_error;
 use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::{CardError, Fit};
@@ -192,5 +193,5 @@ fn energy_balance_error(system: &System, radiosity: &[[f64; 3]]) -> f64 {
     let emitted = |c: usize| -> f64 {
         system.factors().areas().iter().zip(system.emittance()).map(|(area, e)| area * e[c]).sum()
     };
-    (0..3).filter(|&c| emitted(c) > 0.0).map(|c| (left[c] / emitted(c)).abs()).fold(0.0, f64::max)
+    (0..3).filter(|&c| emitted(c) > 0.0).map(|c| value_error(left[c], 0.0).abs() / emitted(c)).fold(0.0, f64::max)
 }

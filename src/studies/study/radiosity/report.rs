@@ -120,7 +120,10 @@ fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPictu
     }
     let ends = shown(100.0 * scale, Quantity::Percent);
     let picture = |(label, error): (&str, &Vec<f64>)| {
-        let caption = format!("{label} against direct: blue -{ends} % (darker), white 0, red +{ends} % (brighter)");
+        let caption = format!(
+            "{label} against direct: blue -{ends} % (darker), white 0, red +{ends} % (brighter){}",
+            false_color::not_finite(error)
+        );
         let image = false_color::signed(parameters.camera.width(), error, scale);
         NamedPicture::new(format!("{label}-error"), image, caption)
     };

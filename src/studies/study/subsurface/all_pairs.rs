@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Parameters;
 use crate::atlas::Atlas;
+use crate::picture::metrics::{ErrorSums, value_error};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, Reference};
 
@@ -19,7 +20,8 @@ pub struct AllPairs {
     pub probes: Vec<[f64; 3]>,
 }
 
-/// How far radiosities are from others, as shares of the others.
+/// How far radiosities are from others, as shares of the others; infinite if some are not finite and the others are, or
+/// the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GatherError {
     /// Root of the mean squared difference, over that of the others' values; by area, over all channels.
@@ -31,18 +33,17 @@ pub struct GatherError {
 impl GatherError {
     /// Of `found` against `expected`, per texel.
     pub(super) fn between(atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
-        let (mut squares, mut reference, mut largest, mut most) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+        let [mut off, mut reference] = [ErrorSums::default(); 2];
         for ((texel, found), expected) in atlas.texels().iter().zip(found).zip(expected) {
-            for (found, expected) in found.iter().zip(expected) {
-                let difference = found - expected;
-                squares += texel.area * difference * difference;
-                reference += texel.area * expected * expected;
-                largest = largest.max(difference.abs());
-                most = most.max(expected.abs());
+            for (&found, &expected) in found.iter().zip(expected) {
+                off.add(value_error(found, expected), texel.area);
+                if expected.is_finite() {
+                    reference.add(expected, texel.area);
+                }
             }
         }
-        let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
-        Self { rms: over(squares, reference).sqrt(), largest: over(largest, most) }
+        let over = |a: f64, b: f64| if a.is_infinite() || b > 0.0 { a / b } else { 0.0 };
+        Self { rms: over(off.squares(), reference.squares()).sqrt(), largest: over(off.largest, reference.largest) }
     }
 }
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::Lighting;
 use crate::atlas::Atlas;
 use crate::elementary::acos;
+use crate::picture::metrics::value_error;
 use crate::subsurface::on_card::Light;
 
 /// Bins of the angle from 0 to 180 degrees.
@@ -89,7 +90,7 @@ impl Sums {
             self.truth += area * truth;
             self.truth_squares += area * truth * truth;
             for (of, found) in found.iter().enumerate() {
-                let difference = found[channel] - truth;
+                let difference = value_error(found[channel], truth);
                 self.differences[of] += area * difference;
                 self.squares[of] += area * difference * difference;
             }

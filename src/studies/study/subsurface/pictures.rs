@@ -2,6 +2,7 @@
 
 use super::{Parameters, SubsurfaceOutcome, WayRow};
 use crate::picture::display::encode;
+use crate::picture::metrics::value_error;
 use crate::picture::{Picture, RgbImage, rgb8};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{NamedPicture, false_color};
@@ -81,23 +82,26 @@ fn atlas(side: u32, values: &[[f64; 3]]) -> RgbImage {
 /// B of each way against all pairs, on the atlas, in false colors of one scale.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
     let Some(truth) = &outcome.truth else { return Vec::new() };
-    let most = truth.texels.iter().flatten().copied().fold(0.0, f64::max);
+    let most = truth.texels.iter().flatten().copied().filter(|b| b.is_finite()).fold(0.0, f64::max);
     let error = |row: &WayRow| -> Vec<f64> {
         let texel = |(b, t): (&[f64; 3], &[f64; 3])| {
-            let channel = (0..3).max_by(|&i, &j| (b[i] - t[i]).abs().total_cmp(&(b[j] - t[j]).abs())).unwrap_or(0);
-            (b[channel] - t[channel]) / most
+            let off = [0, 1, 2].map(|channel| value_error(b[channel], t[channel]));
+            off.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0) / most
         };
         row.radiosity.iter().zip(&truth.texels).map(texel).collect()
     };
     let errors: Vec<(&str, Vec<f64>)> = outcome.rows.iter().map(|row| (row.label.as_str(), error(row))).collect();
-    let scale = errors.iter().flat_map(|(_, error)| error).fold(0.0, |most: f64, e| most.max(e.abs()));
+    let finite = errors.iter().flat_map(|(_, error)| error).filter(|error| error.is_finite());
+    let scale = finite.fold(0.0, |most: f64, e| most.max(e.abs()));
     if scale == 0.0 {
         return Vec::new();
     }
     let ends = shown(100.0 * scale, Quantity::Percent);
     let picture = |(label, error): (&str, Vec<f64>)| {
-        let caption =
-            format!("{label} against all pairs, of the brightest: blue -{ends} % (darker), white 0, red +{ends} %");
+        let caption = format!(
+            "{label} against all pairs, of the brightest: blue -{ends} % (darker), white 0, red +{ends} %{}",
+            false_color::not_finite(&error)
+        );
         NamedPicture::new(format!("{label}-error"), false_color::signed(outcome.atlas.side(), &error, scale), caption)
     };
     errors.into_iter().map(picture).collect()

@@ -70,8 +70,8 @@ where
     add_rows(rows.map(|(((((&a, &b), &c), &d), &e), &f)| [a, b, c, d, e, f]), columns, into);
 }
 
-// Each row's sums are a variable of their own: of an array of them, AVX-512 code gathers the elements one by one, which
-// took 60 times as long.
+// Each row's sums are a variable of their own: the compiler may gather the elements of an array of them one by one,
+// which took 60 times as long.
 #[inline(always)]
 fn add_rows<T, const N: usize>(rows: impl Iterator<Item = [T; ROWS]>, columns: &[[T; N]], into: &mut [[T; N]; ROWS])
 where

@@ -12,13 +12,11 @@ pub enum SimdLevel {
     Baseline,
     /// AVX2 and FMA.
     Avx2,
-    /// AVX-512 F, BW, DQ and VL.
-    Avx512,
 }
 
 impl SimdLevel {
     /// All levels, narrowest first.
-    pub const ALL: [SimdLevel; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+    pub const ALL: [SimdLevel; 2] = [Self::Baseline, Self::Avx2];
 
     /// The levels that this processor has, narrowest first; never empty.
     pub fn available() -> Vec<SimdLevel> {
@@ -30,28 +28,17 @@ impl SimdLevel {
         Self::ALL.into_iter().rfind(|level| level.is_available()).unwrap_or(Self::Baseline)
     }
 
-    /// Lower-case name: `baseline`, `avx2`, `avx512`.
+    /// Lower-case name: `baseline`, `avx2`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
             Self::Avx2 => "avx2",
-            Self::Avx512 => "avx512",
         }
     }
 
     #[cfg(target_arch = "x86_64")]
     fn is_available(self) -> bool {
-        let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
-        match self {
-            Self::Baseline => true,
-            Self::Avx2 => avx2,
-            Self::Avx512 => {
-                avx2 && is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512bw")
-                    && is_x86_feature_detected!("avx512dq")
-                    && is_x86_feature_detected!("avx512vl")
-            }
-        }
+        self == Self::Baseline || (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"))
     }
 
     #[cfg(not(target_arch = "x86_64"))]
@@ -69,26 +56,13 @@ impl SimdLevel {
                 Ok(done) => return done,
                 Err(work) => work,
             },
-            Self::Avx512 => match avx512(work).or_else(avx2) {
-                Ok(done) => return done,
-                Err(work) => work,
-            },
         };
         work()
     }
 }
 
-/// Runs `work` with AVX-512, or gives it back on a processor without. The version for such processors has no copy of
+/// Runs `work` with AVX2 and FMA, or gives it back on a processor without. The version for such processors has no copy of
 /// `work`: each level is compiled once.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl+fma"))]
-fn avx512<R, F: FnOnce() -> R>(work: F) -> Result<R, F> {
-    match_target! {
-        "x86_64+avx512f" => Ok(work()),
-        _ => Err(work),
-    }
-}
-
-/// Runs `work` with AVX2 and FMA, likewise.
 #[multiversion(targets("x86_64+avx2+fma"))]
 fn avx2<R, F: FnOnce() -> R>(work: F) -> Result<R, F> {
     match_target! {

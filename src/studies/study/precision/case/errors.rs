@@ -3,7 +3,8 @@
 use refsim::texture::Channel;
 
 use super::drawn::{DrawnCase, codes};
-use crate::study::precision::subject::PrecisionMeasure;
+use crate::picture::metrics::{ErrorSums, relative_error, value_error};
+use crate::study::precision::subject::{NOT_FINITE, PrecisionMeasure};
 
 /// Relative error from which a pixel is wrong, where its target has no codes.
 const WRONG: f64 = 0.01;
@@ -22,10 +23,7 @@ pub(super) const MEASURES: [PrecisionMeasure; 5] = [
         meaning: "share of pixels, in [0, 1], with a channel that is off by more than one code, or by more than 1 % of \
                   the exact value if it is a float",
     },
-    PrecisionMeasure {
-        name: "not_finite",
-        meaning: "number of channels that are infinite or NaN where the exact ones are not, or the reverse",
-    },
+    NOT_FINITE,
 ];
 pub(super) const SSIM: PrecisionMeasure =
     PrecisionMeasure { name: "ssim", meaning: "structural similarity of target 0 as displayed; 1 if equal" };
@@ -35,15 +33,12 @@ pub(super) const FLIP: PrecisionMeasure =
 /// Sums over all channels of all pixels.
 #[derive(Default)]
 pub(super) struct CaseErrors {
-    relative: f64,
-    channels: u64,
-    largest_relative: f64,
+    relative: ErrorSums,
     largest_absolute: f64,
     largest_codes: f64,
     /// By pixel: the largest badness of a channel, and `true` if one is wrong.
     pub(super) off: Vec<f64>,
     wrong: Vec<bool>,
-    not_finite: u64,
     /// Target, index of the value, and its badness.
     pub(super) worst: Option<(usize, usize, f64)>,
 }
@@ -61,20 +56,11 @@ impl CaseErrors {
     }
 
     fn add(&mut self, [target, at, pixel]: [usize; 3], channel: Channel, value: f64, right: f64) {
-        self.channels += 1;
-        if value == right || (value.is_nan() && right.is_nan()) {
+        let (absolute, relative) = (value_error(value, right).abs(), relative_error(value, right));
+        self.relative.add(relative, 1.0);
+        if absolute == 0.0 {
             return;
         }
-        let finite = value.is_finite() && right.is_finite();
-        let absolute = if finite { (value - right).abs() } else { f64::INFINITY };
-        let relative = match (finite, right == 0.0) {
-            (true, false) => absolute / right.abs(),
-            (true, true) => 1.0,
-            (false, _) => f64::INFINITY,
-        };
-        self.not_finite += u64::from(!finite);
-        self.relative += relative;
-        self.largest_relative = self.largest_relative.max(relative);
         self.largest_absolute = self.largest_absolute.max(absolute);
         // Codes are integers; the quotients that stand for them here are not.
         let off = codes(channel).map(|codes| (absolute * codes).round());
@@ -91,11 +77,11 @@ impl CaseErrors {
         let wrong = self.wrong.iter().filter(|wrong| **wrong).count();
         [
             ("largest_codes", self.largest_codes),
-            ("mean_relative", self.relative / (self.channels.max(1) as f64)),
-            ("largest_relative", self.largest_relative),
+            ("mean_relative", self.relative.mean()),
+            ("largest_relative", self.relative.largest),
             ("largest_absolute", self.largest_absolute),
             ("wrong_pixels", wrong as f64 / self.wrong.len().max(1) as f64),
-            ("not_finite", self.not_finite as f64),
+            ("not_finite", self.relative.not_finite as f64),
         ]
     }
 }

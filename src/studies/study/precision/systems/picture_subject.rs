@@ -11,13 +11,14 @@ use super::programs::PixelPrograms;
 use super::run::{SystemInput, SystemRun};
 use super::sampler::ResultSampler;
 use super::watchers::{DifferentTexel, FollowedDraws, FollowedPixel, KeptTargets};
+use crate::picture::metrics::{ErrorSums, relative_error, value_error};
 use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{
-    ErrorMap, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, RoundedInstruction,
-    SampledResults, StudiedProgram, WorstPlace,
+    ErrorMap, Measured, NOT_FINITE, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
+    RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
 };
 
 const MEASURES: [PrecisionMeasure; 5] = [
@@ -31,7 +32,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
         name: "visible",
         meaning: "share of pixels or patches, in [0, 1], of which a channel is off by more than one 255th",
     },
-    PrecisionMeasure { name: "not_finite", meaning: "number of channels that are infinite or NaN" },
+    NOT_FINITE,
 ];
 
 /// System whose exact values are those of its run in single precision.
@@ -67,22 +68,14 @@ struct SystemErrors {
 
 /// Errors of values against exact ones.
 fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> SystemErrors {
-    let (mut sum, mut largest, mut not_finite) = (0.0, 0.0_f64, 0_u64);
+    let mut sums = ErrorSums::default();
     let mut off = Vec::with_capacity(exact.len());
     for (ours, right) in found.iter().zip(exact) {
         let mut most = 0.0_f64;
         for (&value, &right) in ours.iter().zip(right) {
-            not_finite += u64::from(!value.is_finite());
-            let absolute = if value.is_finite() { (value - right).abs() } else { f64::INFINITY };
-            let relative = match (absolute == 0.0, right == 0.0) {
-                (true, _) => 0.0,
-                (false, true) => 1.0,
-                (false, false) => absolute / right.abs(),
-            };
-            sum += relative;
-            largest = largest.max(relative);
+            sums.add(relative_error(value, right), 1.0);
             // To a millionth, so that a code of 8 bits, which is read in single precision, is one 255th.
-            most = most.max((1e6 * 255.0 * absolute).round() / 1e6);
+            most = most.max((1e6 * 255.0 * value_error(value, right).abs()).round() / 1e6);
         }
         off.push(most);
     }
@@ -90,11 +83,11 @@ fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> SystemErrors {
     let visible = off.iter().filter(|off| **off > 1.0).count();
     let count = exact.len().max(1) as f64;
     let values = vec![
-        ("largest_relative", largest),
-        ("mean_relative", sum / (3.0 * count)),
+        ("largest_relative", sums.largest),
+        ("mean_relative", sums.mean()),
         ("largest_255ths", most),
         ("visible", visible as f64 / count),
-        ("not_finite", not_finite as f64),
+        ("not_finite", sums.not_finite as f64),
     ];
     SystemErrors { values, worst: off.iter().position(|off| *off > 0.0 && *off == most), off }
 }

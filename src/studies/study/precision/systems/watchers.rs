@@ -7,6 +7,7 @@ use refsim::machine::{DrawCall, DrawWatcher, FragmentTrace, Machine, MachineErro
 
 use super::programs::PixelPrograms;
 use crate::card::Texels;
+use crate::picture::metrics::value_error;
 use crate::study::precision::steps::step_results;
 use crate::study::precision::subject::StepResult;
 
@@ -106,7 +107,8 @@ impl KeptTargets {
         let mut most = (0.0_f64, None);
         for (draw, (ours, others)) in ours.iter().zip(&others).enumerate() {
             for (at, (a, b)) in ours.texels.iter().zip(&others.texels).enumerate() {
-                let off = a.iter().zip(b).map(|(&a, &b)| difference(a, b)).fold(0.0, f64::max);
+                let off =
+                    a.iter().zip(b).map(|(&a, &b)| value_error(f64::from(a), f64::from(b)).abs()).fold(0.0, f64::max);
                 if off > most.0 {
                     let pixel = [at % ours.width, at / ours.width].map(|place| place as u32);
                     most = (off, Some(DifferentTexel { draw, pixel }));
@@ -114,14 +116,6 @@ impl KeptTargets {
             }
         }
         most.1
-    }
-}
-
-fn difference(a: f32, b: f32) -> f64 {
-    match (a.to_bits() == b.to_bits(), a.is_finite() && b.is_finite()) {
-        (true, _) => 0.0,
-        (_, true) => (f64::from(a) - f64::from(b)).abs(),
-        (_, false) => f64::INFINITY,
     }
 }
 

@@ -2,6 +2,7 @@
 //! they lie apart.
 
 use crate::bi_scale::shade::TracedRung;
+use crate::picture::metrics::{ErrorSums, value_error};
 use crate::report::{Cell, Table};
 
 /// The pictures.
@@ -53,8 +54,7 @@ impl CausePictures {
 
 /// The sum of squares of all channels' differences, and the largest.
 fn differences(one: &[[f64; 3]], other: &[[f64; 3]]) -> (f64, f64) {
-    one.iter()
-        .flatten()
-        .zip(other.iter().flatten())
-        .fold((0.0, 0.0_f64), |(sum, most), (a, b)| (sum + (a - b) * (a - b), most.max((a - b).abs())))
+    let mut sums = ErrorSums::default();
+    one.iter().flatten().zip(other.iter().flatten()).for_each(|(&a, &b)| sums.add(value_error(a, b), 1.0));
+    (sums.squares(), sums.largest)
 }

@@ -4,8 +4,9 @@ use serde_json::json;
 
 use crate::card::SeenPixel;
 use crate::picture::PictureError;
+use crate::picture::metrics::{ErrorSums, value_error};
 use crate::report::digits::{Quantity, shown};
-use crate::report::words::percent;
+use crate::report::words::{counted, percent};
 use crate::report::{Cell, Findings, NamedPicture, false_color};
 use crate::scene::Camera;
 use crate::study::prt::interpolate::linear_picture;
@@ -16,10 +17,14 @@ const STEPS: f64 = 255.0;
 /// How far pixels that show the mesh are off.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelErrors {
-    /// Root mean square and largest difference of a channel, in 255ths of white.
+    /// Root mean square and largest difference of a channel, in 255ths of white; infinite if a pixel is not finite.
     pub off_255ths: [f64; 2],
-    /// Share of the pixels of which a channel is off by more than one 255th.
+    /// Share of the pixels of which a channel is off by more than one 255th, or not finite.
     pub visible: f64,
+    /// Number of pixels that are not finite where the others are, or the reverse.
+    pub not_finite: u64,
+    /// Root mean square of the rest, in 255ths.
+    finite_rms: f64,
 }
 
 impl PixelErrors {
@@ -27,12 +32,16 @@ impl PixelErrors {
     pub(super) fn of(seen: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let shown = seen.iter().zip(found.iter().zip(expected)).filter(|(seen, _)| seen.is_some());
         let off: Vec<[f64; 3]> =
-            shown.map(|(_, (a, b))| [0, 1, 2].map(|channel| STEPS * (a[channel] - b[channel]))).collect();
-        let (pixels, all) = (off.len().max(1) as f64, off.as_flattened());
-        let largest = all.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let rms = (all.iter().map(|value| value * value).sum::<f64>() / (3.0 * pixels)).sqrt();
-        let visible = off.iter().filter(|pixel| pixel.iter().any(|value| value.abs() > 1.0)).count() as f64 / pixels;
-        Self { off_255ths: [rms, largest], visible }
+            shown.map(|(_, (a, b))| [0, 1, 2].map(|channel| STEPS * value_error(a[channel], b[channel]))).collect();
+        let mut sums = ErrorSums::default();
+        off.as_flattened().iter().for_each(|error| sums.add(*error, 1.0));
+        let beyond = |limit: f64| off.iter().filter(|pixel| pixel.iter().any(|error| error.abs() > limit)).count();
+        Self {
+            off_255ths: [sums.rms(), sums.largest],
+            visible: beyond(1.0) as f64 / off.len().max(1) as f64,
+            not_finite: beyond(f64::MAX) as u64,
+            finite_rms: sums.of_finite().rms(),
+        }
     }
 
     /// Cells of a table: root mean square, largest, percent of the pixels.
@@ -72,9 +81,13 @@ impl<'a> ComparedPicture<'a> {
     /// How far the card is off what the host computes `from` the same numbers.
     pub(super) fn sentence(&self, card: &str, from: &str) -> String {
         let [rms, largest] = self.errors.off_255ths.map(|steps| shown(steps, Quantity::Measured));
+        let not_finite = match self.errors.not_finite {
+            0 => String::new(),
+            count => format!(" {} not finite.", counted(count, "pixel is", "pixels are")),
+        };
         format!(
             "{card}: off by {rms} 255ths (root mean square; largest {largest}) of what the host computes in double \
-             precision from {from}; {} of the pixels by more than one.",
+             precision from {from}; {} of the pixels by more than one.{not_finite}",
             percent(self.errors.visible)
         )
     }
@@ -87,16 +100,16 @@ impl<'a> ComparedPicture<'a> {
         found: &mut Findings,
     ) -> Result<(), PictureError> {
         let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
-            let channels = found.iter().zip(expected).map(|(found, expected)| found - expected);
+            let channels = found.iter().zip(expected).map(|(&found, &expected)| value_error(found, expected));
             channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
         };
         let difference: Vec<f64> = self.drawn.iter().zip(&held(self.host, self.is_clamped)).map(worst).collect();
-        let [rms, largest] = self.errors.off_255ths;
-        let range = (4.0 * rms / STEPS).max(1.0 / STEPS);
+        let range = (4.0 * self.errors.finite_rms / STEPS).max(1.0 / STEPS);
         let scale = shown(STEPS * range, Quantity::Measured);
         let host = format!("the host in double precision, from {from}");
         let caption = format!(
-            "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more"
+            "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more{}",
+            false_color::not_finite(&difference)
         );
         found.pictures(vec![
             NamedPicture::new("card", linear_picture(camera, self.drawn).display(1.0)?, title),
@@ -104,10 +117,13 @@ impl<'a> ComparedPicture<'a> {
             NamedPicture::new("difference", false_color::signed(camera.width(), &difference, range), caption),
         ]);
         found.keep_layers("card", linear_picture(camera, self.drawn));
-        let visible_share = self.errors.visible;
+        let PixelErrors { off_255ths, visible: visible_share, not_finite, .. } = self.errors;
+        let [rms, largest] = off_255ths.map(|steps| Cell::measured(steps).json());
         found.field(
             "difference",
-            json!({ "rms_255ths": rms, "largest_255ths": largest, "visible_share": visible_share }),
+            json!({
+                "rms_255ths": rms, "largest_255ths": largest, "visible_share": visible_share, "not_finite": not_finite
+            }),
         );
         Ok(())
     }
