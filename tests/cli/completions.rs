@@ -8,7 +8,7 @@ use crate::help::COMMANDS;
 
 /// Completions of the last of some words after `crossbar`, a line each.
 pub(crate) fn completed(words: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_crossbar"))
+    let output = Command::new(crate::program::path())
         .env("CROSSBAR_COMPLETE", "bash")
         .env("_CLAP_COMPLETE_INDEX", words.len().to_string())
         .env("_CLAP_IFS", "\n")
@@ -63,7 +63,7 @@ fn names_do_not_hide_files() {
 /// Runs a text in a shell that finds the program; `None` if the shell is not installed, which CI does not allow.
 #[expect(clippy::print_stderr, reason = "says that a test does not run")]
 fn in_shell(shell: &str, options: &[&str], text: &str) -> Option<String> {
-    let program = Path::new(env!("CARGO_BIN_EXE_crossbar")).parent().expect("the program lies in a folder");
+    let program = Path::new(crate::program::path()).parent().expect("the program lies in a folder");
     let path = std::env::var("PATH").unwrap_or_default();
     let mut command = Command::new(shell);
     command.args(options).args(["-c", text]).env("PATH", format!("{}:{path}", program.display()));
