@@ -78,7 +78,7 @@ const WELCOME: &str = "\
 Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
 
 Three things to try:
-  crossbar leaky-teapot                  trace the teapot in the number formats of seven cards: which rays leak, where
+  crossbar leaky-teapot                  trace the teapot on a Radeon 8500, and in three float formats: which rays leak, where
   crossbar render office --renderer path --samples 4
                                          a picture of an office; `--caster engine` has the Ray Engine cast its rays
   crossbar reproduce equation-11         what a paper printed, beside what comes out here
@@ -176,7 +176,7 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
     let mut program = program();
     let matches = program.try_get_matches_from_mut(arguments)?;
     let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
-    let fits = model_file::choose(&matches).and_then(|()| outputs::require_different(&program, &matches));
+    let fits = model_file::choose(&program, &matches).and_then(|()| outputs::require_different(&program, &matches));
     Ok((cli, resolved::command_line(&program, &matches), fits))
 }
 

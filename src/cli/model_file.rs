@@ -7,7 +7,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
-use super::{Problem, given, view};
+use super::{Problem, given, outputs, view};
 use crate::geom::Mesh;
 use crate::io::{ModelNote, ModelOptions, UpAxis, VertexNumbers, load_mesh_with, load_vertex_numbers, scene_file};
 use crate::report::visible::visible_line;
@@ -25,8 +25,7 @@ static OPTIONS: OnceLock<ModelOptions> = OnceLock::new();
 pub(super) fn with_options(program: Command) -> Command {
     let names: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
     let program = names.into_iter().fold(program, |program, name| program.mut_subcommand(name, with_options));
-    let named_by = NAMED_BY.iter().find(|name| program.get_arguments().any(|arg| arg.get_id() == **name));
-    let Some(&named_by) = named_by else { return program };
+    let Some(named_by) = named_by(&program) else { return program };
     let up = Arg::new(UP)
         .long("model-up")
         .value_name("AXIS")
@@ -45,27 +44,27 @@ pub(super) fn with_options(program: Command) -> Command {
     program.arg(up).arg(strict)
 }
 
+/// The argument that names the command's model, if it takes one.
+fn named_by(command: &Command) -> Option<&'static str> {
+    NAMED_BY.into_iter().find(|name| command.get_arguments().any(|arg| arg.get_id() == *name))
+}
+
 /// Takes the options from a command line.
 ///
 /// # Errors
 /// [`Problem::Usage`] if no model is named. The parser does not see that where a model excludes what was named instead.
-pub(super) fn choose(matches: &ArgMatches) -> Result<(), Problem> {
-    let mut command = matches;
-    while let Some((_, inner)) = command.subcommand() {
-        command = inner;
-    }
-    let up = command.try_get_one::<String>(UP).ok().flatten();
-    let up = up.map(|axis| if axis == "y" { UpAxis::Y } else { UpAxis::Z });
-    let strict = command.try_get_one::<bool>(STRICT).ok().flatten().copied().unwrap_or(false);
-    let named_by = NAMED_BY.iter().find(|name| command.try_contains_id(name).is_ok());
-    if named_by.is_some_and(|name| !command.contains_id(name)) {
+pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
+    let (command, matches) = outputs::obeyed(program, matches);
+    // Matches cannot be asked which arguments exist: clap keeps the list with debug assertions only.
+    let Some(named_by) = named_by(command) else { return Ok(()) };
+    let up = matches.get_one::<String>(UP).map(|axis| if axis == "y" { UpAxis::Y } else { UpAxis::Z });
+    let strict = matches.get_flag(STRICT);
+    if !matches.contains_id(named_by) {
         let options = [("--model-up", up.is_some()), ("--strict", strict)];
         given::refuse(options, "a model's file, found none", "name a model, or leave it out")?;
     }
-    if named_by.is_some() {
-        // Set once: one command reads models, that of the line or that whose parts are merged.
-        OPTIONS.set(ModelOptions { up, strict }).ok();
-    }
+    // Set once: one command reads models, that of the line or that whose parts are merged.
+    OPTIONS.set(ModelOptions { up, strict }).ok();
     Ok(())
 }
 

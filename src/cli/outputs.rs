@@ -15,11 +15,7 @@ const OUTPUTS: [&str; 9] = ["out", "dump", "csv", "matrix", "values", "sheet", "
 /// # Errors
 /// [`Problem::Usage`].
 pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
-    let (mut command, mut matches) = (program, matches);
-    while let Some((name, inner)) = matches.subcommand() {
-        let Some(found) = command.find_subcommand(name) else { return Ok(()) };
-        (command, matches) = (found, inner);
-    }
+    let (command, matches) = obeyed(program, matches);
     let mut seen: Vec<(&str, PathBuf)> = Vec::new();
     for id in command.get_arguments().map(|arg| arg.get_id().as_str()).filter(|id| OUTPUTS.contains(id)) {
         if matches.value_source(id) != Some(ValueSource::CommandLine) {
@@ -37,6 +33,12 @@ pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Resu
         seen.push((id, place));
     }
     Ok(())
+}
+
+/// The command that a line asks for, below the program and its verbs, and what was matched for it.
+pub(super) fn obeyed<'a>(program: &'a Command, matches: &'a ArgMatches) -> (&'a Command, &'a ArgMatches) {
+    let inner = matches.subcommand().and_then(|(name, inner)| Some((program.find_subcommand(name)?, inner)));
+    inner.map_or((program, matches), |(command, inner)| obeyed(command, inner))
 }
 
 /// Where a file will stand, links followed; `None` for a device or pipe, which takes any number of outputs.

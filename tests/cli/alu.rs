@@ -307,7 +307,7 @@ fn a_closed_pipe_is_no_error() {
     use std::process::{Command, Stdio};
 
     let run = |arguments: &[&str], line: &str| {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_crossbar"))
+        let mut child = Command::new(crate::program::path())
             .args(arguments)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())

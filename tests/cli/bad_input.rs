@@ -80,7 +80,7 @@ fn errors_for_machines() {
 #[cfg(target_os = "linux")]
 fn a_full_disk() {
     let full = std::fs::File::create("/dev/full").expect("the device that is always full");
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_crossbar"))
+    let output = std::process::Command::new(crate::program::path())
         .arg("devices")
         .stdout(full)
         .output()

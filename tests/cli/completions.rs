@@ -24,7 +24,7 @@ fn scripts_for_five_shells_name_every_command() {
 #[cfg(target_os = "linux")]
 #[test]
 fn bash_completes() {
-    let program = env!("CARGO_BIN_EXE_crossbar");
+    let program = crate::program::path();
     let text = format!(
         "source <({program} completions bash); COMP_WORDS=(crossbar check x.psa --dev); COMP_CWORD=3; \
          _crossbar crossbar --dev x.psa; echo \"${{COMPREPLY[@]}}\""

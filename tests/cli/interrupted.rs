@@ -19,7 +19,7 @@ fn unignoring(program: &str) -> Command {
 }
 
 fn begin(folder: &Path, arguments: &[&str]) -> Child {
-    let mut command = unignoring(env!("CARGO_BIN_EXE_crossbar"));
+    let mut command = unignoring(crate::program::path());
     command.args(arguments).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().expect("the program that this test was built with")
 }
@@ -72,7 +72,7 @@ fn signals_leave_nothing_behind() {
 fn what_is_lost_is_said() {
     for (more, expected) in [(None, "Error: crossbar::interrupted"), (Some("--json"), "{\"")] {
         let folder = tempfile::tempdir().expect("a folder for the test");
-        let mut command = unignoring(env!("CARGO_BIN_EXE_crossbar"));
+        let mut command = unignoring(crate::program::path());
         command.args(LONG).args(more).current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null());
         let mut child = command.stderr(Stdio::piped()).spawn().expect("the program that this test was built with");
         begun(&mut child, folder.path());
@@ -91,7 +91,7 @@ fn a_full_pipe_does_not_keep_the_program() {
     // The shell fills its pipe, which has no reader, and passes it on as standard error.
     let script = "(head -c 65536 /dev/zero >&2) & wait; exec \"$0\" \"$@\"";
     let mut command = unignoring("sh");
-    command.args(["-c", script, env!("CARGO_BIN_EXE_crossbar")]).args(LONG).current_dir(folder.path());
+    command.args(["-c", script, crate::program::path()]).args(LONG).current_dir(folder.path());
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a shell");
     begun(&mut child, folder.path());
     let start = Instant::now();
@@ -111,7 +111,7 @@ fn shells_see_130_and_143() {
              sh -c 'echo $$ > pid; exec \"$0\" \"$@\"' \"$@\"; echo $?"
         );
         let mut command = unignoring("sh");
-        command.args(["-c", &script, "sh", env!("CARGO_BIN_EXE_crossbar")]).args(LONG).current_dir(folder.path());
+        command.args(["-c", &script, "sh", crate::program::path()]).args(LONG).current_dir(folder.path());
         let output = command.stdin(Stdio::null()).output().expect("a shell");
         assert_eq!(String::from_utf8_lossy(&output.stdout).lines().last(), Some(code.to_string().as_str()), "{name}");
         assert_eq!(staging(folder.path()), 0, "{name}");
@@ -124,7 +124,7 @@ fn shells_see_130_and_143() {
 fn what_is_ignored_stays_ignored() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let mut command = unignoring("sh");
-    command.args(["-c", "trap '' HUP; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_crossbar")]).args(LONG);
+    command.args(["-c", "trap '' HUP; exec \"$0\" \"$@\"", crate::program::path()]).args(LONG);
     command.current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().expect("a shell");
     begun(&mut child, folder.path());
@@ -142,7 +142,7 @@ fn without_files_to_open_nothing_is_left() {
     for most in 3..12 {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let mut command = Command::new("sh");
-        command.args(["-c", "ulimit -n \"$0\"; exec \"$@\"", &most.to_string(), env!("CARGO_BIN_EXE_crossbar")]);
+        command.args(["-c", "ulimit -n \"$0\"; exec \"$@\"", &most.to_string(), crate::program::path()]);
         command.args(["scene", "white-box", "--out", "x"]).current_dir(folder.path());
         let output = command.stdin(Stdio::null()).output().expect("a shell");
         let left: Vec<_> = fs::read_dir(folder.path()).expect("a folder").flatten().map(|e| e.file_name()).collect();

@@ -117,7 +117,7 @@ fn a_limited_process_refuses_and_does_not_abort() {
         };
         for arguments in LARGE.iter().filter(|arguments| !small(arguments)) {
             let mut command = std::process::Command::new("sh");
-            command.args(["-c", "ulimit -v \"$0\"; exec \"$@\"", kibibytes, env!("CARGO_BIN_EXE_crossbar")]);
+            command.args(["-c", "ulimit -v \"$0\"; exec \"$@\"", kibibytes, crate::program::path()]);
             let output = command.args(*arguments).current_dir(folder.path()).output().expect("a shell");
             let stderr = String::from_utf8_lossy(&output.stderr);
             assert_eq!(output.status.code(), Some(2), "{arguments:?} in {kibibytes} KiB: {stderr}");
@@ -139,7 +139,7 @@ fn little_address_space_is_no_abort() {
             for _ in 0..2 {
                 let folder = tempfile::tempdir().expect("a folder for the test");
                 let mut command = std::process::Command::new("sh");
-                command.args(["-c", "ulimit -v \"$0\"; exec \"$@\"", kibibytes, env!("CARGO_BIN_EXE_crossbar")]);
+                command.args(["-c", "ulimit -v \"$0\"; exec \"$@\"", kibibytes, crate::program::path()]);
                 let output = command.args(arguments).current_dir(folder.path()).output().expect("a shell");
                 let stderr = String::from_utf8_lossy(&output.stderr);
                 let refused = output.status.code() == Some(2) && stderr.contains("crossbar::memory");

@@ -3,6 +3,17 @@
 use std::io::Write as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::LazyLock;
+
+/// The path of the program under test: that of `CROSSBAR_PROGRAM`, a release for example, or of the one that this test
+/// was built with.
+pub(crate) fn path() -> &'static str {
+    static PATH: LazyLock<String> = LazyLock::new(|| match std::env::var("CROSSBAR_PROGRAM") {
+        Ok(program) => std::path::absolute(&program).expect("a path").display().to_string(),
+        Err(_) => env!("CARGO_BIN_EXE_crossbar").to_owned(),
+    });
+    &PATH
+}
 
 /// Exit code and output of a run.
 #[derive(Debug, PartialEq, Eq)]
@@ -22,7 +33,7 @@ impl ProgramOutput {
 
 /// Runs the program in `folder` with `input` on standard input; environment variables cannot change its output's style.
 pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> ProgramOutput {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_crossbar"))
+    let mut child = Command::new(path())
         .args(arguments)
         .current_dir(folder)
         .env_remove("COLUMNS")
@@ -33,7 +44,7 @@ pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Pro
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .expect("the program that this test was built with");
+        .expect("the program under test");
     let mut stdin = child.stdin.take().expect("a pipe was asked for");
     let input = input.to_owned();
     // The program may write before it has read everything, or never read: neither may block or fail the test.
@@ -50,9 +61,9 @@ pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Pro
 /// Starts the program with its output discarded.
 #[allow(dead_code, reason = "not every binary leaves the program running")]
 pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    let mut command = Command::new(path());
     command.args(arguments).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    command.spawn().expect("the program that this test was built with")
+    command.spawn().expect("the program under test")
 }
 
 /// Runs the program in the project's folder.

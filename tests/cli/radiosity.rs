@@ -38,6 +38,15 @@ fn what_it_says_and_writes() {
     );
 }
 
+/// Form factors of a patch sum to 0 to 1, so that every room is closed within 2; patches that see nothing count once.
+#[test]
+fn every_room_is_closed_within_2() {
+    let room = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/examples/room.toml");
+    let small = ["--patches", "30", "--size", "8x8", "--factors", "unoccluded", "--iterations", "3"];
+    let (ran, _) = radiosity(&[&[room], &small[..], &["--require-closed", "2"]].concat());
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+}
+
 /// Radiosities between patches: the corners of the model by their numbers, each value a mean of its patches'.
 #[test]
 fn vertices_have_radiosities() {

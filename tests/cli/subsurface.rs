@@ -3,6 +3,9 @@
 use crate::environment::writes_files;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
 
 use crate::answers::words;
 use crate::{ProgramOutput, crossbar_in};
@@ -198,17 +201,67 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     let spoken = words(&ran.stdout);
     let sentence = spoken.split(begin).nth(1).and_then(|rest| rest.split(". ").next()).expect("the sentence");
     let expected = format!("\n\n{head}{body}\n{}\n\n", wrapped(&format!("{begin}{sentence}.")));
-    let page = root.join("docs/studies/subsurface.md");
+    hold_on_page("angles", angles(), &expected);
+}
+
+/// Requires that docs/studies/subsurface.md names the command, and what it found between the marks; or writes it.
+fn hold_on_page(name: &str, command: &str, expected: &str) {
+    // Tests that write the page do so one after another.
+    static PAGE: Mutex<()> = Mutex::new(());
+    let _alone = PAGE.lock().unwrap_or_else(PoisonError::into_inner);
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/studies/subsurface.md");
     let text = std::fs::read_to_string(&page).expect("the page");
-    let (before, rest) = text.split_once("<!-- subsurface: angles -->").expect("the mark");
+    let mark = format!("<!-- subsurface: {name} -->");
+    let (before, rest) = text.split_once(&mark).expect("the mark");
     let (found, after) = rest.split_once("<!-- /subsurface -->").expect("the end mark");
     if writes_files() {
-        let text = format!("{before}<!-- subsurface: angles -->{expected}<!-- /subsurface -->{after}");
+        let text = format!("{before}{mark}{expected}<!-- /subsurface -->{after}");
         std::fs::write(&page, text).expect("written");
     } else {
         assert_eq!(found, expected, "INSTA_UPDATE=always cargo test --test cli writes it");
     }
-    assert!(before.contains(&format!("crossbar {}", angles())), "the page names the command");
+    assert!(before.contains(&format!("crossbar {command}")), "the page names the command");
+}
+
+/// Errors of links by the size of the model.
+#[test]
+fn the_page_says_how_errors_grow_with_the_model() {
+    let command = |radius: &str| {
+        format!(
+            "subsurface docs/examples/sphere.obj --sigma-s 2.19 --sigma-a 0.0021 --eta 1.5 --mm-per-unit {radius} \
+             --atlas 32 --choice fixed --choice adaptive --links 4,16,64 --channels scalar --link-format fp32 \
+             --link-format fp16 --map fp32 --light directional:0,0,1:1,1,1 --all-pairs yes"
+        )
+    };
+    let sphere = "docs/examples/sphere.obj";
+    let found = |radius: &str| {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        std::fs::create_dir_all(folder.path().join("docs/examples")).expect("a folder");
+        std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(sphere), folder.path().join(sphere)).expect("copied");
+        let line = command(radius) + " --size 8x8";
+        let ran = crossbar_in(folder.path(), &line.split(' ').collect::<Vec<_>>(), "");
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+        table(&folder, "rows.csv")
+    };
+    let radii = ["1", "2", "4"];
+    let sizes: Vec<_> = radii.into_par_iter().map(found).collect();
+    let mut text =
+        "\n\n| links | card alone, fp32 | fp16 | radius 1 mm | 2 mm | 4 mm |\n|---|---|---|---|---|---|\n".to_owned();
+    let mut before = [[100.0; 3]; 2];
+    for way in 0..6 {
+        let [single, half] = [0, 1].map(|format| number(&sizes[0][2 * way + format], "card_rms_percent"));
+        let errors = [0, 1, 2].map(|size| number(&sizes[size][2 * way], "links_rms_percent"));
+        assert!(
+            errors.iter().zip(before[way / 3]).all(|(&now, before)| now < before),
+            "{errors:?}: more links are nearer"
+        );
+        assert!(way >= 3 || errors.is_sorted(), "{errors:?}: fixed links are farther off on a larger model");
+        before[way / 3] = errors;
+        let name = ["fixed, 4", "fixed, 16", "fixed, 64", "adaptive, 4", "adaptive, 16", "adaptive, 64"][way];
+        let [one, two, four] = errors;
+        text += &format!("| {name} | {single:.2} | {half:.2} | {one:.1} | {two:.1} | {four:.1} |\n");
+    }
+    hold_on_page("sizes", &command("4"), &format!("{text}\n"));
 }
 
 /// The text in lines of at most 120 characters.

@@ -9,7 +9,7 @@ use crate::crossbar_in;
 
 /// The output of a command on a terminal of `columns` columns.
 fn printed(folder: &Path, arguments: &[&str], columns: usize) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    let mut command = Command::new(crate::program::path());
     command.args(arguments).current_dir(folder).env("COLUMNS", columns.to_string());
     let output = command.output().expect("the program that this test was built with");
     String::from_utf8(output.stdout).expect("the program writes text")

@@ -17,8 +17,8 @@ use crate::study::prt::SurfaceTexture;
 /// Textures, and how patches are sampled.
 #[derive(Debug, clap::Args)]
 pub(super) struct TextureArgs {
-    /// The bidirectional texture of a material, or of all that have none of their own: a file (.npy) that `crossbar prt
-    /// texture` wrote or one like it, or a patch: bumps, mail, tiles, bricks, weave
+    /// The bidirectional texture of a material, or of all that have none of their own: a file (.npy) that `crossbar
+    /// bi-scale texture` wrote or one like it, or a patch: bumps, mail, tiles, bricks, weave
     #[arg(long, required = true, value_name = "[MATERIAL=]B.npy")]
     texture: Vec<TextureArg>,
 

@@ -1,16 +1,21 @@
 //! Checks cargo commands against `cargo metadata` of the workspace.
 
 use std::path::Path;
+use std::process::Output;
 use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use super::texts::CargoCommand;
+use super::texts::{CargoCommand, pages};
+use crate::environment::writes_pages;
+
+fn cargo(folder: &Path, arguments: &str) -> Output {
+    let mut command = std::process::Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments.split(' ')).current_dir(folder).output().expect("cargo, which runs this test")
+}
 
 static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {
-    let mut command = std::process::Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.args(["metadata", "--no-deps", "--offline", "--format-version", "1"]);
-    let output = command.current_dir(env!("CARGO_MANIFEST_DIR")).output().expect("cargo, which runs this test");
+    let output = cargo(Path::new(env!("CARGO_MANIFEST_DIR")), "metadata --no-deps --offline --format-version 1");
     let metadata: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
     metadata["packages"].as_array().expect("a list").clone()
 });
@@ -96,4 +101,49 @@ fn is_flag(option: &str) -> bool {
     let flags =
         ["--release", "--workspace", "--all-features", "--no-default-features", "--all-targets", "--lib", "--doc"];
     flags.contains(&option)
+}
+
+/// The dependencies that pages show resolve, in a crate beside a clone.
+#[test]
+fn dependencies_on_pages_resolve() {
+    let (mut shown, folder) = (0, tempfile::tempdir().expect("a folder for the test"));
+    std::os::unix::fs::symlink(env!("CARGO_MANIFEST_DIR"), folder.path().join("crossbar")).expect("a link");
+    let own = folder.path().join("own");
+    std::fs::create_dir_all(own.join("src")).expect("a folder");
+    std::fs::write(own.join("src/lib.rs"), "").expect("written");
+    for (name, text) in pages() {
+        for block in text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()) {
+            if block.contains("crossbar-gi") {
+                let manifest = format!("[package]\nname = \"own\"\nedition = \"2024\"\n\n[workspace]\n\n{block}");
+                std::fs::write(own.join("Cargo.toml"), manifest).expect("written");
+                let said = cargo(&own, "metadata --offline --format-version 1");
+                assert!(said.status.success(), "{name}:\n{block}{}", String::from_utf8_lossy(&said.stderr));
+                shown += 1;
+            }
+        }
+    }
+    assert!(shown >= 3, "README, docs/dependency.md and docs/tutorial.md show one each: {shown}");
+}
+
+/// docs/dependency.md counts the crates of each feature as cargo does. `INSTA_UPDATE=always` writes them.
+#[test]
+fn crates_are_counted() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("docs/dependency.md")).expect("the page");
+    let mut counted = page.clone();
+    for (row, features) in [("none", ""), ("`systems`", "systems"), ("`cli`", "cli"), ("`wgpu`", "cli,wgpu")] {
+        let tree = "tree --locked --offline --package crossbar-gi --edges normal,build --prefix none --no-dedupe";
+        let said = cargo(root, &format!("{tree} --no-default-features --features={features}"));
+        let said = String::from_utf8(said.stdout).expect("names");
+        let crates: std::collections::BTreeSet<&str> = said.lines().collect();
+        let line = page.lines().find(|line| line.starts_with(&format!("| {row}"))).expect("a row");
+        let mut cells: Vec<&str> = line.split(" | ").collect();
+        let count = crates.len().to_string();
+        cells[2] = &count;
+        counted = counted.replace(line, &cells.join(" | "));
+    }
+    if writes_pages() {
+        std::fs::write(root.join("docs/dependency.md"), &counted).expect("written");
+    }
+    assert!(counted == page || writes_pages(), "INSTA_UPDATE=always cargo test --test cli writes it:\n{counted}");
 }

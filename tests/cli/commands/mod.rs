@@ -6,6 +6,7 @@
 //! the same. Commands of cargo must name packages, targets, features and tests that exist.
 
 mod cargo;
+mod prose;
 mod texts;
 
 use crate::environment::writes_files;

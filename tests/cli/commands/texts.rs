@@ -82,7 +82,7 @@ impl Line {
 }
 
 /// README.md, the READMEs of the other crates, and docs without the decisions, which are history.
-fn pages() -> Vec<(String, String)> {
+pub(super) fn pages() -> Vec<(String, String)> {
     fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in fs::read_dir(folder).expect("a folder").flatten() {
             let path = entry.path();

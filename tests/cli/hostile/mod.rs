@@ -90,7 +90,7 @@ struct Said {
 }
 
 fn said(folder: &Path, arguments: &[OsString]) -> Said {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    let mut command = Command::new(crate::program::path());
     command.args(arguments).current_dir(folder).stdin(Stdio::null());
     let output = command.output().expect("the program that this test was built with");
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes text");

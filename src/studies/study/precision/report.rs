@@ -104,7 +104,8 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
         let of = family.curve.minimum.map_or(0.0, |minimum| study.costs.sum(&vec![minimum; mixed.formats.len()]));
         let unit = if study.costs.is_table() { "cost" } else { "bits" };
         found.conclusion(format!(
-            "With a format per instruction: {} {unit} in place of {}{}.",
+            "With a {} format per instruction: {} {unit} in place of {}{}.",
+            family.curve.family.name(),
             number(mixed.cost),
             number(of),
             if mixed.is_minimal { "; one bit less anywhere misses the goal" } else { ", the best so far" },

@@ -66,10 +66,10 @@ impl FormFactors {
     pub fn require_closed(&self, tolerance: f64) -> Result<(), FormFactorError> {
         let sums = self.row_sums();
         let blind = sums.iter().filter(|&&sum| sum == 0.0).count();
-        // A NaN sum is not closed either.
-        let closed = sums.iter().filter(|&&sum| (sum - 1.0).abs() <= tolerance).count();
         let all_blind = blind > 0 && blind == sums.len();
-        let open = if all_blind { blind } else { sums.len() - closed - blind };
+        // A NaN sum is not closed either. Blind patches are within a tolerance of 1 or more.
+        let is_open = |sum: f64| sum != 0.0 && (sum.is_nan() || (sum - 1.0).abs() > tolerance);
+        let open = if all_blind { blind } else { sums.iter().filter(|&&sum| is_open(sum)).count() };
         if open == 0 {
             return Ok(());
         }

@@ -4,7 +4,7 @@ use super::forms::{Form, FormErrors, ORDERS, TERMS, at_equal_angles, cook_torran
 use super::{EntryFindings, PaperRow, Prose, Setting, Shared, StudyError, Sweep, number, roughness, solved};
 use crate::all_frequency::factor::ProductErrors;
 
-/// PrintedReflectance in the names of its figures, with its forms.
+/// A reflectance of the paper, by the name in its figures, with the forms that its model may have.
 struct PrintedReflectance {
     id: &'static str,
     name: &'static str,
@@ -22,7 +22,7 @@ const REFLECTANCES: [PrintedReflectance; 2] = [
     PrintedReflectance { id: "schlick", name: "Schlick", forms: schlick, sweep: "forms of Schlick's model" },
 ];
 
-const HOW: &str = "PrintedReflectance times cosine on parabolic maps of {} x {} texels, {} samples per pair of texels, means cut off at {}; {} terms of the \
+const HOW: &str = "Reflectance times cosine on parabolic maps of {} x {} texels, {} samples per pair of texels, means cut off at {}; {} terms of the \
     singular value decomposition, and spherical harmonics by integrals over the hemisphere for view and light. Errors are over the {} x {} pairs \
     of texels whose directions lie above the horizon. The paper names the models and their parameters, and none of their factors: the rows have \
     the form of the textbooks, in which no energy is made; the tables beside them have the other printed denominators, and forms that a search beforehand had found nearer. \
