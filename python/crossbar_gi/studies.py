@@ -19,7 +19,7 @@ def entries() -> list[dict[str, str]]:
 
 
 def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
-    """The papers' printed values with ours, judged by bounds that were stated beforehand.
+    """The papers' printed values with ours, judged by bounds whose dates are in the rows.
 
     Args:
         ids: Entries by :func:`entries`; without any all of them, which takes minutes.

@@ -32,11 +32,13 @@ Examples:
 
 Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json, a drawing NAME.svg
 per chart and a picture NAME.png.
-Each printed figure has one row, with a bound that was stated beforehand, and a verdict: predicted
-(measured on our side, within a bound in numbers), order only, consistency of print (nothing is
-run), calibrated (within its bound, but no evidence), explained (a sweep of the same run over
-something that the paper leaves open reaches the value), missed, contradictory (the paper
-contradicts itself: the computation is shown), or too vague to judge.
+Each printed figure has one row, with a bound and the date on which it was stated, and a verdict:
+predicted (measured on our side, within a bound in numbers), order only, consistency of print
+(nothing is measured), by construction (no value that can come out is outside the bound),
+calibrated (within its bound, but no evidence), explained (a sweep of the same run over something
+that the paper leaves open reaches the value), missed, contradictory (the paper contradicts itself,
+and ours agrees with one of its values), or too vague to judge. All bounds were restated on
+2026-11-26: after the first results of most rows, before the recorded runs.
 Where the size of models decides, rows are those of recorded runs at full size, which the program
 contains; --full-size computes them anew and holds them against the record. The source of each row
 says which. Pictures, and rows without a record, are of reduced models: these are not judged.

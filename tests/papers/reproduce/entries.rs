@@ -63,6 +63,9 @@ fn the_number_of_patches_is_swept() {
     let both = sizes.rows().iter().filter(|row| [jacobi, seidel].iter().all(|i| row[*i].text() == "yes"));
     let both: Vec<String> = both.map(|row| row[0].text()).collect();
     assert_eq!(both, ["1,540", "1,541", "1,542", "1,543"]);
+    // Roots of 189.5 and 190.5 million over 2 x 40: 1,539.1 to 1,543.1. The card's rate chooses nothing beside them.
+    let by_host = sizes.rows().iter().filter(|row| row[seidel].text() == "yes");
+    assert_eq!(by_host.map(|row| row[0].text()).collect::<Vec<_>>(), both);
     assert!(sizes.rows().len() > both.len(), "and others that do not");
 }
 
@@ -110,7 +113,7 @@ fn lost_models_are_judged_by_order() {
         assert!(rows().all(|row| row.target.value != 1.0 || row.bound == Bound::AtLeast), "{id}: 1 is no order");
     }
     let appendix = &findings("cpca-appendix").rows;
-    assert!(appendix.iter().all(|row| row.bound == Bound::Print && row.verdict() == RowVerdict::Predicted));
+    assert!(appendix.iter().all(|row| row.bound == Bound::Print && row.verdict() == RowVerdict::Consistent));
     assert_eq!(appendix.len(), 17);
 }
 

@@ -3,14 +3,14 @@
 use strum::VariantArray as _;
 
 use super::{EntryChart, MissClass, PaperRow, Prose, Reproduced, RowSource, RowVerdict, Standing, number};
+use crate::report::words::listed;
 use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
 
-const JUDGED: &str = "Of {} figures that chose no constant, {} are predicted within bounds in numbers, {} are met in order only, and {} are \
-    the paper's own values set against each other; {} are explained, {} missed, and {} contradicted by their own paper.";
+const JUDGED: &str = "Of {} figures that chose no constant: {}.";
 const ROUNDED: &str = "{} of those that are met need the rounding of the printed value.";
 const MISSED: &str = "Missed for what is in the way: {}.";
 const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
-const RECORDED: &str = "{} are recorded at full size, {} of them computed anew with the same bits.";
+const RECORDED: &str = "Of these, {} are recorded at full size, {} of them computed anew with the same bits.";
 const REDUCED: &str = "{} more have reduced models alone and are not judged.";
 const DIFFER: &str = "Not as recorded: {}.";
 const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
@@ -19,15 +19,16 @@ const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's."
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let all_rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
     let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| found.counted()).collect();
+    let evidence = chose_none(found);
     let sentences = [
-        judged(&rows),
+        judged(&evidence),
         differ(&rows),
-        classes(&rows),
-        recorded(&all_rows),
+        classes(&evidence),
+        recorded(&evidence),
         reduced(&all_rows),
-        rounded(&rows),
+        rounded(&evidence),
         calibrated(&rows),
-        farthest(&rows),
+        farthest(&evidence),
     ];
     for sentence in sentences.into_iter().flatten() {
         all.conclusion(sentence.to_string());
@@ -61,6 +62,7 @@ const fn tone(verdict: RowVerdict) -> Tone {
         RowVerdict::Missed => Tone::Bad,
         RowVerdict::OrderOnly
         | RowVerdict::Consistent
+        | RowVerdict::ByConstruction
         | RowVerdict::Calibrated
         | RowVerdict::Explained
         | RowVerdict::Contradictory
@@ -77,19 +79,20 @@ const fn chose_a_constant(row: &PaperRow) -> bool {
     matches!(row.standing, Standing::Calibrated { .. })
 }
 
+/// Counted rows that chose no constant: all sentences but that on calibrated rows are of these.
+pub(super) fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
+    found.iter().flat_map(|(_, found)| found.counted()).filter(|row| !chose_a_constant(row)).collect()
+}
+
+/// Numbers of rows by verdict, in words, without those that are 0. Their sum is the number of rows.
+pub(super) fn parts(rows: &[&PaperRow]) -> String {
+    let of = |verdict: RowVerdict| (count(rows, |row| row.verdict() == verdict), verdict);
+    let counts = RowVerdict::counted().map(of).filter(|(count, _)| *count > 0);
+    listed(&counts.map(|(count, verdict)| format!("{count} {}", verdict.of_rows())).collect::<Vec<_>>())
+}
+
 fn judged(rows: &[&PaperRow]) -> Option<Prose> {
-    let of = |verdict: RowVerdict| count(rows, |row| !chose_a_constant(row) && row.verdict() == verdict);
-    let verdicts = [
-        RowVerdict::Predicted,
-        RowVerdict::OrderOnly,
-        RowVerdict::Consistent,
-        RowVerdict::Explained,
-        RowVerdict::Missed,
-        RowVerdict::Contradictory,
-    ];
-    let judged = count(rows, |row| !chose_a_constant(row));
-    let figures = std::iter::once(judged).chain(verdicts.map(of));
-    (judged > 0).then(|| Prose::new(JUDGED, figures.map(|figure| figure.to_string())))
+    (!rows.is_empty()).then(|| Prose::new(JUDGED, [rows.len().to_string(), parts(rows)]))
 }
 
 /// Number of missed rows by class.
@@ -121,7 +124,7 @@ fn differ(rows: &[&PaperRow]) -> Option<Prose> {
 }
 
 fn rounded(rows: &[&PaperRow]) -> Option<Prose> {
-    let all = count(rows, |row| row.contradiction().is_none() && row.holds_by_rounding());
+    let all = count(rows, |row| row.verdict() != RowVerdict::Contradictory && row.holds_by_rounding());
     (all > 0).then(|| Prose::new(ROUNDED, [all.to_string()]))
 }
 
@@ -131,11 +134,11 @@ fn calibrated(rows: &[&PaperRow]) -> Option<Prose> {
     (all > 0).then(|| Prose::new(CALIBRATED, [all, missed].map(|figure| figure.to_string())))
 }
 
-/// Ratio of our value and the printed one, inverted if necessary so that it is at least 1; `None` for a value that is
-/// not above 0.
-fn distance(row: &PaperRow) -> Option<f64> {
+/// Ratio of our value and the printed one, inverted if necessary so that it is at least 1; infinite for a value that
+/// has not the sign of the printed one.
+fn distance(row: &PaperRow) -> f64 {
     let ratio = ratio(row);
-    (ratio > 0.0 && ratio.is_finite()).then(|| ratio.max(1.0 / ratio))
+    if ratio > 0.0 { ratio.max(1.0 / ratio) } else { f64::INFINITY }
 }
 
 fn ratio(row: &PaperRow) -> f64 {
@@ -144,17 +147,18 @@ fn ratio(row: &PaperRow) -> f64 {
 
 fn farthest(rows: &[&PaperRow]) -> Option<Prose> {
     let missed = rows.iter().filter(|row| row.verdict() == RowVerdict::Missed);
-    let (row, _) = missed.filter_map(|row| Some((row, distance(row)?))).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let row = missed.max_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     let figures = [row.target.what.clone(), row.device.to_owned(), row.target.place.clone(), number(ratio(row), 2)];
     Some(Prose::new(FARTHEST, figures))
 }
 
 /// Verdicts in the order of the chart: the first two have the colors of the tally.
-const ORDER: [RowVerdict; 8] = [
+const ORDER: [RowVerdict; 9] = [
     RowVerdict::Predicted,
     RowVerdict::Missed,
     RowVerdict::OrderOnly,
     RowVerdict::Consistent,
+    RowVerdict::ByConstruction,
     RowVerdict::Calibrated,
     RowVerdict::Explained,
     RowVerdict::Contradictory,
@@ -169,7 +173,7 @@ fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
         label: verdict.to_string(),
         points: rows.iter().enumerate().filter(|(_, row)| row.verdict() == verdict).map(point).collect(),
     };
-    let drawn = rows.iter().filter(|row| row.verdict() != RowVerdict::Reduced && distance(row).is_some()).count();
+    let drawn = rows.iter().filter(|row| row.verdict() != RowVerdict::Reduced && distance(row).is_finite()).count();
     (drawn > 1).then(|| EntryChart {
         name: "overview",
         chart: Chart {

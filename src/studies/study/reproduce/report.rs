@@ -2,13 +2,13 @@
 
 use serde_json::json;
 
-use super::overview::{overview, overview_chart, tally as counts};
+use super::overview::{chose_none, overview, overview_chart, parts, tally as counts};
 use super::summary::summary_lines;
 use super::{EntryChart, Judgement, Paper, PaperRow, Reproduced, RowSource, RowVerdict, StudyError, papers};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
 const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% source \
-     ours_on_reduced_models standing printed_inputs bound low high by_rounding verdict missed_for explanation contradiction";
+     ours_on_reduced_models standing printed_inputs bound stated low high by_rounding verdict missed_for explanation contradiction";
 
 fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
@@ -40,6 +40,7 @@ fn rows(found: &Reproduced) -> Table {
             row.standing.to_string().into(),
             row.standing.inputs().into(),
             row.bound.text().into(),
+            target.stated.as_str().into(),
             low,
             high,
             row.holds_by_rounding().into(),
@@ -120,8 +121,8 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
     [of("Predicted and counted", false), of("Calibrated: no evidence", true)]
 }
 
-/// Table of notes: origins of values that are not printed, inputs of calibration, explanations of rows outside their
-/// bounds, and contradictions within the paper; each reason once, with its rows.
+/// Table of notes: origins of values that are not printed, inputs of calibration, ranges that confine values,
+/// explanations of rows outside their bounds, and contradictions within the paper; each reason once, with its rows.
 pub fn notes(found: &Reproduced) -> Table {
     let mut notes: Vec<([String; 2], Vec<String>)> = Vec::new();
     for (_, row) in all(found) {
@@ -143,6 +144,9 @@ pub fn notes(found: &Reproduced) -> Table {
         if let Some(explanation) = row.explanation() {
             let value = row.target.beside(explanation.value()).text();
             note("explained", explanation.reason(), format!("{name}: {value} there"));
+        }
+        if let Some((_, why)) = row.confinement() {
+            note("by construction", why.to_owned(), name.clone());
         }
         if let Some(contradiction) = row.contradiction() {
             note("contradictory", contradiction.text().to_owned(), name);
@@ -182,26 +186,21 @@ fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
     all(found).filter(|(_, row)| row.verdict() == verdict).count()
 }
 
-/// Formats the tally in one line: explained rows do not count as met, and what is met is told apart by its evidence.
+/// Formats the tally in one line: the numbers of rows by verdict, calibrated ones among them.
 pub fn tally_line(found: &Reproduced) -> String {
-    let of = |verdict| count(found, verdict);
-    let reduced = match of(RowVerdict::Reduced) {
+    let reduced = match count(found, RowVerdict::Reduced) {
         0 => String::new(),
         reduced => format!("; {reduced} more are of reduced models, a smoke test, and are not counted"),
     };
-    let [explained, missed] = [of(RowVerdict::Explained), of(RowVerdict::Missed)];
-    format!(
-        "{} figures: {} predicted, {} in order only, {} consistent in print; {} outside their bounds, {explained} of them \
-         explained and {missed} missed; {} contradicted by their own paper; {} calibrated, no evidence; {} too vague to judge{reduced}",
-        found.iter().flat_map(|(_, found)| found.counted()).count(),
-        of(RowVerdict::Predicted),
-        of(RowVerdict::OrderOnly),
-        of(RowVerdict::Consistent),
-        explained + missed,
-        of(RowVerdict::Contradictory),
-        of(RowVerdict::Calibrated),
-        of(RowVerdict::TooVague),
-    )
+    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| found.counted()).collect();
+    format!("{} figures: {}{reduced}", rows.len(), parts(&rows))
+}
+
+/// Formats the tally of the rows that chose no constant, and how many of them are recorded.
+pub fn evidence_line(found: &Reproduced) -> String {
+    let rows = chose_none(found);
+    let recorded = rows.iter().filter(|row| !matches!(row.source, RowSource::Computed | RowSource::Reduced)).count();
+    format!("of {} figures that chose no constant: {}; {recorded} are recorded at full size", rows.len(), parts(&rows))
 }
 
 /// Open questions about rows outside their bounds: each once, with the first entry that asks it.
@@ -221,13 +220,16 @@ pub fn held(found: &Reproduced) -> bool {
     count(found, RowVerdict::Missed) == 0 && !all(found).any(differs)
 }
 
-const HOW: &str = "The papers' figures beside ours, each figure in one row. A figure is printed, implied by printed ones, or inferred by us; its bound is \
-    data, and was stated before ours was worked out. Within the bound a row is predicted if ours is drawn, solved, counted or timed and the bound is in \
+const HOW: &str = "The papers' figures beside ours, each figure in one row. A figure is printed, implied by printed ones, or inferred by us. Its bound is \
+    data with a date: all bounds were restated on 2026-11-26, when rows had been worked out since 2026-11-21, and before the recorded runs; the data list what changed \
+    since. Within the bound a row is predicted if ours is drawn, solved, counted or timed and the bound is in \
     numbers ({} % of the paper's value, or of the gain over the host alone where the host was calibrated; every digit of what is counted or solved); order only if the bound \
-    is which of two values is larger; and consistent in print if nothing is run and the paper's values are set against each other. Calibrated rows chose a constant of \
+    is which of two values is larger; by construction if the bound admits every value that the computation can give; and consistent in print if nothing is measured: the \
+    paper's values are set against each other or its own equations. Calibrated rows chose a constant of \
     the model: they stand apart and are no evidence. Where the text allows several readings, all must lie within the bound. Outside it a row is missed, unless a sweep of this \
-    run over something that the papers leave open reaches the value without losing another row that holds: then it is explained, with the setting. \
-    Missed rows have the class of what is in the way, as far as it is known. Where the paper contradicts itself, the row is contradictory, with the computation. Differences are shares of the paper's value. \
+    run over something that the papers leave open reaches the value without losing another row that holds: then it is explained. One setting explains all that a sweep explains. \
+    Missed rows have the class of what is in the way, as far as it is known. Where the paper contradicts itself and ours agrees with one of its values, the row is contradictory, with the computation; \
+    where ours agrees with none, it is missed. Differences are shares of the paper's value. \
     The source of a row is this run (computed), a recorded run at full size (recorded), both with the same bits, or this run on reduced models, which is not judged.";
 
 pub(super) fn findings(found: &Reproduced) -> Findings {

@@ -1,6 +1,6 @@
 //! Section 9 and the related part of section 3.2: hemispherical projections.
 
-use super::{EntryFindings, HOST, PaperRow, StudyError, failed, solved};
+use super::{EntryFindings, HOST, PaperRow, StudyError, equation, failed};
 use crate::report::{Cell, Table};
 use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function_count, function_index};
 
@@ -33,10 +33,10 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let [largest, second, least] = [values[0], values[values.len() - 2], values[values.len() - 1]];
     let cost = hemisphere.drop_costs()[function_index(1, 0)];
     let mut rows = vec![
-        solved("singular-least", least)?,
-        solved("singular-second", second)?,
-        solved("singular-largest", largest)?,
-        solved("dropped", cost)?,
+        equation("singular-least", least)?,
+        equation("singular-second", second)?,
+        equation("singular-largest", largest)?,
+        equation("dropped", cost)?,
     ];
     for projected in &PROJECTIONS {
         rows.extend(projection_rows(projected)?);
@@ -50,7 +50,7 @@ fn error(projection: HemisphereProjection, [signal, order]: [usize; 2]) -> Resul
 
 fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<Vec<PaperRow>, StudyError> {
     let ProjectionErrors { worst, average } = error(projection, [ORDER, order])?;
-    let row = |what: &str, ours: f64| solved(&format!("{id}-{what}"), ours);
+    let row = |what: &str, ours: f64| equation(&format!("{id}-{what}"), ours);
     let mut rows = vec![row("worst", worst)?, row("average", average)?];
     if projection == ZeroHemisphere {
         let percent = |error: f64| 100.0 * error.sqrt();

@@ -10,6 +10,7 @@ use super::shared::iterative;
 use super::signals::BIRD;
 use super::views::{ModelView, RED_AND_BLUE};
 use super::{EntryFindings, Prose, Shared, StudyError, number, printed, solved};
+use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, PictureGrid, Table};
 use crate::sphere::HarmonicLight;
@@ -35,13 +36,13 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let clusterings = [&components, &quantised, both];
     let errors = clusterings.map(|clustering| computed.error(clustering));
     let card = Profile::named(CARD)?;
-    let mut rates = [0.0; 3];
-    for ((rate, clustering), (_, clusters, vectors, _)) in rates.iter_mut().zip(clusterings).zip(ENCODINGS) {
+    let mut times = [FrameTime::default(); 3];
+    for ((time, clustering), (_, clusters, vectors, _)) in times.iter_mut().zip(clusterings).zip(ENCODINGS) {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
         let drawn = DrawnClusters::new(computed, clustering)?;
-        *rate = modelled_from_clusters(&card, shared, (computed.paper.model, size), &drawn)?.per_second();
+        *time = modelled_from_clusters(&card, shared, (computed.paper.model, size), &drawn)?;
     }
-    let mut table = encodings(&clusterings, errors, rates)?;
+    let mut table = encodings(&clusterings, errors, times.map(|time| time.per_second()))?;
     let [of_pca, of_vq, of_both] = errors;
     let mut rows = vec![
         solved("pca-over-cpca", of_pca / of_both)?,
@@ -62,7 +63,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(solved(id, error / of_both)?);
     }
     // The rate of both together is that of Table 1.
-    rows.extend([rate_row("rate-pca", rates[0], OWN_INPUTS)?, rate_row("rate-vq", rates[1], OWN_INPUTS)?]);
+    rows.extend([rate_row("rate-pca", &times[0], OWN_INPUTS)?, rate_row("rate-vq", &times[1], OWN_INPUTS)?]);
     let light = HarmonicLight::red_and_blue(5);
     let view = ModelView::new(computed, &light, EYE)?;
     let mut pictures = Vec::new();

@@ -5,7 +5,7 @@ use refsim::device::Profile;
 use super::drawn::DrawnClusters;
 use super::figure_3::EYE;
 use super::mesh_cost::CARD;
-use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, uncompressed};
+use super::rates::{OWN_INPUTS, modelled_from_clusters, ratio_row, uncompressed};
 use super::shared::iterative;
 use super::signals::{GLOSSY_BUDDHA, HEAD, SIGNALS};
 use super::views::{ModelView, RED_AND_BLUE, RIM};
@@ -76,7 +76,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         table.push([Cell::from(name)].into_iter().chain(cells));
         rows.extend(without_compression(id, size)?);
         let faster = time.per_second() / uncompressed(of_rows(size, 25))?;
-        rows.push(rate_row(&format!("faster-{id}"), faster, OWN_INPUTS)?);
+        rows.push(ratio_row(&format!("faster-{id}"), ((&time).into(), faster), OWN_INPUTS)?);
         // Without compression the host's products and the card's drawing overlap, as they do with it.
         let host = 1.0 / uncompressed(of_rows(size, 25))?;
         let plain = |card: Result<Profile, StudyError>| -> Result<f64, StudyError> {
@@ -97,8 +97,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         grid = grid.row(name, pictures);
     }
     let grid = grid.row("", shown_light);
-    let uncompressed_gain = (plain_gains[0], Standing::Predicted { from: OWN_INPUTS });
-    let row = paper_row("cpca/newer-card-uncompressed", (NEWER, Method::Pipeline), uncompressed_gain)?;
+    let row = newer_row("newer-card-uncompressed", plain_gains[0])?;
     rows.push(row.with_readings(plain_gains[1..].iter().copied()));
     let (newer, swept) = newer_card(&gains)?;
     rows.push(newer);
@@ -132,7 +131,8 @@ fn clocked(card: &str, [core, memory]: [u64; 2]) -> Result<Profile, StudyError> 
 fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, StudyError> {
     let mut found = Vec::new();
     for rows in ROWS {
-        let mut row = rate_row(&format!("uncompressed-{id}-{rows}"), uncompressed(of_rows(size, rows))?, OWN_INPUTS)?;
+        let rate = (Method::Equation, uncompressed(of_rows(size, rows))?);
+        let mut row = ratio_row(&format!("uncompressed-{id}-{rows}"), rate, OWN_INPUTS)?;
         if (id, rows) == ("head", 25) {
             row.standing = Standing::Calibrated { on: OWN_INPUTS };
         }
@@ -141,10 +141,16 @@ fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, St
     Ok(found)
 }
 
+/// Row on a gain of the newer card. Both frames have the same work, so that the gain is that of the clocks, or none
+/// where the host decides.
+fn newer_row(id: &str, gain: f64) -> Result<PaperRow, StudyError> {
+    let ours = (gain, Standing::Predicted { from: OWN_INPUTS });
+    paper_row(&format!("cpca/{id}"), (NEWER, Method::Equation), ours)
+}
+
 /// Row on the gain of the newer card by the clocks of the profiles, of both models, and a table of other clocks.
 fn newer_card(gains: &[Vec<f64>]) -> Result<(PaperRow, Table), StudyError> {
-    let ours = (gains[0][0], Standing::Predicted { from: OWN_INPUTS });
-    let row = paper_row("cpca/newer-card", (NEWER, Method::Pipeline), ours)?;
+    let row = newer_row("newer-card", gains[0][0])?;
     let mut rows = [row.with_readings(gains[1..].iter().map(|by_clocks| by_clocks[0]))];
     let target = rows[0].target.value;
     let farthest = |one: &f64, other: &f64| (one - target).abs().total_cmp(&(other - target).abs());

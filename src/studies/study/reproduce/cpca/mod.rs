@@ -47,6 +47,11 @@ use super::{
     number, paper_row, printed, printed_value,
 };
 
+/// Row of a value that follows from the paper's equations alone.
+fn equation(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
+    paper_row(&format!("cpca/{id}"), (HOST, Method::Equation), (ours, Standing::Counted))
+}
+
 /// Row of a value that is computed in f64 and uses no printed one.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))

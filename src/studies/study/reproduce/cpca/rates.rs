@@ -53,15 +53,21 @@ pub(super) fn modelled_from_clusters(
     modelled(card, *shared.get(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
-/// Frames per second without compression, where the host multiplies every matrix by the light.
+/// Frames per second without compression, where the host multiplies every matrix by the light: by equation, from
+/// printed sizes.
 pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     let host = host_of_section_7().map_err(|e| failed(HOST)(&e))?;
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 
-/// Row on a frame rate, or a ratio of two.
-pub(super) fn rate_row(id: &str, ours: f64, from: &'static str) -> Result<PaperRow, StudyError> {
-    paper_row(&format!("cpca/{id}"), (CARD, Method::Pipeline), (ours, Standing::Predicted { from }))
+/// Row on a modelled frame rate.
+pub(super) fn rate_row(id: &str, time: &FrameTime, from: &'static str) -> Result<PaperRow, StudyError> {
+    ratio_row(id, (time.into(), time.per_second()), from)
+}
+
+/// Row on a rate, or a ratio of two, with its method.
+pub(super) fn ratio_row(id: &str, (method, ours): (Method, f64), from: &'static str) -> Result<PaperRow, StudyError> {
+    paper_row(&format!("cpca/{id}"), (CARD, method), (ours, Standing::Predicted { from }))
 }
 
 /// Names of the two printed rates of the Buddha with anisotropic gloss: of Table 1, and of section 7 with both
@@ -98,7 +104,7 @@ pub(super) fn rates(
             let overdraw = printed_value(&format!("cpca/overdraw-{id}-{}", COLUMN_IDS[column]))?;
             let time = modelled(&card, mesh, paper.size, (overdraw, groups))?;
             let id = format!("rate-{id}-{}", COLUMN_IDS[column]);
-            let row = rate_row(&id, time.per_second(), INPUTS)?;
+            let row = rate_row(&id, &time, INPUTS)?;
             table.push(line(name, how, (overdraw, row.target.value), &time, mesh.run_per_triangle));
             rows.push(if id == CONTRADICTORY[1] { row.contradicted(same_signal(&id)?) } else { row });
         }

@@ -1,7 +1,7 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{EntryFindings, HOST, Method, Prose, REGISTERS, Standing, StudyError, number, paper_row};
+use super::{EntryFindings, Prose, REGISTERS, StudyError, equation, number};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
@@ -15,7 +15,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let factor = (square.rows * square.columns) as f64 / per_vertex as f64;
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, [number(4.0, 0)])],
-        rows: vec![paper_row("cpca/computation-saved", (HOST, Method::Equation), (factor, Standing::Counted))?],
+        rows: vec![equation("computation-saved", factor)?],
         tables: vec![sizes()],
         ..EntryFindings::default()
     })

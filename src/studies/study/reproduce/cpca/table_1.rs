@@ -95,7 +95,7 @@ fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
         let (paper, drawn) = (&SIGNALS[at], shared.get::<DrawnClusters>(at)?);
         let time = modelled_from_clusters(&card, shared, (paper.model, paper.size), drawn)?;
         let id = format!("rate-{id}");
-        let row = rate_row(&id, time.per_second(), OWN_INPUTS)?;
+        let row = rate_row(&id, &time, OWN_INPUTS)?;
         table.push([
             paper.name.into(),
             Cell::decimals(drawn.overdraw[0], 3),

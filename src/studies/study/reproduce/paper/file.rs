@@ -115,16 +115,22 @@ impl FileFigure {
 pub(super) fn parse(paper: &str, text: &str) -> Result<(String, Vec<PaperFigure>), String> {
     let file: PaperFile = toml::from_str(text).map_err(|error| format!("the file of `{paper}`: {error}"))?;
     let mut figures: Vec<PaperFigure> = Vec::new();
+    let first = file.stated.first().map_or("", |stated| &stated.date);
     for group in &file.group {
         for entry in &group.figures {
-            let figure = figure(paper, group, entry, &figures);
+            let figure = figure((paper, first), group, entry, &figures);
             figures.push(figure.map_err(|reason| format!("figure `{paper}/{}`: {reason}", entry.id))?);
         }
     }
     Ok((file.title, figures))
 }
 
-fn figure(paper: &str, group: &FigureGroup, entry: &FileFigure, above: &[PaperFigure]) -> Result<PaperFigure, String> {
+fn figure(
+    (paper, first): (&str, &str),
+    group: &FigureGroup,
+    entry: &FileFigure,
+    above: &[PaperFigure],
+) -> Result<PaperFigure, String> {
     let terms = entry.terms(group);
     let find = |id: &str| {
         let found = above.iter().find(|figure| figure.id.strip_prefix(paper) == Some(&format!("/{id}")));
@@ -153,6 +159,8 @@ fn figure(paper: &str, group: &FigureGroup, entry: &FileFigure, above: &[PaperFi
         (None, Some(reason)) => Judgement::Not(reason),
         _ => return Err("expected one of `bound` and `unjudged`".to_owned()),
     };
+    let changed = entry.changes(group).next_back().map(|change| change.date.as_str());
+    let stated = changed.or(entry.stated.as_deref()).unwrap_or(first).to_owned();
     Ok(PaperFigure {
         id: format!("{paper}/{}", entry.id),
         what: entry.what.clone(),
@@ -162,6 +170,7 @@ fn figure(paper: &str, group: &FigureGroup, entry: &FileFigure, above: &[PaperFi
         place: group.place.clone(),
         origin,
         judgement,
+        stated,
         missed: entry.missed,
     })
 }

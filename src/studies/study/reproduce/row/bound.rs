@@ -1,8 +1,8 @@
-//! Tolerances, stated before values are computed.
+//! Tolerances.
 
 use crate::study::reproduce::prose::number;
 
-/// Tolerance of a value, stated before it was computed. The rounding of the printed value is allowed in addition.
+/// Tolerance of a value. The rounding of the printed value is allowed in addition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
     /// Equal to the printed value, rounded to as many digits.

@@ -5,8 +5,11 @@ use crate::study::reproduce::prose::number;
 
 /// Computation from printed values alone that gives another value than is printed. Created by the functions below,
 /// which refuse values that agree.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Contradiction(String);
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contradiction {
+    text: String,
+    value: Option<f64>,
+}
 
 impl Contradiction {
     /// Contradiction of a figure by a value that follows from other printed ones, with the computation in words; `None`
@@ -14,17 +17,23 @@ impl Contradiction {
     pub fn between(figure: &PaperFigure, computed: f64, how: &str) -> Option<Self> {
         let decimals = figure.decimals + u8::from(figure.value.abs() < 1000.0);
         let text = || format!("{} {}: {how}", number(computed, decimals), figure.unit);
-        ((computed - figure.value).abs() > figure.rounding()).then(|| Self(text().trim().to_owned()))
+        let contradicts = (computed - figure.value).abs() > figure.rounding();
+        contradicts.then(|| Self { text: text().trim().to_owned(), value: Some(computed) })
     }
 
     /// Contradiction that holds on a condition, which is computed from printed values; `None` if it does not hold.
     pub fn if_holds(condition: bool, computation: impl Into<String>) -> Option<Self> {
-        condition.then(|| Self(computation.into()))
+        condition.then(|| Self { text: computation.into(), value: None })
     }
 
     /// The computation.
     pub fn text(&self) -> &str {
-        &self.0
+        &self.text
+    }
+
+    /// Value that contradicts the figure; `None` for a contradiction that gives none.
+    pub const fn value(&self) -> Option<f64> {
+        self.value
     }
 }
 

@@ -25,7 +25,7 @@ impl Origin {
     }
 }
 
-/// Judgement of a figure, stated before our value was computed.
+/// Judgement of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Judgement {
     /// A row judges the figure within this bound.
@@ -53,7 +53,7 @@ pub enum MissClass {
     #[serde(rename = "ours differs")]
     #[strum(to_string = "ours differs")]
     OursDiffers,
-    /// Another place of the paper speaks against the figure, without a computation that shows it.
+    /// Another place of the paper speaks against the figure, and ours agrees with neither.
     #[serde(rename = "paper contradicts")]
     #[strum(to_string = "paper contradicts")]
     PaperContradicts,
@@ -78,6 +78,8 @@ pub struct PaperFigure {
     pub origin: Origin,
     /// Bound of the row that judges it, or the reason why there is none.
     pub judgement: Judgement,
+    /// Date on which the judgement was stated: that of its last change, or of its statement.
+    pub stated: String,
     /// Class of its miss, where its row is missed.
     pub missed: Option<MissClass>,
 }

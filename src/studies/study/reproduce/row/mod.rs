@@ -1,12 +1,14 @@
-//! Rows: a printed value of a paper and ours, with a bound that was stated beforehand and the verdict.
+//! Rows: a printed value of a paper and ours, with a bound and the verdict.
 //!
-//! [`Explanation`]s are created only by a [`Sweep`] of the same run, [`Contradiction`]s only by computations from
+//! Verdicts follow from how a value was computed ([`Method`], [`Standing`], the range that confines it) and from the
+//! bound. [`Explanation`]s are created only by a [`Sweep`] of the same run, [`Contradiction`]s only by computations from
 //! printed values; calibrated values are listed separately and still have to lie within their bounds.
 
 mod bound;
 mod contradiction;
 mod explanation;
 mod figure;
+mod method;
 mod setting;
 mod source;
 mod sweep;
@@ -16,6 +18,7 @@ pub use bound::Bound;
 pub use contradiction::Contradiction;
 pub use explanation::Explanation;
 pub use figure::{Judgement, MissClass, Origin, PaperFigure};
+pub use method::{Method, Standing};
 pub use setting::Setting;
 pub use source::RowSource;
 pub use sweep::Sweep;
@@ -24,52 +27,6 @@ pub use verdict::RowVerdict;
 use std::sync::Arc;
 
 use setting::AppliedSweep;
-
-/// Method by which our value was computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
-#[strum(serialize_all = "lowercase")]
-pub enum Method {
-    /// The paper's own equation with its printed rates.
-    Equation,
-    /// Drawn on an emulated card and timed from clocks, slots and bytes.
-    Pipeline,
-    /// Rendered through the whole engine, with its work counted and timed.
-    Engine,
-    /// A model of the paper's host.
-    #[strum(to_string = "host model")]
-    Host,
-    /// Solved in f64.
-    Solver,
-}
-
-/// Dependence of our value on printed values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
-#[strum(serialize_all = "lowercase")]
-pub enum Standing {
-    /// Prediction: this value was not used; other printed ones were.
-    Predicted {
-        /// Printed values that were used; empty for none.
-        from: &'static str,
-    },
-    /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so that
-    /// agreement is no evidence.
-    Calibrated {
-        /// Printed values that determined it.
-        on: &'static str,
-    },
-    /// Count: from a run that uses no time and no printed value.
-    Counted,
-}
-
-impl Standing {
-    /// Printed values that our value depends on.
-    pub const fn inputs(self) -> &'static str {
-        match self {
-            Self::Predicted { from: inputs } | Self::Calibrated { on: inputs } => inputs,
-            Self::Counted => "",
-        }
-    }
-}
 
 /// Row: a value of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,10 +43,12 @@ pub struct PaperRow {
     pub readings: Vec<f64>,
     /// Dependence of ours on printed values.
     pub standing: Standing,
-    /// Tolerance, stated beforehand.
+    /// Tolerance, stated on [`PaperFigure::stated`].
     pub bound: Bound,
     /// Run that our value is from.
     pub source: RowSource,
+    /// Range of the values that the computation can give, and why.
+    confined: Option<([f64; 2], &'static str)>,
     /// Sweeps that the row takes part in.
     swept: Vec<Arc<AppliedSweep>>,
     /// Set by [`Sweep::explain`] alone.
@@ -115,6 +74,7 @@ impl PaperRow {
             standing,
             bound,
             source: RowSource::Computed,
+            confined: None,
             swept: Vec::new(),
             explanation: None,
             contradiction: None,
@@ -125,6 +85,18 @@ impl PaperRow {
     #[must_use]
     pub fn with_readings(self, readings: impl IntoIterator<Item = f64>) -> Self {
         Self { readings: readings.into_iter().collect(), ..self }
+    }
+
+    /// States the range of the values that the computation can give whatever the model, with the reason. A bound that
+    /// admits all of them judges nothing ([`RowVerdict::ByConstruction`]).
+    #[must_use]
+    pub fn confined(self, range: [f64; 2], why: &'static str) -> Self {
+        Self { confined: Some((range, why)), ..self }
+    }
+
+    /// Range of the values that the computation can give, and why; `None` where nothing confines them.
+    pub const fn confinement(&self) -> Option<([f64; 2], &'static str)> {
+        self.confined
     }
 
     /// Adds a contradiction of the paper with itself, if there is one.
@@ -183,12 +155,12 @@ impl PaperRow {
 
     /// Verdict.
     pub fn verdict(&self) -> RowVerdict {
-        if self.contradiction.is_some() {
-            RowVerdict::Contradictory
-        } else if matches!(self.bound, Bound::TooVague) {
+        if matches!(self.bound, Bound::TooVague) {
             RowVerdict::TooVague
         } else if self.source == RowSource::Reduced && self.method != Method::Equation {
             RowVerdict::Reduced
+        } else if self.is_contradictory() {
+            RowVerdict::Contradictory
         } else if self.holds() {
             self.class()
         } else if self.explanation.is_some() {
@@ -199,13 +171,33 @@ impl PaperRow {
     }
 
     /// Verdict of a row that holds.
-    const fn class(&self) -> RowVerdict {
+    fn class(&self) -> RowVerdict {
         match (self.standing, self.method, self.bound) {
             (Standing::Calibrated { .. }, ..) => RowVerdict::Calibrated,
             (_, Method::Equation, _) => RowVerdict::Consistent,
+            _ if self.cannot_fail() => RowVerdict::ByConstruction,
             (.., Bound::Order | Bound::AtLeast) => RowVerdict::OrderOnly,
             _ => RowVerdict::Predicted,
         }
+    }
+
+    /// Returns `true` if the bound admits every value that the computation can give. The ends of the range do not
+    /// count: equal values have no order, but they are those of a method that changes nothing.
+    fn cannot_fail(&self) -> bool {
+        let range = self.confined.map(|(range, _)| range).zip(self.interval());
+        range.is_some_and(|([least, most], [low, high])| low <= least.next_up() && most.next_down() <= high)
+    }
+
+    /// Returns `true` if the paper contradicts itself and ours agrees with one of the values: which of them is right is
+    /// then not for us to judge. A value that agrees with none is missed whichever is right.
+    pub(super) fn is_contradictory(&self) -> bool {
+        let rounding = self.target.rounding();
+        let agrees = |printed: f64| {
+            let interval = self.bound.interval(printed, rounding);
+            interval.is_some_and(|[low, high]| self.values().all(|value| (low..=high).contains(&value)))
+        };
+        let found = self.contradiction.as_ref();
+        found.is_some_and(|found| agrees(self.target.value) || found.value().is_some_and(agrees))
     }
 
     /// Class of the miss; `None` for a row that is not missed.
@@ -226,7 +218,10 @@ impl PaperRow {
 
 #[cfg(test)]
 pub(super) mod tests {
+    use refsim::timing::Picoseconds;
+
     use super::*;
+    use crate::card::frame_time::FrameTime;
 
     pub(in crate::study::reproduce) fn target(value: f64, decimals: u8) -> PaperFigure {
         PaperFigure {
@@ -238,6 +233,7 @@ pub(super) mod tests {
             place: "section 6.1".to_owned(),
             origin: Origin::Printed,
             judgement: Judgement::Within(Bound::Relative(0.1)),
+            stated: "2026-11-26".to_owned(),
             missed: Some(MissClass::ModelLost),
         }
     }
@@ -280,11 +276,40 @@ pub(super) mod tests {
         assert!(row(14.0).holds_by_rounding() && !row(14.1).holds_by_rounding() && !row(13.0).holds_by_rounding());
     }
 
+    /// 15.6 and 33.2 contradict each other, each within 10 %: 15.6 and 36.0 agree with one, 20.0 with neither.
     #[test]
-    fn a_figure_that_its_paper_contradicts_is_neither_met_nor_missed() {
+    fn a_figure_that_its_paper_contradicts_is_missed_by_a_value_that_agrees_with_neither() {
         let contradiction = || Contradiction::between(&target(15.6, 1), 33.2, "the other table");
-        let verdicts = [15.6, 30.0].map(|ours| row(ours).contradicted(contradiction()).verdict());
-        assert_eq!(verdicts, [RowVerdict::Contradictory; 2]);
+        let verdicts = [15.6, 36.0, 20.0].map(|ours| row(ours).contradicted(contradiction()).verdict());
+        assert_eq!(verdicts, [RowVerdict::Contradictory, RowVerdict::Contradictory, RowVerdict::Missed]);
+        let apart = row(15.6).with_readings([33.2]).contradicted(contradiction());
+        assert_eq!(apart.verdict(), RowVerdict::Missed, "one reading for each value agrees with neither");
+        let waits = || Contradiction::if_holds(true, "waits are inside");
+        let verdicts = [15.6, 33.2].map(|ours| row(ours).contradicted(waits()).verdict());
+        assert_eq!(verdicts, [RowVerdict::Contradictory, RowVerdict::Missed]);
+    }
+
+    /// A bound that admits every possible value judges nothing; one that a possible value misses does. Equal values have
+    /// no order, and do not save one that cannot be the other way round.
+    #[test]
+    fn what_cannot_fail_is_met_by_construction() {
+        let confined = |range, bound| PaperRow { bound, ..row(15.6) }.confined(range, "a tree").verdict();
+        assert_eq!(confined([15.6, 15.6], Bound::Print), RowVerdict::ByConstruction);
+        assert_eq!(confined([1.0, f64::INFINITY], Bound::Order), RowVerdict::ByConstruction);
+        assert_eq!(confined([0.9, f64::INFINITY], Bound::Order), RowVerdict::OrderOnly);
+        assert_eq!(confined([15.0, 18.0], Bound::Relative(0.1)), RowVerdict::Predicted);
+        let outside = row(20.0).confined([15.6, 15.6], "a tree");
+        assert_eq!(outside.verdict(), RowVerdict::Missed, "a wrong reason hides no miss");
+    }
+
+    /// A frame of 20 ms that the host works for 20 ms is the host's, at a calibrated rate; one that waits for the card is
+    /// not.
+    #[test]
+    fn a_frame_that_the_host_decides_is_an_equation() {
+        let frame = Picoseconds(20_000_000_000);
+        let time = |host: u64| FrameTime { frame, host: Picoseconds(host), ..FrameTime::default() };
+        let methods = [20_000_000_000, 19_000_000_000].map(|host| Method::from(&time(host)));
+        assert_eq!(methods, [Method::Equation, Method::Pipeline]);
     }
 
     #[test]
@@ -306,7 +331,7 @@ pub(super) mod tests {
         assert_eq!([15.6, 30.0].map(|ours| reduced(row(ours))), [RowVerdict::Reduced; 2]);
         assert_eq!(reduced(PaperRow { method: Method::Equation, ..row(15.6) }), RowVerdict::Consistent);
         let contradiction = Contradiction::between(&target(15.6, 1), 33.2, "the other table");
-        assert_eq!(reduced(row(15.6).contradicted(contradiction)), RowVerdict::Contradictory);
+        assert_eq!(reduced(row(15.6).contradicted(contradiction)), RowVerdict::Reduced);
         assert!(!RowVerdict::counted().any(|verdict| verdict == RowVerdict::Reduced));
     }
 

@@ -19,9 +19,10 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains
-    /// nothing if any row leaves its bound there that is within it now: a single card or host must satisfy all rows.
-    /// Calibrated rows are never explained, and contradictory ones have no say.
+    /// Explains rows outside their bounds by one setting at which they lie within them: the one that explains most
+    /// rows, of equals the first. A single card or host must satisfy all rows, so that a setting explains nothing if any
+    /// row leaves its bound there that is within it now. Calibrated rows are never explained, and contradictory ones have
+    /// no say.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         let applied = Arc::new(AppliedSweep {
@@ -31,24 +32,32 @@ impl Sweep {
             figures: rows.iter().map(|row| row.target.id.clone()).collect(),
         });
         rows.iter_mut().for_each(|row| row.swept.push(Arc::clone(&applied)));
+        let calibrated = |row: &PaperRow| matches!(row.standing, Standing::Calibrated { .. });
+        let open =
+            |row: &PaperRow| !row.is_contradictory() && !calibrated(row) && !row.holds() && row.explanation.is_none();
+        let lost = |row: &PaperRow| !row.is_contradictory() && row.holds();
+        let mut best: Option<(&Setting, Vec<bool>, usize)> = None;
         for setting in &self.settings {
             let held: Vec<bool> = rows.iter().zip(&setting.values).map(|(row, value)| row.admits(*value)).collect();
-            let judged = |row: &PaperRow| row.contradiction.is_none();
-            if rows.iter().zip(&held).any(|(row, held)| judged(row) && row.holds() && !held) {
+            if rows.iter().zip(&held).any(|(row, held)| lost(row) && !held) {
                 continue;
             }
-            let others = [held.iter().filter(|held| **held).count(), held.len()];
-            for ((row, value), held) in rows.iter_mut().zip(&setting.values).zip(&held) {
-                let judged = judged(row) && !matches!(row.standing, Standing::Calibrated { .. }) && !row.holds();
-                if *held && judged && row.explanation.is_none() {
-                    row.explanation = Some(Explanation {
-                        sweep: self.name,
-                        parameter: self.parameter,
-                        at: setting.at.clone(),
-                        value: *value,
-                        others,
-                    });
-                }
+            let explained = rows.iter().zip(&held).filter(|(row, held)| **held && open(row)).count();
+            if explained > best.as_ref().map_or(0, |(.., most)| *most) {
+                best = Some((setting, held, explained));
+            }
+        }
+        let Some((setting, held, _)) = best else { return };
+        let others = [held.iter().filter(|held| **held).count(), held.len()];
+        for ((row, value), held) in rows.iter_mut().zip(&setting.values).zip(&held) {
+            if *held && open(row) {
+                row.explanation = Some(Explanation {
+                    sweep: self.name,
+                    parameter: self.parameter,
+                    at: setting.at.clone(),
+                    value: *value,
+                    others,
+                });
             }
         }
     }
@@ -107,6 +116,20 @@ mod tests {
         let mut rows = [row(20.0), row(15.6)];
         sweep(&[[19.0, 15.6], [25.0, 15.0]]).explain(&mut rows);
         assert_eq!(rows[0].verdict(), RowVerdict::Missed);
+    }
+
+    /// Of settings that exclude each other, the one that explains most rows explains, and no other.
+    #[test]
+    fn one_setting_explains_all_that_a_sweep_explains() {
+        let explained = |settings: &[[f64; 3]]| {
+            let mut rows = [row(20.0), row(21.0), row(22.0)];
+            let setting = |(i, values): (usize, &[f64; 3])| Setting { at: i.to_string(), values: values.to_vec() };
+            let settings = settings.iter().enumerate().map(setting).collect();
+            Sweep { name: "costs", parameter: "factor", settings }.explain(&mut rows);
+            rows.map(|row| row.explanation().map_or(String::new(), |found| found.at().to_owned()))
+        };
+        assert_eq!(explained(&[[16.0, 30.0, 30.0], [30.0, 16.0, 15.0], [16.0, 15.0, 30.0]]), ["", "1", "1"]);
+        assert_eq!(explained(&[[16.0, 30.0, 30.0], [30.0, 16.0, 30.0]]), ["0", "", ""]);
     }
 
     /// A setting that reaches one row must not lose another one.

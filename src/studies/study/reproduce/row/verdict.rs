@@ -11,16 +11,19 @@ pub enum RowVerdict {
     /// Measured on our side; the bound is only which of two values is larger.
     #[strum(to_string = "order only")]
     OrderOnly,
-    /// Nothing is run: the paper's printed values agree with each other.
+    /// Nothing is measured: the paper's printed values agree with each other or with its own equations.
     #[strum(to_string = "consistency of print")]
     Consistent,
+    /// The bound admits every value that the computation can give: no evidence.
+    #[strum(to_string = "by construction")]
+    ByConstruction,
     /// Within the bound, but the value determined a constant of the model: no evidence.
     Calibrated,
     /// Outside the bound, and a sweep of this run reaches it.
     Explained,
     /// Outside the bound.
     Missed,
-    /// The paper contradicts itself, so that no value of ours can be judged.
+    /// The paper contradicts itself, and ours agrees with one of the values that contradict each other.
     Contradictory,
     /// The text is too vague to be tested; not a success either.
     #[strum(to_string = "too vague to judge")]
@@ -33,5 +36,21 @@ impl RowVerdict {
     /// Verdicts that tallies count, in their order: all but [`Self::Reduced`].
     pub fn counted() -> impl Iterator<Item = Self> {
         Self::VARIANTS.iter().copied().filter(|verdict| *verdict != Self::Reduced)
+    }
+
+    /// Words behind a number of rows, as in "3 predicted within bounds in numbers".
+    pub const fn of_rows(self) -> &'static str {
+        match self {
+            Self::Predicted => "predicted within bounds in numbers",
+            Self::OrderOnly => "met in order only",
+            Self::Consistent => "consistent with the paper's own equations and values",
+            Self::ByConstruction => "met by construction",
+            Self::Calibrated => "calibrated",
+            Self::Explained => "explained",
+            Self::Missed => "missed",
+            Self::Contradictory => "contradicted by their own paper",
+            Self::TooVague => "too vague to judge",
+            Self::Reduced => "of reduced models",
+        }
     }
 }

@@ -26,7 +26,11 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
     let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
     let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Standing::Counted));
-    let mut rows = vec![lookups("subsurface/lookups-fixed", fixed)?, lookups("subsurface/lookups-adaptive", adaptive)?];
+    // A texel of fixed links has the factors of four.
+    let layout = [LINKS as f64 * 1.25; 2];
+    let of_fixed =
+        lookups("subsurface/lookups-fixed", fixed)?.confined(layout, "the program has the paper's layout of links");
+    let mut rows = vec![of_fixed, lookups("subsurface/lookups-adaptive", adaptive)?];
     // The same links on the same map, in textures of their own and as tiles.
     let same = VARIANTS.iter().zip(costs).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
     let setting = |(variant, cost): (&Variant, &GatherCost)| {
@@ -56,7 +60,9 @@ fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
     let mesh = meshes::build(stand_in).ok_or_else(missing)?;
     let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
     let ours = (atlas.tree().nodes().len() as f64, Standing::Counted);
-    paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)
+    let row = paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)?;
+    let nodes = (2 * mesh.len() - 1) as f64;
+    Ok(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"))
 }
 
 /// Table of all pairs and link textures by the size of the atlas.

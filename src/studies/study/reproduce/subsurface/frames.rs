@@ -116,11 +116,11 @@ fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<V
         .collect()
 }
 
-/// Inputs of the inferred refresh rate.
+/// Values that determined the refresh rate.
 const DISPLAYED: &str = "the six frame rates, of which the display's was read off";
 
 fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Result<PaperRow, StudyError> {
-    let ours = (locked(cost.frame(OURS, gather.seconds(printed.side))), Standing::Predicted { from: DISPLAYED });
+    let ours = (locked(cost.frame(OURS, gather.seconds(printed.side))), Standing::Calibrated { on: DISPLAYED });
     paper_row(&format!("subsurface/rate-{}-{}", printed.model, printed.side), (CARD, Method::Pipeline), ours)
 }
 

@@ -10,9 +10,7 @@ mod scene;
 mod terms;
 mod truncation;
 
-use super::{
-    EntryFindings, HOST, Method, PaperRow, Prose, Shared, Standing, StudyError, failed, number, paper_row, solved,
-};
+use super::{EntryFindings, HOST, PaperRow, Prose, Shared, Standing, StudyError, failed, number, paper_row, solved};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::report::PictureGrid;
 use crate::study::prt::{light_picture, of_texels};

@@ -8,13 +8,13 @@ use super::baselines::COLORS;
 use super::lit::Surface;
 use super::models::NamedLobe;
 use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, Method, Prose, Shared, Standing, StudyError, failed, models, number, paper_row};
+use super::{FigureParts, PaperRow, Prose, Shared, Standing, StudyError, failed, models, number, paper_row};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::Lobe;
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
 use crate::all_frequency::on_card::{ProductPlace, VertexColors};
 use crate::all_frequency::shade::Multiplies;
-use crate::card::frame_time::frame_time;
+use crate::card::frame_time::{FrameTime, frame_time};
 use crate::geom::Mesh;
 use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::scene::built::ground::GROUND_SIDE;
@@ -84,9 +84,9 @@ pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, StudyError> {
     Ok(host.time_of(HostOperation::MultiplyAdd, steps.per_cluster + steps.per_vertex).seconds())
 }
 
-/// Frames per second including drawing, on a ground with a fraction `omega` of non-empty segments; or without one, as
+/// Time of a frame including drawing, on a ground with a fraction `omega` of non-empty segments; or without one, as
 /// section 7 says of Table 1.
-fn rate(model: &PrintedModel, ground: Option<f64>) -> Result<f64, StudyError> {
+fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, StudyError> {
     let place = ProductPlace::Vertices(VertexColors::Bytes);
     let vertices = 100 * model.vertex_hundreds;
     let frame = |vertices: u64, terms: u64, host| FactoredFrame {
@@ -102,7 +102,11 @@ fn rate(model: &PrintedModel, ground: Option<f64>) -> Result<f64, StudyError> {
         log.extend(frame(of_vertices, 1, steps).log(&place));
     }
     let (profile, host) = (Profile::named(CARD)?, host_of_table_1().map_err(|e| failed(super::HOST)(&e))?);
-    Ok(frame_time(&profile, &log, &host).map_err(|e| failed(CARD)(&e))?.per_second())
+    frame_time(&profile, &log, &host).map_err(|e| failed(CARD)(&e))
+}
+
+fn rate_row(id: &str, time: &FrameTime) -> Result<PaperRow, StudyError> {
+    paper_row(id, (CARD, time.into()), (time.per_second(), Standing::Predicted { from: CALIBRATED }))
 }
 
 /// Reflectance of a model of Figure 7 on its ground, with the name and caption of its picture under each light.
@@ -180,22 +184,22 @@ pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
     let mut table = Table::of("Figure 7: frames a second", "model printed modelled on_an_open_ground without_ground");
     let mut rows = Vec::new();
     for (id, at) in PRINTED {
-        let found = rate(&TABLE_1[at], Some(omega))?;
-        let row = paper_row(id, (CARD, Method::Pipeline), (found, Standing::Predicted { from: CALIBRATED }))?;
-        let [open, none] = [Some(OPEN_GROUND), None].map(|omega| rate(&TABLE_1[at], omega));
+        let time = time_of(&TABLE_1[at], Some(omega))?;
+        let row = rate_row(id, &time)?;
+        let [open, none] = [Some(OPEN_GROUND), None].map(|omega| time_of(&TABLE_1[at], omega));
         table.push([
             row.target.what.as_str().into(),
             row.target.cell(),
-            Cell::measured(found),
-            Cell::measured(open?),
-            Cell::measured(none?),
+            Cell::measured(time.per_second()),
+            Cell::measured(open?.per_second()),
+            Cell::measured(none?.per_second()),
         ]);
         rows.push(row);
     }
-    let without = COLUMNS.iter().zip(&TABLE_1).map(|(id, model)| {
-        let ours = (rate(model, None)?, Standing::Predicted { from: CALIBRATED });
-        paper_row(&format!("all-frequency/fps-{id}"), (CARD, Method::Pipeline), ours)
-    });
+    let without = COLUMNS
+        .iter()
+        .zip(&TABLE_1)
+        .map(|(id, model)| rate_row(&format!("all-frequency/fps-{id}"), &time_of(model, None)?));
     rows.extend(without.collect::<Result<Vec<_>, StudyError>>()?);
     let figures = [
         number(f64::from(GROUND_SIDE * GROUND_SIDE), 0),

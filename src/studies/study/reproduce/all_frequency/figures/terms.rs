@@ -41,7 +41,9 @@ pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
         grid = grid.row(format!("Cook and Torrance's model, {}", form.0), pictures);
     }
     parts.pictures = vec![grid];
-    parts.rows = vec![solved("one-term-over-ten", falls[0])?.with_readings(falls[1..].iter().copied())];
+    let row = solved("one-term-over-ten", falls[0])?.with_readings(falls[1..].iter().copied());
+    parts.rows =
+        vec![row.confined([1.0, f64::INFINITY], "each term is a singular value, whose square leaves the error")];
     parts.text = vec![Prose::new(HOW, [number(scene.of_model.len() as f64, 0)])];
     parts.tables = vec![table];
     Ok(parts)

@@ -1,0 +1,57 @@
+//! Methods by which values were computed, and their dependence on printed values.
+
+use crate::card::frame_time::FrameTime;
+
+/// Method by which our value was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum Method {
+    /// The paper's own equations, its printed values and constants calibrated on them. Nothing is drawn or measured.
+    Equation,
+    /// Drawn on an emulated card, or counted on our models, and timed from clocks, slots and bytes.
+    Pipeline,
+    /// Rendered through the whole engine, with its work counted and timed.
+    Engine,
+    /// A model of the paper's host.
+    #[strum(to_string = "host model")]
+    Host,
+    /// Solved in f64.
+    Solver,
+}
+
+/// Method of a modelled frame rate. A host that is busy all of the frame decides the rate alone: the work that follows
+/// from printed sizes, at a calibrated rate.
+impl From<&FrameTime> for Method {
+    fn from(time: &FrameTime) -> Self {
+        if time.host >= time.frame { Self::Equation } else { Self::Pipeline }
+    }
+}
+
+/// Dependence of our value on printed values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum Standing {
+    /// Prediction: this value was not used; other printed ones were.
+    Predicted {
+        /// Printed values that were used; empty for none.
+        from: &'static str,
+    },
+    /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so that
+    /// agreement is no evidence.
+    Calibrated {
+        /// Printed values that determined it.
+        on: &'static str,
+    },
+    /// Count: from a run that uses no time and no printed value.
+    Counted,
+}
+
+impl Standing {
+    /// Printed values that our value depends on.
+    pub const fn inputs(self) -> &'static str {
+        match self {
+            Self::Predicted { from: inputs } | Self::Calibrated { on: inputs } => inputs,
+            Self::Counted => "",
+        }
+    }
+}
