@@ -14,8 +14,7 @@ use super::executor::{Decider, GpuArgs};
 use super::words::counted;
 use super::{Out, Problem, Verdict, model_file, study, view};
 use crate::case::device_named;
-use crate::geom::classify::Candidate;
-use crate::geom::exact::{Sides, Tracer};
+use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
 use crate::io::atomic::write_file;
 use crate::io::rays::{load_rays, write_hits};
@@ -37,7 +36,8 @@ Examples:
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, a line
 a ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
-the ray's direction, written so that it reads back to the same f32.
+the ray's direction, written so that it reads back to the same f32,
+or to the same f64 where the exact t exceeds f32.
 
 `crossbar leaks --mesh M.obj --rays R.csv` judges the same rays on any card: which hits leak, are false or name a wrong triangle.
 
@@ -91,18 +91,15 @@ enum HitSource {
     Caster(CasterChoice),
 }
 
-/// The hits, and the seconds that building and casting took.
+/// Triangle and t of each hit, and the seconds that building and casting took.
 struct Answer {
-    hits: Vec<Candidate>,
+    hits: Vec<Option<(u32, f64)>>,
     engine: Option<EngineCounts>,
     /// Warning where the card's number format leaves almost no bits of the answer.
     warning: Option<String>,
     build_s: f64,
     cast_s: f64,
 }
-
-/// No hit.
-const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let way = choose(args)?;
@@ -128,14 +125,12 @@ fn choose(args: &Args) -> miette::Result<HitSource> {
 impl HitSource {
     fn answer(self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> miette::Result<Answer> {
         let start = Instant::now();
-        let of_hit = |h: Option<Hit>| h.map_or(NONE, |h| Candidate { triangle: Some(h.triangle), t: h.t });
-        let (hits, engine, warning, built): (Vec<Candidate>, _, _, _) = match self {
+        let of_hit = |h: Option<Hit>| h.map(|h| (h.triangle, f64::from(h.t)));
+        let (hits, engine, warning, built): (Vec<Option<(u32, f64)>>, _, _, _) = match self {
             Self::Exact => {
                 let tracer = Tracer::new(mesh);
                 let built = Instant::now();
-                let candidate = |(triangle, t)| Candidate { triangle: Some(triangle), t };
-                let hits = view::exact_hits(&tracer, rays, sides).into_iter();
-                (hits.map(|h| h.map_or(NONE, candidate)).collect(), None, None, built)
+                (view::exact_hits(&tracer, rays, sides, written), None, None, built)
             }
             Self::Card(profile, executor) => {
                 let crossbar = Crossbar::new(*profile, executor);
@@ -156,8 +151,14 @@ impl HitSource {
     }
 }
 
+/// An exact t as tables have it: rounded once to f32, or to f64 where it exceeds f32.
+fn written(t: &ExactT) -> f64 {
+    let single = t.to_f32();
+    if single.is_finite() { f64::from(single) } else { t.to_f64() }
+}
+
 fn findings(args: &Args, answer: &Answer) -> Findings {
-    let (rays, hits) = (answer.hits.len(), answer.hits.iter().filter(|h| h.triangle.is_some()).count());
+    let (rays, hits) = (answer.hits.len(), answer.hits.iter().flatten().count());
     let rate = rays as f64 / answer.cast_s.max(1e-9);
     if args.time {
         let Answer { build_s, cast_s, .. } = answer;

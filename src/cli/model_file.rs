@@ -37,9 +37,7 @@ pub(super) fn with_options(program: Command) -> Command {
         .long("strict")
         .action(ArgAction::SetTrue)
         .requires(named_by)
-        .help(
-            "Take the model's file as it is: refuse materials that reflect more than all light, turn no triangle round",
-        )
+        .help("Take the model's file as it is: refuse what would be repaired, turn no triangle round")
         .help_heading("Model");
     program.arg(up).arg(strict)
 }

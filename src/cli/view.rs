@@ -9,7 +9,7 @@ use refsim::num::FormatError;
 use super::one_of::{OneOf, one_of};
 use super::size::Size;
 use super::{MemoryError, Problem, memory};
-use crate::geom::exact::{Sides, Tracer};
+use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::io::PictureFile;
 use crate::io::atomic::FileSet;
@@ -110,14 +110,19 @@ fn filling(
     Some((point(w), point(toward.dot(exact(middle)).min(w - w.abs() * 1e-3))))
 }
 
-/// First hits by exact arithmetic, triangle and t; the exact numbers behind them are dropped some rays at a time.
-pub(super) fn exact_hits(tracer: &Tracer<'_>, rays: &[Ray], sides: Sides) -> Vec<Option<(u32, f32)>> {
+/// First hits by exact arithmetic, triangle and t as `rounded`; the exact numbers are dropped some rays at a time.
+pub(super) fn exact_hits<T>(
+    tracer: &Tracer<'_>,
+    rays: &[Ray],
+    sides: Sides,
+    rounded: fn(&ExactT) -> T,
+) -> Vec<Option<(u32, T)>> {
     /// Rays whose exact numbers are in memory at once.
     const AT_ONCE: usize = 1 << 16;
     let mut hits = Vec::with_capacity(rays.len());
     for some in rays.chunks(AT_ONCE) {
         hits.extend(
-            tracer.nearest_all(some, sides).into_iter().map(|hit| Some((hit.as_ref()?.triangle, hit?.t.to_f32()))),
+            tracer.nearest_all(some, sides).into_iter().map(|hit| Some((hit.as_ref()?.triangle, rounded(&hit?.t)))),
         );
     }
     hits

@@ -80,6 +80,38 @@ fn a_model_with_y_up_stands_up() {
     }
 }
 
+/// Faces that are not flat are said by every command, and refused by `--strict`.
+#[test]
+fn faces_with_a_fault_are_said_or_refused() {
+    let folder = folder();
+    let bent = "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nf 1 2 3 4\nf 2 3 4 1\n";
+    fs::write(folder.path().join("bent.obj"), bent).expect("written");
+    let said = "2 faces not flat: cut as seen along an axis near the normal; first: bent.obj:5\n";
+    for line in ["intersect --mesh bent.obj --rays r.csv --out h.csv", "atlas bent.obj --side 16"] {
+        let ran = run(folder.path(), line);
+        assert_eq!(ran.code, Some(0), "{line}: {}", ran.transcript());
+        assert!(ran.stderr.contains(&format!("warning: bent.obj: {said}")), "{line}: {}", ran.stderr);
+        let refused = run(folder.path(), &format!("{line} --strict"));
+        assert_eq!(refused.code, Some(2), "{}", refused.transcript());
+        assert!(refused.stderr.contains("bent.obj:5: expected a flat face"), "{}", refused.stderr);
+    }
+}
+
+/// 2^100 over 2^-100 is 2^200.
+#[test]
+fn a_hit_beyond_f32_has_its_distance() {
+    let folder = folder();
+    let z = 2_f32.powi(100);
+    let far = format!("v -1 -1 {z}\nv 1 -1 {z}\nv 0 1 {z}\nf 1 2 3\n");
+    fs::write(folder.path().join("far.obj"), far).expect("written");
+    let rays = format!("\u{feff}ox,oy,oz,dx,dy,dz\n0,0,0,0,0,{}\n9,0,0,0,0,1\n", 2_f32.powi(-100));
+    fs::write(folder.path().join("far.csv"), rays).expect("written");
+    let ran = run(folder.path(), "intersect --mesh far.obj --rays far.csv --sides both --out h.csv");
+    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+    let hits = fs::read_to_string(folder.path().join("h.csv")).expect("hits");
+    assert_eq!(hits, "ray,triangle,t\n0,0,1.6069380442589903e60\n1,-1,inf\n");
+}
+
 /// Leaks of a user's model and rays, with classes, map and page as for the teapot.
 #[test]
 fn leaks_of_any_model() {

@@ -195,10 +195,11 @@ fn the_card_draws_its_own_form_factors() {
     assert!(abs_diff_eq!(sum, 1.0, epsilon = 1e-2), "closed: {sum}");
 }
 
-/// An open sheet, a sheet with a triangle without area, a mirror, and nothing.
-const FILES: [(&str, &str); 8] = [
+/// An open sheet, a sheet with a triangle without area, a triangle too thin, a mirror, and nothing.
+const FILES: [(&str, &str); 9] = [
     ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
     ("flat.obj", "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nusemtl lamp\nf 1 2 4\nf 1 2 3\n"),
+    ("thin.obj", "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 1e-30\nusemtl lamp\nf 1 2 3\n"),
     ("mirror.obj", "mtllib mirror.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl glass\nf 1 2 3\n"),
     ("mirror.mtl", "newmtl glass\nillum 3\nKs 1 1 1\nKd 0 0 0\nKe 1 1 1\n"),
     ("lamp.mtl", "newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n"),
@@ -212,7 +213,7 @@ fn bad_input() {
     let cases: [(&str, &[&str]); 24] = [
         ("unknown_scene", &["cornell-rooms"]),
         ("no_surface", &["empty.obj"]),
-        ("zero_area", &["flat.obj"]),
+        ("too_thin", &["thin.obj"]),
         ("not_diffuse", &["mirror.obj"]),
         ("white_of_a_file", &["white.obj"]),
         ("odd_hemicube", &["cornell-room", "--patches", "60", "--factors", "hemicube", "--hemicube", "63"]),
@@ -247,6 +248,18 @@ fn bad_input() {
         assert!(!folder.path().join("out").exists(), "{name} left something behind");
         insta::assert_snapshot!(format!("radiosity_{name}"), ran.stderr);
     }
+}
+
+/// Every command takes a model with a triangle without area, and says how many it has.
+#[test]
+fn a_triangle_without_area_is_no_patch() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (file, text) in FILES {
+        std::fs::write(folder.path().join(file), text).expect("written");
+    }
+    let ran = crossbar_in(folder.path(), &["radiosity", "flat.obj", "--per-side", "1", "--size", "8x8"], "");
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert_eq!(ran.stderr, "warning: flat.obj: 1 triangle without area: never hit\n");
 }
 
 /// A solution in a meshed atlas: texture and view beside the other pictures, the power of its texels in the document;

@@ -118,6 +118,11 @@ impl Mesh {
         self
     }
 
+    /// Keeps the triangles with these ids, which must exist.
+    pub(super) fn keep(&mut self, ids: &[u32]) {
+        self.triangles = ids.iter().map(|&id| self.triangles[id as usize]).collect();
+    }
+
     pub(super) fn turn_round(&mut self, triangles: &[u32]) {
         for &triangle in triangles {
             if let Some([_, b, c]) = self.triangles.get_mut(triangle as usize) {

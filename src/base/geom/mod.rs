@@ -4,6 +4,7 @@
 //! - [`adjacency`]: edges and the triangles that share them;
 //! - [`teapot`]: the Utah teapot at any rate of tessellation;
 //! - [`exact`]: which triangle a ray hits first, decided in exact arithmetic: the ground truth of the studies;
+//! - [`polygon`]: polygons cut into triangles;
 //! - [`classify`]: a renderer's hit compared with that ground truth;
 //! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
 //! - [`vector`]: conversions and normalisation that glam lacks; [`UnitFrame`]: coordinates in units of a body's size;
@@ -16,6 +17,7 @@ mod crease;
 pub mod exact;
 pub mod mesh;
 mod orient;
+pub mod polygon;
 pub mod random;
 pub mod ray;
 pub mod teapot;

@@ -1,12 +1,13 @@
 //! Consistent orientation of surfaces.
 
+use super::exact::is_degenerate;
 use super::{Adjacency, Mesh};
 
 impl Mesh {
     /// Returns the triangles to flip so that neighbours traverse their common edge in opposite directions, in ascending
     /// order. Corners at the same position count as one vertex. Of each connected surface the smaller part is flipped,
     /// of equal parts the one without its first triangle. Only edges of exactly two triangles connect, and a surface
-    /// without a consistent orientation (a Moebius strip) is left unchanged.
+    /// without a consistent orientation (a Moebius strip) is left unchanged. Triangles without area take no part.
     ///
     /// ```
     /// # extern crate crossbar_base as crossbar;
@@ -21,7 +22,7 @@ impl Mesh {
     /// # }
     /// ```
     pub fn misoriented(&self) -> Vec<u32> {
-        let welded = self.welded();
+        let (welded, ids) = self.welded_with_area();
         let adjacency = welded.adjacency();
         // `Some(true)` if a triangle has the orientation of the first of its surface.
         let mut same_way: Vec<Option<bool>> = vec![None; welded.len()];
@@ -32,7 +33,16 @@ impl Mesh {
             }
         }
         wrong.sort_unstable();
-        wrong
+        wrong.into_iter().map(|triangle| ids[triangle as usize]).collect()
+    }
+
+    /// [`Mesh::welded`] without the triangles that have no area, and the ids of those that are left.
+    pub fn welded_with_area(&self) -> (Self, Vec<u32>) {
+        let mut welded = self.welded();
+        let with_area = (0..).zip(self.iter_corners()).filter(|(_, corners)| !is_degenerate(corners));
+        let ids: Vec<u32> = with_area.map(|(id, _)| id).collect();
+        welded.keep(&ids);
+        (welded, ids)
     }
 
     /// Flips some triangles: exchanges their second and third corners. Ids that do not exist are ignored.
@@ -117,5 +127,14 @@ mod tests {
         assert!(mesh(moebius).misoriented().is_empty());
         let fins = vec![[0, 1, 2], [0, 1, 3], [0, 1, 4], [5, 5, 6]];
         assert!(mesh(fins).misoriented().is_empty(), "three triangles on an edge");
+    }
+
+    #[test]
+    fn triangles_without_area_have_no_say() {
+        // Both lie on the edge from 0 to 1 of the one triangle that has a front.
+        for flat in [[0, 1, 0], [0, 1, 6]] {
+            assert!(mesh(vec![flat, [0, 1, 2]]).misoriented().is_empty());
+            assert_eq!(mesh(vec![flat, [0, 2, 1], [1, 0, 3], [0, 2, 3], [1, 3, 2]]).misoriented(), [1]);
+        }
     }
 }

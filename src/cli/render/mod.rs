@@ -13,7 +13,7 @@ use super::size::Size;
 use super::{CommandLine, Out, Problem, memory, model_file, scene_name, study, view};
 use crate::case::device_named;
 use crate::geom::Mesh;
-use crate::geom::exact::Tracer;
+use crate::geom::exact::{ExactT, Tracer};
 use crate::io::atomic::FileSet;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
@@ -43,7 +43,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
-        None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), args.sides),
+        None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), args.sides, ExactT::to_f32),
         Some(kind) => {
             provenance.profiles.push(profile.name.clone());
             let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, args.sides)?;

@@ -84,8 +84,6 @@ pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, CubeTa
 /// If the side is 0.
 pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, CubeTableError> {
     assert!(side > 0, "a texel along an edge");
-    // Some programs mark UTF-8 with three bytes.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
     let syntax = |reason: csv::Error| CubeTableError::Syntax { path: name.into(), reason: reason.to_string() };

@@ -9,6 +9,7 @@ use thiserror::Error;
 
 use super::read_limited;
 use crate::geom::MeshError;
+use crate::geom::polygon::PolygonFault;
 use crate::scene::SceneError;
 
 /// Errors of reading a file's bytes.
@@ -102,16 +103,19 @@ pub enum ModelError {
     SecondMaterial(FilePlace, String),
     /// Parameters of a material that contradict each other. In an MTL file the place is its `newmtl`.
     #[error("{place}: material {name}: expected {expected}, found {found}")]
-    #[diagnostic(code(crossbar::model::material), help("docs/scenes.md says which figures a material may have"))]
+    #[diagnostic(code(crossbar::model::material), help("docs/scenes.md says which materials a model may have"))]
     Material { place: FilePlace, name: String, expected: &'static str, found: String },
     /// A material library cannot be read.
     #[error("{place}: cannot read the material library {}", library.display())]
     #[diagnostic(code(crossbar::model::library), help("put it beside the model, or take the line out"))]
     Library { place: FilePlace, library: PathBuf, source: io::Error },
-    /// tobj refuses what our pass has accepted.
-    #[error("{0}: {1}")]
-    #[diagnostic(code(crossbar::model::loader), help("is the file a whole Wavefront OBJ?"))]
-    Loader(FilePlace, tobj::LoadError),
+    /// A face of four corners or more has no certain interior.
+    #[error("{place}: expected a flat face that does not touch itself, found one {fault}")]
+    #[diagnostic(
+        code(crossbar::model::polygon),
+        help("cut the face into triangles in the program that wrote it, or read the model without `--strict`")
+    )]
+    Polygon { place: String, fault: PolygonFault },
     /// The parts do not make a mesh.
     #[error("{0}: {1}")]
     #[diagnostic(code(crossbar::model::mesh), help("mend the model in the program that wrote it"))]

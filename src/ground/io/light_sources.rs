@@ -66,8 +66,6 @@ pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, LightSourc
 /// # Errors
 /// [`LightSourcesError`], with the line where there is one.
 pub fn parse_light_sources(bytes: &[u8], name: &Path) -> Result<Vec<LightSourceRow>, LightSourcesError> {
-    // Some programs mark UTF-8 with three bytes.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
     let syntax = |reason: csv::Error| LightSourcesError::Syntax { path: name.into(), reason: reason.to_string() };

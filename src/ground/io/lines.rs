@@ -2,28 +2,37 @@
 
 use super::{NumberError, parse_f32, parse_f64};
 
-/// Lines with their numbers, without comments; a line that ends in `\` goes on in the next.
+/// Text without the byte order mark that some editors put before UTF-8.
+pub(super) fn unmarked(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
+/// Lines with their numbers, without white space around them; a line that ends in `\` outside of a comment goes on in
+/// the next.
 pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> + '_ {
-    // Some editors mark UTF-8 with three bytes; left there, they would hide the first vertex.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut lines = (1..).zip(bytes.split(|&byte| byte == b'\n'));
+    let mut lines = (1..).zip(unmarked(bytes).split(|&byte| byte == b'\n'));
     std::iter::from_fn(move || {
         let (number, first) = lines.next()?;
-        let mut text = strip(first).to_vec();
-        while text.last() == Some(&b'\\') {
+        let mut text = first.trim_ascii().to_vec();
+        while text.last() == Some(&b'\\') && before_comment(&text).len() == text.len() {
             text.pop();
             text.push(b' ');
             let Some((_, next)) = lines.next() else { break };
-            text.extend_from_slice(strip(next));
+            text.extend_from_slice(next.trim_ascii());
         }
         Some((number, text))
     })
 }
 
-/// A line without its comment and the white space around it.
-fn strip(line: &[u8]) -> &[u8] {
-    let end = line.iter().position(|&byte| byte == b'#').unwrap_or(line.len());
-    line[..end].trim_ascii()
+/// The part of a line before its comment, which is a word that begins with `#` and all after it.
+pub(super) fn before_comment(text: &[u8]) -> &[u8] {
+    let begins = |at: &usize| text[*at] == b'#' && (*at == 0 || text[at - 1].is_ascii_whitespace());
+    &text[..(0..text.len()).find(begins).unwrap_or(text.len())]
+}
+
+/// The words of a line before its comment.
+pub(super) fn statement(text: &[u8]) -> Vec<&[u8]> {
+    words(before_comment(text))
 }
 
 /// The words of a line.

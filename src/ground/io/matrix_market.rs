@@ -2,7 +2,8 @@
 //! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
 //!
 //! The fields `integer` and `pattern`, whose entries are 1, and the symmetries `symmetric` and `skew-symmetric` are
-//! read too. Arrays, which are dense, and complex and Hermitian matrices are refused.
+//! read too. Arrays, which are dense, and complex and Hermitian matrices are refused, and so are integers that f64 does
+//! not hold exactly.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::error::ReadError;
-use super::lines::words;
+use super::lines::{double, unmarked, words};
 use super::{quoted, read_limited};
 
 /// Longest file that is read, in bytes (4 GiB).
@@ -45,7 +46,7 @@ pub enum MatrixMarketError {
     /// The first line is not the banner of such a file.
     #[error(
         "{}:1: expected `%%MatrixMarket matrix coordinate` with `real`, `integer` or `pattern`, then `general`, \
-         `symmetric` or `skew-symmetric`; found {found}", path.display()
+         `symmetric` or `skew-symmetric`, which no `pattern` is; found {found}", path.display()
     )]
     #[diagnostic(code(crossbar::matrix_market::banner), help("write the matrix by its entries, in real numbers"))]
     Banner { path: PathBuf, found: String },
@@ -53,6 +54,10 @@ pub enum MatrixMarketError {
     #[error("{}:{line}: expected the numbers of rows, columns and entries, found {found}", path.display())]
     #[diagnostic(code(crossbar::matrix_market::size))]
     Size { path: PathBuf, line: usize, found: String },
+    /// A symmetric matrix that is not square.
+    #[error("{}:{line}: expected as many rows as columns of a symmetric matrix, found {rows} x {columns}", path.display())]
+    #[diagnostic(code(crossbar::matrix_market::square), help("write the matrix as `general`"))]
+    NotSquare { path: PathBuf, line: usize, rows: usize, columns: usize },
     /// More rows or columns than such a short file may have.
     #[error(
         "{}:{line}: expected at most {most} rows and columns in a file of {bytes} bytes, found {rows} x {columns}",
@@ -98,7 +103,7 @@ pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, MatrixMarketE
 /// # Errors
 /// [`MatrixMarketError`].
 pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix, MatrixMarketError> {
-    let mut lines = (1..).zip(bytes.split(|&byte| byte == b'\n'));
+    let mut lines = (1..).zip(unmarked(bytes).split(|&byte| byte == b'\n'));
     let banner = lines.next().map_or(&[][..], |(_, banner)| banner);
     let banner = Banner::parse(banner)
         .ok_or_else(|| MatrixMarketError::Banner { path: name.into(), found: quoted(banner.trim_ascii()) })?;
@@ -114,6 +119,9 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
     if rows.max(columns) > most {
         let (path, bytes) = (name.into(), bytes.len());
         return Err(MatrixMarketError::Claim { path, line: size_line, most, bytes, rows, columns });
+    }
+    if banner.symmetry != Symmetry::General && rows != columns {
+        return Err(MatrixMarketError::NotSquare { path: name.into(), line: size_line, rows, columns });
     }
     let reader = EntryReader { name, banner, size: [rows, columns] };
     // Memory is allocated in proportion to the file's bytes only.
@@ -165,9 +173,16 @@ enum Symmetry {
     Skew,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Field {
+    Real,
+    Integer,
+    Pattern,
+}
+
 #[derive(Clone, Copy, Debug)]
 struct Banner {
-    has_values: bool,
+    field: Field,
     symmetry: Symmetry,
 }
 
@@ -176,18 +191,20 @@ impl Banner {
         let line = String::from_utf8_lossy(line).to_lowercase();
         let words: Vec<&str> = line.split_ascii_whitespace().collect();
         let ["%%matrixmarket", "matrix", "coordinate", field, symmetry] = words[..] else { return None };
-        let has_values = match field {
-            "real" | "double" | "integer" => true,
-            "pattern" => false,
+        let field = match field {
+            "real" | "double" => Field::Real,
+            "integer" => Field::Integer,
+            "pattern" => Field::Pattern,
             _ => return None,
         };
         let symmetry = match symmetry {
             "general" => Symmetry::General,
             "symmetric" => Symmetry::Symmetric,
-            "skew-symmetric" => Symmetry::Skew,
+            // Entries that are all 1 are not the negatives of others.
+            "skew-symmetric" if field != Field::Pattern => Symmetry::Skew,
             _ => return None,
         };
-        Some(Self { has_values, symmetry })
+        Some(Self { field, symmetry })
     }
 
     /// Largest number of matrix entries per line.
@@ -208,6 +225,12 @@ fn whole(word: &[u8]) -> Option<usize> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
+fn integer(word: &[u8]) -> Option<f64> {
+    let exact: i128 = std::str::from_utf8(word).ok()?.parse().ok()?;
+    let number = exact as f64;
+    (number as i128 == exact).then_some(number)
+}
+
 struct EntryReader<'a> {
     name: &'a Path,
     banner: Banner,
@@ -224,19 +247,25 @@ impl EntryReader<'_> {
         };
         let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let (row, column) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
-        let value = if self.banner.has_values { words.next() } else { Some(&b"1"[..]) };
+        let is_pattern = self.banner.field == Field::Pattern;
+        let value = if is_pattern { Some(&b"1"[..]) } else { words.next() };
         let (Some(value), None) = (value, words.next()) else {
-            let expected = if self.banner.has_values { "a row, a column and a value" } else { "a row and a column" };
+            let expected = if is_pattern { "a row and a column" } else { "a row, a column and a value" };
             return Err(entry(expected, text.trim_ascii()));
         };
         let row = self.place(line, "row", row, self.size[0])?;
         let column = self.place(line, "column", column, self.size[1])?;
-        let number = std::str::from_utf8(value).ok().and_then(|value| value.parse::<f64>().ok());
-        let number = number.filter(|number| number.is_finite()).ok_or_else(|| entry("a finite number", value))?;
+        let number = match self.banner.field {
+            Field::Integer => {
+                integer(value).ok_or_else(|| entry("an integer that a 64-bit float holds exactly", value))?
+            }
+            _ => double(value).map_err(|_| entry("a finite number", value))?,
+        };
+        if self.banner.symmetry == Symmetry::Skew && row == column {
+            return Err(entry("a place off the diagonal, where a skew-symmetric matrix is 0", text.trim_ascii()));
+        }
         into.push((row, column, number));
         if self.banner.symmetry != Symmetry::General && row != column {
-            self.place(line, "row", (column + 1).to_string().as_bytes(), self.size[0])?;
-            self.place(line, "column", (row + 1).to_string().as_bytes(), self.size[1])?;
             into.push((column, row, if self.banner.symmetry == Symmetry::Skew { -number } else { number }));
         }
         Ok(())
@@ -285,6 +314,22 @@ mod tests {
     fn what_is_no_matrix_is_refused() {
         let real = |rest: &str| parse(&format!("%%MatrixMarket matrix coordinate real general\n{rest}")).unwrap_err();
         assert!(parse("").unwrap_err().starts_with("t.mtx:1: expected `%%MatrixMarket"));
+        assert!(parse("%%MatrixMarket matrix coordinate pattern skew-symmetric\n2 2 1\n2 1\n").is_err());
+        let integer = |value: &str| {
+            parse(&format!("\u{feff}%%MatrixMarket matrix coordinate integer general\n1 1 1\n1 1 {value}"))
+        };
+        // 2^53 + 1 is the first integer between two doubles; 2^54 is one.
+        let inexact = "t.mtx:3: expected an integer that a 64-bit float holds exactly, found ";
+        assert_eq!(integer("9007199254740993").unwrap_err(), format!("{inexact}`9007199254740993`"));
+        assert_eq!(integer("1.5").unwrap_err(), format!("{inexact}`1.5`"));
+        assert_eq!(integer("-18014398509481984").unwrap().entries, [(0, 0, -18014398509481984.0)]);
+        for symmetry in ["symmetric", "skew-symmetric"] {
+            let text = |size: &str| format!("%%MatrixMarket matrix coordinate real {symmetry}\n{size}\n");
+            let square = "t.mtx:2: expected as many rows as columns of a symmetric matrix, found 2 x 3";
+            assert_eq!(parse(&(text("2 3 1") + "2 1 1")).unwrap_err(), square);
+            let diagonal = parse(&(text("2 2 1") + "2 2 1"));
+            assert_eq!(diagonal.is_err(), symmetry == "skew-symmetric");
+        }
         assert!(parse("%%MatrixMarket matrix array real general\n1 1\n2\n").is_err());
         assert_eq!(real("% nothing"), "t.mtx:2: expected the numbers of rows, columns and entries, found ``");
         assert_eq!(real("0 1 0"), "t.mtx:2: expected the numbers of rows, columns and entries, found `0 1 0`");

@@ -4,6 +4,7 @@
 pub mod atomic;
 pub mod cube_map;
 pub mod error;
+mod faces;
 pub mod gltf;
 mod inputs;
 pub mod irradiances;

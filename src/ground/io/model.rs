@@ -5,9 +5,10 @@ use std::path::Path;
 
 use super::error::ModelError;
 use super::gltf::parse_gltf;
+use super::lines::unmarked;
 use super::model_note::ModelNote;
-use super::obj::{MAX_BYTES, load_model, parse_obj};
-use super::ply::parse_ply;
+use super::obj::{MAX_BYTES, load_model, read_obj};
+use super::ply::read_ply;
 use super::read_limited;
 use super::scene_obj::{plain_scene, read_scene};
 use super::stl::{is_stl, parse_stl};
@@ -27,6 +28,7 @@ impl ModelFormat {
     /// The format by the file name's extension or the first bytes; OBJ if neither is conclusive.
     fn of(bytes: &[u8], path: &Path) -> Self {
         let ending = |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
+        let bytes = unmarked(bytes);
         if ending("ply") || bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
             Self::Ply
         } else if ending("gltf") || ending("glb") || bytes.starts_with(b"glTF") {
@@ -53,8 +55,8 @@ pub enum UpAxis {
 pub struct ModelOptions {
     /// The axis of the file that points up; `None`: y for glTF and z for all others. In the result z points up.
     pub up: Option<UpAxis>,
-    /// If true, unusable materials are refused and triangles stay as they are; otherwise defects are repaired and
-    /// noted.
+    /// If true, unusable materials and faces are refused and triangles stay as they are; otherwise defects are repaired
+    /// and noted.
     pub strict: bool,
 }
 
@@ -64,7 +66,7 @@ pub struct ModelOptions {
 /// [`ModelError`], with the path, and the line, element or part where there is one.
 pub fn load_mesh(path: &Path) -> Result<Mesh, ModelError> {
     let bytes = load_model(path)?;
-    mesh_of(&bytes, ModelFormat::of(&bytes, path), path)
+    mesh_of(&bytes, ModelFormat::of(&bytes, path), path, true).map(|(mesh, _)| mesh)
 }
 
 /// Reads a scene without repairs: from an OBJ file and its material libraries, from a glTF file and its buffers, or
@@ -84,14 +86,15 @@ pub fn load_scene(path: &Path) -> Result<Scene, ModelError> {
 pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     let bytes = load_model(path)?;
     let format = ModelFormat::of(&bytes, path);
-    let mut mesh = mesh_of(&bytes, format, path)?;
+    let (mut mesh, mut notes) = mesh_of(&bytes, format, path, options.strict)?;
     if let Some(rotation) = rotation(format, options) {
         mesh = mesh.rotated(rotation);
     }
     if options.strict {
         return Ok((mesh, Vec::new()));
     }
-    let (wrong, notes) = oddities(&mesh);
+    let (wrong, odd) = oddities(&mesh);
+    notes.extend(odd);
     Ok((mesh.turned_round(&wrong), notes))
 }
 
@@ -106,7 +109,10 @@ pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec
     let (mut scene, mut notes) = match format {
         ModelFormat::Obj => read_scene(&bytes, path, &mut beside(path), options.strict)?,
         ModelFormat::Gltf => (parse_gltf(&bytes, path, &mut beside(path))?, Vec::new()),
-        ModelFormat::Ply | ModelFormat::Stl => (plain_scene(mesh_of(&bytes, format, path)?, path)?, Vec::new()),
+        ModelFormat::Ply | ModelFormat::Stl => {
+            let (mesh, notes) = mesh_of(&bytes, format, path, options.strict)?;
+            (plain_scene(mesh, path)?, notes)
+        }
     };
     if let Some(rotation) = rotation(format, options) {
         scene = scene.rotated(rotation);
@@ -119,12 +125,12 @@ pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec
     Ok((scene, notes))
 }
 
-fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path) -> Result<Mesh, ModelError> {
+fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     match format {
-        ModelFormat::Obj => parse_obj(bytes, path),
-        ModelFormat::Ply => parse_ply(bytes, path),
-        ModelFormat::Stl => parse_stl(bytes, path),
-        ModelFormat::Gltf => Ok(parse_gltf(bytes, path, &mut beside(path))?.mesh().clone()),
+        ModelFormat::Obj => read_obj(bytes, path, strict),
+        ModelFormat::Ply => read_ply(bytes, path, strict),
+        ModelFormat::Stl => Ok((parse_stl(bytes, path)?, Vec::new())),
+        ModelFormat::Gltf => Ok((parse_gltf(bytes, path, &mut beside(path))?.mesh().clone(), Vec::new())),
     }
 }
 
@@ -148,10 +154,10 @@ fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -
     }
 }
 
-/// The triangles to turn round, and notes on defects of a mesh.
+/// The triangles to turn round, and notes on defects of a mesh. An edge belongs to its triangles that have an area.
 fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
     let wrong = mesh.misoriented();
-    let crowded = mesh.welded().edges().iter().filter(|edge| !edge.is_manifold()).count();
+    let crowded = mesh.welded_with_area().0.edges().iter().filter(|edge| !edge.is_manifold()).count();
     let notes = [
         (wrong.len(), ModelNote::TurnedRound { triangles: wrong.len() }),
         (mesh.degenerate_count(), ModelNote::Degenerate { triangles: mesh.degenerate_count() }),

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::error::FilePlace;
+use crate::geom::polygon::PolygonFault;
 
 /// A repair or a defect of a model file of which the user should know.
 #[non_exhaustive]
@@ -15,6 +16,10 @@ pub enum ModelNote {
     Opaque { place: FilePlace, material: String, passes: f32 },
     /// A glossy material without an exponent above 0 got the default.
     Exponent { place: FilePlace, material: String, exponent: f32 },
+    /// No library has a material, so that its faces are grey.
+    Unknown { place: FilePlace, material: String },
+    /// Faces of four corners or more that have no certain interior.
+    Polygons { fault: PolygonFault, faces: usize, first: String },
     /// Triangles with the opposite winding of their neighbours were turned round.
     TurnedRound { triangles: usize },
     /// Triangles without area.
@@ -39,6 +44,16 @@ impl fmt::Display for ModelNote {
             }
             Self::Exponent { place, material, exponent } => {
                 write!(f, "{place}: material {material}: `Ns 0` taken as {exponent}, the widest lobe")
+            }
+            Self::Unknown { place, material } => {
+                write!(f, "{place}: material {material}: in no library, taken as grey")
+            }
+            Self::Polygons { fault, faces, first } => {
+                let cut = match fault {
+                    PolygonFault::Crossing | PolygonFault::TooLong => "cut into a fan around the first corner",
+                    _ => "cut as seen along an axis near the normal",
+                };
+                write!(f, "{} {fault}: {cut}; first: {first}", counted(*faces, "face", "faces"))
             }
             Self::TurnedRound { triangles: count } => {
                 write!(f, "{} turned round, to face as the triangles beside", triangles(*count))

@@ -73,8 +73,6 @@ fn rows<T>(
     name: &Path,
     number: fn(&[u8]) -> Result<T, NumberError>,
 ) -> Result<NumberTable<T>, NumberTableError> {
-    // Some programs mark UTF-8 with three bytes.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
     let broken = |reason: csv::Error| NumberTableError::Syntax { path: name.into(), reason: reason.to_string() };

@@ -1,21 +1,23 @@
 //! Wavefront OBJ.
 //!
-//! A first pass checks every used line, so that an error can name the line and tobj gets valid input only; tobj then
-//! turns the checked lines into triangles. Used are `v`, `vt`, `vn` and `f`: groups, objects, materials, colors, lines
-//! and points are ignored, so that the whole file is one mesh. A face of more than three corners becomes a fan around
-//! its first corner. Triangle ids follow the order of the file, from 0. Vertices are numbered by first use; unused ones
-//! are dropped. Degenerate triangles are kept, because they have an id in that order; no ray hits them.
+//! Used are `v`, `vt`, `vn` and `f`: groups, objects, materials, colors, lines and points are ignored, so that the
+//! whole file is one mesh. A face of n corners becomes n - 2 triangles ([`crate::geom::polygon`]). Triangle ids follow
+//! the order of the file, from 0. Vertices are numbered by first use; unused ones are dropped. Degenerate triangles are
+//! kept, because they have an id in that order; no ray hits them. A word that begins with `#` begins a comment.
 //!
 //! Texture coordinates and normals have indices of their own in the file. If all corners have them, each combination of
 //! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise they are
 //! dropped.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::{FilePlace, ModelError, ReadError, read};
-use super::lines::{logical_lines, single, words};
+use super::faces::Faces;
+use super::lines::{logical_lines, single, statement};
+use super::model_note::ModelNote;
 use super::quoted;
 use crate::geom::Mesh;
 
@@ -46,30 +48,18 @@ pub fn load_obj(path: &Path) -> Result<Mesh, ModelError> {
 /// # Errors
 /// [`ModelError`], with the line where there is one.
 pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+    read_obj(bytes, name, true).map(|(mesh, _)| mesh)
+}
+
+/// [`parse_obj`]; unless `strict`, faces with a fault are accepted and noted.
+pub(super) fn read_obj(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
     let mut reader = ObjReader::new(name);
     for (line, text) in logical_lines(bytes) {
-        reader.line(line, &words(&text), &text)?;
+        reader.line(line, &statement(&text), &text)?;
     }
-    reader.mesh(true)
-}
-
-/// The mesh that tobj reads from checked lines.
-fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ModelError> {
-    let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
-    let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let (models, _) = tobj::load_obj_buf(&mut clean.as_bytes(), &options, no_materials)
-        .map_err(|reason| ModelError::Loader(name.into(), reason))?;
-    // Without group lines there is one model.
-    let read = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
-    let mut mesh = Mesh::new(read.positions.as_chunks().0.to_vec(), read.indices.as_chunks().0.to_vec());
-    if !read.normals.is_empty() {
-        mesh = mesh.and_then(|mesh| mesh.with_normals(read.normals.as_chunks().0.to_vec()));
-    }
-    if !read.texcoords.is_empty() {
-        mesh = mesh.and_then(|mesh| mesh.with_texcoords(read.texcoords.as_chunks().0.to_vec()));
-    }
-    mesh.map_err(|reason| ModelError::Mesh(name.into(), reason))
+    let (triangles, notes) = reader.triangles(strict)?;
+    Ok((reader.mesh(&triangles, true)?, notes))
 }
 
 /// Writes a mesh so that reading it gives the same bits for every corner.
@@ -102,19 +92,17 @@ fn corner<T: fmt::Display>([v, vt, vn]: [T; 3], texcoords: bool, normals: bool) 
     }
 }
 
-/// The first pass: its state, and the checked lines for tobj.
+/// Indices of vertex, texture coordinate and normal, from 1; 0 for none.
+pub(super) type ObjCorner = [u32; 3];
+
+/// The elements read so far.
 #[derive(Default)]
 pub(super) struct ObjReader {
     name: PathBuf,
-    /// Checked `v`, `vt` and `vn` lines.
-    clean: String,
-    /// Number of elements of each of [`TARGETS`].
-    counts: [usize; 3],
+    positions: Vec<[f32; 3]>,
+    texcoords: Vec<[f32; 2]>,
     normals: Vec<[f32; 3]>,
-    /// Indices of vertex, texture coordinate and normal, from 1; 0 for none.
-    corners: Vec<[usize; 3]>,
-    /// The index of each face's first corner.
-    faces: Vec<usize>,
+    faces: Faces<ObjCorner>,
     /// Indices to elements that had not been read yet: line, target and index.
     forward: Vec<(usize, usize, i64)>,
 }
@@ -140,13 +128,13 @@ impl ObjReader {
         if !matches!(numbers.len(), 3 | 4 | 6 | 7) {
             return Err(self.syntax(line, "a vertex `v x y z`", text));
         }
-        self.numbers(line, "v", &numbers[..3])?;
+        let position = self.numbers(line, [numbers[0], numbers[1], numbers[2]])?;
         if let &[_, _, _, weight] = numbers
             && self.number(line, weight)? != 1.0
         {
             return Err(self.syntax(line, "a vertex without a weight other than 1", weight));
         }
-        self.counts[0] += 1;
+        self.positions.push(position);
         Ok(())
     }
 
@@ -155,32 +143,23 @@ impl ObjReader {
         let (&[u, v] | &[u, v, _]) = numbers else {
             return Err(self.syntax(line, "a texture coordinate `vt u v`", text));
         };
-        self.numbers(line, "vt", &[u, v])?;
-        self.counts[1] += 1;
+        self.texcoords.push(self.numbers(line, [u, v])?);
         Ok(())
     }
 
     fn normal(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
-        if numbers.len() != 3 {
+        let &[x, y, z] = numbers else {
             return Err(self.syntax(line, "a normal `vn x y z`", text));
-        }
-        let normal = self.numbers(line, "vn", numbers)?;
-        self.counts[2] += 1;
-        self.normals.push([normal[0], normal[1], normal[2]]);
+        };
+        self.normals.push(self.numbers(line, [x, y, z])?);
         Ok(())
     }
 
-    /// Checks numbers and appends a line with this key for tobj.
-    fn numbers(&mut self, line: usize, key: &str, words: &[&[u8]]) -> Result<Vec<f32>, ModelError> {
-        self.clean.push_str(key);
-        let mut numbers = Vec::with_capacity(words.len());
-        for word in words {
-            numbers.push(self.number(line, word)?);
-            self.clean.push(' ');
-            // A number is ASCII.
-            self.clean.push_str(&String::from_utf8_lossy(word));
+    fn numbers<const N: usize>(&self, line: usize, words: [&[u8]; N]) -> Result<[f32; N], ModelError> {
+        let mut numbers = [0.0; N];
+        for (number, word) in numbers.iter_mut().zip(words) {
+            *number = self.number(line, word)?;
         }
-        self.clean.push('\n');
         Ok(numbers)
     }
 
@@ -192,7 +171,7 @@ impl ObjReader {
         if corners.len() < 3 {
             return Err(self.syntax(line, "a face of at least three corners `f 1 2 3`", text));
         }
-        self.faces.push(self.corners.len());
+        self.faces.begin(line);
         for &corner in corners {
             let Some(indices) = corner_indices(corner) else {
                 return Err(self.syntax(line, "a corner `1`, `1/1`, `1//1` or `1/1/1`", corner));
@@ -203,15 +182,15 @@ impl ObjReader {
                     places[target] = self.place(line, target, index)?;
                 }
             }
-            self.corners.push(places);
+            self.faces.push(places);
         }
         Ok(())
     }
 
     /// An index of the file, negative ones counted back from the last element, as one from 1. Indices to elements that
     /// have not been read yet are accepted and remembered.
-    fn place(&mut self, line: usize, target: usize, index: i64) -> Result<usize, ModelError> {
-        let count = self.counts[target];
+    fn place(&mut self, line: usize, target: usize, index: i64) -> Result<u32, ModelError> {
+        let count = self.count(target);
         let place = match index {
             0 => None,
             1.. => usize::try_from(index).ok(),
@@ -221,18 +200,18 @@ impl ObjReader {
         if place.is_some_and(|place| place > count) {
             self.forward.push((line, target, index));
         }
+        let place = place.and_then(|place| u32::try_from(place).ok());
         place.ok_or_else(|| self.out_of_range(line, target, index))
     }
 
-    /// The corners of each face: indices of vertex, texture coordinate and normal, from 1; 0 for none.
-    pub(super) fn faces(&self) -> impl Iterator<Item = &[[usize; 3]]> {
-        let ends = self.faces.iter().skip(1).copied().chain([self.corners.len()]);
-        self.faces.iter().zip(ends).map(|(&start, end)| &self.corners[start..end])
+    /// Number of elements of one of [`TARGETS`].
+    fn count(&self, target: usize) -> usize {
+        [self.positions.len(), self.texcoords.len(), self.normals.len()][target]
     }
 
-    /// The corners of the face that was read last.
-    pub(super) fn last_face(&self) -> &[[usize; 3]] {
-        self.faces.last().map_or(&[], |&start| &self.corners[start..])
+    /// The faces, with their lines.
+    pub(super) fn faces(&self) -> &Faces<ObjCorner> {
+        &self.faces
     }
 
     /// The `vn` lines.
@@ -240,11 +219,10 @@ impl ObjReader {
         &self.normals
     }
 
-    /// The mesh of the checked lines, after the forward indices have been checked; if `attributes`, with texture
-    /// coordinates and normals where all corners have them, otherwise with positions alone.
-    pub(super) fn mesh(&mut self, attributes: bool) -> Result<Mesh, ModelError> {
+    /// The triangles of all faces, after the forward indices have been checked; unless `strict`, with notes on faces.
+    pub(super) fn triangles(&self, strict: bool) -> Result<(Vec<[ObjCorner; 3]>, Vec<ModelNote>), ModelError> {
         for &(line, target, index) in &self.forward {
-            let count = self.counts[target];
+            let count = self.count(target);
             // Some exporters omit the coordinates but keep their indices.
             if target == 1 && count == 0 {
                 continue;
@@ -253,22 +231,39 @@ impl ObjReader {
                 return Err(self.out_of_range(line, target, index));
             }
         }
-        if self.faces.is_empty() {
+        if self.faces.corners().is_empty() {
             let (place, expected) = (self.name.as_path().into(), "at least one face (a line `f 1 2 3`)".into());
             return Err(ModelError::Syntax { place, expected, found: "none".to_owned() });
         }
-        let all = |place: usize| attributes && self.corners.iter().all(|corner| corner[place] > 0);
-        let (texcoords, normals) = (self.counts[1] > 0 && all(1), all(2));
-        let mut clean = std::mem::take(&mut self.clean);
-        for face in self.faces() {
-            clean.push('f');
-            for &indices in face {
-                clean.push(' ');
-                clean.push_str(&corner(indices, texcoords, normals));
-            }
-            clean.push('\n');
+        let named = |line: usize| FilePlace::line(&self.name, line).to_string();
+        self.faces.triangles(|corner| self.positions[corner[0] as usize - 1], named, strict)
+    }
+
+    /// The mesh of these triangles; if `attributes`, with texture coordinates and normals where all corners have them,
+    /// otherwise with positions alone.
+    pub(super) fn mesh(&self, triangles: &[[ObjCorner; 3]], attributes: bool) -> Result<Mesh, ModelError> {
+        let all = |target: usize| attributes && self.faces.corners().iter().all(|corner| corner[target] > 0);
+        let (texcoords, normals) = (!self.texcoords.is_empty() && all(1), all(2));
+        let (mut vertices, mut index_of) = (Vec::<ObjCorner>::new(), BTreeMap::<ObjCorner, u32>::new());
+        let mut index = |[v, vt, vn]: ObjCorner| {
+            let used = [v, if texcoords { vt } else { 0 }, if normals { vn } else { 0 }];
+            *index_of.entry(used).or_insert_with(|| {
+                vertices.push(used);
+                vertices.len() as u32 - 1
+            })
+        };
+        let triangles = triangles.iter().map(|corners| corners.map(&mut index)).collect();
+        fn of<T: Copy>(list: &[T], vertices: &[ObjCorner], target: usize) -> Vec<T> {
+            vertices.iter().map(|vertex| list[vertex[target] as usize - 1]).collect()
         }
-        load_clean(&clean, &self.name)
+        let mut mesh = Mesh::new(of(&self.positions, &vertices, 0), triangles);
+        if normals {
+            mesh = mesh.and_then(|mesh| mesh.with_normals(of(&self.normals, &vertices, 2)));
+        }
+        if texcoords {
+            mesh = mesh.and_then(|mesh| mesh.with_texcoords(of(&self.texcoords, &vertices, 1)));
+        }
+        mesh.map_err(|reason| ModelError::Mesh(self.name.as_path().into(), reason))
     }
 
     pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ModelError {
@@ -277,7 +272,7 @@ impl ObjReader {
     }
 
     fn out_of_range(&self, line: usize, target: usize, index: i64) -> ModelError {
-        let (place, count) = (FilePlace::line(&self.name, line), self.counts[target]);
+        let (place, count) = (FilePlace::line(&self.name, line), self.count(target));
         ModelError::IndexOutOfRange { place, what: TARGETS[target], index, count }
     }
 }

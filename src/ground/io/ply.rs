@@ -1,8 +1,9 @@
 //! PLY, the format of scanned models: ASCII and both binary encodings, read with ply-rs-bw.
 //!
 //! Used are the elements `vertex` (`x y z`; `nx ny nz`; `s t`, `u v` or `texture_u texture_v`) and `face`
-//! (`vertex_indices` or `vertex_index`); all others are ignored. A face of more than three corners becomes a fan around
-//! its first corner. Vertices are those of the file, in its order; degenerate triangles are kept, as in OBJ files.
+//! (`vertex_indices` or `vertex_index`); all others are ignored. A face of n corners becomes
+//! n - 2 triangles ([`crate::geom::polygon`]). Vertices are those of the file, in its order; degenerate triangles are
+//! kept, as in OBJ files.
 //!
 //! The file is read element by element, so that an error names the line or the element, and no memory is allocated by a
 //! count in the header alone.
@@ -14,6 +15,9 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
 
 use super::error::{FilePlace, ModelError};
+use super::faces::Faces;
+use super::lines::unmarked;
+use super::model_note::ModelNote;
 use super::obj::{load_model, within_limit};
 use super::quoted;
 use crate::geom::Mesh;
@@ -37,8 +41,13 @@ pub fn load_ply(path: &Path) -> Result<Mesh, ModelError> {
 /// # Errors
 /// [`ModelError`], with the line or element where there is one.
 pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+    read_ply(bytes, name, true).map(|(mesh, _)| mesh)
+}
+
+/// [`parse_ply`]; unless `strict`, faces with a fault are accepted and noted.
+pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
-    let (header, lines, data) = header(bytes, name)?;
+    let (header, lines, data) = header(unmarked(bytes), name)?;
     let has = |element: &str, property: &[&str]| {
         header.elements.get(element).is_some_and(|e| property.iter().any(|&name| e.properties.contains_key(name)))
     };
@@ -64,14 +73,24 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
                         let expected = format!("corners below {vertices}, the number of vertices");
                         return Err(at.error(expected, beyond.to_string()));
                     }
-                    mesh.face(&record.indices).map_err(|found| at.error("three corners or more", found))?;
+                    if record.indices.len() < 3 {
+                        return Err(at.error("three corners or more", "fewer"));
+                    }
+                    mesh.faces.begin(at.line.map_or(index, |(line, _)| line));
+                    record.indices.into_iter().for_each(|corner| mesh.faces.push(corner));
                 }
                 _ => {}
             }
         }
     }
     let attributes = [&NUMBERS[3..6], &NUMBERS[6..8]].map(|names| names.iter().all(|names| has("vertex", names)));
-    mesh.finish(attributes, name)
+    let named = |place: usize| match header.encoding {
+        Encoding::Ascii => FilePlace::line(name, place).to_string(),
+        _ => format!("{}: face {place} (counted from 0)", name.display()),
+    };
+    let position = |corner: u32| positions_of(&mesh.vertices[corner as usize]);
+    let (triangles, notes) = mesh.faces.triangles(position, named, strict)?;
+    Ok((mesh.finish(triangles, attributes, name)?, notes))
 }
 
 /// The error for a file without a required part.
@@ -164,10 +183,8 @@ impl<'a> Data<'a> {
                     return Err(at.error(expected(element), ""));
                 };
                 at.line = Some((self.line, quoted(line)));
-                match std::str::from_utf8(line) {
-                    Ok(line) => parser.read_ascii_element(line, element).ok(),
-                    Err(_) => None,
-                }
+                let line = std::str::from_utf8(line).ok();
+                line.and_then(|line| parser.read_ascii_element(&with_digits(line), element).ok())
             }
             Encoding::BinaryLittleEndian => parser.read_little_endian_element(&mut self.rest, element).ok(),
             Encoding::BinaryBigEndian => parser.read_big_endian_element(&mut self.rest, element).ok(),
@@ -194,6 +211,26 @@ impl<'a> Data<'a> {
         }
         None
     }
+}
+
+/// A line whose numbers have digits on both sides of their points, which ply-rs-bw expects: `1.` becomes `1.0`.
+fn with_digits(line: &str) -> Cow<'_, str> {
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let mut plain = String::new();
+    let mut rest = line;
+    while let Some((before, after)) = rest.split_once('.') {
+        let [left, right] = [digit(before.chars().next_back()), digit(after.chars().next())];
+        plain += before;
+        plain += if !left && right {
+            "0."
+        } else if left && !right {
+            ".0"
+        } else {
+            "."
+        };
+        rest = after;
+    }
+    if plain.is_empty() { line.into() } else { (plain + rest).into() }
 }
 
 /// A description of the expected element.
@@ -234,37 +271,35 @@ impl PropertyAccess for Record {
     }
 }
 
-/// The vertices and triangles read so far.
+/// The vertices and faces read so far.
 #[derive(Default)]
 struct MeshReader {
     vertices: Vec<[f32; NUMBERS.len()]>,
-    triangles: Vec<[u32; 3]>,
+    faces: Faces<u32>,
+}
+
+fn positions_of(vertex: &[f32; NUMBERS.len()]) -> [f32; 3] {
+    [vertex[0], vertex[1], vertex[2]]
 }
 
 impl MeshReader {
-    fn face(&mut self, corners: &[u32]) -> Result<(), &'static str> {
-        let [first, rest @ ..] = corners else { return Err("none") };
-        if rest.len() < 2 {
-            return Err("fewer");
-        }
-        self.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
-        Ok(())
-    }
-
-    fn finish(self, [normals, texcoords]: [bool; 2], name: &Path) -> Result<Mesh, ModelError> {
-        if self.triangles.is_empty() {
+    fn finish(
+        self,
+        triangles: Vec<[u32; 3]>,
+        [normals, texcoords]: [bool; 2],
+        name: &Path,
+    ) -> Result<Mesh, ModelError> {
+        if triangles.is_empty() {
             return Err(missing(name, "at least one face"));
         }
         let of = |mesh: Mesh| {
-            let three =
-                |first: usize| self.vertices.iter().map(move |v| [v[first], v[first + 1], v[first + 2]]).collect();
-            let mesh = if normals { mesh.with_normals(three(3))? } else { mesh };
+            let three = || self.vertices.iter().map(|v| [v[3], v[4], v[5]]).collect();
+            let mesh = if normals { mesh.with_normals(three())? } else { mesh };
             let pairs = || self.vertices.iter().map(|v| [v[6], v[7]]).collect();
             if texcoords { mesh.with_texcoords(pairs()) } else { Ok(mesh) }
         };
-        let positions = self.vertices.iter().map(|v| [v[0], v[1], v[2]]).collect();
-        let mesh = Mesh::new(positions, self.triangles.clone()).and_then(of);
-        mesh.map_err(|reason| ModelError::Mesh(name.into(), reason))
+        let positions = self.vertices.iter().map(positions_of).collect();
+        Mesh::new(positions, triangles).and_then(of).map_err(|reason| ModelError::Mesh(name.into(), reason))
     }
 }
 

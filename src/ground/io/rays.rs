@@ -5,7 +5,8 @@
 //!
 //! Hits: the header `ray,triangle,t`, then a line per ray in the order of the rays. `triangle` counts from 0 in the
 //! order of the mesh file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the
-//! same f32.
+//! same f32, or beyond f32 to the same f64. On a card whose format overflows, a hit has the `inf` that the card
+//! computed.
 
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -15,7 +16,6 @@ use thiserror::Error;
 use super::error::ReadError;
 use super::lines::single;
 use super::{NumberError, open_limited, quoted};
-use crate::geom::classify::Candidate;
 use crate::geom::{Ray, RayError};
 
 /// Longest file that is read, in bytes (1 GiB).
@@ -136,11 +136,14 @@ pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes one line per ray: its number from 0, the triangle or -1, and t or `inf`.
-pub fn write_hits(hits: &[Candidate], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_hits(hits: &[Option<(u32, f64)>], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "ray,triangle,t")?;
     for (ray, hit) in hits.iter().enumerate() {
-        match hit.triangle {
-            Some(triangle) => writeln!(out, "{ray},{triangle},{}", hit.t)?,
+        match *hit {
+            Some((triangle, t)) if t.is_finite() && (t as f32).is_infinite() => {
+                writeln!(out, "{ray},{triangle},{t:e}")?
+            }
+            Some((triangle, t)) => writeln!(out, "{ray},{triangle},{}", t as f32)?,
             None => writeln!(out, "{ray},-1,inf")?,
         }
     }
@@ -184,9 +187,9 @@ mod tests {
 
     #[test]
     fn hits_read_back_to_the_same_bits() {
-        let hits = [Candidate { triangle: Some(7), t: 0.1 }, Candidate { triangle: None, t: 3.0 }];
+        let hits = [Some((7, f64::from(0.1_f32))), None, Some((8, 1e39)), Some((9, f64::INFINITY))];
         let mut text = Vec::new();
         write_hits(&hits, &mut text).expect("written");
-        assert_eq!(text, b"ray,triangle,t\n0,7,0.1\n1,-1,inf\n");
+        assert_eq!(text, b"ray,triangle,t\n0,7,0.1\n1,-1,inf\n2,8,1e39\n3,9,inf\n");
     }
 }

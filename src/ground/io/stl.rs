@@ -1,14 +1,16 @@
-//! STL, binary and ASCII, through stl_io.
+//! STL, binary and ASCII.
 //!
 //! Triangles are in the order of the file; corners with the same position, bit for bit, become one vertex. The file's
-//! normals, which are those of the triangles, are ignored, as are colors. Binary data are recognised by their length,
-//! because some begin with the word `solid` of the ASCII format.
+//! normals, which are those of the triangles, are ignored, as are names and colors. ASCII files may hold several
+//! solids, in letters of either case. Binary data are recognised by their length, because some begin with the word
+//! `solid` of the ASCII format.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use super::error::{FilePlace, ModelError};
+use super::lines::{single, unmarked, words};
 use super::obj::{load_model, within_limit};
+use super::quoted;
 use crate::geom::mesh::{Mesh, Welder};
 
 /// Bytes before the triangles of binary data: a header, and their number.
@@ -16,10 +18,12 @@ const HEAD: usize = 84;
 /// Bytes per triangle: twelve numbers, and an attribute.
 const TRIANGLE: usize = 50;
 
+type Corners = [[f32; 3]; 3];
+
 /// Reads a mesh from a file.
 ///
 /// # Errors
-/// [`ModelError`], with the path.
+/// [`ModelError`], with the path, and the line or triangle where there is one.
 pub fn load_stl(path: &Path) -> Result<Mesh, ModelError> {
     parse_stl(&load_model(path)?, path)
 }
@@ -28,47 +32,147 @@ pub fn load_stl(path: &Path) -> Result<Mesh, ModelError> {
 /// the file's length only.
 ///
 /// # Errors
-/// [`ModelError`].
+/// [`ModelError`], with the line or triangle where there is one.
 pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     within_limit(bytes, name)?;
-    let syntax = |expected: &'static str, found: String| ModelError::Syntax {
-        place: FilePlace::from(name),
-        expected: expected.into(),
-        found,
+    let syntax = |expected: &'static str, found: String| {
+        Err(ModelError::Syntax { place: FilePlace::from(name), expected: expected.into(), found })
     };
-    let mut bytes = bytes.to_vec();
-    let claimed = claimed_length(&bytes);
-    if claimed == Some(bytes.len() as u64) {
-        // stl_io takes data that begin with `solid` for ASCII; the header has no meaning otherwise.
-        bytes[..5].fill(0);
-    } else if !bytes.trim_ascii_start().starts_with(b"solid") {
-        let expected = "an STL file: `solid`, or binary data of the length that they claim";
-        let found = match claimed {
-            Some(claimed) => format!("{} bytes of {claimed}", bytes.len()),
-            None => format!("{} bytes", bytes.len()),
-        };
-        return Err(syntax(expected, found));
+    let soup = match claimed_length(bytes) {
+        Some(claimed) if claimed == bytes.len() as u64 => binary(bytes, name)?,
+        _ if is_text(bytes) => ascii(bytes, name)?,
+        // In text these bytes are no number of triangles.
+        Some(claimed) if bytes[..HEAD].contains(&0) => {
+            return syntax("as many bytes as its number of triangles takes", format!("{} of {claimed}", bytes.len()));
+        }
+        _ => {
+            return syntax(
+                "an STL file, which begins with `solid` or is binary",
+                quoted(&bytes[..bytes.len().min(80)]),
+            );
+        }
+    };
+    if soup.is_empty() {
+        return syntax("at least one triangle", "none".to_owned());
     }
-    let broken = |error: std::io::Error| syntax("an STL file", format!("one that stl_io refuses: {error}"));
-    let mut file = Cursor::new(bytes);
-    let (mut welder, mut triangles) = (Welder::default(), Vec::new());
-    for triangle in stl_io::create_stl_reader(&mut file).map_err(broken)? {
-        let corners = triangle.map_err(broken)?.vertices.map(|corner| corner.0);
-        triangles.push(corners.map(|corner| welder.vertex(corner)));
-    }
-    if triangles.is_empty() {
-        return Err(syntax("at least one triangle", "none".to_owned()));
-    }
+    let mut welder = Welder::default();
+    let triangles = soup.into_iter().map(|corners| corners.map(|corner| welder.vertex(corner))).collect();
     Mesh::new(welder.into_positions(), triangles).map_err(|reason| ModelError::Mesh(name.into(), reason))
 }
 
 /// True for the contents of an STL file: binary data with the length that they state, or text that begins as ASCII STL.
 pub(super) fn is_stl(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"solid ") || claimed_length(bytes) == Some(bytes.len() as u64)
+    claimed_length(bytes) == Some(bytes.len() as u64) || is_text(bytes)
 }
 
 /// The length of binary data as their head states it.
 fn claimed_length(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(HEAD - 4..HEAD)?.try_into().ok()?;
     Some(HEAD as u64 + TRIANGLE as u64 * u64::from(u32::from_le_bytes(count)))
+}
+
+/// True for text whose first word is `solid`. Binary data have a zero among the bytes of their head, unless they have
+/// more triangles than any file that is read.
+fn is_text(bytes: &[u8]) -> bool {
+    let text = unmarked(bytes).trim_ascii_start();
+    let word = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+    word.eq_ignore_ascii_case(b"solid") && !bytes[..bytes.len().min(HEAD)].contains(&0)
+}
+
+fn binary(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, ModelError> {
+    let triangles = bytes[HEAD..].as_chunks::<TRIANGLE>().0;
+    let read = triangles.iter().enumerate().map(|(index, bytes)| {
+        let number = |at: usize| f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
+        // The normal's three numbers come first.
+        let corners: Corners = [12, 24, 36].map(|at| [number(at), number(at + 4), number(at + 8)]);
+        match corners.as_flattened().iter().find(|coordinate| !coordinate.is_finite()) {
+            None => Ok(corners),
+            Some(odd) => Err(ModelError::Element {
+                place: name.into(),
+                element: "triangle".to_owned(),
+                index,
+                expected: "finite coordinates".into(),
+                found: odd.to_string().into(),
+            }),
+        }
+    });
+    read.collect()
+}
+
+fn ascii(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, ModelError> {
+    let mut text = Text { name, line: 1, words: Box::new(text_words(unmarked(bytes))) };
+    let mut soup = Vec::new();
+    while let Some(word) = text.word() {
+        text.known(Some(word), &["solid"])?;
+        while text.keyword(&["facet", "endsolid"])? == 0 {
+            text.keyword(&["normal"])?;
+            for _ in 0..3 {
+                // Any word but the next keyword: without area a triangle has no normal, and writers have many NaNs.
+                let word = text.word().filter(|word| !word.eq_ignore_ascii_case(b"outer"));
+                word.ok_or_else(|| text.wrong("three numbers of a normal", Some(b"outer")))?;
+            }
+            text.keyword(&["outer"])?;
+            text.keyword(&["loop"])?;
+            let mut corners = Corners::default();
+            for corner in &mut corners {
+                text.keyword(&["vertex"])?;
+                for coordinate in corner {
+                    let word = text.word();
+                    let number = single(word.unwrap_or_default());
+                    *coordinate = number.map_err(|fault| text.wrong(fault.expected(), word))?;
+                }
+            }
+            text.keyword(&["endloop"])?;
+            text.keyword(&["endfacet"])?;
+            soup.push(corners);
+        }
+    }
+    Ok(soup)
+}
+
+/// The words of a text with their lines, without the names of solids, which run to the end of their line.
+fn text_words(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    (1..).zip(bytes.split(|&byte| byte == b'\n')).flat_map(|(line, text)| {
+        let mut words = words(text);
+        let named = |word: &&[u8]| word.eq_ignore_ascii_case(b"solid") || word.eq_ignore_ascii_case(b"endsolid");
+        let length = words.iter().position(named).map_or(words.len(), |at| at + 1);
+        words.truncate(length);
+        words.into_iter().map(move |word| (line, word))
+    })
+}
+
+/// Reads a text word by word.
+struct Text<'a> {
+    name: &'a Path,
+    /// The line of the last word.
+    line: usize,
+    words: Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>,
+}
+
+impl<'a> Text<'a> {
+    fn word(&mut self) -> Option<&'a [u8]> {
+        let (line, word) = self.words.next()?;
+        self.line = line;
+        Some(word)
+    }
+
+    /// The index of the next word among the expected ones.
+    fn keyword(&mut self, expected: &[&str]) -> Result<usize, ModelError> {
+        let word = self.word();
+        self.known(word, expected)
+    }
+
+    fn known(&self, word: Option<&[u8]>, expected: &[&str]) -> Result<usize, ModelError> {
+        let is_word = |known: &&str| word.is_some_and(|word| word.eq_ignore_ascii_case(known.as_bytes()));
+        let wrong = || self.wrong(&format!("`{}`", expected.join("` or `")), word);
+        expected.iter().position(is_word).ok_or_else(wrong)
+    }
+
+    fn wrong(&self, expected: &str, found: Option<&[u8]>) -> ModelError {
+        ModelError::Syntax {
+            place: FilePlace::line(self.name, self.line),
+            expected: expected.to_owned().into(),
+            found: found.map_or("the end of the file".to_owned(), quoted),
+        }
+    }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::error::ReadError;
-use super::lines::{logical_lines, single, words};
+use super::lines::{logical_lines, single, statement};
 use super::model::{ModelOptions, is_obj, rotation_of_obj};
 use super::obj::load_model;
 use crate::geom::vector::place_bits;
@@ -21,7 +21,7 @@ impl VertexNumbers {
         let mut of_place = BTreeMap::new();
         let mut next = 1_u32;
         for (_, text) in logical_lines(bytes) {
-            let [b"v", x, y, z, ..] = words(&text)[..] else { continue };
+            let [b"v", x, y, z, ..] = statement(&text)[..] else { continue };
             if let (Ok(x), Ok(y), Ok(z)) = (single(x), single(y), single(z)) {
                 let place = rotation.map_or([x, y, z], |rotation| rotation([x, y, z]));
                 of_place.entry(place_bits(place)).or_insert(next);

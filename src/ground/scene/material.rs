@@ -39,7 +39,7 @@ pub enum Surface {
 /// Named surface with its emission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Name, without white space: that of the MTL file.
+    /// Name: that of the MTL file.
     pub name: String,
     /// Scattering model.
     pub surface: Surface,

@@ -15,9 +15,9 @@ pub enum PatchError {
     /// The scene has no triangles.
     #[error("expected a scene with surfaces, found none")]
     Empty,
-    /// A triangle has no area.
-    #[error("triangle {triangle} (counted from 0) has no area; remove it, or merge its corners")]
-    ZeroArea { triangle: u32 },
+    /// A triangle is so thin that its area is a rounding error.
+    #[error("triangle {triangle} (counted from 0) is too thin for a patch; remove it, or merge its corners")]
+    TooThin { triangle: u32 },
     /// There are more patches than the largest matrix has rows.
     #[error("expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer")]
     TooMany { found: usize },

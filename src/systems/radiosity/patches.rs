@@ -47,7 +47,7 @@ impl Patches {
         let (steps, found) = steps(&faces, subdivision)?;
         let mut list = Vec::with_capacity(found);
         for (id, (face, &steps)) in (0_u32..).zip(faces.iter().zip(&steps)) {
-            face.cut(id, steps, &mut list).ok_or(PatchError::ZeroArea { triangle: face.triangle })?;
+            face.cut(id, steps, &mut list).ok_or(PatchError::TooThin { triangle: face.triangle })?;
         }
         let [low, high] = bounds.map(wide);
         let (materials, extent) = (materials?, (high - low).length());

@@ -2,6 +2,7 @@
 
 use super::PatchError;
 use super::patch::Patch;
+use crate::geom::exact::is_degenerate;
 use crate::geom::vector::wide;
 use crate::scene::Scene;
 use glam::DVec3;
@@ -20,16 +21,22 @@ pub(super) struct Face {
     material: u32,
 }
 
-/// Returns the faces of a scene, and the face of each triangle.
+/// Returns the faces of a scene, and the face of each triangle: [`u32::MAX`] for one without area, which has none.
 pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchError> {
+    let has_area: Vec<bool> = scene.mesh().iter_corners().map(|corners| !is_degenerate(&corners)).collect();
     let triangles: Vec<[DVec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(wide)).collect();
-    if let Some(flat) = triangles.iter().position(|t| Patch::new(t, 0, 0).is_none()) {
-        return Err(PatchError::ZeroArea { triangle: flat as u32 });
+    if let Some(thin) = (0..triangles.len()).find(|&i| has_area[i] && Patch::new(&triangles[i], 0, 0).is_none()) {
+        return Err(PatchError::TooThin { triangle: thin as u32 });
     }
     let materials = scene.material_of();
     let (mut faces, mut face_of) = (Vec::new(), Vec::new());
     let mut i = 0;
     while i < triangles.len() {
+        if !has_area[i] {
+            face_of.push(u32::MAX);
+            i += 1;
+            continue;
+        }
         let same = triangles.get(i + 1).filter(|_| materials[i] == materials[i + 1]);
         let quad = same.and_then(|next| quadrilateral(&triangles[i], next));
         let width = 1 + usize::from(quad.is_some());
@@ -37,6 +44,9 @@ pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchErro
         let corners = quad.map_or_else(|| triangles[i].to_vec(), |quad| quad.to_vec());
         faces.push(Face { corners, triangle: i as u32, material: materials[i] });
         i += width;
+    }
+    if faces.is_empty() {
+        return Err(PatchError::Empty);
     }
     Ok((faces, face_of))
 }

@@ -189,6 +189,78 @@ fn texture_coordinates_may_be_unsigned_fractions() {
     assert_eq!(first(&fractions), Some([16256.0 / 65535.0, 0.0]));
 }
 
+/// The specification allows each of these, and none changes the square.
+#[test]
+fn rare_but_legal_documents_are_read() {
+    let square = read(&document(json!([{ "mesh": 0 }])));
+    let with = |changes: &[(&str, &str, Value)]| {
+        let mut all = document(json!([{ "mesh": 0 }]));
+        for (pointer, key, value) in changes {
+            all.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}"))[*key] = value.clone();
+        }
+        all
+    };
+    let attributes = "/meshes/0/primitives/0/attributes";
+    for changes in [
+        // 5.27: a scene need not have nodes, nor an animation's channel a target.
+        vec![("", "scene", json!(1)), ("", "scenes", json!([{}, { "nodes": [0] }]))],
+        vec![(
+            "",
+            "animations",
+            json!([{ "channels": [{ "sampler": 0, "target": { "path": "pointer" } }], "samplers": [{ "input": 0, "output": 0 }] }]),
+        )],
+        // 3.7.2.1: attributes of applications begin with an underscore.
+        vec![
+            (attributes, "_TEMPERATURE", json!(0)),
+            (attributes, "_ID", json!(1)),
+            (attributes, "TEXCOORD_7", json!(2)),
+        ],
+        vec![
+            (attributes, "JOINTS_0", json!(2)),
+            (attributes, "WEIGHTS_0", json!(2)),
+            (attributes, "COLOR_3", json!(0)),
+        ],
+        // 5.29: a texture need not have a source, nor an image a kind that the core knows.
+        vec![
+            (
+                "",
+                "textures",
+                json!([{}, { "sampler": 0, "source": 0, "extensions": { "KHR_texture_basisu": { "source": 0 } } }]),
+            ),
+            ("", "images", json!([{ "uri": "a.ktx2", "mimeType": "image/ktx2" }])),
+            ("", "samplers", json!([{ "extras": [1] }])),
+            ("/materials/0", "normalTexture", json!({ "index": 0, "texCoord": 3 })),
+            ("/materials/0/pbrMetallicRoughness", "baseColorTexture", json!({ "index": 1 })),
+        ],
+        // 5.18: extras are of any type.
+        vec![("", "extras", json!("text")), ("/nodes/0", "extras", json!([1])), ("/asset", "extras", json!(5))],
+        vec![
+            ("/nodes/0", "camera", json!(0)),
+            ("", "cameras", json!([{ "type": "x", "extensions": { "EXT_x": {} } }])),
+        ],
+        vec![("", "extensionsUsed", json!(["EXT_x"])), ("/nodes/0", "extensions", json!({ "EXT_x": { "a": [] } }))],
+    ] {
+        assert_eq!(read(&with(&changes)), square, "{changes:?}");
+    }
+    // 3.7.2.1: without positions a primitive is skipped; points and lines are no surface.
+    for skipped in [json!({ "attributes": { "NORMAL": 1 } }), json!({ "attributes": { "POSITION": 0 }, "mode": 1 })] {
+        let mut all = document(json!([{ "mesh": 0 }]));
+        all["meshes"][0]["primitives"].as_array_mut().expect("primitives").push(skipped);
+        assert_eq!(read(&all), square);
+    }
+    // 5.1.1: without a buffer view all elements are zero.
+    let zeros = json!({ "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0] });
+    let mut all = document(json!([{ "mesh": 0 }, { "mesh": 3 }]));
+    all["accessors"].as_array_mut().expect("accessors").push(zeros);
+    all["meshes"][3]["primitives"][0]["attributes"]["POSITION"] = json!(6);
+    assert_eq!(soup(read(&all).mesh())[2..], [[[0.0; 3]; 3]; 2]);
+    // 3.6.1.1: a reader may ignore a byte order mark before JSON.
+    let text = document(json!([{ "mesh": 0 }])).to_string();
+    let uri = format!("{{\"uri\":\"data:application/gltf-buffer;base64,{}\",", base64_text(&bytes()));
+    let marked = format!("\u{feff}{}", text.replace("\"buffers\":[{", &format!("\"buffers\":[{uri}")));
+    assert_eq!(parse_gltf(marked.as_bytes(), Path::new("m.gltf"), &mut nothing_beside).expect("a scene"), square);
+}
+
 #[test]
 fn errors_say_where_and_what() {
     let with = |pointer: &str, value: Value| {

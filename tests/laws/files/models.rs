@@ -3,14 +3,16 @@
 use crate::environment::writes_files;
 use std::path::Path;
 
-use crossbar::geom::classify::Candidate;
-use crossbar::geom::{Mesh, Sides, exact, teapot};
-use crossbar::io::{load_mesh, load_obj, load_rays, parse_obj, parse_rays, write_hits, write_obj};
+use crossbar::geom::{Mesh, Ray, Sides, exact, teapot};
+use crossbar::io::{
+    ModelOptions, load_mesh, load_mesh_with, load_obj, load_rays, load_scene, load_scene_with, parse_obj, parse_rays,
+    write_hits, write_obj,
+};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
 
-const GOOD: &str = "# good\nmtllib a.mtl\no thing\nv 0 0 0\nv 1.5 0 -0\nv 1e-3 +1 0 1\nv -1 0 .5 1 0 0\nvt 0 0\nvn 0 0 1\n\
+const GOOD: &str = "# good\nmtllib a.mtl\no thing\nv 0 0 0\nv 1.5 0 -0\nv 1e-3 +1 0 1\nv -1 .5 0 1 0 0\nvt 0 0\nvn 0 0 1\n\
                     usemtl red\ng part\ns 1\nf 1 2 3\nf 1/1/1 2//1 3/1 4\nf -1 -2 \\\n-3\nl 1 2\np 1\n";
 
 fn soup(mesh: &Mesh) -> Vec<[[u32; 3]; 3]> {
@@ -107,17 +109,74 @@ fn the_square_is_hit_as_its_fixture_says() {
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
     let mesh = load_obj(&fixtures.join("models/square.obj")).expect("a mesh");
     let rays = load_rays(&fixtures.join("rays/square.csv")).expect("rays");
-    let hits: Vec<Candidate> = exact::nearest_all(&mesh, &rays, Sides::Front)
+    let hits: Vec<Option<(u32, f64)>> = exact::nearest_all(&mesh, &rays, Sides::Front)
         .into_iter()
-        .map(|hit| match hit {
-            Some(hit) => Candidate { triangle: Some(hit.triangle), t: hit.t.to_f32() },
-            None => Candidate { triangle: None, t: f32::INFINITY },
-        })
+        .map(|hit| hit.map(|hit| (hit.triangle, f64::from(hit.t.to_f32()))))
         .collect();
     let mut text = Vec::new();
     write_hits(&hits, &mut text).expect("written");
     let expected = std::fs::read_to_string(fixtures.join("rays/square_front.csv")).expect("the fixture");
     assert_eq!(String::from_utf8(text).expect("text"), expected);
+}
+
+/// A bracket whose first corner sees not all of it: rays hit where it is, and nothing where it is not.
+#[test]
+fn a_concave_face_is_hit_where_it_is() {
+    let text = "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 4 0\nv 0 4 0\nf 2 3 4 5 6 1\n";
+    let mesh = parse_obj(text.as_bytes(), Path::new("m.obj")).expect("a mesh");
+    for x in 0..8 {
+        for y in 0..8 {
+            let [x, y] = [x, y].map(|i| i as f32 / 2.0 + 0.25);
+            let ray = Ray::new([x, y, 1.0], [0.0, 0.0, -1.0]).expect("a ray");
+            assert_eq!(exact::nearest(&mesh, &ray, Sides::Front).is_some(), x < 1.0 || y < 1.0, "{x} {y}");
+        }
+    }
+}
+
+/// A `#` within a word is part of it, as in the NaN that old C libraries print.
+#[test]
+fn comments_begin_words() {
+    let parse = |text: &str| parse_obj(text.as_bytes(), Path::new("m.obj")).map_err(|error| error.to_string());
+    let rest = "v 0 0 0 # one\n#two\nv 1 0 0\t#three \\\nv 0 1 0 ## 5 \\\nf 1 2 3 #4\n";
+    assert_eq!(parse(rest).expect("a mesh").triangles(), [[0, 1, 2]]);
+    assert_eq!(parse("v 1.#QNAN 0 0"), Err("m.obj:1: expected a number, found `1.#QNAN`".to_owned()));
+    assert_eq!(parse("v 0 0 -1.#IND"), Err("m.obj:1: expected a number, found `-1.#IND`".to_owned()));
+}
+
+#[test]
+fn faces_with_a_fault_are_refused_or_noted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("m.obj");
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 1 1\n";
+    for (faces, refused, note) in [
+        (
+            "f 1 2 3\nf 1 2 3 5\nf 2 3 4 5\n",
+            "7: expected a flat face that does not touch itself, found one not flat",
+            "2 faces not flat: cut as seen along an axis near the normal; first: m.obj:7",
+        ),
+        (
+            "f 1 2 3 3\n",
+            "6: expected a flat face that does not touch itself, found one with two corners at one position",
+            "1 face with two corners at one position: cut as seen along an axis near the normal; first: m.obj:6",
+        ),
+        (
+            "f 1 3 2 4\n",
+            "6: expected a flat face that does not touch itself, found one of edges that cross or touch",
+            "1 face of edges that cross or touch: cut into a fan around the first corner; first: m.obj:6",
+        ),
+    ] {
+        let text = format!("{corners}{faces}");
+        let error = parse_obj(text.as_bytes(), Path::new("m.obj")).expect_err(faces).to_string();
+        assert_eq!(error, format!("m.obj:{refused}"));
+        std::fs::write(&path, text).expect("written");
+        assert!(load_scene(&path).is_err(), "{faces}");
+        for notes in [
+            load_mesh_with(&path, ModelOptions::default()).expect("a mesh").1,
+            load_scene_with(&path, ModelOptions::default()).expect("a scene").1,
+        ] {
+            assert_eq!(notes[0].to_string().replace(&format!("{}/", folder.path().display()), ""), note);
+        }
+    }
 }
 
 #[test]

@@ -10,14 +10,14 @@ use super::mutation::mutated;
 
 const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 
-const HEADER: &str = "comment a folded quadrilateral and a triangle\nobj_info none\nelement vertex 5\nproperty float x\n\
+const HEADER: &str = "comment a quadrilateral and a triangle\nobj_info none\nelement vertex 5\nproperty float x\n\
                       property double y\nproperty short z\nproperty float nx\nproperty float ny\nproperty float nz\n\
                       property uchar red\nproperty float u\nproperty float v\nelement edge 1\nproperty int vertex1\n\
                       property list ushort double weights\nelement face 2\nproperty uchar flags\n\
                       property list uint8 int32 vertex_indices\nend_header\n";
 
 const VERTICES: [[f32; 3]; 5] =
-    [[0.0, 0.0, 0.0], [1.5, 0.0, 1.0], [1.0, 1e-3, 0.0], [-0.25, 1.0, -2.0], [0.5, 7.0, 3.0]];
+    [[0.0, 0.0, 0.0], [1.5, 0.0, 3.0], [1.0, 1e-3, 2.0], [-0.5, 1.0, -1.0], [0.5, 7.0, 3.0]];
 
 /// Numbers in an encoding.
 struct Encoder {
@@ -89,6 +89,40 @@ fn a_file_cut_short_anywhere_is_refused() {
             assert!(parse(&bytes[..end]).is_err(), "{encoding}: {end} of {} bytes", bytes.len());
         }
     }
+}
+
+/// A concave face: its first corner sees not all of it.
+const ARROW: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+                     property list uchar int vertex_indices\nend_header\n";
+
+#[test]
+fn numbers_need_a_digit_on_one_side_of_their_point() {
+    let read = |x: &str| {
+        let text =
+            format!("\u{feff}ply\nformat ascii 1.0\n{ARROW}{x} -1. 0\n0 3 0\n-2 -1.0 0\n.0 -.0e1 0.\n4 0 1 2 3\n");
+        parse(text.as_bytes()).map(|mesh| (mesh.positions()[0][0], mesh.triangles().to_vec()))
+    };
+    for (text, x) in [("2.", 2.0), ("+.5", 0.5), ("2.e0", 2.0), (".2E1", 2.0), ("2", 2.0)] {
+        assert_eq!(read(text).expect(text), (x, vec![[3, 0, 1], [1, 2, 3]]), "{text}");
+    }
+    for text in [".", "1..", ".e1", "1.5.", "nan", "1.#QNAN", "-"] {
+        let error = read(text).expect_err(text).to_string();
+        assert!(error.starts_with("m.ply:10: expected a `vertex` of `x y z`, found `"), "{error}");
+    }
+}
+
+#[test]
+fn faces_with_a_fault_are_named() {
+    let text = format!("ply\nformat ascii 1.0\n{ARROW}0 0 0\n1 0 0\n1 1 0\n0 1 1\n4 0 1 2 3\n");
+    let fault = "expected a flat face that does not touch itself, found one not flat";
+    assert_eq!(parse(text.as_bytes()).expect_err("bent").to_string(), format!("m.ply:14: {fault}"));
+    let mut bytes = format!("ply\nformat binary_little_endian 1.0\n{ARROW}").into_bytes();
+    bytes.extend(
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]].as_flattened().iter().flat_map(|&x| (x as f32).to_le_bytes()),
+    );
+    bytes.extend([4_u8].into_iter().chain((0..4_i32).flat_map(i32::to_le_bytes)));
+    let error = parse(&bytes).expect_err("bent").to_string();
+    assert_eq!(error, format!("m.ply: face 0 (counted from 0): {fault}"));
 }
 
 #[test]

@@ -15,8 +15,8 @@ use proptest::prelude::*;
 
 use super::mutation::mutated;
 
-const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .5\nvn 0 0 1\nvn .6 0 .8\nusemtl red\nf 1//1 2//2 3//-1\n\
-                   usemtl glass\nf 1 2 3 4\nusemtl nowhere\nf 1/1/1 -1/2/1 \\\n-2/3/1\n";
+const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 .5 0\nvn 0 0 1\nvn .6 0 .8\nusemtl red\nf 1//1 2//2 3//-1\n\
+                   usemtl glass\nf 1 2 3 4\nusemtl mirror\nf 1/1/1 -1/2/1 \\\n-2/3/1\n";
 const MTL: &str = "newmtl red\nKd 0.5 0.1 .1\nKs .25 .25 .25\nNs 20\nillum 2\nd 1\nmap_Kd a.png\n\nnewmtl glass\nillum 6\n\
                    Ni 1.33\nTf .9 1 .9\nKe 0 1 2\n# end\nnewmtl mirror\nKs .5\nillum 3\n";
 const TOML: &str = "mesh = \"a.obj\"\n[[view]]\nname = \"v\"\neye = [0.0, 0, 1]\ntarget = [1.0, 0, 0]\nup = [0.0, 0, 1]\n\
@@ -52,15 +52,14 @@ fn bits(scene: &Scene) -> Vec<(Bits, Option<Bits>, String)> {
 fn the_good_scene_is_good() {
     let scene = parse(OBJ.as_bytes(), MTL.as_bytes()).expect("a scene");
     assert_eq!(scene.mesh().len(), 4);
-    assert_eq!(scene.material_of(), [0, 1, 1, 3]);
+    assert_eq!(scene.material_of(), [0, 1, 1, 2]);
     let names: Vec<&str> = scene.materials().iter().map(|material| material.name.as_str()).collect();
-    assert_eq!(names, ["red", "glass", "mirror", "nowhere"]);
+    assert_eq!(names, ["red", "glass", "mirror"]);
     let red = Surface::Glossy { albedo: [0.5, 0.1, 0.1], specular: [0.25; 3], exponent: 20.0 };
     assert_eq!(scene.materials()[0].surface, red);
     assert_eq!(scene.materials()[1].surface, Surface::Glass { index: 1.33, transmittance: [0.9, 1.0, 0.9] });
     assert_eq!(scene.materials()[1].emission, [0.0, 1.0, 2.0]);
     assert_eq!(scene.materials()[2].surface, Surface::Mirror { reflectance: [0.5; 3] });
-    assert_eq!(scene.materials()[3], Material::diffuse("nowhere", [0.5; 3]));
     assert_eq!(scene.corner_normals(0), Some([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.6, 0.0, 0.8]]));
     assert_eq!(scene.corner_normals(1), None);
     assert_eq!(scene.emitters(), [1, 2]);
@@ -238,8 +237,9 @@ fn models_stand_up() {
 fn odd_models_are_mended_and_counted() {
     let folder = tempfile::tempdir().expect("a folder");
     let model = folder.path().join("m.obj");
-    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\nvn 0 0 1\nvn 0 1 0\nvn 1 0 0\nf 1//1 2//2 3//3\n\
-                f 1//1 4//2 3//3\nf 2//1 5//1 3//1\nf 5//1 6//1 3//1\nf 2//1 2//1 3//1\n";
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\nv 1 0 9\nvn 0 0 1\nvn 0 1 0\nvn 1 0 0\n\
+                f 1//1 2//2 3//3\nf 1//1 4//2 3//3\nf 2//1 5//1 3//1\nf 5//1 6//1 3//1\nf 2//1 3//1 7//1\n\
+                f 5//1 5//1 6//1\nf 5//1 6//1 5//1\n";
     std::fs::write(&model, text).expect("written");
     let lenient = ModelOptions::default();
     let (scene, notes) = load_scene_with(&model, lenient).expect("a scene");
@@ -248,7 +248,7 @@ fn odd_models_are_mended_and_counted() {
         said,
         [
             "1 triangle turned round, to face as the triangles beside",
-            "1 triangle without area: never hit",
+            "2 triangles without area: never hit",
             "1 edge of three triangles or more"
         ]
     );
@@ -259,4 +259,53 @@ fn odd_models_are_mended_and_counted() {
     assert_eq!(mesh.iter_corners().collect::<Vec<_>>(), scene.mesh().iter_corners().collect::<Vec<_>>());
     let as_it_is = load_mesh_with(&model, ModelOptions { strict: true, ..lenient }).expect("a mesh");
     assert_eq!(as_it_is, (crossbar::io::load_mesh(&model).expect("a mesh"), Vec::new()));
+}
+
+/// Names as 3ds Max and others write them: with blanks and `#`; comments after names; several libraries in a line.
+#[test]
+fn names_run_to_the_end_of_their_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    write("a.mtl", "\u{feff}# 3ds Max\nnewmtl Material #25\nKd 0.1 0.1 0.1 # dark\nnewmtl Material #26\nKd .2 .2 .2\n");
+    write("my b.mtl", "newmtl red # the main one\nKd 0.3 0 0\nnewmtl blue\nKd 0 0 0.4\n");
+    let model = folder.path().join("m.obj");
+    let face = "\nf 1 2 3\n";
+    let names = ["Material #25", "Material #26", "red", "red # here", "blue# # sky", "blue # sky", "blue"];
+    let text = |libraries: &str, names: &[&str]| {
+        let faces: String = names.iter().map(|name| format!("usemtl {name}{face}")).collect();
+        format!("\u{feff}mtllib {libraries}\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}")
+    };
+    let albedos = |names: &[&str], libraries: &str| {
+        write("m.obj", &text(libraries, names));
+        let (scene, notes) = load_scene_with(&model, ModelOptions::default()).expect("a scene");
+        let albedo = |triangle| match scene.material(triangle).surface {
+            Surface::Diffuse { albedo } => albedo,
+            other => panic!("{other:?}"),
+        };
+        ((0..names.len() as u32).map(albedo).collect::<Vec<_>>(), notes)
+    };
+    let (found, notes) = albedos(&names, "a.mtl my b.mtl # both");
+    let (red, blue) = ([0.3, 0.0, 0.0], [0.0, 0.0, 0.4]);
+    assert_eq!(found, [[0.1; 3], [0.2; 3], red, red, [0.5; 3], blue, blue]);
+    let unknown = format!("{}:13: material blue# # sky: in no library, taken as grey", model.display());
+    assert_eq!(notes.iter().map(ToString::to_string).collect::<Vec<_>>()[0], unknown);
+    let refused = load_scene_with(&model, ModelOptions { strict: true, up: None }).expect_err("unknown").to_string();
+    assert!(
+        refused
+            .ends_with("m.obj:13: material blue# # sky: expected a material of its libraries, found none of this name"),
+        "{refused}"
+    );
+    // One name for both is a guess.
+    assert_eq!(albedos(&["Material"], "a.mtl").0, [[0.5; 3]]);
+    assert_eq!(albedos(&["blue"], "my b.mtl").0, [blue]);
+    write("a.mtl b.mtl", "newmtl blue\nKd 0.6 0.6 0.6\n");
+    assert_eq!(albedos(&["blue"], "a.mtl b.mtl").0, [[0.6; 3]], "a file of this name counts first");
+    for (line, missing) in [("none.mtl", "none.mtl"), ("a.mtl c.mtl", "c.mtl"), ("a.mtl c", "c")] {
+        write("m.obj", &text(line, &["blue"]));
+        let error = load_scene_with(&model, ModelOptions::default()).expect_err(line).to_string();
+        let expected = format!("m.obj:1: cannot read the material library {}", folder.path().join(missing).display());
+        assert!(error.ends_with(&expected), "{error}");
+    }
+    let scene = scene_file::parse("\u{feff}mesh = \"m.obj\"\n", Path::new("s.toml")).expect("a scene");
+    assert_eq!(scene.0, Path::new("m.obj"));
 }

@@ -62,25 +62,57 @@ fn stl_is_found_by_ending_and_content() {
     assert_eq!(square, load_obj(&models.join("square.obj")).expect("a mesh"));
 }
 
+/// Forms that programs write and readers accept: several solids, no names or names in Latin-1, keywords in capitals,
+/// normals that are no numbers, blank lines, a byte order mark.
+#[test]
+fn text_in_all_its_forms_gives_the_same_mesh() {
+    let plain = String::from_utf8(ascii()).expect("text");
+    let mesh = parse(&ascii()).expect("a mesh");
+    let facet = plain.find("facet normal 0 0 1\nouter loop\nvertex 0 0 0e0\nvertex 1 1").expect("the second facet");
+    let (first, second) = plain.split_at(facet);
+    let latin_1 = [&b"solid f\xfcr solid\n"[..], plain.split_once('\n').expect("lines").1.as_bytes()].concat();
+    for bytes in [
+        format!("{first}endsolid\n\nsolid\n{second}").into_bytes(),
+        plain.replace(" two triangles", "").into_bytes(),
+        latin_1,
+        plain.to_uppercase().into_bytes(),
+        format!("\n \r\n{plain}").replace('\n', "\r\n").into_bytes(),
+        format!("\u{feff}{plain}").into_bytes(),
+        plain.replace("normal 0 0 1", "normal nan -nan(ind) 1.#QNAN").into_bytes(),
+        plain.replace("normal 0 0 1\n", "normal 0 0 1 ").replace("\nvertex", "  vertex").into_bytes(),
+    ] {
+        assert_eq!(parse(&bytes).expect("a mesh"), mesh, "{}", String::from_utf8_lossy(&bytes));
+    }
+}
+
 #[test]
 fn broken_files_are_named() {
     let message = |bytes: &[u8]| parse(bytes).expect_err("no mesh").to_string();
-    let expected = "m.stl: expected an STL file: `solid`, or binary data of the length that they claim, found ";
-    assert_eq!(message(b"v 0 0 0"), format!("{expected}7 bytes"));
-    assert_eq!(message(&binary(b"", u32::MAX)), format!("{expected}184 bytes of 214748364834"));
-    assert_eq!(message(b"solid nothing\nendsolid nothing\n"), "m.stl: expected at least one triangle, found none");
-    let cut = &ascii()[..100];
-    assert!(
-        message(cut).starts_with("m.stl: expected an STL file, found one that stl_io refuses: "),
-        "{}",
-        message(cut)
+    let kind = "m.stl: expected an STL file, which begins with `solid` or is binary, found";
+    assert_eq!(message(b"v 0 0 0"), format!("{kind} `v 0 0 0`"));
+    assert_eq!(
+        message(&binary(b"solid", u32::MAX >> 8)),
+        "m.stl: expected as many bytes as its number of triangles takes, found 184 of 838860834"
     );
-    let nan = String::from_utf8(ascii()).expect("text").replace("1.5", "nan");
-    let refused = "m.stl: expected an STL file, found one that stl_io refuses: expected finite f32";
-    assert!(message(nan.as_bytes()).starts_with(refused), "{}", message(nan.as_bytes()));
+    assert_eq!(message(b"solid nothing\nendsolid nothing\n"), "m.stl: expected at least one triangle, found none");
+    let text = String::from_utf8(ascii()).expect("text");
+    let lines = |count: usize| text.split_inclusive('\n').take(count).collect::<String>();
+    assert_eq!(message(lines(15).as_bytes()), "m.stl:15: expected `facet` or `endsolid`, found the end of the file");
+    assert_eq!(message(lines(5).as_bytes()), "m.stl:5: expected `vertex`, found the end of the file");
+    for (from, to, error) in [
+        ("1.5", "nan", "5: expected a finite number, found `nan`"),
+        ("1.5", "1,5", "5: expected a number, found `1,5`"),
+        ("vertex 1.5", "edge 1.5", "5: expected `vertex`, found `edge`"),
+        ("endloop", "vertex 0 0 0\nendloop", "7: expected `endloop`, found `vertex`"),
+        ("normal 0 0 1", "normal 0 1", "3: expected three numbers of a normal, found `outer`"),
+        ("two triangles\nfacet", "two\ntriangles\nfacet", "2: expected `facet` or `endsolid`, found `triangles`"),
+    ] {
+        let found = message(text.replace(from, to).as_bytes());
+        assert_eq!(found, format!("m.stl:{error}"));
+    }
     let mut endless = binary(b"", 2);
     endless[96..100].copy_from_slice(&f32::INFINITY.to_le_bytes());
-    assert!(parse(&endless).is_err(), "in binary data, too");
+    assert_eq!(message(&endless), "m.stl: triangle 0 (counted from 0): expected finite coordinates, found inf");
 }
 
 proptest! {

@@ -2,5 +2,6 @@
 
 mod bad_geometry;
 mod ground_truth;
+mod polygons;
 mod teapot;
 mod tiny_scenes;

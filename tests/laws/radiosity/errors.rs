@@ -21,7 +21,11 @@ fn scenes_that_make_no_patches() {
     let one = Subdivision::PerSide(1);
     assert_eq!(Patches::new(&Scene::default(), one), Err(PatchError::Empty));
     let flat = scene(corners.clone(), vec![[0, 1, 2], [0, 1, 3]], white());
-    assert_eq!(Patches::new(&flat, one), Err(PatchError::ZeroArea { triangle: 1 }));
+    let patches = Patches::new(&flat, one).expect("a triangle without area has no patch");
+    assert_eq!((patches.list().len(), patches.list()[0].area()), (1, 0.5));
+    assert_eq!(Patches::new(&scene(corners.clone(), vec![[0, 1, 3]], white()), one), Err(PatchError::Empty));
+    let thin = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 1e-30]];
+    assert_eq!(Patches::new(&scene(thin, vec![[0, 1, 2]], white()), one), Err(PatchError::TooThin { triangle: 0 }));
     let good = scene(corners.clone(), vec![[0, 1, 2]], white());
     assert_eq!(Patches::new(&good, Subdivision::PerSide(0)), Err(PatchError::NoParts));
     assert_eq!(Patches::new(&good, Subdivision::PerSide(200)), Err(PatchError::TooMany { found: 40_000 }));

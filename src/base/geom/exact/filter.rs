@@ -13,6 +13,8 @@
 //! operations on magnitudes, so P <= P' / (1 - u)^8, and the error is below 8.1 u P'. `16 u P'` is used (a power of two
 //! times P', hence exact).
 
+use std::cmp::Ordering;
+
 use glam::{DVec3, Vec3Swizzles};
 
 use super::hit::Sides;
@@ -131,6 +133,26 @@ pub(super) fn has_area(triangle: &[[f32; 3]; 3]) -> bool {
     let [a, b, c] = triangle.map(wide);
     let (value, magnitude) = cross(b - a, c - a);
     value.abs().cmpgt(16.0 * U * magnitude).any()
+}
+
+/// Returns the sign of a polygon's area in the plane; `None` if it is uncertain.
+pub(super) fn winding(corners: &[[f32; 2]]) -> Option<Ordering> {
+    let [first, rest @ ..] = corners else { return Some(Ordering::Equal) };
+    let from_first = |corner: &[f32; 2]| [0, 1].map(|axis| f64::from(corner[axis]) - f64::from(first[axis]));
+    let (mut value, mut magnitude) = (0.0, 0.0);
+    for pair in rest.windows(2) {
+        let [[ax, ay], [bx, by]] = [from_first(&pair[0]), from_first(&pair[1])];
+        value += ax * by - ay * bx;
+        magnitude += (ax * by).abs() + (ay * bx).abs();
+    }
+    // A product gathers four roundings and one per sum, as many as there are corners at most.
+    let error = (corners.len() as f64 + 8.0) * 2.0 * U * magnitude;
+    match (Estimate { value, error }).sense() {
+        Sense::Negative => Some(Ordering::Less),
+        Sense::Zero => Some(Ordering::Equal),
+        Sense::Positive => Some(Ordering::Greater),
+        Sense::Unknown => None,
+    }
 }
 
 #[cfg(test)]

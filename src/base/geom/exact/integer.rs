@@ -1,5 +1,7 @@
 //! The definitions of [`super`] evaluated in integers, without a filter.
 
+use std::cmp::Ordering;
+
 use num_bigint::{BigInt, Sign};
 use num_traits::Zero;
 
@@ -100,6 +102,17 @@ pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
     let place = common_exponent(triangle.iter().flatten());
     let [a, b, c] = triangle.map(|corner| vector(corner, place));
     cross(&sub(&b, &a), &sub(&c, &a)).iter().all(Zero::is_zero)
+}
+
+/// Returns the sign of a polygon's area in the plane.
+pub fn winding(corners: &[[f32; 2]]) -> Ordering {
+    let place = common_exponent(corners.iter().flatten());
+    let at = |corner: usize| corners[corner % corners.len()].map(|value| whole(value, place));
+    let product = |corner: usize| {
+        let [[ax, ay], [bx, by]] = [at(corner), at(corner + 1)];
+        ax * by - ay * bx
+    };
+    (0..corners.len()).map(product).sum::<BigInt>().cmp(&BigInt::zero())
 }
 
 #[cfg(test)]

@@ -71,6 +71,11 @@ pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
     !filter::has_area(triangle) && integer::is_degenerate(triangle)
 }
 
+/// Returns the sign of a polygon's area in the plane: `Greater` if its corners run counter-clockwise.
+pub fn winding(corners: &[[f32; 2]]) -> Ordering {
+    filter::winding(corners).unwrap_or_else(|| integer::winding(corners))
+}
+
 impl Mesh {
     /// Number of triangles without area, exactly: two coincident corners, or three on one line.
     pub fn degenerate_count(&self) -> usize {

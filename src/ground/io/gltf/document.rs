@@ -2,23 +2,34 @@
 
 use std::path::Path;
 
-use gltf::{Document, Error, json};
+use gltf::json::validation::{Error, Validate as _};
+use gltf::{Document, json};
 
 use super::super::error::{FilePlace, ModelError};
+use super::super::lines::unmarked;
 use super::super::quoted;
 
 /// First bytes of GLB.
 const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
+/// Attributes of vertices that are read.
+const ATTRIBUTES: [&str; 3] = ["POSITION", "NORMAL", "TEXCOORD_0"];
+/// Properties that are passed over wherever they stand, with those whose names end in `Texture`.
+const PASSED_OVER: [&str; 8] =
+    ["animations", "camera", "cameras", "extras", "images", "samplers", "targets", "textures"];
 
 /// The document, all its references checked, and the binary chunk of GLB.
 pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option<&'a [u8]>), ModelError> {
-    let (text, chunk) = if bytes.starts_with(MAGIC) { chunks(bytes, name)? } else { (bytes, None) };
-    let root: json::Root = json::deserialize::from_slice(text).map_err(|error| ModelError::Syntax {
-        place: FilePlace::line(name, error.line().max(1)),
-        expected: "a glTF 2.0 document".into(),
-        found: format!("something else: {}", shortened(&error.to_string())),
+    let (text, chunk) = if bytes.starts_with(MAGIC) { chunks(bytes, name)? } else { (unmarked(bytes), None) };
+    let root = used_parts(text).map_err(|error| {
+        // Read as a whole, the same text gives the error with its line.
+        let error = json::deserialize::from_slice::<json::Root>(text).err().unwrap_or(error);
+        ModelError::Syntax {
+            place: FilePlace::line(name, error.line().max(1)),
+            expected: "a glTF 2.0 document".into(),
+            found: format!("something else: {}", shortened(&error.to_string())),
+        }
     })?;
     let wrong = |part: &str, expected: &'static str, found: String| ModelError::Part {
         place: name.into(),
@@ -38,13 +49,40 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
             }
         }
     }
-    let document = Document::from_json(root).map_err(|error| match &error {
-        Error::Validation(list) if !list.is_empty() => {
-            wrong(&list[0].0.to_string(), "what glTF 2.0 asks for", list[0].1.to_string().to_lowercase())
-        }
-        _ => wrong("the document", "what glTF 2.0 asks for", shortened(&error.to_string())),
-    })?;
-    Ok((document, chunk))
+    let mut errors = Vec::new();
+    root.validate(&root, json::Path::new, &mut |path, error| errors.push((path().to_string(), error)));
+    // The format allows an accessor without a buffer view, of zeros, and a primitive without positions, which is not
+    // drawn.
+    let is_legal = |path: &str| path.ends_with(".bufferView") || path.ends_with("[\"POSITION\"]");
+    errors.retain(|(path, error)| *error != Error::Missing || !is_legal(path));
+    match errors.first() {
+        Some((path, error)) => Err(wrong(path, "what glTF 2.0 asks for", error.to_string().to_lowercase())),
+        None => Ok((Document::from_json_without_validation(root), chunk)),
+    }
+}
+
+/// The parts of a document that are read. The crate expects more of the others than the format does.
+fn used_parts(text: &[u8]) -> Result<json::Root, json::Error> {
+    let mut document: json::Value = json::deserialize::from_slice(text)?;
+    keep_used(&mut document);
+    let scenes = document.get_mut("scenes").and_then(json::Value::as_array_mut);
+    for scene in scenes.into_iter().flatten().filter_map(json::Value::as_object_mut) {
+        // An empty scene has no list of nodes.
+        scene.entry("nodes").or_insert_with(|| Vec::<u32>::new().into());
+    }
+    json::deserialize::from_value(document)
+}
+
+fn keep_used(value: &mut json::Value) {
+    if let Some(list) = value.as_array_mut() {
+        list.iter_mut().for_each(keep_used);
+    }
+    let Some(object) = value.as_object_mut() else { return };
+    object.retain(|key, _| !PASSED_OVER.contains(&key.as_str()) && !key.ends_with("Texture"));
+    if let Some(attributes) = object.get_mut("attributes").and_then(json::Value::as_object_mut) {
+        attributes.retain(|key, _| ATTRIBUTES.contains(&key.as_str()));
+    }
+    object.values_mut().for_each(keep_used);
 }
 
 /// The JSON of a GLB file, and its binary chunk if it has one.

@@ -29,7 +29,7 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// Adds a primitive of a mesh instance; points and lines are ignored.
+    /// Adds a primitive of a mesh instance; points, lines and primitives without positions are ignored.
     pub(super) fn add(
         &mut self,
         instance: &Instance<'_>,
@@ -47,9 +47,7 @@ impl Geometry {
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             return Ok(());
         }
-        let Some(positions) = primitive.get(&Semantic::Positions) else {
-            return Err(wrong("an attribute `POSITION`", "none".to_owned()));
-        };
+        let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(()) };
         let positions: Vec<[f32; 3]> = reader.vectors(&positions)?;
         let vertices = positions.len();
         let normals = attribute(primitive.get(&Semantic::Normals), |accessor| reader.vectors::<3>(accessor))?;

@@ -2,7 +2,8 @@
 //!
 //! Read are the meshes of the default scene, each placed by its nodes: triangles, strips and fans, with or without
 //! indices; positions, normals and the first texture coordinates; sparse accessors; of materials the base color and
-//! what they emit. Textures, vertex colors, points, lines, cameras, lights and animations are passed over. Meshes that
+//! what they emit. Textures, vertex colors, points, lines, cameras, lights and animations are passed over,
+//! and so are attributes and data of applications. Meshes that
 //! move with a skeleton or are mixed from morph targets are refused, because their triangles are not those of the file.
 //!
 //! glTF has y up, scenes have z up: (x, y, z) becomes (x, -z, y). Positions are transformed in double precision and

@@ -1,9 +1,13 @@
 //! Wavefront OBJ with materials: a whole scene.
 //!
-//! Geometry is read as by [`super::obj`] (checked line by line, then handed to tobj); beyond it, `vn` and the normals
-//! of corners, `mtllib` and `usemtl` count. A triangle with a normal at each corner is round, one without is flat. A
-//! face without material, or with one that no library has, is grey. Libraries are named by the rest of their line and
-//! lie beside the model ([`mtl`]).
+//! Geometry is read as by [`super::obj`]; beyond it, `vn` and the normals of corners, `mtllib` and `usemtl` count. A
+//! triangle with a normal at each corner is round, one without is flat. A face without material is grey; so is one with
+//! a material that no library has, which is noted, or refused where models are taken as they are. Libraries lie beside
+//! the model ([`mtl`]).
+//!
+//! Names of materials and libraries run to the end of their line, so that they may have blanks and `#`. If no material
+//! has such a name, a word that begins with `#` begins a comment, in the MTL file too. If no such file can be read, a
+//! `mtllib` line names several, each of which ends in `.mtl`.
 //!
 //! [`write`] gives text that reads back with the same bits.
 
@@ -19,7 +23,7 @@ pub(super) use reader::plain_scene;
 pub use write::{write_mtl, write_scene};
 
 use super::error::ModelError;
-use super::lines::{logical_lines, words};
+use super::lines::{logical_lines, statement};
 use super::model_note::ModelNote;
 use super::obj::within_limit;
 use crate::scene::Scene;
@@ -49,7 +53,7 @@ pub(super) fn read_scene(
     within_limit(bytes, name)?;
     let mut reader = SceneReader::new(name, strict);
     for (line, text) in logical_lines(bytes) {
-        reader.line(line, &words(&text), &text, library)?;
+        reader.line(line, &statement(&text), &text, library)?;
     }
     reader.scene()
 }

@@ -1,7 +1,7 @@
 //! Material libraries (MTL).
 //!
-//! A first pass checks every used statement; tobj then reads the checked lines. Used are
-//! `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are ignored.
+//! Used are `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are ignored. The name of a
+//! material runs to the end of its line. In other lines a word that begins with `#` begins a comment.
 //!
 //! | `illum` | surface |
 //! |---|---|
@@ -14,11 +14,11 @@
 //! when a scene is read with notes, `Kd` and `Ks` are scaled together, materials that are no glass become opaque, and
 //! both are noted.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::super::error::{FilePlace, ModelError};
-use super::super::lines::{logical_lines, single, words};
+use super::super::lines::{logical_lines, single, statement};
 use super::super::model_note::ModelNote;
 use super::super::{NumberError, quoted};
 use crate::scene::{Color, Material, Surface};
@@ -46,25 +46,38 @@ pub(super) fn read_mtl(
     name: &Path,
     mut notes: Option<&mut Vec<ModelNote>>,
 ) -> Result<Vec<Material>, ModelError> {
-    let (clean, lenient) = (String::new(), notes.is_some());
-    let mut reader = MtlReader { name, clean, lenient, materials: Vec::new(), seen: BTreeSet::new() };
+    let mut reader = MtlReader { name, lenient: notes.is_some(), materials: Vec::new(), seen: BTreeSet::new() };
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &text)?;
     }
-    let (read, _) =
-        tobj::load_mtl_buf(&mut reader.clean.as_bytes()).map_err(|reason| ModelError::Loader(name.into(), reason))?;
-    let pairs = reader.materials.iter().zip(read);
-    pairs.map(|((line, material), read)| assemble(&read, name, *line, material, notes.as_deref_mut())).collect()
+    reader.materials.iter().map(|read| assemble(read, name, notes.as_deref_mut())).collect()
 }
 
-/// The first pass: the checked lines for tobj, and each material's line and name.
+/// The materials read so far.
 struct MtlReader<'a> {
     name: &'a Path,
-    clean: String,
     /// True if reflectances above 1 are accepted, to be scaled later.
     lenient: bool,
-    materials: Vec<(usize, String)>,
+    materials: Vec<MaterialText>,
     seen: BTreeSet<String>,
+}
+
+/// The statements of a material.
+struct MaterialText {
+    line: usize,
+    name: String,
+    /// The numbers of each statement, the last of several that have one key.
+    values: BTreeMap<Vec<u8>, Vec<f32>>,
+}
+
+impl MaterialText {
+    fn number(&self, key: &str) -> Option<f32> {
+        self.values.get(key.as_bytes())?.first().copied()
+    }
+
+    fn color(&self, key: &str) -> Option<Color> {
+        self.values.get(key.as_bytes())?.as_slice().try_into().ok()
+    }
 }
 
 /// A line of a library, split into words.
@@ -77,7 +90,7 @@ struct Statement<'a> {
 
 impl MtlReader<'_> {
     fn line(&mut self, line: usize, text: &[u8]) -> Result<(), ModelError> {
-        let words = words(text);
+        let words = statement(text);
         let Some((&key, values)) = words.split_first() else { return Ok(()) };
         let here = &Statement { line, text, key, values };
         match key {
@@ -105,9 +118,7 @@ impl MtlReader<'_> {
         if !self.seen.insert(text.into()) {
             return Err(ModelError::SecondMaterial(FilePlace::line(self.name, line), text.into()));
         }
-        // tobj gets a number in place of the name, because names may hold characters that it cannot parse.
-        self.clean.push_str(&format!("newmtl {}\n", self.materials.len()));
-        self.materials.push((line, text.into()));
+        self.materials.push(MaterialText { line, name: text.into(), values: BTreeMap::new() });
         Ok(())
     }
 
@@ -149,14 +160,10 @@ impl MtlReader<'_> {
     }
 
     fn keep(&mut self, here: &Statement<'_>, values: &[f32]) -> Result<(), ModelError> {
-        if self.materials.is_empty() {
+        let Some(material) = self.materials.last_mut() else {
             return Err(self.syntax(here.line, "`newmtl name` before the first figure of a material", here.text));
-        }
-        self.clean.push_str(&String::from_utf8_lossy(here.key));
-        for value in values {
-            self.clean.push_str(&format!(" {value}"));
-        }
-        self.clean.push('\n');
+        };
+        material.values.insert(here.key.to_vec(), values.to_vec());
         Ok(())
     }
 
@@ -171,14 +178,10 @@ fn number(word: &[u8]) -> Option<f32> {
     single(word).ok().filter(|&value| value >= 0.0)
 }
 
-/// A material from the values that tobj has read.
-fn assemble(
-    read: &tobj::Material,
-    path: &Path,
-    line: usize,
-    name: &str,
-    mut notes: Option<&mut Vec<ModelNote>>,
-) -> Result<Material, ModelError> {
+/// A material from its statements.
+fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNote>>) -> Result<Material, ModelError> {
+    let MaterialText { line, name, .. } = read;
+    let (line, name) = (*line, name.as_str());
     let mut note = |of: &dyn Fn(FilePlace, String) -> ModelNote| {
         let notes = notes.as_deref_mut();
         notes.map(|notes| notes.push(of(FilePlace::line(path, line), name.into()))).is_some()
@@ -189,12 +192,8 @@ fn assemble(
         expected,
         found,
     };
-    let unknown = |key: &str| -> Option<Vec<f32>> {
-        let text = read.unknown_param.get(key)?;
-        text.split_whitespace().map(|word| word.parse().ok()).collect()
-    };
-    let model = read.illumination_model.unwrap_or(2);
-    let (mut diffuse, mut specular) = (read.diffuse, read.specular);
+    let model = read.number("illum").map_or(2, |model| model as u8);
+    let (mut diffuse, mut specular) = (read.color("Kd"), read.color("Ks"));
     let sum = largest_reflectance(model, diffuse, specular);
     if sum > 1.0 + ROUNDING && note(&|place, material| ModelNote::Scaled { place, material, sum }) {
         for channel in diffuse.iter_mut().chain(&mut specular).flatten() {
@@ -203,16 +202,11 @@ fn assemble(
         }
     }
     let albedo = diffuse.unwrap_or([0.0; 3]);
-    let passes = match (read.dissolve, unknown("Tr").as_deref()) {
-        (Some(opaque), _) => Some(1.0 - opaque),
-        (None, Some(&[clear])) => Some(clear),
-        _ => None,
-    };
+    let passes = read.number("d").map(|opaque| 1.0 - opaque).or(read.number("Tr"));
     let surface = match model {
         4 | 6 | 7 | 9 => {
-            let filter = unknown("Tf").and_then(|channels| Color::try_from(channels).ok());
-            let transmittance = filter.unwrap_or([passes.unwrap_or(1.0); 3]);
-            Surface::Glass { index: read.optical_density.unwrap_or(INDEX), transmittance }
+            let transmittance = read.color("Tf").unwrap_or([passes.unwrap_or(1.0); 3]);
+            Surface::Glass { index: read.number("Ni").unwrap_or(INDEX), transmittance }
         }
         _ if passes.is_some_and(|passes| {
             passes > 0.0 && !note(&|place, material| ModelNote::Opaque { place, material, passes })
@@ -225,7 +219,7 @@ fn assemble(
         _ => match specular.filter(|specular| specular.iter().any(|&channel| channel > 0.0)) {
             None => Surface::Diffuse { albedo },
             Some(specular) => {
-                let mut exponent = read.shininess.unwrap_or(EXPONENT);
+                let mut exponent = read.number("Ns").unwrap_or(EXPONENT);
                 let widest = |place, material| ModelNote::Exponent { place, material, exponent: LEAST_EXPONENT };
                 if exponent <= 0.0 && note(&widest) {
                     exponent = LEAST_EXPONENT;
@@ -241,7 +235,7 @@ fn assemble(
             }
         },
     };
-    let emission = read.emissive.unwrap_or([0.0; 3]);
+    let emission = read.color("Ke").unwrap_or([0.0; 3]);
     Ok(Material { name: name.into(), surface, emission })
 }
 

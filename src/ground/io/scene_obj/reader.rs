@@ -1,12 +1,14 @@
 //! Reads the parts of a scene's OBJ file beyond its geometry, line by line.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::super::error::{FilePlace, ModelError};
+use super::super::lines::before_comment;
 use super::super::model_note::ModelNote;
-use super::super::obj::ObjReader;
+use super::super::obj::{ObjCorner, ObjReader};
 use super::mtl::read_mtl;
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
@@ -26,10 +28,11 @@ pub(super) struct SceneReader {
     geometry: ObjReader,
     /// Per face the index of its material's name in `used`; `None` before the first `usemtl`.
     material_of: Vec<Option<usize>>,
-    libraries: Vec<PathBuf>,
+    /// Names of libraries, and lines that name several.
+    libraries: Vec<String>,
     materials: Vec<Material>,
-    /// Material names of `usemtl` lines, in order.
-    used: Vec<String>,
+    /// Material names of `usemtl` lines, in order, each with its first line.
+    used: Vec<(String, usize)>,
     place_of: BTreeMap<String, usize>,
     current: Option<usize>,
     /// Notes on changed materials; `None` if such materials are refused.
@@ -59,7 +62,7 @@ impl SceneReader {
     }
 
     fn face(&mut self, line: usize, text: &[u8]) -> Result<(), ModelError> {
-        let corners = self.geometry.last_face();
+        let corners = self.geometry.faces().last();
         let with_normals = corners.iter().filter(|corner| corner[2] > 0).count();
         if with_normals != 0 && with_normals != corners.len() {
             return Err(self.geometry.syntax(line, "normals at all corners of a face, or at none", text));
@@ -73,7 +76,7 @@ impl SceneReader {
         let next = self.used.len();
         let place = *self.place_of.entry(name.clone()).or_insert(next);
         if place == next {
-            self.used.push(name);
+            self.used.push((name, line));
         }
         self.current = Some(place);
         Ok(())
@@ -85,18 +88,27 @@ impl SceneReader {
         rest: &[u8],
         library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
     ) -> Result<(), ModelError> {
-        let file = PathBuf::from(self.rest_of(line, rest, "the name of a library `mtllib name.mtl`")?);
+        let whole = self.rest_of(line, rest, "the name of a library `mtllib name.mtl`")?;
         // Exporters repeat the line for every object.
-        if self.libraries.contains(&file) {
+        if self.libraries.contains(&whole) {
             return Ok(());
         }
-        let path = self.name.parent().unwrap_or(Path::new("")).join(&file);
-        let bytes = library(&file).map_err(|source| {
-            let place = FilePlace::line(&self.name, line);
-            ModelError::Library { place, library: path.clone(), source }
-        })?;
-        self.materials.extend(read_mtl(&bytes, &path, self.notes.as_mut())?);
-        self.libraries.push(file);
+        let (mut read, several) = (vec![(whole.clone(), library(Path::new(&whole)))], several_libraries(&whole));
+        if read[0].1.is_err() && !several.is_empty() {
+            read = several.into_iter().map(|file| (file.to_owned(), library(Path::new(file)))).collect();
+        }
+        for (file, bytes) in read {
+            let path = self.name.parent().unwrap_or(Path::new("")).join(&file);
+            let bytes = bytes.map_err(|source| {
+                let place = FilePlace::line(&self.name, line);
+                ModelError::Library { place, library: path.clone(), source }
+            })?;
+            if !self.libraries.contains(&file) {
+                self.materials.extend(read_mtl(&bytes, &path, self.notes.as_mut())?);
+                self.libraries.push(file);
+            }
+        }
+        self.libraries.push(whole);
         Ok(())
     }
 
@@ -107,43 +119,101 @@ impl SceneReader {
 
     /// The scene, once all lines have been read, with notes on changes.
     pub(super) fn scene(self) -> Result<(Scene, Vec<ModelNote>), ModelError> {
-        let Self { name, mut geometry, material_of: faces, mut materials, used, notes, .. } = self;
-        let mesh = geometry.mesh(false)?;
+        let Self { name, geometry, material_of: faces, mut materials, used, mut notes, .. } = self;
+        let (triangles, odd_faces) = geometry.triangles(notes.is_none())?;
+        let mesh = geometry.mesh(&triangles, false)?;
         let list: Vec<[f32; 3]> = geometry.normals().iter().copied().map(of_length_one).collect();
-        let mut place_of = BTreeMap::<String, u32>::new();
-        for (place, material) in (0..).zip(&materials) {
-            // Of two libraries with the same material, the first counts.
-            place_of.entry(material.name.clone()).or_insert(place);
+        let (mut known, mut place_of) = (MaterialNames::of(&materials), BTreeMap::<Option<usize>, u32>::new());
+        let mut material_of = Vec::with_capacity(mesh.len());
+        for ((_, face), current) in geometry.faces().iter().zip(faces) {
+            let place = match place_of.get(&current) {
+                Some(&place) => place,
+                None => {
+                    let (material, line) = current.map_or((DEFAULT, None), |at| (&*used[at].0, Some(used[at].1)));
+                    let found = known.find(material);
+                    if let (None, Some(line)) = (found, line) {
+                        let (place, material) = (FilePlace::line(&name, line), material.to_owned());
+                        let Some(notes) = &mut notes else {
+                            let (expected, found) = ("a material of its libraries", "none of this name".to_owned());
+                            return Err(ModelError::Material { place, name: material, expected, found });
+                        };
+                        notes.push(ModelNote::Unknown { place, material });
+                    }
+                    let place = found.unwrap_or_else(|| {
+                        materials.push(Material::diffuse(material, [GREY; 3]));
+                        let place = materials.len() as u32 - 1;
+                        known.whole.insert(material.to_owned(), place);
+                        place
+                    });
+                    place_of.insert(current, place);
+                    place
+                }
+            };
+            material_of.extend(std::iter::repeat_n(place, face.len() - 2));
         }
-        let mut of = |name: &str| {
-            *place_of.entry(name.to_owned()).or_insert_with(|| {
-                materials.push(Material::diffuse(name, [GREY; 3]));
-                materials.len() as u32 - 1
-            })
-        };
-        let (mut material_of, mut normals) = (Vec::with_capacity(mesh.len()), Vec::with_capacity(mesh.len()));
-        for (face, place) in geometry.faces().zip(faces) {
-            let material = of(place.map_or(DEFAULT, |place| &used[place]));
-            let corners: Vec<[f32; 3]> =
-                face.iter().filter_map(|corner| list.get(corner[2].wrapping_sub(1))).copied().collect();
-            for corner in 1..face.len() - 1 {
-                material_of.push(material);
-                let fan = [0, corner, corner + 1].map(|at| corners.get(at).copied().unwrap_or_default());
-                // If a corner has no normal, the triangle is flat.
-                normals.push(if fan.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { fan });
-            }
-        }
+        let normal = |corner: ObjCorner| list.get((corner[2] as usize).wrapping_sub(1)).copied().unwrap_or_default();
+        let normals = triangles.iter().map(|corners| flat_where_unknown(corners.map(normal))).collect();
         let scene = Scene::new(mesh, materials, material_of, normals)
             .map_err(|reason| ModelError::Scene(name.as_path().into(), reason))?;
-        Ok((scene, notes.unwrap_or_default()))
+        Ok((scene, notes.into_iter().flatten().chain(odd_faces).collect()))
     }
+}
+
+/// The normals of a triangle's corners; if one has none, the triangle is flat.
+fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
+    if corners.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { corners }
+}
+
+/// The materials of all libraries by their names.
+struct MaterialNames {
+    whole: BTreeMap<String, u32>,
+    /// Names without comments; `None` if several materials share one.
+    plain: BTreeMap<String, Option<u32>>,
+}
+
+impl MaterialNames {
+    fn of(materials: &[Material]) -> Self {
+        let (mut whole, mut plain) = (BTreeMap::new(), BTreeMap::new());
+        for (place, material) in (0..).zip(materials) {
+            // Of two libraries with the same material, the first counts.
+            if let Entry::Vacant(vacant) = whole.entry(material.name.clone()) {
+                vacant.insert(place);
+                let same = plain.entry(without_comment(&material.name).to_owned());
+                same.and_modify(|place| *place = None).or_insert(Some(place));
+            }
+        }
+        Self { whole, plain }
+    }
+
+    /// The material with this name, else the only one with the same name without comments.
+    fn find(&self, name: &str) -> Option<u32> {
+        let plain = || self.plain.get(without_comment(name)).copied().flatten();
+        self.whole.get(name).copied().or_else(plain)
+    }
+}
+
+fn without_comment(name: &str) -> &str {
+    name[..before_comment(name.as_bytes()).len()].trim_end()
+}
+
+/// The names in a line that names several libraries, each up to a word that ends in `.mtl`.
+fn several_libraries(line: &str) -> Vec<&str> {
+    let (mut files, mut rest, mut end) = (Vec::new(), without_comment(line), 0);
+    for word in rest.split_inclusive(|c: char| c.is_ascii_whitespace()) {
+        end += word.len();
+        if word.trim_end().to_ascii_lowercase().ends_with(".mtl") {
+            files.push(rest[..end].trim());
+            (rest, end) = (&rest[end..], 0);
+        }
+    }
+    files.extend(Some(rest.trim()).filter(|file| !file.is_empty()));
+    files
 }
 
 /// The scene of a mesh without materials, with the normals of its vertices.
 pub(in super::super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, ModelError> {
     let normals = mesh.normals().map_or_else(Vec::new, |normals| {
         let corner = |&index: &u32| of_length_one(normals[index as usize]);
-        let flat_where_unknown = |fan: [[f32; 3]; 3]| if fan.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { fan };
         mesh.triangles().iter().map(|triangle| flat_where_unknown(triangle.each_ref().map(corner))).collect()
     });
     let material_of = vec![0; mesh.len()];

@@ -9,8 +9,7 @@ use crate::scene::{Color, Material, Scene, Surface};
 /// fills.
 ///
 /// # Errors
-/// Those of the writer; [`io::ErrorKind::InvalidInput`] where names of materials are empty, hold white space or `#`, or
-/// repeat.
+/// Those of the writer; [`io::ErrorKind::InvalidInput`] where names of materials repeat, or cannot end a line.
 pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Result<()> {
     check_names(scene.materials())?;
     writeln!(out, "mtllib {library}")?;
@@ -88,9 +87,10 @@ fn color(out: &mut dyn Write, key: &str, [r, g, b]: Color) -> io::Result<()> {
 fn check_names(materials: &[Material]) -> io::Result<()> {
     let mut seen = std::collections::BTreeSet::new();
     for Material { name, .. } in materials {
-        let plain = !name.is_empty() && !name.contains(|c: char| c.is_whitespace() || c == '#' || c == '\\');
+        let is_line = name.trim_ascii() == name && !name.contains(char::is_control) && !name.ends_with('\\');
+        let plain = !name.is_empty() && is_line;
         if !plain || !seen.insert(name) {
-            let problem = format!("expected names of materials without white space, each once, found {name:?}");
+            let problem = format!("expected names of materials that a line can end with, each once, found {name:?}");
             return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         }
     }
