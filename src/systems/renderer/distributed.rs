@@ -9,7 +9,9 @@ use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
-use glam::DVec3;
+
+/// Branch of the random numbers of the second ray that leaves glass, above those of gather rays (1 to 2^32).
+const SECOND_RAY: u64 = 1 << 33;
 
 /// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the
 /// point lights if the scene has no emitters); a glossy lobe sends one ray into a sampled direction, for light from
@@ -58,7 +60,9 @@ impl Shade for Distributed<'_> {
 /// Direct light: the diffuse part by one point of the emitters; both parts by the point lights, which no ray from a
 /// lobe could hit.
 pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
-    let area = lights.area(surfel, flight.rng, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
+    let has_diffuse = lobes.albedo.max_element() > 0.0;
+    let area = has_diffuse.then(|| lights.area(surfel, flight.rng, flight.depth)).flatten();
+    let area = area.map(|arriving| (arriving, lobes.diffuse()));
     let points = (0..lights.points()).filter_map(|light| Some((lights.point(surfel, light)?, *lobes)));
     for (arriving, lobes) in area.into_iter().chain(points) {
         let (value, _) = lobes.evaluate(surfel, arriving.towards);
@@ -71,26 +75,31 @@ pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>,
 
 /// Samples the glossy lobe with one ray.
 pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
-    let shiny = Lobes { albedo: DVec3::ZERO, ..lobes };
-    let Some(chosen) = shiny.choose(surfel, 0.0, flight.rng.pair(flight.depth, 4)) else { return };
+    let Some(chosen) = lobes.gloss().choose(surfel, 0.0, flight.rng.pair(flight.depth, 4)) else { return };
     let weight = flight.weight * chosen.weight;
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, RayKind::Reflection, weight)));
 }
 
 /// Continues at a mirror with one ray; at glass with both rays at the first hit of an eye ray, since a random choice
-/// there is visible as noise, afterwards with one.
+/// there is visible as noise, afterwards with one. The two rays have random numbers of their own: with the same ones
+/// the noise of both would add up.
 pub(super) fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     let chosen = if flight.depth == 0 {
         specular_rays(surfel)
     } else {
         [choose_specular(surfel, flight.rng.at(flight.depth, 3)), None]
     };
-    for specular in chosen.into_iter().flatten() {
+    for (specular, branch) in chosen.into_iter().zip([0, SECOND_RAY]) {
+        let Some(specular) = specular else { continue };
         let weight = flight.weight * specular.weight;
         if weight.max_element() > 0.0 {
             let next = surfel.ray(specular.towards).map(|ray| flight.on(ray, specular.kind, weight));
             // A gather ray keeps its density, which marks it as one.
-            scatter.next.extend(next.map(|next| PathRay { density: flight.density, ..next }));
+            scatter.next.extend(next.map(|next| PathRay {
+                density: flight.density,
+                rng: flight.rng.branch(branch),
+                ..next
+            }));
         }
     }
 }

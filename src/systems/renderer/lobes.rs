@@ -49,6 +49,11 @@ impl Lobes {
         Self { specular: DVec3::ZERO, ..self }
     }
 
+    /// Returns the glossy lobe alone.
+    pub(super) fn gloss(self) -> Self {
+        Self { albedo: DVec3::ZERO, ..self }
+    }
+
     /// Probability of sampling the glossy lobe.
     fn chance_of_gloss(&self) -> f64 {
         let (matt, gloss) = (mean(self.albedo), mean(self.specular));

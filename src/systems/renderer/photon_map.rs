@@ -61,7 +61,7 @@ impl PhotonMap {
     /// Returns the sum of `value` over the photons around a point per unit area: of the `nearest` photons within
     /// `radius` that landed on a surface with a similar normal. Of k photons found, the k-th determines the area, pi
     /// r^2, and the k - 1 others the sum, which is unbiased where photons are spread evenly. If fewer than `nearest`
-    /// lie within the radius, all of them count, over the area of the radius.
+    /// lie within the radius, all of them count, over the area of the radius. `nearest` is at least 2.
     pub(super) fn density(
         &self,
         at: DVec3,
@@ -70,14 +70,8 @@ impl PhotonMap {
         radius: f64,
         value: impl Fn(&Photon) -> DVec3,
     ) -> DVec3 {
-        let mut search = NearestSearch {
-            map: self,
-            at,
-            normal,
-            nearest: nearest.max(2),
-            square: radius * radius,
-            found: BinaryHeap::new(),
-        };
+        let mut search =
+            NearestSearch { map: self, at, normal, nearest, square: radius * radius, found: BinaryHeap::new() };
         search.range(0, self.photons.len());
         let full = search.found.len() == search.nearest;
         let mut found = search.found.into_sorted_vec();

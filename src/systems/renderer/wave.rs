@@ -31,9 +31,9 @@ impl SampleRng {
         Self { stream: CounterRng::new(seed), pixel, sample, branch: 0 }
     }
 
-    /// Returns the random numbers of one of several rays that leave a hit.
+    /// Returns the random numbers of one of several rays that leave a hit; branch 0 continues those of the hit.
     pub(super) const fn branch(self, branch: u64) -> Self {
-        Self { branch, ..self }
+        Self { branch: self.branch + branch, ..self }
     }
 
     /// Returns the n-th number before the first hit.

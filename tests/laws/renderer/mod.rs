@@ -6,6 +6,7 @@ mod direct;
 mod form_factors;
 mod furnace;
 mod photons;
+mod points;
 mod whitted;
 
 use crossbar::geom::exact::Sides;

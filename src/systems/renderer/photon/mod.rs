@@ -4,7 +4,8 @@
 //! *caustic* map those of light that met nothing but mirrors and glass before. The radiance of a diffuse part is the
 //! sum of three terms that share no path: direct light (a shadow ray), caustics (the caustic map's density), and
 //! indirect light (gather rays, which end at the next diffuse or glossy surface in the global map's density, and see no
-//! light themselves). Glossy lobes, mirrors and glass send further rays as in [`super::distributed`].
+//! light themselves). Glossy lobes, mirrors and glass send further rays as in [`super::distributed`]; a glossy lobe asks
+//! point lights by shadow rays and the caustic map too, since no ray hits a point.
 //!
 //! Densities are estimated over disks of finite size, so this is the one biased renderer: it blurs within
 //! [`Photons::radius`], and darkens where a disk extends over an edge.
@@ -35,7 +36,7 @@ pub struct Photons {
     pub global: u32,
     /// Number of photons emitted for the caustic map.
     pub caustic: u32,
-    /// Maximum number of nearest photons per estimate.
+    /// Maximum number of nearest photons per estimate, at least 2: the farthest of them gives the area.
     pub nearest: u32,
     /// Maximum radius of an estimate, in scene units.
     pub radius: f64,
@@ -51,11 +52,15 @@ impl Photons {
     }
 
     fn checked(&self) -> Result<(), RenderError> {
-        if self.radius > 0.0 && self.radius.is_finite() {
-            return Ok(());
+        if !(self.radius > 0.0 && self.radius.is_finite()) {
+            let (what, found) = ("the radius of photon estimates", self.radius.to_string());
+            return Err(RenderError::Settings { what, expected: "a number above 0", found });
         }
-        let found = self.radius.to_string();
-        Err(RenderError::Settings { what: "the radius of photon estimates", expected: "a number above 0", found })
+        if self.nearest < 2 {
+            let (what, found) = ("the nearest photons of an estimate", self.nearest.to_string());
+            return Err(RenderError::Settings { what, expected: "at least 2", found });
+        }
+        Ok(())
     }
 }
 
@@ -114,16 +119,17 @@ impl Shade for Gathering<'_> {
 
 impl Gathering<'_> {
     fn scatter(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, more: bool, scatter: &mut Scatter) {
-        let diffuse = lobes.diffuse();
-        if lobes.albedo.max_element() > 0.0 {
-            let landed = if self.photons.gather == 0 {
-                self.estimate(self.global, surfel, &diffuse)
-            } else {
-                distributed::direct(self.lights, flight, surfel, &lobes, scatter);
-                self.gather(flight, surfel, &lobes, scatter);
-                self.estimate(self.caustic, surfel, &diffuse)
-            };
-            scatter.light += flight.weight * landed;
+        // Without gather rays the global map holds all light of the diffuse part.
+        let mapped = self.photons.gather == 0;
+        let lit = if mapped { lobes.gloss() } else { lobes };
+        distributed::direct(self.lights, flight, surfel, &lit, scatter);
+        // A glossy lobe's own ray finds emitters behind mirrors and glass, but no point light.
+        let caustic = if self.lights.points() > 0 { lit } else { lit.diffuse() };
+        scatter.light += flight.weight * self.estimate(self.caustic, surfel, &caustic);
+        if mapped {
+            scatter.light += flight.weight * self.estimate(self.global, surfel, &lobes.diffuse());
+        } else if lobes.albedo.max_element() > 0.0 {
+            self.gather(flight, surfel, &lobes, scatter);
         }
         if more && lobes.specular.max_element() > 0.0 {
             distributed::gloss(flight, surfel, lobes, scatter);
@@ -149,6 +155,9 @@ impl Gathering<'_> {
     /// Radiance estimate by a map. A photon's flux is per area of the triangle; the surface scatters it by its shading
     /// normal.
     fn estimate(&self, map: &PhotonMap, surfel: &Surfel<'_>, lobes: &Lobes) -> DVec3 {
+        if lobes.albedo.max(lobes.specular).max_element() <= 0.0 {
+            return DVec3::ZERO;
+        }
         let Photons { nearest, radius, .. } = *self.photons;
         map.density(surfel.place.at, surfel.normal, nearest as usize, radius, |photon: &Photon| {
             let (value, _) = lobes.evaluate(surfel, photon.from);
