@@ -23,7 +23,8 @@ fn media() -> [Dipole; 3] {
 }
 
 /// A point of a plate gets what a half space returns, [`Dipole::total`], but for what lies beyond the plate: that
-/// outside of a disc about the point, `Dipole::beyond`, of the nearest edge at most, and of the farthest corner at least.
+/// outside of a disc about the point, `Dipole::beyond`, of the nearest edge at most, and of the farthest corner at
+/// least.
 #[test]
 fn a_plate_of_any_size_returns_the_half_space_s_total() {
     let atlas = plate();
