@@ -424,3 +424,51 @@ fn vertices_have_values() {
     let b = |vertex: usize| number(&rows[vertex], "fixed_16_rgb_fp16_map_fp16_g");
     assert!(b(0) > b(3) && b(1) > b(3) && b(3) > 0.0, "the top is farthest from the lit side");
 }
+
+/// Help, page and program agree on the atlases up to which all pairs are gathered unasked.
+#[test]
+fn all_pairs_are_gathered_up_to_the_side_that_help_and_page_say() {
+    let help = crossbar_in(Path::new("."), &["subsurface", "--help"], "");
+    assert!(words(&help.stdout).contains("[default: yes for atlases up to 32]"), "{}", help.stdout);
+    for (side, is_gathered) in [("32", true), ("64", false)] {
+        let (_, folder) = done(&["--atlas", side, "--links", "4", "--channels", "scalar"]);
+        let page = std::fs::read_to_string(folder.path().join("out/subsurface/index.html")).expect("a page");
+        assert!(page.contains("the default of atlases above 32 x 32)"));
+        assert_eq!(table(&folder, "faces.csv")[0].contains_key("all_pairs_g"), is_gathered, "{side}");
+    }
+}
+
+/// A tetrahedron whose slanted face stands twice, from another corner and the other way round.
+#[test]
+fn a_face_that_stands_twice_is_said() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let run = |model: &str| {
+        std::fs::write(folder.path().join("m.obj"), model).expect("written");
+        let ran = crossbar_in(folder.path(), &[&SMALL[..], &["--all-pairs", "no", "--links", "4"]].concat(), "");
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+        words(&ran.stdout)
+    };
+    let said = "1 face of the model has the three corners of another face";
+    assert!(!run(MODEL).contains(said));
+    let text = run(&format!("{MODEL}f 4 3 2\n"));
+    assert!(text.contains(said), "{text}");
+}
+
+/// A corner at 1e12 makes texels whose areas differ by 1e20: factors over such ratios are infinite in half precision.
+#[test]
+fn factors_beyond_their_format_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("m.obj"), MODEL.replace("v 0 0 2", "v 0 0 1e12")).expect("written");
+    let run = |format| {
+        let more = ["--all-pairs", "no", "--links", "16", "--link-format", format];
+        crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "")
+    };
+    let told = run("fp16").refusal(&["fp16"]);
+    assert!(told.contains("expected factors of links of at most 6.5504e4 in textures of fp16 texels"), "{told}");
+    let ran = run("fp32");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    for name in ["faces.csv", "rows.csv", "vertices.csv"] {
+        let text = std::fs::read_to_string(folder.path().join("out/subsurface").join(name)).expect("a table");
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+    }
+}

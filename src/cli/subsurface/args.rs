@@ -9,15 +9,15 @@ use crate::cli::one_of::variants;
 use crate::cli::part::PartArgs;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
-use crate::study::subsurface::MapBits;
+use crate::study::subsurface::{ALL_PAIRS_SIDE, MapBits};
 use crate::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, LinkLayout};
 use crate::subsurface::on_card::{FloatTexels, LightStage};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar subsurface stand-in-head --material marble --mm-per-unit 10
+  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --all-pairs yes
       a stand-in for the paper's head with 16 fixed links per texel, beside all pairs of texels, as one page
-  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice fixed --choice adaptive --links 4,16,64 --channels rgb
+  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice fixed --choice adaptive --links 4,16,64 --channels rgb --all-pairs yes
       both choices of links, and how the error falls with their number
   crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
       the coefficients of the paper's Figure 7, in every format of map and links
@@ -128,8 +128,9 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
     pub(super) probe: Vec<[f64; 3]>,
 
-    /// Gather over all pairs of texels too [default: yes for atlases up to 32]
-    #[arg(long, value_name = "YES", value_parser = yes_or_no())]
+    #[arg(long, value_name = "YES", value_parser = yes_or_no(), help = format!(
+        "Gather over all pairs of texels too [default: yes for atlases up to {ALL_PAIRS_SIDE}]"
+    ))]
     pub(super) all_pairs: Option<bool>,
 
     /// Follow so many photons per channel through the model as well: the dipole's own error

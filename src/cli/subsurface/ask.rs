@@ -9,17 +9,13 @@ use crate::cli::materials::published;
 use crate::cli::transfer::light::DistantLightArg;
 use crate::io::load_irradiances;
 use crate::scene::Camera;
-use crate::study::subsurface::{GatherWay, Lighting, MapBits};
+use crate::study::subsurface::{ALL_PAIRS_SIDE, GatherWay, Lighting, MAX_ALL_PAIRS_SIDE, MapBits};
 use crate::subsurface::kernels::LinkLayout;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::{FloatTexels, Light};
 use crate::subsurface::{Coefficients, Material};
 use crate::transfer::light::{CubeLight, Decimation};
 
-/// Texels along a side up to which all pairs are gathered unasked.
-const ALL_PAIRS: u32 = 32;
-/// The most texels along a side for all pairs.
-const MOST_ALL_PAIRS: u32 = 512;
 /// The index of refraction where coefficients come without one.
 const ETA: f64 = 1.3;
 
@@ -143,9 +139,9 @@ pub(super) fn require_lights(args: &Args) -> Result<(), Problem> {
 /// Returns `true` if all pairs are gathered.
 pub(super) fn all_pairs(args: &Args) -> Result<bool, Problem> {
     let asked = args.all_pairs == Some(true);
-    if asked && args.atlas > MOST_ALL_PAIRS {
-        let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MOST_ALL_PAIRS}");
+    if asked && args.atlas > MAX_ALL_PAIRS_SIDE {
+        let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
         return Err(Problem::usage(format!("all pairs of {0} x {0} texels would take hours", args.atlas), help));
     }
-    Ok(asked || (args.all_pairs.is_none() && args.atlas <= ALL_PAIRS))
+    Ok(asked || (args.all_pairs.is_none() && args.atlas <= ALL_PAIRS_SIDE))
 }

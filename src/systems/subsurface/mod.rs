@@ -16,6 +16,7 @@
 //! - [`walk`]: photons followed through the medium, for the dipole's own error.
 
 mod dipole;
+mod dipole_sum;
 pub mod factor;
 pub mod fresnel;
 mod irradiance;
@@ -28,6 +29,7 @@ mod polygon;
 mod reference;
 mod sphere;
 mod thickness;
+mod triangles;
 pub mod walk;
 
 pub use dipole::{Dipole, InternalReflection};

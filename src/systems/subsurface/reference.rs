@@ -2,30 +2,34 @@
 //!
 //! Written to be read beside equations 7 to 10, it shares no code with the fast factors: no levels, no table, no
 //! moments. A pair of texels that are far apart counts with R_d between their mean points; of a near pair the double
-//! integral of equation 10 is taken by a quadrature rule on the triangles of both parts.
+//! integral of equation 10 is taken by a quadrature rule on the triangles of both parts. Where one of two close texels
+//! exceeds [`MAX_DIVISIONS`] mean free paths, such a rule misses the peak of R_d: the inner integral is then taken by
+//! bisection ([`super::triangles`]), so that the light of a point is complete however large the texels are.
 
-use std::f64::consts::PI;
 use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
-use super::Dipole;
+use super::dipole_sum::DipoleSum;
 use super::factor::{FactorError, MAX_MM_PER_UNIT, MIN_MM_PER_UNIT};
+use super::triangles::TriangleIntegrals;
+use super::{Dipole, point_to_polygon};
 use crate::atlas::Atlas;
+use crate::quadrature::FIVE;
 
 /// Texels nearer than this many times the sum of their radii are integrated.
 const NEAR: f64 = 5.0;
 /// Texels nearer than this many times the sum of their radii are integrated with triangles no longer than the mean free
 /// path.
 const CLOSE: f64 = 1.5;
-/// Triangles are divided into at most this many along a side.
+/// Triangles are divided into at most this many along a side: texels of up to this many mean free paths.
 const MAX_DIVISIONS: u32 = 4;
+/// Of texels longer than this many mean free paths all light stays in its texel, within 1e-5.
+const MAX_LENGTH: f64 = 1e6;
 /// Texels that are handled together.
 const CHUNK: usize = 256;
-/// Partial sums of a sum over distances.
-const LANES: usize = 8;
 /// Rows of texels after which progress is told: so many times in all.
 const REPORTS: usize = 32;
 
@@ -34,8 +38,8 @@ const REPORTS: usize = 32;
 pub struct Reference<'a> {
     atlas: &'a Atlas,
     mm_per_unit: f64,
+    dipole: Dipole,
     r_d: DipoleSum,
-    mean_free_path: f64,
     texels: PartColumns,
 }
 
@@ -69,8 +73,7 @@ impl<'a> Reference<'a> {
             texels.area.push(mm_per_unit * mm_per_unit * texel.area);
             texels.radius.push(mm_per_unit * cluster.radius);
         }
-        let r_d = DipoleSum::new(dipole);
-        Ok(Self { atlas, mm_per_unit, r_d, mean_free_path: dipole.mean_free_path(), texels })
+        Ok(Self { atlas, mm_per_unit, dipole: *dipole, r_d: DipoleSum::new(dipole), texels })
     }
 
     /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9,
@@ -112,8 +115,13 @@ impl<'a> Reference<'a> {
     pub fn radiosity_at(&self, point: DVec3, irradiance: &[f64]) -> Result<f64, FactorError> {
         let power = self.power(irradiance)?;
         Ok(self.sum(point, 0.0, &power, |j, is_close| {
-            let there = self.points(j, is_close);
-            self.mean_r_d(&[(point, 1.0)], &there)
+            if is_close && self.length(j) > f64::from(MAX_DIVISIONS) && self.texels.area[j] > 0.0 {
+                let parts = self.atlas.part(j as u32);
+                let in_mm = |part: &[DVec3]| part.iter().map(|corner| self.mm_per_unit * *corner).collect::<Vec<_>>();
+                let integral = |part| point_to_polygon(&self.dipole, point, &in_mm(part));
+                return parts.polygons().map(integral).sum::<f64>() / self.texels.area[j];
+            }
+            self.mean_r_d(&[(point, 1.0)], &self.points(j, is_close))
         }))
     }
 
@@ -145,6 +153,9 @@ impl<'a> Reference<'a> {
     fn gather(&self, i: usize, power: &[f64]) -> f64 {
         let mut here: [Option<Vec<WeightedPoint>>; 2] = [None, None];
         self.sum(self.point(i), self.texels.radius[i], power, |j, is_close| {
+            if is_close && self.is_long_pair(i, j) {
+                return self.mean_over_long_pair(i, j);
+            }
             let here = here[usize::from(is_close)].get_or_insert_with(|| self.points(i, is_close));
             self.mean_r_d(here, &self.points(j, is_close))
         })
@@ -192,7 +203,56 @@ impl<'a> Reference<'a> {
     }
 
     fn mean_over_pair(&self, i: usize, j: usize, is_close: bool) -> f64 {
+        if is_close && self.is_long_pair(i, j) {
+            return self.mean_over_long_pair(i, j);
+        }
         self.mean_r_d(&self.points(i, is_close), &self.points(j, is_close))
+    }
+
+    /// The length of a texel in mean free paths.
+    fn length(&self, texel: usize) -> f64 {
+        2.0 * self.texels.radius[texel] / self.dipole.mean_free_path()
+    }
+
+    /// Returns `true` if the rule of [`Self::points`] is too coarse for one of two close texels.
+    fn is_long_pair(&self, i: usize, j: usize) -> bool {
+        let has_area = self.texels.area[i] > 0.0 && self.texels.area[j] > 0.0;
+        has_area && self.length(i).max(self.length(j)) > f64::from(MAX_DIVISIONS)
+    }
+
+    /// The mean of R_d over the pairs of points of two close texels: the mean over points of one texel of the integral
+    /// over the other. Points are those of texel i, whose sum over all texels is then complete at each of them, but
+    /// those of a much smaller texel j, over which light varies less.
+    fn mean_over_long_pair(&self, i: usize, j: usize) -> f64 {
+        if self.length(i).max(self.length(j)) > MAX_LENGTH {
+            return if i == j { self.dipole.total() / self.texels.area[i] } else { 0.0 };
+        }
+        let [from, to] = if self.texels.radius[j] < 0.5 * self.texels.radius[i] { [j, i] } else { [i, j] };
+        let (triangles, mut integrals) = (self.triangles(to), TriangleIntegrals::new(&self.r_d, &self.dipole));
+        let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length() / 2.0;
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for [a, b, c] in self.triangles(from) {
+            // The rule of a square, one side of which is drawn together in a.
+            for (s, s_weight) in FIVE {
+                for (t, t_weight) in FIVE {
+                    let point = a + s * ((b - a) + t * (c - b));
+                    let weight = area([a, b, c]) * s * s_weight * t_weight;
+                    sum += weight * integrals.over(point, &triangles);
+                    weights += weight;
+                }
+            }
+        }
+        sum / weights / triangles.iter().copied().map(area).sum::<f64>()
+    }
+
+    /// The triangles of a texel's part, in mm.
+    fn triangles(&self, texel: usize) -> Vec<[DVec3; 3]> {
+        let (part, mut triangles) = (self.atlas.part(texel as u32), Vec::new());
+        for polygon in part.polygons() {
+            let fan = (2..polygon.len()).map(|k| [polygon[0], polygon[k - 1], polygon[k]]);
+            triangles.extend(fan.map(|triangle| triangle.map(|corner| self.mm_per_unit * corner)));
+        }
+        triangles
     }
 
     /// The mean of R_d over pairs of points.
@@ -213,16 +273,11 @@ impl<'a> Reference<'a> {
 
     /// Quadrature points of a texel's part: three per triangle, which is exact for quadratic functions.
     fn points(&self, texel: usize, is_close: bool) -> Vec<WeightedPoint> {
-        let part = self.atlas.part(texel as u32);
-        let length = 2.0 * self.texels.radius[texel] / self.mean_free_path;
-        let divisions = if is_close { (length.ceil() as u32).clamp(1, MAX_DIVISIONS) } else { 1 };
+        let divisions = if is_close { (self.length(texel).ceil() as u32).clamp(1, MAX_DIVISIONS) } else { 1 };
         let mut points = Vec::new();
         let mut area = 0.0;
-        for polygon in part.polygons() {
-            for k in 2..polygon.len() {
-                let triangle = [polygon[0], polygon[k - 1], polygon[k]].map(|corner| self.mm_per_unit * corner);
-                area += triangle_points(triangle, divisions, &mut points);
-            }
+        for triangle in self.triangles(texel) {
+            area += triangle_points(triangle, divisions, &mut points);
         }
         if area.is_nan() || area <= 0.0 {
             return vec![(self.point(texel), 1.0)];
@@ -252,103 +307,10 @@ fn triangle_points([a, b, c]: [DVec3; 3], n: u32, points: &mut Vec<WeightedPoint
     area
 }
 
-/// R_d of the dipole, for many distances at once:
-/// `alpha' / (4 pi) sum over z of z (sigma_tr + 1/d) e^(-sigma_tr d) / d^2`, d^2 = r^2 + z^2.
-#[derive(Clone, Copy, Debug)]
-struct DipoleSum {
-    scale: f64,
-    sigma_tr: f64,
-    depths: [f64; 2],
-}
-
-impl DipoleSum {
-    fn new(dipole: &Dipole) -> Self {
-        let scale = dipole.alpha_prime() / (4.0 * PI);
-        Self { scale, sigma_tr: dipole.sigma_tr(), depths: [dipole.z_r(), dipole.z_v()] }
-    }
-
-    /// R_d at a squared distance.
-    #[inline(always)]
-    fn at(&self, squared: f64) -> f64 {
-        let mut sum = 0.0;
-        for z in self.depths {
-            let d = (squared + z * z).sqrt();
-            let inverse = 1.0 / d;
-            sum += z * inverse * ((self.sigma_tr + inverse) * inverse) * exp_of_negative(self.sigma_tr * d);
-        }
-        self.scale * sum
-    }
-
-    /// The sum of weight times R_d, by the widest vectors of the host. Its partial sums, and their order, do not depend
-    /// on how wide these are.
-    fn sum(&self, squared: &[f64], weights: &[f64]) -> f64 {
-        let sums = SimdLevel::widest().run(
-            #[inline(always)]
-            || {
-                let mut sums = [0.0; LANES];
-                let (mut distances, mut factors) = (squared.chunks_exact(LANES), weights.chunks_exact(LANES));
-                for (squared, weights) in (&mut distances).zip(&mut factors) {
-                    for lane in 0..LANES {
-                        sums[lane] += weights[lane] * self.at(squared[lane]);
-                    }
-                }
-                for (&squared, &weight) in distances.remainder().iter().zip(factors.remainder()) {
-                    sums[0] += weight * self.at(squared);
-                }
-                sums
-            },
-        );
-        let [a, b, c, d, e, f, g, h] = sums;
-        ((a + b) + (c + d)) + ((e + f) + (g + h))
-    }
-}
-
-/// e^-x for x >= 0, within 4 units in the last place; e^-700 (1e-304) beyond. Compilers turn this one into vector code.
-#[inline(always)]
-fn exp_of_negative(x: f64) -> f64 {
-    const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
-    const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
-    // Adding 1.5 x 2^52 rounds to an integer, which the last bits then hold.
-    const SHIFT: f64 = 6_755_399_441_055_744.0;
-    let x = if x < 700.0 { x } else { 700.0 };
-    let shifted = x * std::f64::consts::LOG2_E + SHIFT;
-    let halvings = shifted - SHIFT;
-    let r = (halvings * LN_2_HIGH - x) + halvings * LN_2_LOW;
-    let mut series = 1.0;
-    for n in [13.0, 12.0, 11.0, 10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0] {
-        series = 1.0 + series * (r * (1.0 / n));
-    }
-    let power = f64::from_bits((1023_u64.wrapping_sub(shifted.to_bits() & 0x7ff)) << 52);
-    series * power
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elementary::exp;
-    use crate::subsurface::Coefficients;
     use approx::assert_relative_eq;
-
-    #[test]
-    fn the_exponential_is_right() {
-        for k in 0..200_000 {
-            let x = f64::from(k) * 0.0035;
-            assert_relative_eq!(exp_of_negative(x), exp(-x), max_relative = 9e-16);
-        }
-        assert_eq!([exp_of_negative(0.0), exp_of_negative(1e300)], [1.0, exp_of_negative(700.0)]);
-    }
-
-    #[test]
-    fn r_d_is_the_dipole_s() {
-        let dipole = Dipole::new(Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 }, 1.3).expect("a medium");
-        let sum = DipoleSum::new(&dipole);
-        for r in [0.0, 1e-3, 0.5, 3.0, 40.0, 1000.0] {
-            assert_relative_eq!(sum.at(r * r), dipole.r_d(r), max_relative = 1e-13);
-        }
-        let squared: Vec<f64> = (0..7).map(f64::from).collect();
-        let direct: f64 = squared.iter().map(|s| s * sum.at(*s)).sum();
-        assert_relative_eq!(sum.sum(&squared, &squared), direct, max_relative = 1e-15);
-    }
 
     #[test]
     fn triangles_are_integrated_exactly_to_second_order() {

@@ -85,7 +85,8 @@ fn photons_and_distributed_rays_agree_on_gloss_under_a_point_light() {
     }
 }
 
-/// A mirror shows the floor a second light, at the point's mirror image. No ray of a lobe hits a point: photons find it.
+/// A mirror shows the floor a second light, at the point's mirror image. No ray of a lobe hits a point:
+/// photons find it.
 #[test]
 fn a_mirror_casts_a_point_light_on_gloss() {
     let image = DVec3::new(2.5, 0.25, 2.0);

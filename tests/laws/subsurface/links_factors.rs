@@ -157,6 +157,28 @@ fn dense_media_return_the_planes_total() {
     assert!(factor > 0.0 && factor < 1e-50, "{factor}");
 }
 
+/// Factors of three channels together are as good as those of each alone.
+#[test]
+fn channels_together_keep_the_tolerance_of_each() {
+    let atlas = atlas(&sphere(4, 0.2), 32);
+    let surface = surface(&atlas, 10.0);
+    // Skin1: mean free paths and diffusion lengths that differ by factors.
+    let channels = [medium(0.74, 0.032), medium(0.88, 0.17), medium(1.01, 0.48)];
+    let together = Factors::new(&surface, channels, 0.01).expect("a tolerance");
+    let fine = channels.map(|dipole| Factors::new(&surface, [dipole], fine_tolerance()).expect("a tolerance"));
+    let mut receiver = together.receiver();
+    for texel in texels(32).step_by(307) {
+        for cluster in (0..6).flat_map(|k| level(&surface, k).into_iter().step_by(if k == 0 { 5 } else { 1 })) {
+            let found = receiver.factor(texel, cluster);
+            for (channel, fine) in fine.iter().enumerate() {
+                let [exact] = fine.factor(texel, cluster);
+                let allowed = 0.01 * (exact + 1e-5 * channels[channel].total());
+                assert!((found[channel] - exact).abs() <= allowed, "{texel:?} {cluster:?}: {found:?} for {exact}");
+            }
+        }
+    }
+}
+
 #[test]
 fn bad_figures_are_refused() {
     let atlas = atlas(&sphere(1, 0.0), 8);

@@ -1,5 +1,6 @@
 //! Laws of system 3.
 
+mod all_pairs;
 mod links_blocks;
 mod links_bound;
 mod links_choice;

@@ -327,8 +327,11 @@ fn what_does_not_fit_the_card_is_named() {
         format!("expected at most 20000 bytes in the memory of device `nv35`, the passes need 21840: {parts}")
     );
     assert_eq!(new(nv35(), &links, ETA, usual).expect("a card").memory().bytes(), 21_840);
-    let words = refused(new(nv35(), &links, 0.9, usual));
-    assert_eq!(words, "expected an index of refraction of 1 to 1000000, found 0.9");
+    for (eta, found) in [(0.9, "0.9"), (3.5, "3.5"), (1e5, "100000.0")] {
+        let words = refused(new(nv35(), &links, eta, usual));
+        // The range of `crossbar::subsurface::MAX_ETA`, where the polynomial for the internal reflection holds.
+        assert_eq!(words, format!("expected an index of refraction from 1 to 3, found {found}"));
+    }
     let unlit = SubsurfaceCardOptions { map: MapFormat::Unorm8 { scale: 0.0 }, ..usual };
     assert_eq!(refused(new(nv35(), &links, ETA, unlit)), "expected a scale of the 8-bit map above 0, found 0");
     let other = Texels::from_fn([8; 2], |_, _| [0.0; 4]);

@@ -8,6 +8,11 @@ use crate::picture::metrics::{ErrorSums, value_error};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, Reference};
 
+/// Side of an atlas, in texels, up to which `crossbar subsurface` gathers over all pairs unless told otherwise.
+pub const ALL_PAIRS_SIDE: u32 = 32;
+/// Largest side of an atlas for all pairs, which take time by the square of its texels.
+pub const MAX_ALL_PAIRS_SIDE: u32 = 512;
+
 /// Names of the channels.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 

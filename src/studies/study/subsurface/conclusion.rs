@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use super::{AngleBin, BinError, GatherWay, Parameters, RoundingRow, SubsurfaceOutcome, WayRow};
 use crate::report::digits::{Quantity, shown};
-use crate::report::words::{listed, percent};
+use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
 use crate::subsurface::links::LinkChoice;
 
@@ -21,7 +21,7 @@ pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &
         roundings(&outcome.roundings),
         speed(parameters, rows),
     ];
-    let warnings = [coarse(outcome), thin(outcome)];
+    let warnings = [repeated(outcome), coarse(outcome), thin(outcome)];
     sentences.into_iter().chain(warnings).flatten().for_each(|sentence| found.conclusion(sentence));
     let within = |row: &&WayRow| row.error.is_some_and(|error| error.rms <= ENOUGH);
     let judged = outcome.rows.iter().filter(|row| row.error.is_some()).count() as u64;
@@ -137,6 +137,15 @@ fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
         format!("Pass 2 takes {} ms on the {on}.", ms(fast))
     } else {
         format!("Pass 2 takes from {} ms ({}) to {} ms ({}) on the {on}.", ms(fast), fast.label, ms(slow), slow.label)
+    })
+}
+
+/// A face that stands twice is surface twice: light enters and leaves both.
+fn repeated(outcome: &SubsurfaceOutcome) -> Option<String> {
+    let count = outcome.atlas.census().duplicate_faces as u64;
+    (count > 0).then(|| {
+        let faces = counted(count, "face of the model has", "faces of the model have");
+        format!("{faces} the three corners of another face: such a place counts twice, and gives back too much light.")
     })
 }
 

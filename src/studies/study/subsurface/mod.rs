@@ -29,7 +29,7 @@ use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 use bands::GatheredBands;
 
-pub use all_pairs::{AllPairs, GatherError};
+pub use all_pairs::{ALL_PAIRS_SIDE, AllPairs, GatherError, MAX_ALL_PAIRS_SIDE};
 pub use angles::{AngleBin, BinError};
 pub use error::no_atlas;
 pub use link_table::LinkRow;

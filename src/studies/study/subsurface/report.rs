@@ -1,7 +1,7 @@
 //! The study's page, tables, charts, pictures and trace.
 
 use super::conclusion::conclude;
-use super::{Parameters, SubsurfaceOutcome, WayRow, link_table, pictures, tables, vertices};
+use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, link_table, pictures, tables, vertices};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table};
 use crate::study::{StudyError, timeline_trace};
@@ -42,7 +42,8 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
     found.heading("The maps of passes 1 and 2");
     found.pictures(pictures::maps(outcome));
     found.heading("Ways of gathering");
-    found.explained_table(FoundTable::from(tables::errors(outcome)).csv("rows").field("ways"), ERRORS);
+    let without = format!("{ERRORS}{ALL_PAIRS_SIDE} x {ALL_PAIRS_SIDE}) there is nothing to compare links with.");
+    found.explained_table(FoundTable::from(tables::errors(outcome)).csv("rows").field("ways"), &without);
     found.explained_table(FoundTable::from(tables::angles(outcome)).csv("angles").field("angles"), ANGLES);
     error_chart(parameters, outcome).into_iter().for_each(|chart| found.chart(chart));
     found.pictures(pictures::ways(&outcome.rows, exposure)?);
@@ -78,7 +79,7 @@ const MEDIUM: &str = "The diffusion length is 1 over the effective transport coe
 
 const ERRORS: &str = "links: the host's sum over the links, in double precision, against that over all pairs of texels; plain means: the same with means \
     of levels that count texels alike, as mipmaps of plain irradiance would; card: the card against the host's sum over the same links; all: the card \
-    against all pairs. Without all pairs (atlases above 64 x 64, unless asked for) there is nothing to compare links with.";
+    against all pairs. Without all pairs (`--all-pairs no`, and the default of atlases above ";
 
 const ANGLES: &str = "A root mean square over the model is made by its lit side. Here every bin of angles is held against its own light: 0 degrees is \
     the surface that faces the light, 180 degrees the one that is turned away from it, which all light reaches from afar.";

@@ -55,10 +55,11 @@ pub(super) struct DistanceTable<const N: usize> {
 struct Interval<const N: usize> {
     /// Per channel, coefficients of powers of v less the interval's left end.
     cubic: [[f64; 4]; N],
-    /// Pieces whose squared sizes sum to at most this are far.
-    reach: f64,
-    /// Pieces whose squared sizes sum to at most this are negligible.
-    negligible: f64,
+    /// Per channel, pieces whose squared sizes sum to at most this are far.
+    reach: [f64; N],
+    /// Per channel, pieces whose squared sizes sum to at most this are negligible. Channels are judged one by one: one
+    /// that falls off fast would divide pieces as far as one that falls off slowly reaches.
+    negligible: [f64; N],
 }
 
 /// Value, first and fourth derivative of R_d by v.
@@ -107,7 +108,7 @@ impl<const N: usize> DistanceTable<N> {
             let [from, to] = [self.left_end(self.intervals.len()), self.left_end(self.intervals.len() + 1)];
             let right = self.dipoles.map(|dipole| derivatives(&dipole, self.unit, to));
             let width = to - from;
-            let mut interval = Interval { cubic: [[0.0; 4]; N], reach: 0.0, negligible: 0.0 };
+            let mut interval = Interval { cubic: [[0.0; 4]; N], reach: [0.0; N], negligible: [0.0; N] };
             for (channel, cubic) in interval.cubic.iter_mut().enumerate() {
                 let (l, r) = (&left[channel], &right[channel]);
                 let slope = (r.value - l.value) / width;
@@ -133,26 +134,21 @@ impl<const N: usize> DistanceTable<N> {
         // What the second order leaves out grows with the third power of the size.
         let far = FAR * cbrt(tolerance / 0.01);
         self.slack = (FAR / far * (FAR / far)).max(1.0);
-        let light = |interval: &Interval<N>| {
-            let relative = |(cubic, dipole): (&[f64; 4], &Dipole)| cubic[0] * area / dipole.total();
-            interval.cubic.iter().zip(&self.dipoles).map(relative).fold(0.0, f64::max)
-        };
-        let dark = self.intervals.iter().position(|interval| light(interval) <= tolerance * FLOOR);
         let left_ends: Vec<f64> = (0..self.intervals.len()).map(|k| self.left_end(k)).collect();
         let distance = |k: usize| ((left_ends[k] - 1.0) * self.unit).sqrt();
-        let dark_from = dark.map_or(f64::INFINITY, distance);
-        for k in 0..self.intervals.len() {
-            let r = distance(k);
-            let reach = |dipole: &Dipole| {
+        for (channel, dipole) in self.dipoles.iter().enumerate() {
+            let light = |interval: &Interval<N>| interval.cubic[channel][0] * area / dipole.total();
+            let dark = self.intervals.iter().position(|interval| light(interval) <= tolerance * FLOOR);
+            let dark_from = dark.map_or(f64::INFINITY, distance);
+            for (k, interval) in self.intervals.iter_mut().enumerate() {
+                let r = distance(k);
                 let d = (r * r + dipole.z_r() * dipole.z_r()).sqrt();
-                far * d / (SLOPE + dipole.sigma_tr() * d)
-            };
-            let reach = self.dipoles.iter().map(reach).fold(f64::INFINITY, f64::min);
-            let interval = &mut self.intervals[k];
-            interval.reach = reach * reach;
-            // Points of both are at least r less the balls' radii apart; (a + b)^2 <= 2 (a^2 + b^2).
-            let spare = (r - dark_from).max(0.0);
-            interval.negligible = 0.5 * spare * spare / BALL;
+                let reach = far * d / (SLOPE + dipole.sigma_tr() * d);
+                interval.reach[channel] = reach * reach;
+                // Points of both are at least r less the balls' radii apart; (a + b)^2 <= 2 (a^2 + b^2).
+                let spare = (r - dark_from).max(0.0);
+                interval.negligible[channel] = 0.5 * spare * spare / BALL;
+            }
         }
     }
 
@@ -196,16 +192,17 @@ impl<const N: usize> DistanceTable<N> {
         let squared = apart.length_squared();
         let (interval, t) = self.find(squared);
         let size_squared = one.size_squared + other.size_squared;
-        if size_squared <= slack * interval.reach {
+        let is_far = |channel: usize| size_squared <= slack * interval.reach[channel];
+        let fits = |channel: usize| is_far(channel) || size_squared <= interval.negligible[channel];
+        (0..N).all(fits).then(|| {
             let covariance = one.covariance.plus(&other.covariance);
             let across = covariance.trace() * self.per_unit;
             let along = 2.0 * covariance.along(apart) * self.per_unit * self.per_unit;
-            return Some(interval.cubic.map(|cubic| {
-                let [value, first, second] = derivatives_at(cubic, t);
-                value + first * across + second * along
-            }));
-        }
-        (size_squared <= interval.negligible).then(|| self.at(squared))
+            std::array::from_fn(|channel| {
+                let [value, first, second] = derivatives_at(interval.cubic[channel], t);
+                if is_far(channel) { value + first * across + second * along } else { value }
+            })
+        })
     }
 
     /// Light that receivers in a group of given moments get of a cluster: R_d times its area, by their offset from
@@ -214,11 +211,17 @@ impl<const N: usize> DistanceTable<N> {
         let apart = cluster.point - receivers.point;
         let squared = apart.length_squared();
         let (interval, t) = self.find(squared);
-        if SPREAD * receivers.size_squared + cluster.size_squared <= interval.reach {
+        let is_far = |channel: usize| SPREAD * receivers.size_squared + cluster.size_squared <= interval.reach[channel];
+        let size_squared = receivers.size_squared + cluster.size_squared;
+        let fits = |channel: usize| is_far(channel) || size_squared <= interval.negligible[channel];
+        (0..N).all(fits).then(|| {
             let across = cluster.covariance.trace() * self.per_unit;
             let along = 2.0 * cluster.covariance.along(apart) * self.per_unit * self.per_unit;
-            let channels = interval.cubic.map(|cubic| {
-                let [value, first, second] = derivatives_at(cubic, t);
+            let channels = std::array::from_fn(|channel| {
+                let [value, first, second] = derivatives_at(interval.cubic[channel], t);
+                if !is_far(channel) {
+                    return Taylor { value: cluster.area * value, ..Taylor::default() };
+                }
                 // Of g(|apart - offset|^2) by the offset: -2 g' apart, and 2 g' 1 + 4 g'' apart apart^T.
                 let slope = 2.0 * cluster.area * first * self.per_unit;
                 let bend = 4.0 * cluster.area * second * self.per_unit * self.per_unit;
@@ -227,10 +230,7 @@ impl<const N: usize> DistanceTable<N> {
                 let value = cluster.area * (value + first * across + second * along);
                 Taylor { value, gradient: -slope * apart, second: matrix }
             });
-            return Some(Expansion { channels });
-        }
-        (receivers.size_squared + cluster.size_squared <= interval.negligible).then(|| Expansion {
-            channels: self.at(squared).map(|value| Taylor { value: cluster.area * value, ..Taylor::default() }),
+            Expansion { channels }
         })
     }
 
@@ -252,7 +252,7 @@ impl<const N: usize> DistanceTable<N> {
     pub(super) fn halvings(&self, one: &Moments, other: &Moments) -> u32 {
         let balls = [one, other].map(|piece| (BALL * piece.size_squared).sqrt());
         let apart = (one.point.distance(other.point) - balls[0] - balls[1]).max(0.0);
-        let reach = self.find(apart * apart).0.reach;
+        let reach = self.find(apart * apart).0.reach.into_iter().fold(f64::INFINITY, f64::min);
         let mut count = 0;
         let mut left = one.size_squared + other.size_squared;
         while left > reach && count < u32::BITS {

@@ -4,6 +4,7 @@ use refsim::machine::MachineError;
 use thiserror::Error;
 
 use crate::card::{KernelError, MeshError};
+use crate::subsurface::MaterialError;
 
 /// Why a card does not scatter light.
 #[derive(Debug, Error)]
@@ -22,6 +23,15 @@ pub enum SubsurfaceCardError {
     /// A size or a figure that does not fit, or a draw that the card refuses.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// An index of refraction that no medium has.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// A link's factor beyond the format of its texture, which would be infinite there.
+    #[error(
+        "expected factors of links of at most {largest:e} in textures of {format} texels, found {found:e}: the areas of the \
+         model's texels differ too much; leave out faces that are far larger than the others, or store links in fp32"
+    )]
+    Factor { format: &'static str, largest: f32, found: f32 },
     /// A light that cannot be.
     #[error("light {light} (counted from 0): expected {what}")]
     Light { light: usize, what: &'static str },

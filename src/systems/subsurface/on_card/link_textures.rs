@@ -81,6 +81,16 @@ impl LinkTextures {
         self.kernel(MapTexture::Leveled, false).link_textures(self.count)
     }
 
+    /// Checks that no factor is infinite in a format.
+    pub(super) fn check(&self, format: FloatTexels) -> Result<(), SubsurfaceCardError> {
+        let (largest, format) = format.largest();
+        let mut values = self.textures.iter().flat_map(|texture| &texture.texels).flatten();
+        match values.find(|value| value.is_nan() || **value > largest) {
+            Some(&found) => Err(SubsurfaceCardError::Factor { format, largest, found }),
+            None => Ok(()),
+        }
+    }
+
     /// Bytes of `count` textures on the card.
     pub(super) fn bytes(&self, format: FloatTexels, count: usize) -> u64 {
         let texels = u64::from(self.side) * u64::from(self.side);

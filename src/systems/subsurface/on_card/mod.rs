@@ -77,6 +77,7 @@ impl SubsurfaceCard {
         options.check()?;
         MeshError::check_size("texels along a side of the links' atlas", model.side() as usize, links.side as usize)?;
         Self::fits(&profile, links, &options)?;
+        links.check(options.links)?;
         let programs = gather::programs(&profile, links, &options)?;
         let memory = CardMemory::new(links, &options, &programs);
         memory.check(&profile, options.memory)?;

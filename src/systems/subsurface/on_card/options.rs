@@ -23,6 +23,14 @@ impl FloatTexels {
             Self::Fp32 => TexelFormat::Rgba32f,
         }
     }
+
+    /// The largest number, and the name of the format.
+    pub(super) fn largest(self) -> (f32, &'static str) {
+        match self {
+            Self::Fp16 => (65504.0, "fp16"),
+            Self::Fp32 => (f32::MAX, "fp32"),
+        }
+    }
 }
 
 /// The format of the radiosity map.

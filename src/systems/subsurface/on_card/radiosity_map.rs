@@ -13,6 +13,7 @@ use super::options::{LightStage, MapFormat};
 use crate::card::{FullScreenPass, MeshError, PingPong, ReadTexture, Texels, constants, nearest};
 use crate::subsurface::fresnel::mean_transmittance;
 use crate::subsurface::kernels::{self, LightKernel};
+use crate::subsurface::material::check_eta;
 
 /// Programs, geometry and targets of pass 1.
 #[derive(Debug)]
@@ -65,9 +66,7 @@ impl LightPass {
         (stage, format): (LightStage, MapFormat),
         eta: f64,
     ) -> Result<Self, SubsurfaceCardError> {
-        if !(1.0..=1e6).contains(&eta) {
-            return Err(MeshError::Figure { what: "an index of refraction of 1 to 1000000", found: eta }.into());
-        }
+        check_eta(eta)?;
         let most = lights_per_pass(machine, stage);
         let stage = match stage {
             LightStage::Vertices => StageData::Vertices(RectangleVertices::new(model)),

@@ -1,0 +1,117 @@
+//! The reference over all pairs of texels, from texels far below the mean free path to far above the diffusion length.
+
+use approx::assert_relative_eq;
+use crossbar::atlas::Atlas;
+use crossbar::geom::Mesh;
+use crossbar::quadrature::SIXTEEN;
+use crossbar::subsurface::{Coefficients, Dipole, Reference};
+use glam::DVec3;
+
+use super::links_models::{atlas, medium};
+
+const SIDE: u32 = 16;
+
+/// A square of side 1, whose texels have sides of about 1/16.
+fn plate() -> Atlas {
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    atlas(&Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh"), SIDE)
+}
+
+fn media() -> [Dipole; 3] {
+    let marble = Dipole::new(Coefficients { sigma_s_prime: 2.62, sigma_a: 0.0041 }, 1.5).expect("a medium");
+    [marble, medium(1.0, 0.0), medium(0.68, 0.9)]
+}
+
+/// A point of a plate gets what a half space returns, [`Dipole::total`], but for what lies beyond the plate: that
+/// outside of a disc about the point, `Dipole::beyond`, of the nearest edge at most, and of the farthest corner at
+/// least.
+#[test]
+fn a_plate_of_any_size_returns_the_half_space_s_total() {
+    let atlas = plate();
+    // The texel nearest to the middle.
+    let middle = DVec3::new(0.5, 0.5, 0.0);
+    let distance = |texel: &usize| atlas.texels()[*texel].point.distance(middle);
+    let i = (0..atlas.texels().len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("texels");
+    for dipole in media() {
+        for texel_mm in [0.02, 0.1, 0.5, 1.0, 2.0, 4.0, 9.0, 23.0, 100.0, 1e4, 1e9] {
+            let mm_per_unit = texel_mm * f64::from(SIDE);
+            let reference = Reference::new(&atlas, mm_per_unit, &dipole).expect("a scale");
+            let by_texels: f64 = (0..atlas.texels().len()).map(|j| reference.factor(i, j)).sum();
+            let at_point = reference.radiosity_at(mm_per_unit * middle, &vec![1.0; atlas.texels().len()]);
+            // Points of the texel are within a tenth of the middle.
+            let [least, most] = [0.4, 0.8].map(|r| dipole.total() - dipole.beyond(r * mm_per_unit));
+            for found in [by_texels, at_point.expect("one per texel")] {
+                let within = 3e-3 * dipole.total();
+                assert!(
+                    found > least - within && found < most + within,
+                    "texels of {texel_mm} mm: {found}, expected {least} to {most}"
+                );
+            }
+        }
+    }
+}
+
+/// Two texels of one face are parallelograms of sides e and f, k e + l f apart. The points of both are
+/// `(k + u) e + (l + v) f` apart with u and v from -1 to 1 by the densities 1 - |u| and 1 - |v|: equation 10 as an
+/// integral over two numbers, by panels that narrow towards where the points meet.
+fn parallelograms(dipole: &Dipole, [e, f]: [DVec3; 2], [k, l]: [f64; 2]) -> f64 {
+    let panels = |middle: f64, side: DVec3| {
+        let mut edges = vec![middle - 1.0, middle, middle + 1.0, 0.0];
+        let mut at = 0.25 * dipole.z_r() / side.length();
+        while at < 1.0 + middle.abs() {
+            edges.extend([-at, at]);
+            at *= 1.3;
+        }
+        edges.retain(|edge| (edge - middle).abs() <= 1.0);
+        edges.sort_by(f64::total_cmp);
+        edges
+    };
+    let nodes = |middle: f64, side: DVec3| -> Vec<(f64, f64)> {
+        let panels = panels(middle, side);
+        let of = |pair: &[f64]| {
+            let (from, to) = (pair[0], pair[1]);
+            SIXTEEN.map(|(x, weight)| {
+                let at = from + (to - from) * x;
+                (at, weight * (to - from) * (1.0 - (at - middle).abs()))
+            })
+        };
+        panels.windows(2).flat_map(of).collect()
+    };
+    let across = nodes(l, f);
+    let row = |&(u, weight): &(f64, f64)| {
+        weight * across.iter().map(|&(v, weight)| weight * dipole.r_d((u * e + v * f).length())).sum::<f64>()
+    };
+    e.cross(f).length() * nodes(k, e).iter().map(row).sum::<f64>()
+}
+
+#[test]
+fn pairs_of_texels_have_equation_10_at_any_size() {
+    let atlas = plate();
+    let corners = |texel: u32| -> Vec<DVec3> { atlas.part(texel).polygons().flatten().copied().collect() };
+    let whole = |texel: u32| atlas.part(texel).polygons().count() == 1 && corners(texel).len() == 4;
+    let face = |texel: u32| atlas.texels()[texel as usize].face;
+    let i = (0..SIDE * SIDE).find(|&i| whole(i) && (0..4).all(|k| whole(i + k) && face(i + k) == face(i)));
+    let i = i.expect("a row of parallelograms");
+    let ring = corners(i);
+    let sides = [ring[1] - ring[0], ring[2] - ring[1]];
+    let apart = |j: u32| {
+        let offset = atlas.texels()[j as usize].point - atlas.texels()[i as usize].point;
+        let [e, f] = sides;
+        let over = e.cross(f).z;
+        [offset.cross(f).z / over, e.cross(offset).z / over]
+    };
+    for dipole in media() {
+        for texel_mm in [0.1, 0.5, 1.0, 2.0, 4.0, 9.0, 23.0, 100.0] {
+            let mm_per_unit = texel_mm * f64::from(SIDE);
+            let reference = Reference::new(&atlas, mm_per_unit, &dipole).expect("a scale");
+            for j in i..i + 3 {
+                let expected = parallelograms(&dipole, sides.map(|side| mm_per_unit * side), apart(j));
+                let found = reference.factor(i as usize, j as usize);
+                let within = 0.01 * dipole.total();
+                assert!((found - expected).abs() < within, "{texel_mm} mm, texel {j}: {found}, expected {expected}");
+                let back = reference.factor(j as usize, i as usize);
+                assert_relative_eq!(found, back, epsilon = within);
+            }
+        }
+    }
+}
