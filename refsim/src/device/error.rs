@@ -30,9 +30,7 @@ pub enum DeviceError {
     #[error("switch `{switch}` of device `{device}` is `{value}`, which its format `{format}` cannot have")]
     #[diagnostic(
         code(device::format_rule),
-        help(
-            "leave the switch out, or end a format that replaces the device's with a rule of its own, `:sat` for example"
-        )
+        help("leave the switch out, or give the format a rule of its own, `:sat` for example")
     )]
     FormatRule { device: String, switch: String, value: String, format: Format },
     /// The profile's file is malformed.

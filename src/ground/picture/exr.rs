@@ -149,7 +149,7 @@ impl Windows {
             } else {
                 (window.position.y(), window.size.height())
             };
-            [i64::from(start), i64::from(start) + size as i64]
+            [i64::from(start), i64::from(start).saturating_add(i64::try_from(size).unwrap_or(i64::MAX))]
         });
         from.max(first)..to.min(last)
     }

@@ -161,12 +161,8 @@ fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, PictureError> {
         None if info.srgb.is_some() => return Ok(None),
         None => {}
     }
-    match info.gama_chunk.map(::png::ScaledFloat::into_scaled) {
-        Some(0) => Err(refused("expected a gAMA chunk of more than 0, found 0".to_owned())),
-        // In units of 1 / 100,000.
-        Some(gamma) => Ok(Some(1e5 / f64::from(gamma))),
-        None => Ok(None),
-    }
+    // In units of 1 / 100,000; the reader skips a chunk of 0, which means nothing.
+    Ok(info.gama_chunk.map(|gamma| 1e5 / f64::from(gamma.into_scaled())))
 }
 
 /// Converts codes k of n bits to k / (2^n - 1), and colors to its power where there is an exponent.

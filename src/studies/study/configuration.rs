@@ -1,7 +1,6 @@
 //! Configurations of a precision study: a device in a number format, with its switches.
 
 use refsim::device::{DeviceError, Profile};
-use refsim::num::Format;
 
 use crate::case::device_named;
 
@@ -46,7 +45,7 @@ impl Configuration {
     pub fn device_in_format(name: &str, format: &str) -> Result<Self, DeviceError> {
         let mut configuration = Self::device(name)?;
         configuration.profile.replace_format(format)?;
-        configuration.label = file_name(&format!("{name}-{}", format.parse::<Format>()?));
+        configuration.label = file_name(&format!("{name}-{}", configuration.profile.rules.format));
         Ok(configuration)
     }
 

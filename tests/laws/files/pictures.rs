@@ -134,8 +134,8 @@ fn exr_files_show_their_display_window() {
     assert!(error.ends_with(reason), "{error}");
 }
 
-/// PNG's specification: light is a sample to the power of 1 / gamma, unless an sRGB or cICP chunk says otherwise. Samples
-/// are 0 to 5 fifths.
+/// PNG's specification: light is a sample to the power of 1 / gamma, unless an sRGB or cICP chunk says otherwise.
+/// Samples are 0 to 5 fifths.
 #[test]
 fn png_files_say_what_light_samples_stand_for() {
     let samples = |name: &str| {
@@ -147,16 +147,12 @@ fn png_files_say_what_light_samples_stand_for() {
     assert_eq!(samples("gama.png"), (ChannelUnit::Linear, [[0.0, 0.04, 0.16], [0.36, 0.64, 1.0]]));
     assert_eq!(samples("gama_srgb.png"), (ChannelUnit::Srgb, fifths));
     assert_eq!(samples("gama_linear.png"), (ChannelUnit::Linear, fifths));
-    for (name, reason) in [
-        ("pq.png", "expected a cICP chunk of transfer function 8 or 13, found 16"),
-        ("gama_0.png", "expected a gAMA chunk of more than 0, found 0"),
-    ] {
-        let error = fixture(name).expect_err("refused").to_string();
-        assert!(error.ends_with(reason), "{error}");
-    }
+    assert_eq!(samples("gama_0.png"), (ChannelUnit::Srgb, fifths), "no gamma");
+    let error = fixture("pq.png").expect_err("refused").to_string();
+    assert!(error.ends_with("expected a cICP chunk of transfer function 8 or 13, found 16"), "{error}");
 }
 
-/// What Radiance HDR files can say besides exposures.
+/// Header lines of Radiance HDR files besides exposures.
 #[test]
 fn hdr_files_that_are_not_linear_or_turned_are_refused() {
     let plain = hdr(&Picture::rgb(2, 1, &[[1.0; 3]; 2])).expect("a file");

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::picture::metrics::{ErrorSums, value_error};
 
-/// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the direct
-/// one is, or the reverse.
+/// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the
+/// direct one is, or the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.

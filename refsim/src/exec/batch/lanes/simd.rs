@@ -61,8 +61,8 @@ impl SimdLevel {
     }
 }
 
-/// Runs `work` with AVX2 and FMA, or gives it back on a processor without. The version for such processors has no copy of
-/// `work`: each level is compiled once.
+/// Runs `work` with AVX2 and FMA, or gives it back on a processor without. The version for such processors has no copy
+/// of `work`: each level is compiled once.
 #[multiversion(targets("x86_64+avx2+fma"))]
 fn avx2<R, F: FnOnce() -> R>(work: F) -> Result<R, F> {
     match_target! {
