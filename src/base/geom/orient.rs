@@ -125,7 +125,7 @@ mod tests {
         let moebius = vec![[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4], [4, 5, 6], [5, 0, 6], [6, 0, 1]];
         assert!(mesh(moebius.clone()).orientation_conflicts() > 0);
         assert!(mesh(moebius).misoriented().is_empty());
-        let fins = vec![[0, 1, 2], [0, 1, 3], [0, 1, 4], [5, 5, 6]];
+        let fins = vec![[0, 1, 2], [0, 1, 3], [0, 1, 5], [5, 5, 6]];
         assert!(mesh(fins).misoriented().is_empty(), "three triangles on an edge");
     }
 

@@ -108,8 +108,10 @@ fn ascii(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, ModelError> {
             text.keyword(&["normal"])?;
             for _ in 0..3 {
                 // Any word but the next keyword: without area a triangle has no normal, and writers have many NaNs.
-                let word = text.word().filter(|word| !word.eq_ignore_ascii_case(b"outer"));
-                word.ok_or_else(|| text.wrong("three numbers of a normal", Some(b"outer")))?;
+                let word = text.word();
+                if word.is_none_or(|word| word.eq_ignore_ascii_case(b"outer")) {
+                    return Err(text.wrong("three numbers of a normal", word));
+                }
             }
             text.keyword(&["outer"])?;
             text.keyword(&["loop"])?;

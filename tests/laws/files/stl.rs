@@ -98,6 +98,8 @@ fn broken_files_are_named() {
     let text = String::from_utf8(ascii()).expect("text");
     let lines = |count: usize| text.split_inclusive('\n').take(count).collect::<String>();
     assert_eq!(message(lines(15).as_bytes()), "m.stl:15: expected `facet` or `endsolid`, found the end of the file");
+    let cut = message(b"solid\nfacet normal 0 0");
+    assert_eq!(cut, "m.stl:2: expected three numbers of a normal, found the end of the file");
     assert_eq!(message(lines(5).as_bytes()), "m.stl:5: expected `vertex`, found the end of the file");
     for (from, to, error) in [
         ("1.5", "nan", "5: expected a finite number, found `nan`"),
