@@ -1,6 +1,7 @@
 //! Readers and writers of files: what is written reads back, and no bytes cause a panic.
 
 mod cases;
+mod foreign_obj;
 mod gltf;
 mod models;
 mod mutation;
