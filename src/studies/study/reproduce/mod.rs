@@ -1,9 +1,10 @@
 //! Reproduction of the papers' printed values: one file per entry, each a list of rows with tables and charts.
 //!
-//! The papers' values, their origins and the bounds of those that are judged are data with dates ([`papers`]). Every row
-//! has one of them, and ours with the printed values that it depends on, which determine the verdict. A row outside its
-//! bound counts as missed unless a sweep of the same run over something that the paper leaves open reaches the printed
-//! value ([`Sweep`]), or the paper contradicts itself and ours agrees with one of its values ([`Contradiction`]).
+//! The papers' values, their origins and the bounds of those that are judged are data with dates ([`papers`]). Every
+//! row has one of them, and ours with the printed values that it depends on, which determine the verdict. A row outside
+//! its bound counts as missed unless a sweep of the same run over something that the paper leaves open reaches the
+//! printed value ([`Sweep`]), or the paper contradicts itself and ours agrees with one of its values
+//! ([`Contradiction`]).
 //!
 //! Rows that depend on the size of models are those of recorded runs at full size ([`EntryRecord`]).
 

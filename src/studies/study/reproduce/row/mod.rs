@@ -1,8 +1,8 @@
 //! Rows: a printed value of a paper and ours, with a bound and the verdict.
 //!
 //! Verdicts follow from how a value was computed ([`Method`], [`Standing`], the range that confines it) and from the
-//! bound. [`Explanation`]s are created only by a [`Sweep`] of the same run, [`Contradiction`]s only by computations from
-//! printed values; calibrated values are listed separately and still have to lie within their bounds.
+//! bound. [`Explanation`]s are created only by a [`Sweep`] of the same run, [`Contradiction`]s only by computations
+//! from printed values; calibrated values are listed separately and still have to lie within their bounds.
 
 mod bound;
 mod contradiction;
@@ -289,8 +289,8 @@ pub(super) mod tests {
         assert_eq!(verdicts, [RowVerdict::Contradictory, RowVerdict::Missed]);
     }
 
-    /// A bound that admits every possible value judges nothing; one that a possible value misses does. Equal values have
-    /// no order, and do not save one that cannot be the other way round.
+    /// A bound that admits every possible value judges nothing; one that a possible value misses does. Equal values
+    /// have no order, and do not save one that cannot be the other way round.
     #[test]
     fn what_cannot_fail_is_met_by_construction() {
         let confined = |range, bound| PaperRow { bound, ..row(15.6) }.confined(range, "a tree").verdict();
@@ -302,8 +302,8 @@ pub(super) mod tests {
         assert_eq!(outside.verdict(), RowVerdict::Missed, "a wrong reason hides no miss");
     }
 
-    /// A frame of 20 ms that the host works for 20 ms is the host's, at a calibrated rate; one that waits for the card is
-    /// not.
+    /// A frame of 20 ms that the host works for 20 ms is the host's, at a calibrated rate; one that waits for the card
+    /// is not.
     #[test]
     fn a_frame_that_the_host_decides_is_an_equation() {
         let frame = Picoseconds(20_000_000_000);
