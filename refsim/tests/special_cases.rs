@@ -1,4 +1,4 @@
-//! The special-case rules of the specifications, from `fixtures/special_cases/rules.csv`: every row is drawn by the scalar
+//! Draws every row of `fixtures/special_cases/rules.csv`, the special-case rules of the specifications, with the scalar
 //! executor, in batches, and on an adapter. The table's README says how to read it.
 
 #[path = "common/adapter.rs"]
@@ -119,6 +119,11 @@ fn programs(row: &Row) -> (Option<String>, String) {
     };
     let target = if row.operands[0].starts_with("CUBE") { "CUBE" } else { "2D" };
     let reads = matches!(op, "TEX" | "TXP" | "texld");
+    match (op, row.language) {
+        ("FOGC", "FP1.0") => return (None, "!!FP1.0\nMOVR o[COLR], f[FOGC];\nEND".to_owned()),
+        ("FOGC", _) => return (None, "!!ARBfp1.0\nMOV result.color, fragment.fogcoord;\nEND".to_owned()),
+        _ => {}
+    }
     match row.language {
         "FP1.0" => {
             let operands = if reads { format!(", R0, TEX0, {target}") } else { list("R") };
@@ -173,7 +178,7 @@ fn draw(machine: &mut Machine, row: &Row, programs: &(Option<CheckedProgram>, Ch
     let vertices = corners.map(|position| {
         let mut texcoords = [[0; 4]; 8];
         (0..3).for_each(|i| texcoords[i] = operand(i));
-        Vertex { position, texcoords, ..Vertex::default() }
+        Vertex { position, texcoords, fog: operand(0)[0], ..Vertex::default() }
     });
     let data: [[V; 3]; 4] = [corners, [operand(0); 3], [operand(1); 3], [operand(2); 3]];
     let source = match &programs.0 {

@@ -67,7 +67,7 @@ impl Limit {
             (Self::Instructions, _) => (Stage::Pixel, figure!(instructions)),
             (Self::Temporaries, _) => (Stage::Pixel, figure!(temporaries)),
             (Self::Constants | Self::BoundParameters, _) => (Stage::Pixel, figure!(constants)),
-            (Self::Attributes, _) => (Stage::Pixel, ("version", None)),
+            (Self::Attributes, _) => (Stage::Pixel, figure!(fragment_attributes)),
             (Self::TextureCoordinates, _) => (Stage::Pixel, figure!(texture_coordinates)),
             (Self::Samplers, _) => (Stage::Pixel, figure!(samplers)),
             (Self::ColorInputs, _) => (Stage::Pixel, figure!(color_inputs)),

@@ -7,8 +7,8 @@ use super::RuleId;
 use super::allowed::Limit;
 use super::context::{Context, ordinal};
 use crate::isa::{
-    ConstantValue, FIRST_ENVIRONMENT, FIRST_NAMED, Instruction, Opcode, OpcodeClass, Precision, Register, RegisterFile,
-    Source, Span, Spelling, Version,
+    ConstantValue, FIRST_ENVIRONMENT, FIRST_NAMED, Instruction, Modifier, Opcode, OpcodeClass, Precision, Program,
+    Register, RegisterFile, Source, Span, Spelling, Version,
 };
 
 /// Numbers of full- and half-precision temporaries that have names.
@@ -168,6 +168,19 @@ fn packing(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
+/// Returns `true` if literals and names of literals, of at most four different numbers, become one constant: section
+/// 3.11.2 of GL_NV_fragment_program. The sign of a single number is part of it.
+fn merge_into_one<'a>(program: &Program, mut constants: impl Iterator<Item = &'a Source>) -> bool {
+    let mut numbers = BTreeSet::new();
+    constants.all(|source| {
+        let defined = program.constants.iter().find(|d| d.register == source.register);
+        let Some(ConstantValue::Float(vector)) = defined.map(|d| d.value) else { return false };
+        let negated = vector == [vector[0]; 4] && source.modifier == Modifier::Negate;
+        numbers.extend(vector.map(|bits| bits ^ u32::from(negated) << 31));
+        numbers.len() <= 4
+    })
+}
+
 /// V62: one attribute and one constant per instruction.
 fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
     if !context.version_limits() {
@@ -181,6 +194,9 @@ fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
         [("attributes", &is_attribute), ("constants", &|file| file == RegisterFile::Constant)];
     for (what, belongs) in kinds {
         let sources = instruction.sources.iter().filter(|s| belongs(s.register.file));
+        if merge_into_one(context.program, sources.clone()) {
+            continue;
+        }
         let mut seen = BTreeSet::new();
         let mut second = None;
         for source in sources {

@@ -62,6 +62,8 @@ figures! {
         fragment_parameters,
         /// Temporaries of an `!!ARBfp1.0` program, if others than `temporaries`.
         fragment_temporaries,
+        /// Attributes that an `!!ARBfp1.0` program binds.
+        fragment_attributes,
         /// Temporaries `r#` of a pixel program.
         temporaries,
         /// Constants `c#` of a pixel program.

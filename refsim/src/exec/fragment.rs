@@ -50,8 +50,10 @@ impl FragmentFormats {
 }
 
 /// The components of a texel that a program of `version` reads as 0, whatever the sampler delivers: in `!!FP1.0` green
-/// and blue that a float format does not store, and all of an unbound sampler. Source: GL_NV_fragment_program, table X.5
-/// and section 3.11.5.38. Its other formats have no certain counterpart among Direct3D's, whose defaults they keep.
+/// and blue that a float format does not store, and all of an unbound sampler.
+///
+/// Source: GL_NV_fragment_program, table X.5 and section 3.11.5.38. Other formats have no certain counterpart there and
+/// keep Direct3D's defaults.
 pub(crate) fn zero_components(version: Version, format: Option<TexelFormat>) -> Range<usize> {
     match format.map(TexelFormat::record) {
         _ if version != Version::Fp1_0 => 0..0,

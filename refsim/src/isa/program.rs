@@ -132,7 +132,7 @@ pub struct Program {
     pub instructions: Vec<Instruction>,
     /// Host-set constants without a register number, in the order in which the text names them.
     pub parameters: Vec<Parameter>,
-    /// What an `!!ARBfp1.0` program declares or binds, used or not, and where it does so first.
+    /// Resources that an `!!ARBfp1.0` program declares or binds, used or not, each with its first place in the text.
     pub resources: BTreeMap<ProgramResource, Span>,
     /// The OpenGL fog option that is applied at the end of the program, if any.
     pub fog: Option<FogOption>,
@@ -153,7 +153,7 @@ pub struct Parameter {
     pub span: Span,
 }
 
-/// What counts against a limit of `!!ARBfp1.0` programs where it is declared or bound.
+/// A resource of an `!!ARBfp1.0` program, which counts against a limit where it is declared or bound.
 ///
 /// Source: GL_ARB_fragment_program, section 3.11.3.6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -172,7 +172,7 @@ impl ProgramResource {
         Self::Constant(vector.map(|bits| if bits == 1 << 31 { 0 } else { bits }))
     }
 
-    /// What a source register of a program stands for.
+    /// Returns the resource that a source register of a program stands for.
     pub fn of_source(program: &Program, register: Register) -> Self {
         let literal = program.constants.iter().find(|d| d.register == register).map(|d| d.value);
         let parameter = program.parameters.iter().find(|p| p.register == register).map(|p| p.source);

@@ -47,7 +47,7 @@ pub enum RegisterFile {
     TexCoordOut,
     /// `H#`: half precision temporaries of an OpenGL fragment program, whose `R#` are [`Self::Temp`].
     Half,
-    /// `f[FOGC]`: the fog coordinate in x, then 0, 0, 1.
+    /// `f[FOGC]`: the fog coordinate in x, then 0, 0, 0; `fragment.fogcoord`: 0, 0, 1.
     FogIn,
     /// `f[WPOS]`: the window position of the fragment: x, y, depth, 1/w.
     WindowPosition,

@@ -1,6 +1,6 @@
 //! Parser of `!!ARBfp1.0`: GL_ARB_fragment_program.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError};
 use super::build::Build;
@@ -35,35 +35,6 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
         Some(errors) => Err(errors),
         None => Ok(parser.build.finish(Version::ArbFp1_0, header)),
     }
-}
-
-/// Writes the declarations of a program: its temporaries, `R0` to the highest one, and what it binds without using it.
-pub(super) fn declarations(program: &Program, out: &mut String) {
-    let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
-    let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);
-    let used: BTreeSet<_> = written.chain(read).map(|r| ProgramResource::of_source(program, r)).collect();
-    let (mut temporaries, mut unused) = (0, String::new());
-    for (number, resource) in used.iter().chain(program.resources.keys()).enumerate() {
-        let (word, text) = match *resource {
-            ProgramResource::Register(Register { file: RegisterFile::Temp, index, .. }) => {
-                temporaries = temporaries.max(index + 1);
-                continue;
-            }
-            _ if used.contains(resource) => continue,
-            ProgramResource::Register(r) if r.file != RegisterFile::Constant => {
-                ("ATTRIB", super::print::register_name(program, &r))
-            }
-            ProgramResource::Register(r) => ("PARAM", super::print::register_name(program, &r)),
-            ProgramResource::Constant(vector) => ("PARAM", super::print::vector(vector)),
-            ProgramResource::State(binding) => ("PARAM", binding.to_string()),
-        };
-        unused += &format!("{word} unused{number} = {text};\n");
-    }
-    if temporaries > 0 {
-        let names: Vec<String> = (0..temporaries).map(|n| format!("R{n}")).collect();
-        *out += &format!("TEMP {};\n", names.join(", "));
-    }
-    *out += &unused;
 }
 
 /// Meaning of a name.

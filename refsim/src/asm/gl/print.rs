@@ -1,11 +1,12 @@
 //! Printer of OpenGL fragment programs in canonical form.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::super::number::float_text;
 use crate::isa::{
     Condition, ConstantValue, Destination, FIRST_ENVIRONMENT, Instruction, Mask, Modifier, Opcode, OpcodeClass,
-    ParameterSource, Program, Register, RegisterFile, Source, Spelling, Swizzle, Version,
+    ParameterSource, Program, ProgramResource, Register, RegisterFile, Source, Spelling, Swizzle, Version,
 };
 
 const LETTERS: [char; 4] = ['x', 'y', 'z', 'w'];
@@ -30,7 +31,7 @@ pub(in super::super) fn print(program: &Program) -> String {
         put!(out, "OPTION {};\n", fog.mode.name());
     }
     if arb {
-        super::arb::declarations(program, &mut out);
+        declarations(program, &mut out);
     }
     for parameter in &program.parameters {
         if let ParameterSource::Named(default) = parameter.source {
@@ -44,6 +45,33 @@ pub(in super::super) fn print(program: &Program) -> String {
     out
 }
 
+/// Writes the declarations of a program: its temporaries, `R0` to the highest one, and what it binds without using it.
+fn declarations(program: &Program, out: &mut String) {
+    let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
+    let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);
+    let used: BTreeSet<_> = written.chain(read).map(|r| ProgramResource::of_source(program, r)).collect();
+    let (mut temporaries, mut unused) = (0, String::new());
+    for (number, resource) in used.iter().chain(program.resources.keys()).enumerate() {
+        let (word, text) = match *resource {
+            ProgramResource::Register(Register { file: RegisterFile::Temp, index, .. }) => {
+                temporaries = temporaries.max(index + 1);
+                continue;
+            }
+            _ if used.contains(resource) => continue,
+            ProgramResource::Register(r) if r.file != RegisterFile::Constant => ("ATTRIB", register_name(program, &r)),
+            ProgramResource::Register(r) => ("PARAM", register_name(program, &r)),
+            ProgramResource::Constant(bits) => ("PARAM", vector(bits)),
+            ProgramResource::State(binding) => ("PARAM", binding.to_string()),
+        };
+        unused += &format!("{word} unused{number} = {text};\n");
+    }
+    if temporaries > 0 {
+        let names: Vec<String> = (0..temporaries).map(|n| format!("R{n}")).collect();
+        *out += &format!("TEMP {};\n", names.join(", "));
+    }
+    *out += &unused;
+}
+
 /// Name of a register in program text.
 pub(in super::super) fn register_name(program: &Program, register: &Register) -> String {
     let mut out = String::new();
@@ -52,7 +80,7 @@ pub(in super::super) fn register_name(program: &Program, register: &Register) ->
     out
 }
 
-pub(super) fn vector(bits: [u32; 4]) -> String {
+fn vector(bits: [u32; 4]) -> String {
     let [x, y, z, w] = bits.map(float_text);
     format!("{{{x}, {y}, {z}, {w}}}")
 }

@@ -10,6 +10,7 @@ use crate::device::{ColorIterator, ResultRange, Rules, Storage};
 use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
     Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
+    Version,
 };
 use crate::num::{Format, NumberOperation as Op};
 use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
@@ -152,7 +153,7 @@ impl<'a> Translator<'a> {
                     let node = self.make.graph.node(NodeKind::Input(FOG_COMPONENT as u16));
                     self.make.convert(Arith::Single, Arith::Main, node)
                 }
-                3 => self.make.one(Arith::Main),
+                3 if self.program.version == Version::ArbFp1_0 => self.make.one(Arith::Main),
                 _ => self.make.zero(),
             },
             RegisterFile::WindowPosition => {

@@ -17,8 +17,8 @@ pub(super) fn bem(alu: &mut Alu<'_>, base: &Components, offset: &Components, bum
     [row(base[0], bump[0], bump[2]), row(base[1], bump[1], bump[3]), 0, 0]
 }
 
-/// `pow`: `exp2(exponent * log2(base))` in three rounded steps, as the slot cost of 3 suggests and both OpenGL extensions
-/// define it; so `pow(0, 0)` is NaN. Sources: Direct3D, "pow - ps"; GL_NV_fragment_program 3.11.5.24.
+/// `pow`: `exp2(exponent * log2(base))` in three rounded steps, as the slot cost of 3 suggests and both OpenGL
+/// extensions define it; so `pow(0, 0)` is NaN. Sources: Direct3D, "pow - ps"; GL_NV_fragment_program 3.11.5.24.
 pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
     let log = alu.log2(base);
     let product = alu.mul(exponent, log);
@@ -33,8 +33,8 @@ pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
 }
 
 /// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once, of a
-/// magnitude. For 0 the first and third component are `log2(0)` and the second is 1. Source: DirectX 8.1, "logp" (vs_1_0
-/// and 1_1); the Direct3D 9 page has one value in all components for every version.
+/// magnitude. For 0 the first and third component are `log2(0)` and the second is 1. Source: DirectX 8.1, "logp"
+/// (vs_1_0 and vs_1_1). The Direct3D 9 page has one value in all components for every version.
 pub(super) fn logp(alu: &mut Alu<'_>, magnitude: u32) -> Components {
     let log = alu.log2(magnitude);
     if alu.format.is_zero(magnitude) {
@@ -103,9 +103,9 @@ pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Components, r: &Components) 
 
 /// `lit`: with x and y clamped to 0 from below, `(1, x, x > 0 ? y^w : 0, 1)`, the power as in [`pow`].
 ///
-/// Direct3D clamps w to +-127.9961 (32767/256) and gives 0 for the power of 0. GL_ARB_fragment_program clamps w, and `0^0`
-/// is 1. GL_NV_fragment_program does neither. A clamp leaves a NaN, and OpenGL's also a -0. Sources: Direct3D, "lit - vs";
-/// section 3.11.5.13 of both extensions.
+/// Direct3D clamps w to +-127.9961 (32767/256) and gives 0 for the power of 0. GL_ARB_fragment_program clamps w, and
+/// `0^0` is 1. GL_NV_fragment_program does neither. A clamp leaves a NaN, and those of OpenGL leave a -0. Sources:
+/// Direct3D, "lit - vs"; section 3.11.5.13 of both extensions.
 pub(super) fn lit(alu: &mut Alu<'_>, version: Version, a: &Components) -> Components {
     let [mut x, mut y, _, mut w] = *a;
     if version != Version::Fp1_0 {

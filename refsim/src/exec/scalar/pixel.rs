@@ -8,7 +8,7 @@ use crate::device::{Rules, Storage};
 use crate::event::SAMPLERS;
 use crate::exec::usage::registers_delivered;
 use crate::exec::{CheckedProgram, DepthValue, FragmentResult, Observer, PixelBindings, delivered_color};
-use crate::isa::{Register, RegisterFile};
+use crate::isa::{Register, RegisterFile, Version};
 use crate::num::{Format, ops};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
@@ -59,10 +59,11 @@ impl<'a> PixelProgram<'a> {
         interpolated.map(|x| ops::convert(&Format::FP32, self.prepared.format, x).bits)
     }
 
-    /// The fog coordinate as read by instructions of OpenGL programs.
+    /// The fog coordinate as read by instructions of OpenGL programs: its fourth component is 1 in ARB's, 0 in NV's.
     fn fog(&self, input: &FragmentInput) -> [u32; 4] {
         let [x, ..] = self.coordinates([input.fog; 4]);
-        [x, 0, 0, self.prepared.format.one()]
+        let arb = self.prepared.program.version == Version::ArbFp1_0;
+        [x, 0, 0, if arb { self.prepared.format.one() } else { 0 }]
     }
 
     /// Input registers with interpolated values, as read by instructions.
