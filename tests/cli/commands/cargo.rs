@@ -116,14 +116,18 @@ fn dependencies_on_pages_resolve() {
             if block.contains("dependencies]") {
                 let manifest = format!("[package]\nname = \"own\"\nedition = \"2024\"\n\n[workspace]\n\n{block}");
                 std::fs::write(own.join("Cargo.toml"), manifest).expect("written");
-                std::fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.lock"), own.join("Cargo.lock")).expect("copied");
+                std::fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.lock"), own.join("Cargo.lock"))
+                    .expect("copied");
                 let said = cargo(&own, "tree --offline");
                 assert!(said.status.success(), "{name}:\n{block}{}", String::from_utf8_lossy(&said.stderr));
                 shown += 1;
             }
         }
     }
-    assert!(shown >= 5, "README.md, docs/dependency.md, docs/tutorial.md and the crates of refsim show one each: {shown}");
+    assert!(
+        shown >= 5,
+        "README.md, docs/dependency.md, docs/tutorial.md and the crates of refsim show one each: {shown}"
+    );
 }
 
 /// docs/dependency.md counts the crates of each feature as cargo does. `INSTA_UPDATE=always` writes them.
