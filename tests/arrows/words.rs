@@ -57,12 +57,3 @@ fn sentences_name_no_type() {
 fn after_value(part: &str) -> &str {
     part.split_once('}').map_or(part, |(_, rest)| rest)
 }
-
-#[test]
-fn banned_words_are_seen_where_a_block_begins() {
-    let text = "//! What a module is.\n\n/// Whether.\n/// What follows is no beginning.\nfn f() {}\n/// Whole numbers.\n\
-                fn g() {}\n    /// Of what it is made.\n    a: u8,\n    /// So many times.\n    b: u8,\n// What a comment says.\n";
-    assert_eq!(banned_beginnings(text), [1, 3, 8, 10]);
-    let names = "pub struct Way;\nenum Ways { A }\npub(crate) trait Wayward {}\ntype Kept = u8;\n// struct Told\nlet way = 1;\n";
-    assert_eq!(banned_names(names), [1, 2, 4]);
-}
