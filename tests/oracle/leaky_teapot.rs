@@ -5,7 +5,6 @@ use crossbar::geom::exact::Sides;
 use crossbar::study::configuration::Configuration;
 use crossbar::study::leaky_teapot::TeapotOutcome;
 use refsim::machine::ExecutorKind;
-use refsim::num::Format;
 
 use super::teapot_study::{assert_same, formats, parameters, small_study, study};
 

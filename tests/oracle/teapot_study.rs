@@ -7,7 +7,6 @@ use crossbar::scene::Camera;
 use crossbar::study::configuration::Configuration;
 use crossbar::study::leaky_teapot::{Parameters, TeapotOutcome, run};
 use refsim::machine::ExecutorKind;
-use refsim::num::Format;
 
 pub(crate) fn parameters(size: u32, rate: u32, configurations: Vec<Configuration>) -> Parameters {
     let camera = Camera::teapot(size, size).expect("a camera");
