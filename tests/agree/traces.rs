@@ -1,5 +1,5 @@
-//! Traces: for random programs and draws, a GPU's trace of every pixel equals the scalar executor's step by step, and the
-//! last fragment of a trace is what every executor draws.
+//! Traces: for random programs and draws, a GPU's trace of every pixel equals the scalar executor's step by step, and
+//! the last fragment of a trace is what every executor draws.
 
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};

@@ -154,7 +154,7 @@ fn every_command_of_cargo_names_what_exists() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Outputs on pages, behind `<!-- output of: COMMAND -->`, equal the command's output. `INSTA_UPDATE=always` writes them.
+/// Outputs on pages, behind `<!-- output of: COMMAND -->`, equal the command's. `INSTA_UPDATE=always` writes them.
 #[test]
 fn outputs_on_pages_are_those_of_the_program() {
     let root = copy_of_the_repository();
