@@ -230,6 +230,15 @@ impl ObjReader {
         self.faces.iter().zip(ends).map(|(&start, end)| &self.corners[start..end])
     }
 
+    /// The vertices of each triangle of [`Self::mesh`], counted from 1.
+    pub(super) fn vertices_of_triangles(&self) -> Vec<[u32; 3]> {
+        let fan = |face: &[[usize; 3]]| -> Vec<[u32; 3]> {
+            let sides = face.windows(2).skip(1);
+            sides.map(|side| [face[0], side[0], side[1]].map(|[vertex, ..]| vertex as u32)).collect()
+        };
+        self.faces().flat_map(fan).collect()
+    }
+
     /// The corners of the face that was read last.
     pub(super) fn last_face(&self) -> &[[usize; 3]] {
         self.faces.last().map_or(&[], |&start| &self.corners[start..])
