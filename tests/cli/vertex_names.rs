@@ -159,6 +159,23 @@ fn cards_write_radiance_of_vertices_too() {
     }
 }
 
+/// Vertices of a fold whose `v` lines stand twice, in the order in which its faces name them.
+#[test]
+fn vertices_at_one_place_have_the_numbers_that_faces_name() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let of = |name: &str| place(folder.path(), name);
+    let (model, file, page) = (of("fold.obj"), of("file.prt"), of("page"));
+    let text = "v 0 0 0\nv 0 0 0\nv 0 0 1\nv 0 1 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 1 0 0\n\
+                f 2//1 5//1 6//1\nf 1//2 4//2 3//2\n";
+    fs::write(&model, text).expect("written");
+    document(&["cpca", "precompute", &model, "--order", "2", "--out", &file]);
+    let view = ["--model", &model, "--light", "constant", "--eye", "2,2,2", "--size", "8x8", "--out", &page];
+    document(&[&["cpca", "render", &file, "--values", "csv"][..], &view].concat());
+    let table = rows(&format!("{page}/vertices.csv"), "vertex,model_vertex,x,y,z,red,green,blue");
+    let numbers: Vec<&str> = table.iter().map(|row| row[1].as_str()).collect();
+    assert_eq!(numbers, ["2", "5", "6", "1", "4", "3"]);
+}
+
 /// The array of a page.
 fn array(page: &str) -> NumberTable<f64> {
     let path = Path::new(page).join("vertices.npy");

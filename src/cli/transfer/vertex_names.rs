@@ -5,14 +5,13 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::cli::model_file::vertex_numbers;
-use crate::io::VertexNumbers;
 use crate::report::Cell;
 use crate::transfer::Vertices;
 
 /// Names of the vertices of transfer. Rows of tables end in [`Self::COLUMNS`].
 pub(in crate::cli) struct VertexNames<'a> {
-    /// `None`: the file gives none.
-    numbers: Option<VertexNumbers>,
+    /// Per vertex; `None`: the file gives none.
+    numbers: Vec<Option<u32>>,
     positions: &'a [[f32; 3]],
 }
 
@@ -22,17 +21,20 @@ impl<'a> VertexNames<'a> {
 
     /// Of a model as it was named, and its vertices.
     pub(in crate::cli) fn new(model: &Path, vertices: &'a Vertices) -> Self {
-        Self { numbers: vertex_numbers(model), positions: vertices.positions() }
+        let (numbers, positions) = (vertex_numbers(model), vertices.positions());
+        let number = |((triangle, _), &place): ((u32, usize), _)| numbers.as_ref()?.at(triangle, place);
+        Self { numbers: vertices.first_corners().into_iter().zip(positions).map(number).collect(), positions }
     }
 
-    /// The number in the model's file: of an OBJ the line `v`, counted from 1 as faces count them.
+    /// The number in the model's file: of an OBJ the line `v`, counted from 1, that the first face at the vertex names.
+    /// Vertices with several normals, textures or materials at one line have its number all.
     pub(in crate::cli) fn number(&self, vertex: usize) -> Option<u32> {
-        self.numbers.as_ref()?.at(self.positions[vertex])
+        self.numbers[vertex]
     }
 
     /// All numbers.
     pub(in crate::cli) fn numbers(&self) -> Vec<Option<u32>> {
-        (0..self.positions.len()).map(|vertex| self.number(vertex)).collect()
+        self.numbers.clone()
     }
 
     /// The fields of a vertex in a table; the first is empty where the file gives no number.

@@ -1,39 +1,45 @@
 //! The numbers that a model file gives its vertices.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::error::ReadError;
 use super::lines::{logical_lines, single, statement};
 use super::model::{ModelOptions, is_obj, rotation_of_obj};
-use super::obj::load_model;
+use super::obj::{ObjReader, load_model};
 use crate::geom::vector::place_bits;
 
-/// Vertices of a model file by their places. Of several vertices at one place the first counts.
+/// Vertices of a model file, as its faces name them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VertexNumbers {
-    of_place: BTreeMap<[u32; 3], u32>,
+    /// Place of each vertex, as bits.
+    places: Vec<[u32; 3]>,
+    /// Vertices of each triangle, counted from 1.
+    triangles: Vec<[u32; 3]>,
 }
 
 impl VertexNumbers {
     /// Those of an OBJ file's text: its `v` lines, counted from 1 as its faces count them, turned as `rotation` says.
-    pub(super) fn of_obj(bytes: &[u8], rotation: Option<fn([f32; 3]) -> [f32; 3]>) -> Self {
-        let mut of_place = BTreeMap::new();
-        let mut next = 1_u32;
-        for (_, text) in logical_lines(bytes) {
-            let [b"v", x, y, z, ..] = statement(&text)[..] else { continue };
-            if let (Ok(x), Ok(y), Ok(z)) = (single(x), single(y), single(z)) {
-                let place = rotation.map_or([x, y, z], |rotation| rotation([x, y, z]));
-                of_place.entry(place_bits(place)).or_insert(next);
+    /// `None` of what is no OBJ file.
+    pub(super) fn of_obj(bytes: &[u8], rotation: Option<fn([f32; 3]) -> [f32; 3]>) -> Option<Self> {
+        let (mut reader, mut places) = (ObjReader::new(Path::new("")), Vec::new());
+        for (line, text) in logical_lines(bytes) {
+            let words = statement(&text);
+            reader.line(line, &words, &text).ok()?;
+            if let [b"v", x, y, z, ..] = words[..] {
+                let place = [single(x).ok()?, single(y).ok()?, single(z).ok()?];
+                places.push(place_bits(rotation.map_or(place, |rotation| rotation(place))));
             }
-            next = next.saturating_add(1);
         }
-        Self { of_place }
+        let (triangles, _) = reader.triangles(false).ok()?;
+        let vertices = triangles.iter().map(|corners| corners.map(|[vertex, ..]| vertex));
+        Some(Self { places, triangles: vertices.collect() })
     }
 
-    /// The number of the vertex at a place, if the file has one there.
-    pub fn at(&self, place: [f32; 3]) -> Option<u32> {
-        self.of_place.get(&place_bits(place)).copied()
+    /// The number of a triangle's vertex by its place, as several vertices of a file may have the same place. Of two
+    /// vertices of the triangle at one place, the first.
+    pub fn at(&self, triangle: u32, place: [f32; 3]) -> Option<u32> {
+        let is_there = |&vertex: &u32| self.places.get(vertex as usize - 1) == Some(&place_bits(place));
+        self.triangles.get(triangle as usize)?.iter().copied().find(is_there)
     }
 }
 
@@ -44,7 +50,7 @@ impl VertexNumbers {
 /// [`ReadError`].
 pub fn load_vertex_numbers(path: &Path, options: ModelOptions) -> Result<Option<VertexNumbers>, ReadError> {
     let bytes = load_model(path)?;
-    Ok(is_obj(&bytes, path).then(|| VertexNumbers::of_obj(&bytes, rotation_of_obj(options))))
+    Ok(if is_obj(&bytes, path) { VertexNumbers::of_obj(&bytes, rotation_of_obj(options)) } else { None })
 }
 
 #[cfg(test)]
@@ -52,12 +58,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn vertices_are_counted_as_faces_count_them() {
-        let text = b"# a comment\nv 1 2 3\nvn 0 0 1\nv -0 0 0 1\nv 1 2 3\nv 4 5 6 0.1 0.2 0.3\nf 1 2 4\n";
-        let numbers = VertexNumbers::of_obj(text, None);
-        assert_eq!([[1.0, 2.0, 3.0], [0.0; 3], [4.0, 5.0, 6.0]].map(|at| numbers.at(at)), [Some(1), Some(2), Some(4)]);
-        assert_eq!(numbers.at([0.0, 0.0, 1.0]), None, "a normal is no vertex");
-        let turned = VertexNumbers::of_obj(text, Some(|[x, y, z]| [x, -z, y]));
-        assert_eq!((turned.at([4.0, -6.0, 5.0]), turned.at([4.0, 5.0, 6.0])), (Some(4), None));
+    fn vertices_are_numbered_as_faces_name_them() {
+        let text = b"# a comment\nv 1 2 3\nvn 0 0 1\nv -0 0 0 1\nv 1 2 3\nv 4 5 6 0.1 0.2 0.3\nf 1 2 4\nf 4 2 3 1\n";
+        let numbers = VertexNumbers::of_obj(text, None).expect("a model");
+        let at = |triangle| [[1.0, 2.0, 3.0], [0.0; 3], [4.0, 5.0, 6.0]].map(|place| numbers.at(triangle, place));
+        assert_eq!(at(0), [Some(1), Some(2), Some(4)]);
+        assert_eq!(at(1), [Some(3), Some(2), Some(4)]);
+        assert_eq!(at(2), [Some(3), None, Some(4)]);
+        assert_eq!((numbers.at(0, [0.0, 0.0, 1.0]), numbers.at(3, [0.0; 3])), (None, None), "a normal, no triangle");
+        let turned = VertexNumbers::of_obj(text, Some(|[x, y, z]| [x, -z, y])).expect("a model");
+        assert_eq!((turned.at(0, [4.0, -6.0, 5.0]), turned.at(0, [4.0, 5.0, 6.0])), (Some(4), None));
+        assert_eq!(VertexNumbers::of_obj(b"v 1 2\n", None), None);
     }
 }
