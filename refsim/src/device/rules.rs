@@ -1,6 +1,7 @@
 //! Arithmetic rules of a device, resolved to plain values for the executors.
 
 use super::storage_formats::StorageFormats;
+use crate::isa::Version;
 use crate::num::{DotOrder, Format};
 
 /// Defines an enumeration whose variants have names in profiles, switches and reports.
@@ -294,4 +295,12 @@ pub struct Rules {
     /// Format of the sums of dot products in pixel programs, if not that of the operation; no card has one
     /// ([`super::Profile::set_accumulator`]).
     pub accumulator: Option<Format>,
+}
+
+impl Rules {
+    /// How a language computes `lrp`: OpenGL's state `t0 * t1 + (1 - t0) * t2` (GL_NV_fragment_program and
+    /// GL_ARB_fragment_program, sections on LRP); Direct3D leaves it to the card.
+    pub fn lrp_in(&self, version: Version) -> LrpMode {
+        if version.is_fragment_program() { LrpMode::TwoProducts } else { self.lrp }
+    }
 }

@@ -4,6 +4,7 @@ use super::formats::Formats;
 use super::graph::TRUE;
 use super::graph::{Arith, Graph, NodeId, NodeKind};
 use crate::device::{LrpMode, MadMode, PRODUCTS, Rules};
+use crate::isa::Version;
 use crate::num::{self, DotOrder, Format, FormatKind, NumberOperation as Op, Rounding};
 
 /// Four components.
@@ -244,8 +245,8 @@ impl<'a> GraphBuilder<'a> {
         self.convert(to, k, sum)
     }
 
-    pub(crate) fn lrp(&mut self, k: Arith, factor: NodeId, a: NodeId, b: NodeId) -> NodeId {
-        match self.rules.lrp {
+    pub(crate) fn lrp(&mut self, k: Arith, version: Version, [factor, a, b]: [NodeId; 3]) -> NodeId {
+        match self.rules.lrp_in(version) {
             LrpMode::SubMulAdd => {
                 let difference = self.sub(k, a, b);
                 self.mad(k, factor, difference, b)

@@ -3,7 +3,7 @@
 use super::arith::{GraphBuilder, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
 use crate::isa::{Opcode, Version};
-use crate::num::{self, NumberOperation as Op};
+use crate::num::{self, NumberOperation as Op, Specials};
 
 impl GraphBuilder<'_> {
     /// The result of an arithmetic operation of a language; missing operands are zeros.
@@ -24,7 +24,7 @@ impl GraphBuilder<'_> {
             Opcode::Sub => std::array::from_fn(|i| self.sub(k, a[i], b[i])),
             Opcode::Mul => std::array::from_fn(|i| self.mul(k, a[i], b[i])),
             Opcode::Mad => std::array::from_fn(|i| self.mad(k, a[i], b[i], c[i])),
-            Opcode::Lrp => std::array::from_fn(|i| self.lrp(k, a[i], b[i], c[i])),
+            Opcode::Lrp => std::array::from_fn(|i| self.lrp(k, version, [a[i], b[i], c[i]])),
             Opcode::Dp3 => [self.dot(k, 3, &a, &b); 4],
             Opcode::Dp4 => [self.dot(k, 4, &a, &b); 4],
             Opcode::Dp2Add => {
@@ -35,6 +35,15 @@ impl GraphBuilder<'_> {
             Opcode::Cmp => std::array::from_fn(|i| self.compute(k, Op::SelectNonNegative, a[i], b[i], c[i])),
             Opcode::Bem => self.bem(k, &a, &b, bump),
             Opcode::Abs => a.map(|x| self.unary(k, Op::Abs, x)),
+            Opcode::Min | Opcode::Max
+                if version == Version::ArbFp1_0 && self.formats.format(k).specials == Specials::Ieee =>
+            {
+                std::array::from_fn(|i| {
+                    let above = self.holds(k, Op::Less, b[i], a[i]);
+                    let (yes, no) = if opcode == Opcode::Max { (a[i], b[i]) } else { (b[i], a[i]) };
+                    self.select(above, yes, no)
+                })
+            }
             Opcode::Min => std::array::from_fn(|i| self.binary(k, Op::Min, a[i], b[i])),
             Opcode::Max => std::array::from_fn(|i| self.binary(k, Op::Max, a[i], b[i])),
             Opcode::Sge => std::array::from_fn(|i| self.flag(k, Op::LessEqual, b[i], a[i])),

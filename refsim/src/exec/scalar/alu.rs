@@ -2,6 +2,7 @@
 //! sequence of the profile and collects exception flags.
 
 use crate::device::{LrpMode, MadMode, ResultRange, Rules};
+use crate::isa::Version;
 use crate::num::{self, Flags, Format, ops};
 
 /// Operations in `format` under `rules`; accumulates exception flags.
@@ -151,9 +152,9 @@ impl<'r> Alu<'r> {
     }
 
     /// `factor * (a - b) + b`, the last two steps as one [`Self::mad`], or `factor * a + (1 - factor) * b` with each
-    /// step rounded, according to the rules.
-    pub(crate) fn lrp(&mut self, factor: u32, a: u32, b: u32) -> u32 {
-        match self.rules.lrp {
+    /// step rounded.
+    pub(crate) fn lrp(&mut self, version: Version, [factor, a, b]: [u32; 3]) -> u32 {
+        match self.rules.lrp_in(version) {
             LrpMode::SubMulAdd => {
                 let difference = self.sub(a, b);
                 self.mad(factor, difference, b)

@@ -6,6 +6,7 @@ use super::alu::Alu;
 use super::macros;
 use super::registers::Components;
 use crate::isa::{Mask, Opcode, Version};
+use crate::num::Specials;
 
 /// Inputs of an operation besides its operands.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +35,7 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Opcode::Sub => each(mask, |i| alu.sub(a[i], b[i])),
         Opcode::Mul => each(mask, |i| alu.mul(a[i], b[i])),
         Opcode::Mad => each(mask, |i| alu.mad(a[i], b[i], c[i])),
-        Opcode::Lrp => each(mask, |i| alu.lrp(a[i], b[i], c[i])),
+        Opcode::Lrp => each(mask, |i| alu.lrp(version, [a[i], b[i], c[i]])),
         Opcode::Dp3 => [alu.dot(&a[..3], &b[..3]); 4],
         Opcode::Dp4 => [alu.dot(&a, &b); 4],
         Opcode::Dp2Add => {
@@ -45,6 +46,13 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Opcode::Cmp => each(mask, |i| alu.cmp(a[i], b[i], c[i])),
         Opcode::Bem => macros::bem(alu, &a, &b, &context.bump),
         Opcode::Abs => each(mask, |i| alu.abs(a[i])),
+        // GL_ARB_fragment_program 3.11.5.16 and .17: `a > b ? a : b` and `a > b ? b : a`. NVIDIA's unit has its own rule.
+        Opcode::Min if version == Version::ArbFp1_0 && alu.format.specials == Specials::Ieee => {
+            each(mask, |i| if alu.less(b[i], a[i]) { b[i] } else { a[i] })
+        }
+        Opcode::Max if version == Version::ArbFp1_0 && alu.format.specials == Specials::Ieee => {
+            each(mask, |i| if alu.less(b[i], a[i]) { a[i] } else { b[i] })
+        }
         Opcode::Min => each(mask, |i| alu.min(a[i], b[i])),
         Opcode::Max => each(mask, |i| alu.max(a[i], b[i])),
         Opcode::Sge => each(mask, |i| if alu.less_or_equal(b[i], a[i]) { alu.one() } else { 0 }),
