@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::moments::{Covariance, Moments, size_squared};
+use super::sliver::clip;
 use crate::atlas::FacePlace;
 
 /// A face and its rectangle. In the rectangle's coordinates, which run from 0 to 1, corners (0, 0), (1, 0), (1, 1),
@@ -65,6 +66,13 @@ impl FaceMap {
         let down = span(y, place.y, place.height);
         let [s, t] = if place.transposed { [down, across] } else { [across, down] };
         Window { s, t }
+    }
+
+    /// The convex polygons under a window, on both sides of the diagonal; one without corners if the map is not bent.
+    pub(super) fn outlines(&self, Window { s: [s0, s1], t: [t0, t1] }: Window) -> [Vec<DVec3>; 2] {
+        let corners = [(s0, t0), (s1, t0), (s1, t1), (s0, t1)].map(|(s, t)| DVec3::new(s, t, 0.0));
+        let on_face = |at: DVec3| self.origin + at.x.max(at.y) * self.e + at.y.max(2.0 * at.y - at.x) * self.f;
+        [1.0, -1.0].map(|side| clip(&corners, |at| side * (at.x - at.y)).into_iter().map(on_face).collect())
     }
 
     /// From a point of one window to that of another window of its size on the same side of the diagonal.

@@ -248,6 +248,11 @@ impl<const N: usize> DistanceTable<N> {
         size_squared > HOPELESS * self.unit
     }
 
+    /// Pieces whose squared sizes sum to at most this are far at any distance.
+    pub(super) fn nearest_reach(&self) -> f64 {
+        self.intervals[0].reach.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// How many times two pieces are to be halved until their parts are far from each other.
     pub(super) fn halvings(&self, one: &Moments, other: &Moments) -> u32 {
         let balls = [one, other].map(|piece| (BALL * piece.size_squared).sqrt());

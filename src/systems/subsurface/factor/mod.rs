@@ -14,6 +14,7 @@ mod integrate;
 mod kernel;
 mod moments;
 mod near;
+mod sliver;
 mod surface;
 
 pub(super) use block::{BLOCK_LEVEL, BlockReceiver, TexelFactors};

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::face_map::{FaceMap, Window};
 use super::kernel::{DistanceTable, add};
 use super::moments::Moments;
+use super::sliver::{is_sliver, sliver_mean};
 use super::surface::SurfaceMoments;
 
 /// Texels are halved at most this often along a side.
@@ -92,7 +93,14 @@ pub(super) fn texel_mean<const N: usize>(
     let [from, to] = [one.min(other), one.max(other)];
     let [p, q] = [from, to].map(|texel| &surface.level(0)[texel]);
     let most = if kernel.is_hopeless(p.size_squared + q.size_squared) { 2 } else { MAX_HALVINGS };
-    let halvings = kernel.halvings(p, q).min(most);
+    let halvings = kernel.halvings(p, q);
+    if halvings > most
+        && (is_sliver(p) || is_sliver(q))
+        && let Some(mean) = sliver_mean(surface, kernel, [from, to])
+    {
+        return mean;
+    }
+    let halvings = halvings.min(most);
     let is_same = from == to;
     let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
     let displaced = if slots[0] == slots[1] && !is_same {
