@@ -144,7 +144,7 @@ fn bisected(value: &mut dyn FnMut(f64) -> f64, [from, to]: [f64; 2], allowed: f6
 #[test]
 fn slivers_keep_the_tolerance() {
     let media = [figure_7(), medium(0.74, 0.9), medium(0.05, 1e-4)];
-    for length in [1.0, 4.0, 30.0, 1000.0] {
+    for length in [1.0, 16.0, 1000.0] {
         let corner = |k: u8| [length * f32::from(k & 1), f32::from(k >> 1 & 1), -f32::from(k >> 2)];
         let bar = Mesh::new((0..6).map(corner).collect(), vec![[0, 1, 3], [0, 3, 2], [0, 4, 5], [0, 5, 1]]);
         let atlas = atlas(&bar.expect("a mesh"), 4);
