@@ -24,7 +24,10 @@ impl Configuration {
     /// # Errors
     /// If there is no such device.
     pub fn device(name: &str) -> Result<Self, DeviceError> {
-        Ok(Self { label: file_name(name), ..Self::of(&device_named(name)?) })
+        let configuration = Self::of(&device_named(name)?);
+        // A card has one name, however it was asked for; device files are told apart by theirs.
+        let is_file = name.ends_with(".toml");
+        Ok(if is_file { Self { label: file_name(name), ..configuration } } else { configuration })
     }
 
     /// Creates the configuration of a device without limits that computes in `format`.
@@ -45,7 +48,7 @@ impl Configuration {
     pub fn device_in_format(name: &str, format: &str) -> Result<Self, DeviceError> {
         let mut configuration = Self::device(name)?;
         configuration.profile.replace_format(format)?;
-        configuration.label = file_name(&format!("{name}-{}", configuration.profile.rules.format));
+        configuration.label = file_name(&format!("{}-{}", configuration.label, configuration.profile.rules.format));
         Ok(configuration)
     }
 
