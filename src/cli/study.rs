@@ -62,7 +62,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut 
     };
     // Before the long work, so that a folder that cannot be written is found out at once.
     let folder = args.folder().filter(|_| !split.is_part());
-    let folder = folder.map(|folder| FileSet::new(folder)).transpose().map_err(Problem::from)?;
+    let folder = folder.map(FileSet::new).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
     let mut found = match study.findings_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
         Computed::Whole(found) => found,

@@ -160,7 +160,7 @@ proptest! {
         let whole = |value: f32| {
             let (bits, sign) = (value.abs().to_bits(), if value < 0.0 { -1 } else { 1 });
             let mantissa = bits & 0x7f_ffff | u32::from(bits >> 23 > 0) << 23;
-            BigInt::from(mantissa) * sign << (bits >> 23).saturating_sub(1)
+            (BigInt::from(mantissa) * sign) << (bits >> 23).saturating_sub(1)
         };
         let n = corners.len();
         let twice: BigInt = (0..n)

@@ -139,7 +139,8 @@ fn bisected(value: &mut dyn FnMut(f64) -> f64, [from, to]: [f64; 2], allowed: f6
     sum
 }
 
-/// Two sides of a bar. Texels have the aspects of the faces, and lengths from a hundredth to hundreds of mean free paths.
+/// Two sides of a bar. Texels have the aspects of the faces, and lengths from a hundredth to hundreds of mean free
+/// paths.
 /// The short form has one texel in eight.
 #[test]
 fn slivers_keep_the_tolerance() {

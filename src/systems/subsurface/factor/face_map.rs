@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::clip::clip;
 use super::moments::{Covariance, Moments, size_squared};
-use super::sliver::clip;
 use crate::atlas::FacePlace;
 
 /// A face and its rectangle. In the rectangle's coordinates, which run from 0 to 1, corners (0, 0), (1, 0), (1, 1),

@@ -1,10 +1,12 @@
-//! Factors of near texels of which one is a sliver: both are cut across their longest extent until their pieces are far.
+//! Factors of near texels of which one is a sliver: both are cut across their longest extent until their pieces are
+//! far.
 //!
 //! Quarters of a sliver are slivers, and a sliver of length L and width w has (L / w)^2 of them that are compact. Cuts
 //! across its length make L / w.
 
 use glam::DVec3;
 
+use super::clip::clip;
 use super::kernel::{DistanceTable, add};
 use super::moments::{Covariance, Moments, size_squared};
 use super::surface::SurfaceMoments;
@@ -136,21 +138,6 @@ fn cut_in_half(outline: &[DVec3]) -> [Vec<DVec3>; 2] {
         }
     }
     [along, -along].map(|along| clip(outline, |corner| along.dot(corner - middle)))
-}
-
-/// The part of a convex polygon where a linear function is not negative.
-pub(super) fn clip(outline: &[DVec3], function: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
-    let mut part = Vec::with_capacity(outline.len() + 1);
-    for (&a, &b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
-        let [at_a, at_b] = [a, b].map(&function);
-        if at_a >= 0.0 {
-            part.push(a);
-        }
-        if (at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0) {
-            part.push(a + at_a / (at_a - at_b) * (b - a));
-        }
-    }
-    part
 }
 
 /// The moments of a convex polygon.
