@@ -90,7 +90,7 @@ fn pass(index: usize, fragment: &FragmentTrace) -> FragmentPass {
 }
 
 /// Finds the first difference between two traces of one pixel: in the first pass that differs, the first stage, and
-/// there the first step. `None` if they are equal; flags are not compared, since only the scalar executor knows them.
+/// there the first step. `None` if they are equal; flags are not compared, since a GPU knows none.
 pub fn first_difference(
     left: &TraceSide<'_>,
     right: &TraceSide<'_>,
