@@ -32,7 +32,7 @@ fn every_command_is_listed_here() {
 #[test]
 fn short_options() {
     let long = crossbar(&["alu", "add", "--format", "fp16"], "3C00 4000\n");
-    assert_eq!((long.code, long.stdout.starts_with("3C00 4000 4200")), (Some(0), true), "{}", long.transcript());
+    assert_eq!((long.code, long.stdout.starts_with("4200")), (Some(0), true), "{}", long.transcript());
     assert_eq!(crossbar(&["alu", "add", "-f", "fp16", "-q"], "3C00 4000\n").stdout, long.stdout);
     let check = |option| crossbar(&["check", "docs/examples/intersect.psa", option, "Radeon 8500"], "").stdout;
     assert_eq!(check("-d"), check("--device"));

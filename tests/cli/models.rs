@@ -101,10 +101,10 @@ fn faces_with_a_fault_are_said_or_refused() {
 #[test]
 fn a_hit_beyond_f32_has_its_distance() {
     let folder = folder();
-    let z = 2_f32.powi(100);
+    let [near, z] = [27, 227].map(|exponent: u32| f32::from_bits(exponent << 23));
     let far = format!("v -1 -1 {z}\nv 1 -1 {z}\nv 0 1 {z}\nf 1 2 3\n");
     fs::write(folder.path().join("far.obj"), far).expect("written");
-    let rays = format!("\u{feff}ox,oy,oz,dx,dy,dz\n0,0,0,0,0,{}\n9,0,0,0,0,1\n", 2_f32.powi(-100));
+    let rays = format!("\u{feff}ox,oy,oz,dx,dy,dz\n0,0,0,0,0,{near}\n9,0,0,0,0,1\n");
     fs::write(folder.path().join("far.csv"), rays).expect("written");
     let ran = run(folder.path(), "intersect --mesh far.obj --rays far.csv --sides both --out h.csv");
     assert_eq!(ran.code, Some(0), "{}", ran.transcript());

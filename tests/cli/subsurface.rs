@@ -463,7 +463,7 @@ fn factors_beyond_their_format_are_refused() {
         let more = ["--all-pairs", "no", "--links", "16", "--link-format", format];
         crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "")
     };
-    let told = run("fp16").refusal(&["fp16"]);
+    let told = run("fp16").refusal(["fp16"]);
     assert!(told.contains("expected factors of links of at most 6.5504e4 in textures of fp16 texels"), "{told}");
     let ran = run("fp32");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));

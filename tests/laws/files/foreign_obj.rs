@@ -49,8 +49,8 @@ proptest! {
         positions.iter().for_each(|[x, y, z]| text += &format!("v {x} {y}  {z}\n"));
         for (corners, from_end, form) in faces {
             let index = |corner: &prop::sample::Index| match corner.index(count) {
-                at if from_end => at as i64 - count as i64,
-                at => at as i64 + 1,
+                at if from_end => format!("-{}", count - at),
+                at => (at + 1).to_string(),
             };
             let ending = ["", "/1/1", "//1"][form];
             text += &format!("f {}\n", corners.each_ref().map(|c| format!("{}{ending}", index(c))).join(" "));

@@ -85,7 +85,7 @@ fn plane() -> impl Strategy<Value = ([[i64; 3]; 3], i32)> {
 }
 
 fn placed(outline: &[Point], ([o, u, v], exponent): &([[i64; 3]; 3], i32)) -> Vec<[f32; 3]> {
-    let scale = 2_f32.powi(*exponent);
+    let scale = f32::from_bits((127 + exponent).cast_unsigned() << 23);
     let coordinate = |[x, y]: Point, axis: usize| (o[axis] + x * u[axis] + y * v[axis]) as f32 * scale;
     outline.iter().map(|&point| [0, 1, 2].map(|axis| coordinate(point, axis))).collect()
 }

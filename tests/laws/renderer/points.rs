@@ -137,7 +137,7 @@ fn an_estimate_of_fewer_than_two_photons_is_refused() {
         let photons = Photons { nearest, ..photons(1) };
         let camera = needle(EYE, [0.0; 3]);
         let refused = photon::render(&scene, &camera, &settings(), &photons, &mut host(&scene), &mut |_| {});
-        let error: RenderError = refused.err().expect("an error");
+        let error: RenderError = refused.expect_err("an error");
         assert_eq!(
             error.to_string(),
             format!("expected at least 2 for the nearest photons of an estimate, found {nearest}")
