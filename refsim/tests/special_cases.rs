@@ -61,9 +61,9 @@ fn number(word: &str) -> u32 {
 /// One number for all components, or four.
 fn vector(text: &str) -> V {
     let numbers: Vec<u32> = text.split(' ').map(number).collect();
-    match numbers.as_slice() {
-        &[x] => [x; 4],
-        &[x, y, z, w] => [x, y, z, w],
+    match *numbers.as_slice() {
+        [x] => [x; 4],
+        [x, y, z, w] => [x, y, z, w],
         _ => panic!("{text}: one number or four"),
     }
 }

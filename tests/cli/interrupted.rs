@@ -136,21 +136,6 @@ fn what_is_ignored_stays_ignored() {
     assert_eq!(staging(folder.path()), 0);
 }
 
-/// A program with a low limit of open files cleans up all the same.
-#[test]
-fn without_files_to_open_nothing_is_left() {
-    for most in 3..12 {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        let mut command = Command::new("sh");
-        command.args(["-c", "ulimit -n \"$0\"; exec \"$@\"", &most.to_string(), crate::program::path()]);
-        command.args(["scene", "white-box", "--out", "x"]).current_dir(folder.path());
-        let output = command.stdin(Stdio::null()).output().expect("a shell");
-        let left: Vec<_> = fs::read_dir(folder.path()).expect("a folder").flatten().map(|e| e.file_name()).collect();
-        let expected = usize::from(output.status.success());
-        assert_eq!(left.len(), expected, "{most} files: {left:?}, {}", String::from_utf8_lossy(&output.stderr));
-    }
-}
-
 /// Files of two runs into one folder never mix: all come from the run that finished last.
 #[test]
 fn two_runs_do_not_mix() {

@@ -87,26 +87,6 @@ fn a_flat_scene_has_no_residuals_to_draw() {
     }
 }
 
-/// A second run with fewer pictures leaves none of the first one's, and all that is the user's.
-#[test]
-fn a_smaller_run_leaves_nothing_of_a_larger_one() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let written = |more: &[&str]| -> BTreeSet<String> {
-        let small = ["radiosity", "cornell-room", "--patches", "60", "--factors", "unoccluded", "--size", "8x8"];
-        let ran = crossbar_in(folder.path(), &[&small[..], &["--iterations", "4", "--out", "out"], more].concat(), "");
-        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-        let entries = std::fs::read_dir(folder.path().join("out")).expect("a folder").flatten();
-        entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
-    };
-    let few = written(&["--solver", "jacobi"]);
-    let many = written(&["--solver", "jacobi", "--solver", "shooting", "--solver", "card", "--frames", "1,2"]);
-    assert!(many.len() > few.len() + 4, "{many:?}");
-    std::fs::write(folder.path().join("out/notes.png"), "mine").expect("written");
-    let again = written(&["--solver", "jacobi"]);
-    let expected: BTreeSet<String> = few.into_iter().chain(["notes.png".to_owned()]).collect();
-    assert_eq!(again, expected);
-}
-
 #[test]
 fn the_same_bytes_for_every_executor_and_thread_count() {
     let folders =
