@@ -16,7 +16,7 @@ use super::surface::SurfaceMoments;
 const LEAST_SPREAD: f64 = 5.0 / 6.0;
 /// Pieces are cut at most this often.
 const MAX_CUTS: u32 = 20;
-/// Pieces of both texels beyond which the smallest ones are taken as discs and points.
+/// Texels that together need more pieces are left to quarters, as they would take seconds per pair.
 const MAX_PIECES: f64 = 32768.0;
 /// No piece has this index.
 const NONE: u32 = u32::MAX;
@@ -48,11 +48,10 @@ struct SliverPair<'a, const N: usize> {
     kernel: &'a DistanceTable<N>,
     pieces: [Vec<Piece>; 2],
     is_same: bool,
-    /// Pieces of this squared size are not cut.
-    least: f64,
 }
 
-/// The mean of R_d over the pairs of points of two near texels, by Morton index. `None` if one has no area.
+/// The mean of R_d over the pairs of points of two near texels, by Morton index. `None` if one has no area, or if they
+/// need more than [`MAX_PIECES`].
 pub(super) fn sliver_mean<const N: usize>(
     surface: &SurfaceMoments,
     kernel: &DistanceTable<N>,
@@ -68,9 +67,10 @@ pub(super) fn sliver_mean<const N: usize>(
     });
     let areas = pieces.each_ref().map(|pieces| pieces[0].moments.area);
     // A square's squared size is a sixth of its area.
-    let smallest = (areas[0] + areas[1]) / (6.0 * MAX_PIECES);
-    let least = if smallest > 0.5 * kernel.nearest_reach() { smallest } else { 0.0 };
-    let mut pair = SliverPair { kernel, pieces, is_same: from == to, least };
+    if (areas[0] + areas[1]) / (6.0 * MAX_PIECES) > 0.5 * kernel.nearest_reach() {
+        return None;
+    }
+    let mut pair = SliverPair { kernel, pieces, is_same: from == to };
     let all = areas[0] * areas[1];
     (all > 0.0).then(|| pair.integral([0, 0]).map(|integral| integral / all))
 }
@@ -87,7 +87,7 @@ impl<const N: usize> SliverPair<'_, N> {
         if area <= 0.0 {
             return [0.0; N];
         }
-        let divides = |piece: &Piece| piece.cuts < MAX_CUTS && piece.moments.size_squared > self.least;
+        let divides = |piece: &Piece| piece.cuts < MAX_CUTS;
         let larger = usize::from(q.moments.size_squared > p.moments.size_squared);
         let divided = [larger, 1 - larger].into_iter().find(|&side| divides([p, q][side]));
         let mean = match (self.kernel.mean(&p.moments, &q.moments), divided) {
