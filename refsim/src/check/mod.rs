@@ -60,9 +60,6 @@ use context::Context;
 pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, CheckReport> {
     let fog = program.fog;
     let mut program = fog::expand(program);
-    if let Some(log) = &profile.log {
-        log.add(&program);
-    }
     profile.instruction_formats().assign(&mut program);
     let (mut violations, mut warnings) = (Vec::new(), Vec::new());
     let facts = {

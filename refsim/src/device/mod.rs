@@ -16,7 +16,6 @@ mod figure;
 mod instruction_formats;
 mod limits;
 mod profile;
-mod program_log;
 mod rules;
 mod storage_formats;
 mod switch;
@@ -27,7 +26,6 @@ pub use figure::{Confidence, FigureRow, MeasuredCounts};
 pub use instruction_formats::{InstructionFormats, MAX_INSTRUCTION_FORMATS, takes_format};
 pub use limits::{Bus, DEFAULT_STEP_BUDGET, Limits, Rates};
 pub use profile::Profile;
-pub use program_log::ProgramLog;
 pub use rules::{
     BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
     ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,

@@ -8,7 +8,6 @@ use super::DeviceError;
 use super::figure::{FigureRow, RawFigure, Section};
 use super::instruction_formats::InstructionFormats;
 use super::limits::{Bus, Limits, Rates};
-use super::program_log::ProgramLog;
 use super::rules::{
     BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
     ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
@@ -136,7 +135,6 @@ pub struct Profile {
     pub(super) stated: StatedRules,
     figures: Vec<FigureRow>,
     pub(super) instruction_formats: InstructionFormats,
-    pub(crate) log: Option<ProgramLog>,
 }
 
 impl Profile {
@@ -397,7 +395,6 @@ impl Profile {
             stated: StatedRules::default(),
             figures,
             instruction_formats: InstructionFormats::default(),
-            log: None,
         };
         // Applies the defaults of all switches, because some change limits.
         for (name, value) in profile.switches.iter().map(|s| (s.name.clone(), s.current.clone())).collect::<Vec<_>>() {
@@ -405,11 +402,6 @@ impl Profile {
         }
         profile.stated.0.clear();
         Ok(profile)
-    }
-
-    /// Lists the programs that are checked for this device and its later copies from now on.
-    pub fn log_programs(&mut self) -> ProgramLog {
-        self.log.get_or_insert_default().clone()
     }
 
     /// Returns `true` if the device runs programs of this version.

@@ -250,12 +250,9 @@ fn message_of(result: Result<Profile, refsim::device::DeviceError>) -> String {
 fn fogged_programs_keep_their_formats() {
     let text = "!!ARBfp1.0\nOPTION ARB_fog_linear;\nMUL result.color, fragment.color, fragment.color;\nEND";
     let mut profile = running::ideal("fp32");
-    let log = profile.log_programs();
     let checked = running::checked(text, &profile);
     assert!(profile.set_instruction_format(&checked, 0, Some("e8m2".parse().unwrap())));
     let formats: Vec<_> = running::checked(text, &profile).instructions.iter().map(|i| i.format).collect();
     assert_eq!(formats[0], Some("e8m2".parse().unwrap()));
     assert!(formats[1..].iter().all(Option::is_none));
-    assert_eq!(log.programs().len(), 1, "formats are not another program");
-    assert_eq!(log.programs()[0].digest(), checked.digest());
 }

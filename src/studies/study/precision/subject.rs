@@ -177,6 +177,16 @@ pub trait PrecisionSubject {
     /// If the device cannot run the programs.
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
+    /// Returns `true` if the exact run on this device, which differs in a switch, draws with pixel programs that are
+    /// none of the subject's.
+    ///
+    /// # Errors
+    /// If the device cannot run the programs.
+    fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
+        let _ = profile;
+        Ok(false)
+    }
+
     /// Measures on input that no run of the search has seen; `None` if there is none.
     ///
     /// # Errors

@@ -1,7 +1,5 @@
 //! Sensitivity to the open switches of a device.
 
-use refsim::isa::{Program, Stage};
-
 use super::bits::FormatBits;
 use super::curve::BitScan;
 use super::runs::{RunError, Runs};
@@ -79,12 +77,9 @@ fn under(
     let goal = runs.goal;
     let as_given = runs.measure(&given)?.value(&goal.measure);
     // Some switches decide which program a system chooses: formats of other programs' instructions would do nothing.
-    let mut exact = runs.uniform_device(&given, None);
-    let log = exact.log_programs();
+    let exact = runs.uniform_device(&given, None);
     let exact = runs.measure(&exact)?.value(&goal.measure);
-    let studied: Vec<u64> = runs.programs.iter().map(|studied| studied.program.digest()).collect();
-    let pixel = |program: &Program| program.version.stage() == Stage::Pixel;
-    if log.programs().iter().filter(|program| pixel(program)).any(|program| !studied.contains(&program.digest())) {
+    if runs.subject.chooses_other_programs(&given)? {
         return Err(StudyError::new("crossbar::precision::program", "other programs are chosen").into());
     }
     let mut found = SwitchFindings { given: as_given, exact, minimum };

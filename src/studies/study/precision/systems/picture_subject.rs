@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::isa::Program;
-use refsim::machine::{DrawWatcher, ExecutorKind};
+use refsim::machine::{DrawWatcher, Executor, ExecutorKind};
 
 use super::programs::PixelPrograms;
 use super::run::{SystemInput, SystemRun};
@@ -48,10 +48,11 @@ pub(super) struct SystemSubject {
 impl SystemSubject {
     pub(super) fn new(run: Box<dyn SystemRun>, profile: Profile) -> Result<Self, StudyError> {
         let executors = SubjectExecutors::new();
-        let (programs, [exact, exact_held_back]) = PixelPrograms::of(&profile, |device| {
-            let values = |input| run.values(input, device, &executors.batch);
-            Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
-        })?;
+        let (programs, [exact, exact_held_back]) =
+            PixelPrograms::of(&profile, &executors.batch, |device, executor| {
+                let values = |input| run.values(input, device, executor);
+                Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
+            })?;
         Ok(Self { run, profile, executors, programs, exact, exact_held_back })
     }
 }
@@ -139,6 +140,11 @@ impl PrecisionSubject for SystemSubject {
         let found = self.run.values(SystemInput::HeldBack, profile, &self.executors.batch)?;
         let values = errors(&found, &self.exact_held_back).values;
         Ok(Some(Measured { values, ..Measured::default() }))
+    }
+
+    fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
+        let run = |device: &Profile, executor: &Executor| self.run.values(SystemInput::Searched, device, executor);
+        Ok(!PixelPrograms::of(profile, &self.executors.batch, run)?.0.are_among(&self.programs))
     }
 
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {

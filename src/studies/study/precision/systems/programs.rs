@@ -1,27 +1,45 @@
 //! The pixel programs that a system runs.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use refsim::device::Profile;
-use refsim::isa::{Program, Stage};
+use refsim::isa::Program;
+use refsim::machine::{DrawCall, DrawWatcher, Executor, Machine, MachineError};
 
 use crate::shader::ShaderText;
 use crate::study::StudyError;
 use crate::study::precision::runs::exact;
 use crate::study::precision::subject::StudiedProgram;
 
-/// Pixel programs of a system, in the order in which it checks them.
+/// Pixel programs of a system, in the order in which it first draws with them.
 pub(super) struct PixelPrograms(Vec<(Program, ShaderText)>);
 
+/// Keeps each pixel program of the draws once.
+#[derive(Debug, Default)]
+struct DrawnPrograms(Mutex<Vec<Program>>);
+
+impl DrawWatcher for DrawnPrograms {
+    fn before(&self, _: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
+        let mut programs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let program: &Program = call.pixel_program;
+        if !programs.contains(program) {
+            programs.push(program.clone());
+        }
+        Ok(())
+    }
+}
+
 impl PixelPrograms {
-    /// Runs `run` on the exact device, and collects the pixel programs that are checked meanwhile.
+    /// Runs `run` on the exact device, and collects the pixel programs that it draws with.
     pub(super) fn of<T>(
         profile: &Profile,
-        run: impl FnOnce(&Profile) -> Result<T, StudyError>,
+        executor: &Executor,
+        run: impl FnOnce(&Profile, &Executor) -> Result<T, StudyError>,
     ) -> Result<(Self, T), StudyError> {
-        let mut device = exact(profile, []);
-        let log = device.log_programs();
-        let found = run(&device)?;
-        let pixel = log.programs().into_iter().filter(|program| program.version.stage() == Stage::Pixel);
-        let programs = pixel.zip(1..).map(|(program, number): (Program, u32)| {
+        let drawn = Arc::new(DrawnPrograms::default());
+        let found = run(&exact(profile, []), &executor.watched(drawn.clone()))?;
+        let drawn = drawn.0.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let programs = drawn.into_iter().zip(1..).map(|(program, number): (Program, u32)| {
             let name = format!("program {number}, {}", program.version);
             let text = ShaderText::new(name, program.text.as_str());
             (program, text)
@@ -38,6 +56,11 @@ impl PixelPrograms {
     /// Program at an index.
     pub(super) fn get(&self, index: usize) -> Option<&Program> {
         self.0.get(index).map(|(program, _)| program)
+    }
+
+    /// Returns `true` if all programs are among others.
+    pub(super) fn are_among(&self, others: &Self) -> bool {
+        self.0.iter().all(|(program, _)| others.of_digest(program.digest()).is_some())
     }
 
     pub(super) fn list(&self) -> Vec<StudiedProgram<'_>> {

@@ -74,9 +74,7 @@ impl RayEngineSubject {
             (view, judged)
         });
         let executors = SubjectExecutors::new();
-        let (programs, _) = PixelPrograms::of(&profile, |device| {
-            Ok(Crossbar::new(device.clone(), executors.batch.clone()).intersect(&mesh, &views[0].0, Sides::Front)?)
-        })?;
+        let programs = drawn(&profile, &executors, &mesh, &views[0].0)?;
         Ok(Self { profile, executors, mesh, views, programs })
     }
 
@@ -117,6 +115,19 @@ impl RayEngineSubject {
     }
 }
 
+/// Programs that find the hits of a view.
+fn drawn(
+    profile: &Profile,
+    executors: &SubjectExecutors,
+    mesh: &Mesh,
+    view: &RayBatch,
+) -> Result<PixelPrograms, StudyError> {
+    let (programs, _) = PixelPrograms::of(profile, &executors.batch, |device, executor| {
+        Ok(Crossbar::new(device.clone(), executor.clone()).intersect(mesh, view, Sides::Front)?)
+    })?;
+    Ok(programs)
+}
+
 /// Column and row of a ray.
 fn pixel_of(at: usize) -> [u32; 2] {
     [at as u32 % SIDE, at as u32 / SIDE]
@@ -150,6 +161,10 @@ impl PrecisionSubject for RayEngineSubject {
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
         self.measured(&self.views[0], profile, self.executors.of(executor), wanted.is_none())
+    }
+
+    fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
+        Ok(!drawn(profile, &self.executors, &self.mesh, &self.views[0].0)?.are_among(&self.programs))
     }
 
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
