@@ -26,11 +26,7 @@ pub use figure::{Confidence, FigureRow, MeasuredCounts};
 pub use instruction_formats::{InstructionFormats, MAX_INSTRUCTION_FORMATS, takes_format};
 pub use limits::{Bus, DEFAULT_STEP_BUDGET, Limits, Rates};
 pub use profile::Profile;
-pub use rules::{
-    BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
-    ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
-    TexelValues, TexkillComponents, WeightRounding,
-};
+pub use rules::*;
 pub(crate) use storage_formats::MAX_PROGRAM_FORMATS;
 pub use storage_formats::{Storage, StorageFormats};
 pub use switch::Switch;

@@ -8,15 +8,11 @@ use super::DeviceError;
 use super::figure::{FigureRow, RawFigure, Section};
 use super::instruction_formats::InstructionFormats;
 use super::limits::{Bus, Limits, Rates};
-use super::rules::{
-    BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
-    ResultRange, Rules, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
-    TexelValues, TexkillComponents, WeightRounding,
-};
+use super::rules::{ResultRange, Rules};
 use super::storage_formats::StorageFormats;
-use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, registers_name, sets_rule};
+use super::switch::{FORMAT_RULES, Switch, apply, denormals_name, overflow_name, registers_name, sets_rule};
 use crate::isa::{Opcode, Version};
-use crate::num::{DotOrder, Format, FormatError};
+use crate::num::{Format, FormatError};
 
 /// The cards, by release date.
 const CARDS: [(&str, &str); 8] = [
@@ -445,50 +441,14 @@ fn switches(rules: &BTreeMap<String, RawFigure>) -> Vec<Switch> {
 
 /// Reads the rules of a profile's file. Every rule must be stated, because a default would have no source.
 fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
-    let mut rules = Rules {
-        format: Format::FP32,
-        result_range: ResultRange::Format,
-        partial: None,
-        vertex_format: Format::FP32,
-        iterator_format: Format::FP32,
-        color_iterator: ColorIterator::Full,
-        constant_storage: ConstantStorage::Register,
-        mad: MadMode::TwoRoundings,
-        dot: DotOrder::Sequential,
-        lrp: LrpMode::SubMulAdd,
-        texcrd_overflow: TexcrdOverflow::Clamp,
-        texdepth_denominator: TexdepthDenominator::Raw,
-        texkill_components: TexkillComponents::Four,
-        signed_texel_minimum: SignedTexelMinimum::Clamp,
-        zero_times_anything: false,
-        vertex_zero_times_anything: false,
-        color_clamp: ColorClamp::Program,
-        target_rounding: TargetRounding::Nearest,
-        mipmap_rounding: TargetRounding::Nearest,
-        depth_rounding: TargetRounding::Nearest,
-        subpixel_rounding: SubpixelRounding::Nearest,
-        subpixel_bits: 8,
-        filter_fraction_bits: 8,
-        lod_fraction_bits: 8,
-        filter_weight_rounding: WeightRounding::Nearest,
-        filter_arithmetic: FilterArithmetic::Exact,
-        texel_values: TexelValues::Fractions,
-        missing_channels: MissingChannels::Direct3d,
-        border_storage: BorderStorage::Texel,
-        storage: StorageFormats::default(),
-        accumulator: None,
-    };
-    for name in RULES {
-        let figure = figures.get(name).ok_or_else(|| format!("rules.{name} is missing"))?;
-        let value = figure.text();
-        apply(&mut rules, name, &value).ok_or_else(|| format!("rules.{name}: `{value}` means nothing"))?;
-    }
-    let known = |name: &str| RULES.contains(&name) || FORMAT_RULES.contains(&name) || LIMIT_SWITCHES.contains(&name);
+    let rules = Rules::read(|name| figures.get(name).map(RawFigure::text))?;
+    let known =
+        |name: &str| Rules::NAMES.contains(&name) || FORMAT_RULES.contains(&name) || LIMIT_SWITCHES.contains(&name);
     for (name, figure) in figures {
         if !known(name) {
             return Err(format!("rules.{name}: no such rule"));
         }
-        if !RULES.contains(&name.as_str()) && figure.values.is_empty() {
+        if !Rules::NAMES.contains(&name.as_str()) && figure.values.is_empty() {
             return Err(format!("rules.{name} must be a switch, but has no `values`"));
         }
     }

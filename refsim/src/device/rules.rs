@@ -4,6 +4,48 @@ use super::storage_formats::StorageFormats;
 use crate::isa::Version;
 use crate::num::{DotOrder, Format};
 
+/// Value of a rule, as profiles and switches write it.
+trait RuleValue: Sized {
+    /// Parses a value.
+    fn from_text(text: &str) -> Option<Self>;
+}
+
+impl RuleValue for bool {
+    fn from_text(text: &str) -> Option<Self> {
+        text.parse().ok()
+    }
+}
+
+/// Fraction bits.
+impl RuleValue for u8 {
+    fn from_text(text: &str) -> Option<Self> {
+        text.parse().ok().filter(|bits| *bits <= 8)
+    }
+}
+
+impl RuleValue for Format {
+    fn from_text(text: &str) -> Option<Self> {
+        text.parse().ok()
+    }
+}
+
+impl RuleValue for Option<Format> {
+    fn from_text(text: &str) -> Option<Self> {
+        if text == "none" { Some(None) } else { Format::from_text(text).map(Some) }
+    }
+}
+
+impl RuleValue for DotOrder {
+    fn from_text(text: &str) -> Option<Self> {
+        match text {
+            "sequential" => Some(Self::Sequential),
+            "tree" => Some(Self::Tree),
+            "exact" => Some(Self::Exact),
+            _ => None,
+        }
+    }
+}
+
 /// Defines an enumeration whose variants have names in profiles, switches and reports.
 macro_rules! named_choice {
     ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $text:literal),* $(,)? }) => {
@@ -19,9 +61,10 @@ macro_rules! named_choice {
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $text),* }
             }
+        }
 
-            /// Parses a name.
-            pub fn from_name(text: &str) -> Option<Self> {
+        impl RuleValue for $name {
+            fn from_text(text: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|c| c.name() == text)
             }
         }
@@ -212,9 +255,10 @@ impl ColorIterator {
             Self::Full => "full".to_owned(),
         }
     }
+}
 
-    /// Parses a name.
-    pub fn from_name(text: &str) -> Option<Self> {
+impl RuleValue for ColorIterator {
+    fn from_text(text: &str) -> Option<Self> {
         if text == "full" {
             return Some(Self::Full);
         }
@@ -223,78 +267,121 @@ impl ColorIterator {
     }
 }
 
-/// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal bits.
-///
-/// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md has the table. Switches are
-/// added as cards are measured: outside this crate, rules are those of a [`Profile`](super::Profile), changed field by
-/// field.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Rules {
-    /// Pixel registers and pixel arithmetic.
-    pub format: Format,
-    /// Clamp of results written to a pixel register.
-    pub result_range: ResultRange,
-    /// Arithmetic of instructions with `_pp`: sources are converted to this format, the operation is done in it, and
-    /// the result is converted to `format`. `None`: the hint is ignored.
-    pub partial: Option<Format>,
-    /// Vertex registers and vertex arithmetic.
-    pub vertex_format: Format,
-    /// Format in which attributes are interpolated over a primitive, before conversion to `format`.
-    pub iterator_format: Format,
-    /// Precision of the colours `v#`.
-    pub color_iterator: ColorIterator,
-    /// Storage of constants `c#` of pixel programs.
-    pub constant_storage: ConstantStorage,
-    /// Rounding within `mad`.
-    pub mad: MadMode,
-    /// Rounding within dot products.
-    pub dot: DotOrder,
-    /// Rounding within `lrp`.
-    pub lrp: LrpMode,
-    /// Coordinates beyond the register range in `texcrd`.
-    pub texcrd_overflow: TexcrdOverflow,
-    /// The denominator of `texdepth`.
-    pub texdepth_denominator: TexdepthDenominator,
-    /// Components that `texkill` tests in ps_2_x.
-    pub texkill_components: TexkillComponents,
-    /// Value of the most negative signed texel.
-    pub signed_texel_minimum: SignedTexelMinimum,
-    /// `true` if 0 times anything, including infinity and NaN, is 0 in pixel arithmetic.
-    pub zero_times_anything: bool,
-    /// Rounding into unsigned normalised colour targets.
-    pub target_rounding: TargetRounding,
-    /// Rounding of the averages that fill generated mip levels.
-    pub mipmap_rounding: TargetRounding,
-    /// Rounding into integer depth buffers.
-    pub depth_rounding: TargetRounding,
-    /// `true` if 0 times anything, including infinity and NaN, is 0 in vertex arithmetic.
-    pub vertex_zero_times_anything: bool,
-    /// Clamp of vertex colours.
-    pub color_clamp: ColorClamp,
-    /// Rounding of a window position at set-up.
-    pub subpixel_rounding: SubpixelRounding,
-    /// Fraction bits of a window position at set-up, 0 to 8.
-    pub subpixel_bits: u8,
-    /// Fraction bits of the weights of a linear filter, 0 to 8.
-    pub filter_fraction_bits: u8,
-    /// Fraction bits of a level of detail, 0 to 8.
-    pub lod_fraction_bits: u8,
-    /// Rounding of the weights of a linear filter.
-    pub filter_weight_rounding: WeightRounding,
-    /// Arithmetic of filters on bytes.
-    pub filter_arithmetic: FilterArithmetic,
-    /// Values of narrow channels of texels.
-    pub texel_values: TexelValues,
-    /// Components that a texel does not store.
-    pub missing_channels: MissingChannels,
-    /// Storage of border colors.
-    pub border_storage: BorderStorage,
-    /// Formats of storages of pixel programs; no card has any ([`super::Profile::set_storage_format`]).
-    pub storage: StorageFormats,
-    /// Format of the sums of dot products in pixel programs, if not that of the operation; no card has one
-    /// ([`super::Profile::set_accumulator`]).
-    pub accumulator: Option<Format>,
+/// Defines the rules, each with its field, its type and its name in profiles and switches.
+macro_rules! rules {
+    ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident: $type:ty = $text:literal),* $(,)? }
+     beside { $($(#[$beside_doc:meta])* $beside:ident: $beside_type:ty),* $(,)? }) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub struct $name {
+            $($(#[$doc])* pub $field: $type,)*
+            $($(#[$beside_doc])* pub $beside: $beside_type,)*
+        }
+
+        impl $name {
+            /// Names of the rules, which every profile must state.
+            pub(super) const NAMES: &[&'static str] = &[$($text),*];
+
+            /// Reads all rules; `text` returns the value of a name. What stands beside them is as by default.
+            pub(super) fn read(text: impl Fn(&str) -> Option<String>) -> Result<Self, String> {
+                fn value<T: RuleValue>(name: &str, text: Option<String>) -> Result<T, String> {
+                    let text = text.ok_or_else(|| format!("rules.{name} is missing"))?;
+                    T::from_text(&text).ok_or_else(|| format!("rules.{name}: `{text}` means nothing"))
+                }
+                Ok(Self {
+                    $($field: value($text, text($text))?,)*
+                    $($beside: Default::default(),)*
+                })
+            }
+
+            /// Sets one rule from its text; `None` if there is no such rule, or the text is not a value of it.
+            pub(super) fn set(&mut self, name: &str, text: &str) -> Option<()> {
+                match name {
+                    $($text => self.$field = RuleValue::from_text(text)?,)*
+                    _ => return None,
+                }
+                Some(())
+            }
+        }
+    };
+}
+
+rules! {
+    /// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal
+    /// bits.
+    ///
+    /// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md has the table. Switches are
+    /// added as cards are measured: outside this crate, rules are those of a [`Profile`](super::Profile), changed field
+    /// by field.
+    Rules {
+        /// Pixel registers and pixel arithmetic.
+        format: Format = "format",
+        /// Clamp of results written to a pixel register.
+        result_range: ResultRange = "result-range",
+        /// Arithmetic of instructions with `_pp`: sources are converted to this format, the operation is done in it,
+        /// and the result is converted to `format`. `None`: the hint is ignored.
+        partial: Option<Format> = "partial",
+        /// Vertex registers and vertex arithmetic.
+        vertex_format: Format = "vertex-format",
+        /// Format in which attributes are interpolated over a primitive, before conversion to `format`.
+        iterator_format: Format = "iterator-format",
+        /// Precision of the colours `v#`.
+        color_iterator: ColorIterator = "color-iterator",
+        /// Storage of constants `c#` of pixel programs.
+        constant_storage: ConstantStorage = "constants",
+        /// Rounding within `mad`.
+        mad: MadMode = "mad",
+        /// Rounding within dot products.
+        dot: DotOrder = "dot",
+        /// Rounding within `lrp`.
+        lrp: LrpMode = "lrp",
+        /// Coordinates beyond the register range in `texcrd`.
+        texcrd_overflow: TexcrdOverflow = "texcrd-overflow",
+        /// The denominator of `texdepth`.
+        texdepth_denominator: TexdepthDenominator = "texdepth-denominator",
+        /// Components that `texkill` tests in ps_2_x.
+        texkill_components: TexkillComponents = "texkill-components",
+        /// Value of the most negative signed texel.
+        signed_texel_minimum: SignedTexelMinimum = "signed-texel-minimum",
+        /// `true` if 0 times anything, including infinity and NaN, is 0 in pixel arithmetic.
+        zero_times_anything: bool = "zero-times-anything",
+        /// Rounding into unsigned normalised colour targets.
+        target_rounding: TargetRounding = "target-rounding",
+        /// Rounding of the averages that fill generated mip levels.
+        mipmap_rounding: TargetRounding = "mipmap-rounding",
+        /// Rounding into integer depth buffers.
+        depth_rounding: TargetRounding = "depth-rounding",
+        /// `true` if 0 times anything, including infinity and NaN, is 0 in vertex arithmetic.
+        vertex_zero_times_anything: bool = "vertex-zero-times-anything",
+        /// Clamp of vertex colours.
+        color_clamp: ColorClamp = "color-clamp",
+        /// Rounding of a window position at set-up.
+        subpixel_rounding: SubpixelRounding = "subpixel-rounding",
+        /// Fraction bits of a window position at set-up, 0 to 8.
+        subpixel_bits: u8 = "subpixel-bits",
+        /// Fraction bits of the weights of a linear filter, 0 to 8.
+        filter_fraction_bits: u8 = "filter-fraction-bits",
+        /// Fraction bits of a level of detail, 0 to 8.
+        lod_fraction_bits: u8 = "lod-fraction-bits",
+        /// Rounding of the weights of a linear filter.
+        filter_weight_rounding: WeightRounding = "filter-weight-rounding",
+        /// Arithmetic of filters on bytes.
+        filter_arithmetic: FilterArithmetic = "filter-arithmetic",
+        /// Values of narrow channels of texels.
+        texel_values: TexelValues = "texel-values",
+        /// Components that a texel does not store.
+        missing_channels: MissingChannels = "missing-channels",
+        /// Storage of border colors.
+        border_storage: BorderStorage = "border-storage",
+    }
+    beside {
+        /// Formats of storages of pixel programs; no card has any ([`super::Profile::set_storage_format`]).
+        storage: StorageFormats,
+        /// Format of the sums of dot products in pixel programs, if not that of the operation; no card has one
+        /// ([`super::Profile::set_accumulator`]).
+        accumulator: Option<Format>,
+    }
 }
 
 impl Rules {
