@@ -5,7 +5,7 @@ use std::ops::Deref;
 use super::Warning;
 use super::context::{Context, is_texture};
 use super::slots::{self, SlotCount};
-use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, TextureTarget, Usage, Version};
+use crate::isa::{Opcode, Program, RegisterFile, ResultKind, TextureTarget, Usage};
 
 /// Derived properties of a legal program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -134,7 +134,8 @@ pub(super) fn derive(context: &Context<'_>) -> Facts {
 }
 
 fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Instruction) {
-    let (version, opcode) = (context.version, instruction.opcode);
+    let opcode = instruction.opcode;
+    let samples = opcode.info().result == ResultKind::Texel;
     let bit = |index: u16| 1_u32.checked_shl(u32::from(index)).unwrap_or(0);
     for (k, source) in instruction.sources.iter().enumerate() {
         let register = source.register;
@@ -166,15 +167,15 @@ fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Inst
             }
             _ => {}
         }
-        if opcode.info().destination == DestinationRule::Write && samples_stage(version, opcode) {
+        // In ps_1_x the destination selects the sampler.
+        if samples && context.version.is_ps_1_x() {
             facts.samplers |= bit(register.index);
         }
     }
     facts.has_flow |= opcode.info().class == crate::isa::OpcodeClass::Flow;
     facts.kills |= matches!(opcode, Opcode::TexKill | Opcode::Kil);
     facts.writes_depth |= matches!(opcode, Opcode::TexDepth | Opcode::TexM3x2Depth);
-    let fetch = samples_stage(version, opcode) || matches!(opcode, Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdP);
-    facts.uses_derivatives |= fetch || matches!(opcode, Opcode::Dsx | Opcode::Dsy);
+    facts.uses_derivatives |= samples && opcode != Opcode::TexLdD || matches!(opcode, Opcode::Dsx | Opcode::Dsy);
 }
 
 /// The Direct3D sampler type of an OpenGL texture target.
@@ -183,25 +184,5 @@ fn usage(target: TextureTarget) -> Usage {
         TextureTarget::D1 | TextureTarget::D2 | TextureTarget::Rect => Usage::Sampler2d,
         TextureTarget::D3 => Usage::SamplerVolume,
         TextureTarget::Cube => Usage::SamplerCube,
-    }
-}
-
-/// Returns `true` if the operation samples the stage with its destination's number.
-fn samples_stage(version: Version, opcode: Opcode) -> bool {
-    use Opcode as O;
-    match opcode {
-        O::TexLd => version == Version::Ps1_4,
-        O::Tex
-        | O::TexBem
-        | O::TexBemL
-        | O::TexReg2Ar
-        | O::TexReg2Gb
-        | O::TexReg2Rgb
-        | O::TexM3x2Tex
-        | O::TexM3x3Tex
-        | O::TexM3x3Spec
-        | O::TexM3x3VSpec
-        | O::TexDp3Tex => true,
-        _ => false,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
+use crate::isa::{Instruction, Program, RegisterFile, ResultKind};
 use crate::num::Format;
 
 /// Largest number of different formats that instructions of one program may have.
@@ -19,16 +19,8 @@ pub struct InstructionFormats(BTreeMap<u64, BTreeMap<usize, Format>>);
 /// control, matrix rows for a later texture read, depth from texture coordinates, packing, and writes of addresses do
 /// not.
 pub fn takes_format(instruction: &Instruction) -> bool {
-    use Opcode::{
-        Pk2h, Pk2us, Pk4b, Pk4ub, TexDepth, TexKill, TexM3x2Depth, TexM3x2Pad, TexM3x3Pad, Up2h, Up2us, Up4b, Up4ub,
-    };
-    let Some(destination) = instruction.destination else { return false };
-    let class = instruction.opcode.info().class;
-    let without =
-        [Pk2h, Pk2us, Pk4b, Pk4ub, Up2h, Up2us, Up4b, Up4ub, TexDepth, TexKill, TexM3x2Depth, TexM3x2Pad, TexM3x3Pad];
-    matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
-        && !without.contains(&instruction.opcode)
-        && destination.register.file != RegisterFile::Address
+    matches!(instruction.opcode.info().result, ResultKind::Numbers | ResultKind::Texel)
+        && instruction.destination.is_some_and(|destination| destination.register.file != RegisterFile::Address)
 }
 
 /// Returns `true` if a program has this instruction and it can have a format of its own.

@@ -1,7 +1,7 @@
 //! Number formats of what pixel programs store.
 
 use super::instruction_formats::MAX_INSTRUCTION_FORMATS;
-use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
+use crate::isa::{Instruction, Program, RegisterFile, ResultKind};
 use crate::num::Format;
 
 /// A storage of numbers that can have a format of its own. Numbers stay in the register format; what enters the storage
@@ -44,10 +44,11 @@ impl Storage {
     fn is_used_by(self, instruction: &Instruction) -> bool {
         let reads = |file| instruction.sources.iter().any(|source| source.register.file == file);
         let file = instruction.destination.map(|destination| destination.register.file);
+        let result = instruction.opcode.info().result;
         match self {
-            Self::Temporaries => file.and_then(Self::written) == Some(Self::Temporaries) && is_write(instruction),
+            Self::Temporaries => file.and_then(Self::written) == Some(Self::Temporaries) && result != ResultKind::None,
             Self::Constants => reads(RegisterFile::Constant),
-            Self::Texels => instruction.opcode.info().class == OpcodeClass::Texture && is_read(instruction),
+            Self::Texels => result == ResultKind::Texel,
             Self::Colors => reads(RegisterFile::Input),
             Self::Coordinates => reads(RegisterFile::Texture) || file == Some(RegisterFile::Texture),
             Self::Outputs => true,
@@ -62,18 +63,6 @@ impl Storage {
             _ => None,
         }
     }
-}
-
-/// Returns `true` if an instruction writes its destination.
-fn is_write(instruction: &Instruction) -> bool {
-    use Opcode::{TexDepth, TexKill, TexM3x2Depth, TexM3x2Pad, TexM3x3Pad};
-    ![TexDepth, TexKill, TexM3x2Depth, TexM3x2Pad, TexM3x3Pad].contains(&instruction.opcode)
-}
-
-/// Returns `true` if a texture instruction reads a texel.
-fn is_read(instruction: &Instruction) -> bool {
-    use Opcode::{TexCoord, TexCrd, TexDp3, TexM3x3};
-    is_write(instruction) && ![TexCoord, TexCrd, TexDp3, TexM3x3].contains(&instruction.opcode)
 }
 
 /// Number formats of storages of pixel programs; without one a storage holds every number of the register format.

@@ -18,7 +18,7 @@ pub use fragment::{
     Condition, ConditionTest, FIRST_ENVIRONMENT, FIRST_LITERAL, FIRST_NAMED, FragmentPart, Precision, Spelling,
     TextureTarget,
 };
-pub use opcode::{Comparison, DestinationRule, OpInfo, Opcode, OpcodeClass, SlotCost};
+pub use opcode::{Comparison, DestinationRule, OpInfo, Opcode, OpcodeClass, ResultKind, SlotCost};
 pub use operand::{Destination, Mask, Modifier, Predicate, Source, Swizzle};
 pub use program::{
     ConstantDef, ConstantValue, Declaration, Instruction, Parameter, ParameterSource, Program, ProgramResource, Usage,

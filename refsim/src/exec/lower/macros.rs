@@ -14,82 +14,86 @@ impl GraphBuilder<'_> {
         s: &[NodeVector; 3],
         bump: &NodeVector,
     ) -> NodeVector {
+        use Opcode::*;
         let [mut a, b, c] = *s;
         if opcode.ignores_sign(version) {
             a = a.map(|x| self.unary(k, Op::Abs, x));
         }
         match opcode {
-            Opcode::Mov => a,
-            Opcode::Add => std::array::from_fn(|i| self.add(k, a[i], b[i])),
-            Opcode::Sub => std::array::from_fn(|i| self.sub(k, a[i], b[i])),
-            Opcode::Mul => std::array::from_fn(|i| self.mul(k, a[i], b[i])),
-            Opcode::Mad => std::array::from_fn(|i| self.mad(k, a[i], b[i], c[i])),
-            Opcode::Lrp => std::array::from_fn(|i| self.lrp(k, version, [a[i], b[i], c[i]])),
-            Opcode::Dp3 => [self.dot(k, 3, &a, &b); 4],
-            Opcode::Dp4 => [self.dot(k, 4, &a, &b); 4],
-            Opcode::Dp2Add => {
+            Mov => a,
+            Add => std::array::from_fn(|i| self.add(k, a[i], b[i])),
+            Sub => std::array::from_fn(|i| self.sub(k, a[i], b[i])),
+            Mul => std::array::from_fn(|i| self.mul(k, a[i], b[i])),
+            Mad => std::array::from_fn(|i| self.mad(k, a[i], b[i], c[i])),
+            Lrp => std::array::from_fn(|i| self.lrp(k, version, [a[i], b[i], c[i]])),
+            Dp3 => [self.dot(k, 3, &a, &b); 4],
+            Dp4 => [self.dot(k, 4, &a, &b); 4],
+            Dp2Add => {
                 let dot = self.dot(k, 2, &a, &b);
                 [self.add(k, dot, c[0]); 4]
             }
-            Opcode::Cnd => std::array::from_fn(|i| self.compute(k, Op::SelectAboveHalf, a[i], b[i], c[i])),
-            Opcode::Cmp => std::array::from_fn(|i| self.compute(k, Op::SelectNonNegative, a[i], b[i], c[i])),
-            Opcode::Bem => self.bem(k, &a, &b, bump),
-            Opcode::Abs => a.map(|x| self.unary(k, Op::Abs, x)),
-            Opcode::Min | Opcode::Max
-                if version == Version::ArbFp1_0 && self.formats.format(k).specials == Specials::Ieee =>
-            {
+            Cnd => std::array::from_fn(|i| self.compute(k, Op::SelectAboveHalf, a[i], b[i], c[i])),
+            Cmp => std::array::from_fn(|i| self.compute(k, Op::SelectNonNegative, a[i], b[i], c[i])),
+            Bem => self.bem(k, &a, &b, bump),
+            Abs => a.map(|x| self.unary(k, Op::Abs, x)),
+            Min | Max if version == Version::ArbFp1_0 && self.formats.format(k).specials == Specials::Ieee => {
                 std::array::from_fn(|i| {
                     let above = self.holds(k, Op::Less, b[i], a[i]);
-                    let (yes, no) = if opcode == Opcode::Max { (a[i], b[i]) } else { (b[i], a[i]) };
+                    let (yes, no) = if opcode == Max { (a[i], b[i]) } else { (b[i], a[i]) };
                     self.select(above, yes, no)
                 })
             }
-            Opcode::Min => std::array::from_fn(|i| self.binary(k, Op::Min, a[i], b[i])),
-            Opcode::Max => std::array::from_fn(|i| self.binary(k, Op::Max, a[i], b[i])),
-            Opcode::Sge => std::array::from_fn(|i| self.flag(k, Op::LessEqual, b[i], a[i])),
-            Opcode::Slt => std::array::from_fn(|i| self.flag(k, Op::Less, a[i], b[i])),
-            Opcode::Frc => a.map(|x| self.unary(k, Op::Frc, x)),
-            Opcode::Rcp => [self.unary(k, Op::Rcp, a[0]); 4],
-            Opcode::Rsq => [self.unary(k, Op::Rsq, a[0]); 4],
-            Opcode::Exp => [self.unary(k, Op::Exp2, a[0]); 4],
-            Opcode::Log => [self.unary(k, Op::Log2, a[0]); 4],
-            Opcode::Pow => [self.pow(k, a[0], b[0]); 4],
-            Opcode::Expp if version == Version::Vs1_1 => {
+            Min => std::array::from_fn(|i| self.binary(k, Op::Min, a[i], b[i])),
+            Max => std::array::from_fn(|i| self.binary(k, Op::Max, a[i], b[i])),
+            Sge => std::array::from_fn(|i| self.flag(k, Op::LessEqual, b[i], a[i])),
+            Slt => std::array::from_fn(|i| self.flag(k, Op::Less, a[i], b[i])),
+            Frc => a.map(|x| self.unary(k, Op::Frc, x)),
+            Rcp => [self.unary(k, Op::Rcp, a[0]); 4],
+            Rsq => [self.unary(k, Op::Rsq, a[0]); 4],
+            Exp => [self.unary(k, Op::Exp2, a[0]); 4],
+            Log => [self.unary(k, Op::Log2, a[0]); 4],
+            Pow => [self.pow(k, a[0], b[0]); 4],
+            Expp if version == Version::Vs1_1 => {
                 let floor = self.unary(k, Op::Floor, a[3]);
                 let [x, y, z] =
                     [(Op::Exp2, floor), (Op::Frc, a[3]), (Op::Exp2, a[3])].map(|(code, n)| self.unary(k, code, n));
                 [x, y, z, self.one(k)]
             }
-            Opcode::Expp => [self.unary(k, Op::Exp2, a[3]); 4],
-            Opcode::Logp if version == Version::Vs1_1 => self.logp(k, a[3]),
-            Opcode::Logp => [self.unary(k, Op::Log2, a[3]); 4],
-            Opcode::Crs => self.crs(k, &a, &b),
-            Opcode::Nrm => self.nrm(k, &a),
-            Opcode::Sgn => a.map(|x| self.sgn(k, x)),
-            Opcode::SinCos => self.sincos(k, a[0], &b, &c),
-            Opcode::Dst => [self.one(k), self.mul(k, a[1], b[1]), a[2], b[3]],
-            Opcode::Lit => self.lit(k, version, &a),
-            Opcode::Flr => a.map(|x| self.unary(k, Op::Floor, x)),
-            Opcode::Cos => [self.circle(k, false, a[0]); 4],
-            Opcode::Sin => [self.circle(k, true, a[0]); 4],
-            Opcode::Scs => [self.circle(k, false, a[0]), self.circle(k, true, a[0]), self.zero(), self.zero()],
-            Opcode::Dph => {
+            Expp => [self.unary(k, Op::Exp2, a[3]); 4],
+            Logp if version == Version::Vs1_1 => self.logp(k, a[3]),
+            Logp => [self.unary(k, Op::Log2, a[3]); 4],
+            Crs => self.crs(k, &a, &b),
+            Nrm => self.nrm(k, &a),
+            Sgn => a.map(|x| self.sgn(k, x)),
+            SinCos => self.sincos(k, a[0], &b, &c),
+            Dst => [self.one(k), self.mul(k, a[1], b[1]), a[2], b[3]],
+            Lit => self.lit(k, version, &a),
+            Flr => a.map(|x| self.unary(k, Op::Floor, x)),
+            Cos => [self.circle(k, false, a[0]); 4],
+            Sin => [self.circle(k, true, a[0]); 4],
+            Scs => [self.circle(k, false, a[0]), self.circle(k, true, a[0]), self.zero(), self.zero()],
+            Dph => {
                 let dot = self.dot(k, 3, &a, &b);
                 [self.add(k, dot, b[3]); 4]
             }
-            Opcode::Swz => a,
-            Opcode::Seq => std::array::from_fn(|i| self.flag(k, Op::Equal, a[i], b[i])),
-            Opcode::Sne => std::array::from_fn(|i| {
+            Swz => a,
+            Seq => std::array::from_fn(|i| self.flag(k, Op::Equal, a[i], b[i])),
+            Sne => std::array::from_fn(|i| {
                 let same = self.holds(k, Op::Equal, a[i], b[i]);
                 let (one, zero) = (self.one(k), self.zero());
                 self.select(same, zero, one)
             }),
-            Opcode::Sgt => std::array::from_fn(|i| self.flag(k, Op::Less, b[i], a[i])),
-            Opcode::Sle => std::array::from_fn(|i| self.flag(k, Op::LessEqual, a[i], b[i])),
-            Opcode::Str => [self.one(k); 4],
-            Opcode::Rfl => self.rfl(k, &a, &b),
-            Opcode::X2d => self.x2d(k, &a, &b, &c),
-            _ => [self.zero(); 4],
+            Sgt => std::array::from_fn(|i| self.flag(k, Op::Less, b[i], a[i])),
+            Sle => std::array::from_fn(|i| self.flag(k, Op::LessEqual, a[i], b[i])),
+            Str => [self.one(k); 4],
+            Rfl => self.rfl(k, &a, &b),
+            X2d => self.x2d(k, &a, &b, &c),
+            Sfl | Nop | Phase | Mova | M3x2 | M3x3 | M3x4 | M4x3 | M4x4 | Dsx | Dsy | Setp | Pk2h | Pk2us | Pk4b
+            | Pk4ub | Up2h | Up2us | Up4b | Up4ub | Tex | TexCoord | TexKill | TexBem | TexBemL | TexReg2Ar
+            | TexReg2Gb | TexReg2Rgb | TexM3x2Pad | TexM3x2Tex | TexM3x2Depth | TexM3x3Pad | TexM3x3Tex
+            | TexM3x3Spec | TexM3x3VSpec | TexM3x3 | TexDp3 | TexDp3Tex | TexLd | TexLdB | TexLdP | TexLdD | TexCrd
+            | TexDepth | Kil | If | IfC | Else | EndIf | Rep | EndRep | Loop | EndLoop | Break | BreakC | BreakP
+            | Call | CallNz | Label | Ret => [self.zero(); 4],
         }
     }
 
