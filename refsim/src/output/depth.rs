@@ -1,5 +1,7 @@
 //! Depth formats, comparisons and surfaces.
 
+use std::cmp::Ordering;
+
 use serde::Deserialize;
 use strum::{Display, IntoStaticStr, VariantArray};
 
@@ -136,7 +138,8 @@ fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_
     (base + kept as u32).min(one)
 }
 
-/// Comparison of a new value with the stored one (or the alpha reference).
+/// Comparison of a new value with the stored one (or the alpha reference). As a number, it is the set of orders that
+/// pass: bit 0 less, 1 equal, 2 greater.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum CompareFunction {
@@ -163,18 +166,20 @@ impl CompareFunction {
     /// Every comparison.
     pub const ALL: &'static [Self] = Self::VARIANTS;
 
+    /// Returns whether less, equal and greater values pass.
+    pub(crate) const fn orders(self) -> [bool; 3] {
+        let set = self as u8;
+        [set & 1 != 0, set & 2 != 0, set & 4 != 0]
+    }
+
     /// Returns `true` if the comparison passes. `None` is unordered (a NaN), which only `NotEqual` and `Always` pass.
-    pub fn holds(self, order: Option<std::cmp::Ordering>) -> bool {
-        use std::cmp::Ordering::{Equal, Greater, Less};
-        match self {
-            Self::Never => false,
-            Self::Less => order == Some(Less),
-            Self::Equal => order == Some(Equal),
-            Self::LessEqual => matches!(order, Some(Less | Equal)),
-            Self::Greater => order == Some(Greater),
-            Self::NotEqual => order != Some(Equal),
-            Self::GreaterEqual => matches!(order, Some(Greater | Equal)),
-            Self::Always => true,
+    pub fn holds(self, order: Option<Ordering>) -> bool {
+        let [less, equal, greater] = self.orders();
+        match order {
+            Some(Ordering::Less) => less,
+            Some(Ordering::Equal) => equal,
+            Some(Ordering::Greater) => greater,
+            None => less && greater,
         }
     }
 }

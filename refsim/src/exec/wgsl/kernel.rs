@@ -374,9 +374,7 @@ fn equation(equation: &BlendEquation) -> [u32; 3] {
 
 /// Set of orders for which a comparison passes: bit 0 less, 1 equal, 2 greater, 3 unordered.
 fn orders(function: CompareFunction) -> u32 {
-    use std::cmp::Ordering::{Equal, Greater, Less};
-    let cases = [Some(Less), Some(Equal), Some(Greater), None];
-    cases.into_iter().zip(0..).fold(0, |set, (order, bit)| set | u32::from(function.holds(order)) << bit)
+    function as u32 | u32::from(function.holds(None)) << 3
 }
 
 /// Converts a pattern of a format to the shaders' representation: a sign-extended integer, or the single-precision

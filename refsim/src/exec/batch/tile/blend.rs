@@ -1,6 +1,8 @@
 //! Blending of targets in rows: fixed-point channels of equal width in integers, floats in the host's single precision.
 //! Signed channels and channels of different widths are blended by [`crate::output`].
 
+use std::ops::Sub;
+
 use crate::exec::batch::lanes::{AnyLane, Lane, LaneFormats, with_any_lane};
 use crate::exec::lower::Arith;
 use crate::output::{BlendEquation, BlendFactor, BlendOp, BlendState};
@@ -123,23 +125,7 @@ impl Blender {
     fn steps(&self, (one, nearest): (i64, bool), source: [i64; 4], destination: [i64; 4], component: usize) -> u32 {
         let equation = self.equation(component);
         let (s, d) = (source[component], destination[component]);
-        let term = |value: i64, factor| {
-            value
-                * match factor {
-                    BlendFactor::Zero => 0,
-                    BlendFactor::One => one,
-                    BlendFactor::SrcColor => s,
-                    BlendFactor::InvSrcColor => one - s,
-                    BlendFactor::SrcAlpha => source[3],
-                    BlendFactor::InvSrcAlpha => one - source[3],
-                    BlendFactor::DestAlpha => destination[3],
-                    BlendFactor::InvDestAlpha => one - destination[3],
-                    BlendFactor::DestColor => d,
-                    BlendFactor::InvDestColor => one - d,
-                    BlendFactor::SrcAlphaSat if component == 3 => one,
-                    BlendFactor::SrcAlphaSat => source[3].min(one - destination[3]),
-                }
-        };
+        let term = |value: i64, by| value * factor(by, source, destination, component, [0, one]);
         let (from, to) = (term(s, equation.source), term(d, equation.destination));
         let squares = match equation.op {
             BlendOp::Add => from + to,
@@ -152,7 +138,7 @@ impl Blender {
         ((2 * squares.clamp(0, one * one) + half) / (2 * one)) as u32
     }
 
-    /// Blends in single precision. A factor of 0 removes its term and a factor of 1 leaves it unchanged.
+    /// Blends in single precision. A factor of 0 removes its term.
     fn floats(&self, source: [f32; 4], destination: [f32; 4], component: usize) -> f32 {
         let equation = self.equation(component);
         let (s, d) = (source[component], destination[component]);
@@ -161,25 +147,8 @@ impl Blender {
             BlendOp::Max => return if s < d { d } else { s },
             BlendOp::Add | BlendOp::Subtract | BlendOp::ReverseSubtract => {}
         }
-        let term = |value: f32, factor| {
-            let factor = match factor {
-                BlendFactor::Zero => return None,
-                BlendFactor::One => return Some(value),
-                BlendFactor::SrcColor => s,
-                BlendFactor::InvSrcColor => 1.0 - s,
-                BlendFactor::SrcAlpha => source[3],
-                BlendFactor::InvSrcAlpha => 1.0 - source[3],
-                BlendFactor::DestAlpha => destination[3],
-                BlendFactor::InvDestAlpha => 1.0 - destination[3],
-                BlendFactor::DestColor => d,
-                BlendFactor::InvDestColor => 1.0 - d,
-                BlendFactor::SrcAlphaSat if component == 3 => return Some(value),
-                BlendFactor::SrcAlphaSat => {
-                    let free = 1.0 - destination[3];
-                    if free < source[3] { free } else { source[3] }
-                }
-            };
-            Some(value * factor)
+        let term = |value: f32, by| {
+            (by != BlendFactor::Zero).then(|| value * factor(by, source, destination, component, [0.0, 1.0]))
         };
         match (equation.op, term(s, equation.source), term(d, equation.destination)) {
             (BlendOp::Subtract, Some(s), Some(d)) => s - d,
@@ -189,6 +158,33 @@ impl Blender {
             (_, Some(s), Some(d)) => s + d,
             (_, Some(one), None) | (_, None, Some(one)) => one,
             (_, None, None) => 0.0,
+        }
+    }
+}
+
+/// Value of a factor of a component.
+fn factor<T: Copy + PartialOrd + Sub<Output = T>>(
+    factor: BlendFactor,
+    source: [T; 4],
+    destination: [T; 4],
+    component: usize,
+    [zero, one]: [T; 2],
+) -> T {
+    match factor {
+        BlendFactor::Zero => zero,
+        BlendFactor::One => one,
+        BlendFactor::SrcColor => source[component],
+        BlendFactor::InvSrcColor => one - source[component],
+        BlendFactor::SrcAlpha => source[3],
+        BlendFactor::InvSrcAlpha => one - source[3],
+        BlendFactor::DestAlpha => destination[3],
+        BlendFactor::InvDestAlpha => one - destination[3],
+        BlendFactor::DestColor => destination[component],
+        BlendFactor::InvDestColor => one - destination[component],
+        BlendFactor::SrcAlphaSat if component == 3 => one,
+        BlendFactor::SrcAlphaSat => {
+            let free = one - destination[3];
+            if free < source[3] { free } else { source[3] }
         }
     }
 }

@@ -268,26 +268,18 @@ fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, alive: &mut LaneRow) -> u32 {
 /// unordered.
 #[inline(always)]
 fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFunction, alive: &mut LaneRow) -> u32 {
-    #[inline(always)]
-    fn rows<L: Lane>(row: &LaneRow, alive: &mut LaneRow, holds: impl Fn(L::T) -> bool) -> u32 {
-        let mut left = 0;
-        for i in 0..LANES {
-            alive[i] &= if holds(L::load(row[i])) { TRUE } else { 0 };
-            left += alive[i] & 1;
-        }
-        left
-    }
     let r = L::load(reference);
-    match function {
-        CompareFunction::Never => rows::<L>(row, alive, |_| false),
-        CompareFunction::Less => rows::<L>(row, alive, |a| lane.lt(a, r)),
-        CompareFunction::Equal => rows::<L>(row, alive, |a| lane.eq(a, r)),
-        CompareFunction::LessEqual => rows::<L>(row, alive, |a| lane.lt(a, r) | lane.eq(a, r)),
-        CompareFunction::Greater => rows::<L>(row, alive, |a| lane.lt(r, a)),
-        CompareFunction::NotEqual => rows::<L>(row, alive, |a| !lane.eq(a, r)),
-        CompareFunction::GreaterEqual => rows::<L>(row, alive, |a| lane.lt(r, a) | lane.eq(a, r)),
-        CompareFunction::Always => rows::<L>(row, alive, |_| true),
+    let [less, equal, greater] = function.orders();
+    let mut left = 0;
+    for i in 0..LANES {
+        let value = L::load(row[i]);
+        let [below, same, above] = [lane.lt(value, r), lane.eq(value, r), lane.lt(r, value)];
+        let unordered = !(below | same | above) & less & greater;
+        let holds = below & less | same & equal | above & greater | unordered;
+        alive[i] &= if holds { TRUE } else { 0 };
+        left += alive[i] & 1;
     }
+    left
 }
 
 /// Removes failing lanes from `alive`; if `write`, stores the depths of the others.
@@ -299,21 +291,11 @@ pub(super) fn depth_test(
     alive: &mut LaneRow,
     stored: &mut LaneRow,
 ) {
-    #[inline(always)]
-    fn rows(new: &LaneRow, alive: &mut LaneRow, stored: &LaneRow, holds: impl Fn(u32, u32) -> bool) {
-        for i in 0..LANES {
-            alive[i] &= if holds(new[i], stored[i]) { TRUE } else { 0 };
-        }
-    }
-    match function {
-        CompareFunction::Never => alive.fill(0),
-        CompareFunction::Less => rows(new, alive, stored, |a, b| a < b),
-        CompareFunction::Equal => rows(new, alive, stored, |a, b| a == b),
-        CompareFunction::LessEqual => rows(new, alive, stored, |a, b| a <= b),
-        CompareFunction::Greater => rows(new, alive, stored, |a, b| a > b),
-        CompareFunction::NotEqual => rows(new, alive, stored, |a, b| a != b),
-        CompareFunction::GreaterEqual => rows(new, alive, stored, |a, b| a >= b),
-        CompareFunction::Always => {}
+    let [less, equal, greater] = function.orders();
+    for i in 0..LANES {
+        let (new, old) = (new[i], stored[i]);
+        let holds = (new < old) & less | (new == old) & equal | (new > old) & greater;
+        alive[i] &= if holds { TRUE } else { 0 };
     }
     if write {
         super::raster::lay_over(stored, new, alive);
