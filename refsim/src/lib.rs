@@ -102,5 +102,6 @@ pub mod machine;
 pub mod num;
 pub mod output;
 pub mod raster;
+mod texel;
 pub mod texture;
 pub mod timing;

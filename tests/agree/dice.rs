@@ -50,21 +50,6 @@ impl Options {
     }
 }
 
-fn texture_formats(profile: &Profile) -> Vec<TexelFormat> {
-    let names = &profile.limits.texture_formats;
-    TexelFormat::ALL.iter().copied().filter(|f| names.iter().any(|n| n == f.name())).collect()
-}
-
-fn target_formats(profile: &Profile) -> Vec<TexelFormat> {
-    let names = &profile.limits.target_formats;
-    TexelFormat::ALL.iter().copied().filter(|f| names.iter().any(|n| n == f.name())).collect()
-}
-
-fn depth_formats(profile: &Profile) -> Vec<DepthFormat> {
-    let names = &profile.limits.depth_formats;
-    DepthFormat::ALL.iter().copied().filter(|f| names.iter().any(|n| n == f.name())).collect()
-}
-
 /// A texture of random bytes, or of codes at the ends of their range.
 fn image(format: TexelFormat, kind: TextureKind, profile: &Profile, r: &mut Random) -> Image {
     let size = |r: &mut Random| 1 + r.below(9) as u32;
@@ -188,13 +173,13 @@ pub(crate) fn textures(
     profile: &Profile,
     r: &mut Random,
 ) -> Vec<(usize, Image, SamplerState)> {
-    let formats = texture_formats(profile);
+    let formats = &profile.limits.texture_formats;
     let mut out = Vec::new();
     for &(slot, kind) in kinds {
         if options.texture.is_none() && r.one_in(8) {
             continue;
         }
-        let format = options.texture.unwrap_or_else(|| r.choose(&formats));
+        let format = options.texture.unwrap_or_else(|| r.choose(formats));
         let image = image(format, kind, profile, r);
         let state = sampler(&image, options, profile, r);
         out.push((slot, image, state));
@@ -203,7 +188,7 @@ pub(crate) fn textures(
 }
 
 fn targets(options: &Options, profile: &Profile, r: &mut Random) -> Vec<TexelFormat> {
-    let formats = target_formats(profile);
+    let formats = &profile.limits.target_formats;
     let most = profile.limits.render_targets.unwrap_or(4).clamp(1, 4) as usize;
     let count = if options.is_ps_1() || options.version.is_fragment_program() { 1 } else { 1 + r.below(most) };
     let wide = [TexelFormat::Rgba32f, TexelFormat::Rgba16f];
@@ -212,7 +197,7 @@ fn targets(options: &Options, profile: &Profile, r: &mut Random) -> Vec<TexelFor
             Some(format) => format,
             // The first target shows the program's results with enough range, if it can.
             None if i == 0 && !r.one_in(4) => wide.into_iter().find(|f| formats.contains(f)).unwrap_or(formats[0]),
-            None => r.choose(&formats),
+            None => r.choose(formats),
         })
         .collect()
 }
@@ -257,11 +242,11 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
     let shape = options.shape.unwrap_or_else(|| shapes::ordinary(r));
     let size = shapes::size(shape, r);
     let geometry = shapes::geometry(shape, size, r);
-    let depths = depth_formats(&profile);
-    let depth = options.depth.or_else(|| (options.compare.is_some() || !r.one_in(3)).then(|| r.choose(&depths)));
+    let depths = &profile.limits.depth_formats;
+    let depth = options.depth.or_else(|| (options.compare.is_some() || !r.one_in(3)).then(|| r.choose(depths)));
     let second = targets[0].record();
     let readable =
-        texture_formats(&profile).contains(&targets[0]) && (profile.limits.float_mipmaps || !second.is_float());
+        profile.limits.texture_formats.contains(&targets[0]) && (profile.limits.float_mipmaps || !second.is_float());
     let vertex_stage = options.version.stage() == Stage::Vertex;
     let mut scene =
         Scene {

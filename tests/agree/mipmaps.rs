@@ -41,11 +41,7 @@ impl Fixture {
             .iter()
             .copied()
             .filter(|f| !f.record().is_float() || profile.limits.float_filtering && profile.limits.float_mipmaps)
-            .filter(|f| {
-                [&profile.limits.texture_formats, &profile.limits.target_formats]
-                    .iter()
-                    .all(|l| l.iter().any(|n| n == f.name()))
-            })
+            .filter(|f| profile.limits.texture_formats.contains(f) && profile.limits.target_formats.contains(f))
             .collect();
         let size = r.choose(&[[1, 1], [1, 23], [19, 1], [16, 16], [32, 8], [13, 21], [7, 5]]);
         let most = Image::most_levels(TextureKind::D2, [size[0], size[1], 1]);

@@ -39,8 +39,7 @@ fn machine(profile: &Profile) -> Machine {
 
 /// The first of some formats that the device has.
 fn format(profile: &Profile, wanted: &[TexelFormat]) -> TexelFormat {
-    let has = |f: &&TexelFormat| profile.limits.texture_formats.iter().any(|name| name == f.name());
-    *wanted.iter().find(has).expect("a format of the card")
+    *wanted.iter().find(|format| profile.limits.texture_formats.contains(format)).expect("a format of the card")
 }
 
 /// The state of every draw: depth tested and written, alpha tested.

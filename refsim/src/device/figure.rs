@@ -178,6 +178,21 @@ impl Section<'_> {
         words.ok_or_else(|| self.problem(key, "expected a list of names"))
     }
 
+    /// Removes and returns a list of what has names; empty if the section lacks it.
+    pub(super) fn named<T: Copy>(
+        &mut self,
+        key: &str,
+        all: &[T],
+        name: fn(T) -> &'static str,
+    ) -> Result<Vec<T>, DeviceError> {
+        let names = self.names(key)?.into_iter();
+        let known = |text: String| {
+            let found = all.iter().copied().find(|&one| name(one) == text);
+            found.ok_or_else(|| self.problem(key, &format!("nothing is named `{text}`")))
+        };
+        names.map(known).collect()
+    }
+
     /// Removes and returns a text, if the section has it.
     pub(super) fn text(&mut self, key: &str) -> Option<String> {
         self.figures.remove(key).map(|f| f.text())

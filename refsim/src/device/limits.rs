@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::DeviceError;
 use super::figure::Section;
 use crate::isa::{Stage, Version};
+use crate::texel::{DepthFormat, TexelFormat};
 
 /// Step budget of devices that state none: that of GL_NV_vertex_program2, and the minimum of Direct3D 9 for `ps_3_0`
 /// and `vs_3_0` (`MaxPShaderInstructionsExecuted`, `MaxVShaderInstructionsExecuted`).
@@ -113,12 +114,12 @@ figures! {
         /// `true` if the limits of the shader version apply in addition to those of the device; `false` for `ideal-`
         /// devices.
         version_limits: bool,
-        /// Names of the supported texture formats (see `crate::texture::TexelFormat`).
-        texture_formats: Vec<String>,
-        /// Names of the supported colour target formats.
-        target_formats: Vec<String>,
-        /// Names of the supported depth formats.
-        depth_formats: Vec<String>,
+        /// The supported texture formats.
+        texture_formats: Vec<TexelFormat>,
+        /// The supported colour target formats.
+        target_formats: Vec<TexelFormat>,
+        /// The supported depth formats.
+        depth_formats: Vec<DepthFormat>,
         /// `true` if float textures can be filtered.
         float_filtering: bool,
         /// `true` if float textures can have mip maps.

@@ -13,6 +13,7 @@ use super::storage_formats::StorageFormats;
 use super::switch::{FORMAT_RULES, Switch, apply, denormals_name, overflow_name, registers_name, sets_rule};
 use crate::isa::{Opcode, Version};
 use crate::num::{Format, FormatError};
+use crate::texel::{DepthFormat, TexelFormat};
 
 /// The cards, by release date.
 const CARDS: [(&str, &str); 8] = [
@@ -320,13 +321,13 @@ impl Profile {
         // R200 has one format of two 16-bit channels; it is open whether its codes are signed. `wide` adds a
         // four-channel format that the card lacks.
         let formats = &mut self.limits.texture_formats;
-        formats.retain(|f| !["rg16", "rg16s", "rgba16", "rgba16s"].contains(&f.as_str()));
-        let added: &[&str] = match value {
-            "unsigned" => &["rg16"],
-            "signed" => &["rg16s"],
-            _ => &["rg16", "rg16s", "rgba16", "rgba16s"],
-        };
-        formats.extend(added.iter().map(|f| (*f).to_owned()));
+        let wide = [TexelFormat::Rg16, TexelFormat::Rg16Snorm, TexelFormat::Rgba16, TexelFormat::Rgba16Snorm];
+        formats.retain(|format| !wide.contains(format));
+        formats.extend(match value {
+            "unsigned" => &wide[..1],
+            "signed" => &wide[1..2],
+            _ => &wide,
+        });
     }
 
     fn from_toml(device: &str, text: &str) -> Result<Self, DeviceError> {
@@ -346,9 +347,9 @@ impl Profile {
         part.finish()?;
 
         let mut part = section("formats", raw.formats);
-        limits.texture_formats = part.names("texture")?;
-        limits.target_formats = part.names("target")?;
-        limits.depth_formats = part.names("depth")?;
+        limits.texture_formats = part.named("texture", TexelFormat::ALL, TexelFormat::name)?;
+        limits.target_formats = part.named("target", TexelFormat::ALL, TexelFormat::name)?;
+        limits.depth_formats = part.named("depth", DepthFormat::ALL, DepthFormat::name)?;
         part.finish()?;
 
         let versions = raw.versions.ok_or_else(|| problem("versions are missing".to_owned()))?;

@@ -87,28 +87,6 @@ pub enum Event {
     Host(HostWork),
 }
 
-/// Filter within a mip level.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum FilterKind {
-    /// One texel.
-    #[default]
-    Nearest,
-    /// Linear interpolation between two texels per axis, under magnification, minification or both.
-    Linear,
-}
-
-/// Filter between mip levels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum MipKind {
-    /// Always the same level.
-    #[default]
-    None,
-    /// The nearest level.
-    Nearest,
-    /// Interpolation between two levels.
-    Linear,
-}
-
 /// A texture bound in a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplerRecord {
@@ -116,16 +94,12 @@ pub struct SamplerRecord {
     pub sampler: u8,
     /// The texture.
     pub texture: ResourceId,
-    /// Name of the texel format.
-    pub format: &'static str,
     /// Bytes per texel.
     pub texel_bytes: u32,
     /// Bytes of the whole texture, mip levels included.
     pub texture_bytes: u64,
-    /// Filter within a level.
-    pub filter: FilterKind,
-    /// Filter between levels; `None` also for textures with a single level.
-    pub mip: MipKind,
+    /// `true` if texels of two mip levels are interpolated.
+    pub trilinear: bool,
     /// Cache traffic of its texels, if observed.
     pub traffic: Option<SamplerTraffic>,
 }

@@ -16,8 +16,8 @@ mod vertex_cache;
 
 pub use counts::{ByteCounts, DrawEvents, FragmentCounts, PrimitiveCounts, SAMPLERS};
 pub use log::{
-    DepthRecord, DrawRecord, Event, FenceId, FilterKind, HostWork, MipKind, MipmapLevel, MipmapRecord, ReadBackMode,
-    ResourceId, SamplerRecord, TargetRecord,
+    DepthRecord, DrawRecord, Event, FenceId, HostWork, MipmapLevel, MipmapRecord, ReadBackMode, ResourceId,
+    SamplerRecord, TargetRecord,
 };
 pub use program::{ArithmeticSlot, FlowConstants, PhaseWork, ProgramWork, TextureSlot};
 pub use texels::{SamplerTraffic, TexelObserver, TexelTouch};

@@ -124,17 +124,22 @@ impl Memory {
 /// Returns an error if the device cannot sample the format.
 pub(super) fn check_texture_format(profile: &Profile, format: TexelFormat) -> Result<(), MachineError> {
     let allowed = &profile.limits.texture_formats;
-    if allowed.iter().any(|name| name == format.name()) {
+    if allowed.contains(&format) {
         return Ok(());
     }
-    Err(MachineError::TextureFormat { device: profile.name.clone(), format, allowed: allowed.join(" ") })
+    Err(MachineError::TextureFormat { device: profile.name.clone(), format, allowed: listed(allowed) })
 }
 
 /// Returns an error if the device cannot draw into the format.
 pub(super) fn check_target_format(profile: &Profile, format: TexelFormat) -> Result<(), MachineError> {
     let allowed = &profile.limits.target_formats;
-    if allowed.iter().any(|name| name == format.name()) {
+    if allowed.contains(&format) {
         return Ok(());
     }
-    Err(MachineError::TargetFormat { device: profile.name.clone(), format, allowed: allowed.join(" ") })
+    Err(MachineError::TargetFormat { device: profile.name.clone(), format, allowed: listed(allowed) })
+}
+
+/// Names, separated by spaces.
+pub(super) fn listed<T: ToString>(formats: &[T]) -> String {
+    formats.iter().map(T::to_string).collect::<Vec<_>>().join(" ")
 }

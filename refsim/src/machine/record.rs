@@ -8,15 +8,15 @@ use super::validate::Plan;
 use super::vertices::{VertexStage, raster_rules};
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
-    DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork,
-    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, vertex_cache_misses,
+    DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FlowConstants, HostWork, ProgramWork, ReadBackMode,
+    ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, vertex_cache_misses,
 };
 use crate::exec::batch::{Instances, Surfaces};
 use crate::exec::{CheckedProgram, Constants, program};
 use crate::isa::{Opcode, RegisterFile};
 use crate::output::DepthSurface;
 use crate::raster::{ComponentMask, Edge, TriangleSetup};
-use crate::texture::{Filter, Image, MipFilter, Region};
+use crate::texture::{Image, MipFilter, Region};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
@@ -154,21 +154,12 @@ impl Machine {
             let Some((bound, image)) = bound.and_then(|b| Some((b, self.memory.texture(b.texture).ok()?))) else {
                 continue;
             };
-            let state = bound.state;
-            let linear = state.min == Filter::Linear || state.mag == Filter::Linear;
             out.push(SamplerRecord {
                 sampler,
                 texture: bound.texture.into(),
-                format: image.format().name(),
                 texel_bytes: image.format().bytes() as u32,
                 texture_bytes: image.bytes().len() as u64,
-                filter: if linear { FilterKind::Linear } else { FilterKind::Nearest },
-                mip: match state.mip {
-                    _ if image.levels().len() == 1 => MipKind::None,
-                    MipFilter::None => MipKind::None,
-                    MipFilter::Nearest => MipKind::Nearest,
-                    MipFilter::Linear => MipKind::Linear,
-                },
+                trilinear: image.levels().len() > 1 && bound.state.mip == MipFilter::Linear,
                 traffic: traffic.and_then(|all| all.get(usize::from(sampler)).copied()),
             });
         }

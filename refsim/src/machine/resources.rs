@@ -1,6 +1,6 @@
 //! Resources of a machine: creation, clearing, read-back and release.
 
-use super::memory::{check_target_format, check_texture_format};
+use super::memory::{check_target_format, check_texture_format, listed};
 use super::{DepthId, Machine, MachineError, TextureId};
 use crate::device::Profile;
 use crate::event::Event;
@@ -62,8 +62,8 @@ impl Machine {
     /// If the device does not support the format, or the size is invalid.
     pub fn create_depth(&mut self, format: DepthFormat, width: u32, height: u32) -> Result<DepthId, MachineError> {
         let allowed = &self.profile.limits.depth_formats;
-        if !allowed.iter().any(|name| name == format.name()) {
-            let (device, allowed) = (self.profile.name.clone(), allowed.join(" "));
+        if !allowed.contains(&format) {
+            let (device, allowed) = (self.profile.name.clone(), listed(allowed));
             return Err(MachineError::DepthFormat { device, format, allowed });
         }
         let surface = DepthSurface::new(format, width, height)?;

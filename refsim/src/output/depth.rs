@@ -3,51 +3,15 @@
 use std::cmp::Ordering;
 
 use serde::Deserialize;
-use strum::{Display, IntoStaticStr, VariantArray};
+use strum::VariantArray;
 
 use super::OutputError;
 use crate::num::Format;
+pub use crate::texel::DepthFormat;
 use crate::texture::TargetRounding;
 use crate::texture::value::{self, Exact};
 
-/// Storage format of depth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray, IntoStaticStr, Display)]
-pub enum DepthFormat {
-    /// `k / (2^16 - 1)`
-    #[strum(serialize = "d16")]
-    Unorm16,
-    /// `k / (2^24 - 1)`
-    #[strum(serialize = "d24")]
-    Unorm24,
-    /// `k / (2^32 - 1)`
-    #[strum(serialize = "d32")]
-    Unorm32,
-    /// FP32
-    #[strum(serialize = "d32f")]
-    Float32,
-    /// 24 bits without a sign: 4 exponent, 20 mantissa bits (`D24FS8`, "20e4"). guess: the bias, which no source
-    /// states, is 15, so that 1.0 has the largest exponent; exponent 0 is subnormal; rounding is to nearest even.
-    #[strum(serialize = "d24f")]
-    Float24,
-}
-
 impl DepthFormat {
-    /// Every format.
-    pub const ALL: &'static [Self] = Self::VARIANTS;
-
-    /// The name in profiles and case files.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-
-    /// Bytes per pixel in the card's memory.
-    pub const fn bytes(self) -> u64 {
-        match self {
-            Self::Unorm16 => 2,
-            Self::Unorm24 | Self::Unorm32 | Self::Float32 | Self::Float24 => 4,
-        }
-    }
-
     /// Encodes a depth given in number format `from`: clamped to 0 to 1, rounded once. NaN gives 0.
     ///
     /// Patterns of a format have the order of their depths. `rounding` applies to the fixed-point formats; the float

@@ -1,6 +1,9 @@
 //! Errors of textures and images.
 
+use std::str::FromStr;
+
 use super::TextureKind;
+use crate::texel::TexelFormat;
 
 /// Error of creating or modifying an image.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -25,4 +28,13 @@ pub enum TextureError {
     /// Coordinates outside the image.
     #[error("expected a place inside level {level} of the image, found {what} {found} where {limit} exist")]
     Outside { level: u32, what: &'static str, found: u64, limit: u64 },
+}
+
+impl FromStr for TexelFormat {
+    type Err = TextureError;
+
+    /// Parses a name as [`TexelFormat::named`] does.
+    fn from_str(text: &str) -> Result<Self, TextureError> {
+        Self::named(text).ok_or_else(|| TextureError::UnknownFormat { name: text.chars().take(40).collect() })
+    }
 }

@@ -1,10 +1,10 @@
 //! Generation of mip levels from the previous level: the box filter of automatic mipmaps.
 
-use super::format::{Channel, ChannelClass};
 use super::texel::{denominator, encode_ratio};
 use super::{ChannelValue, Image, SignedTexelMinimum, TargetRounding, decode_channel, value};
 use crate::device::Rules;
 use crate::num::{self, Format};
+use crate::texel::{Channel, ChannelClass};
 use std::ops::Range;
 
 /// Maximum number of texels averaged into one texel of the next level: two along each of three axes.

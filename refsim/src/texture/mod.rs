@@ -6,7 +6,6 @@
 
 mod address;
 mod error;
-mod format;
 pub(crate) mod image;
 mod kind;
 mod layout;
@@ -21,9 +20,9 @@ pub(crate) mod value;
 pub use crate::device::{
     BorderStorage, FilterArithmetic, MissingChannels, SignedTexelMinimum, TargetRounding, TexelValues, WeightRounding,
 };
+pub use crate::texel::{Channel, ChannelClass, ComponentSource, FormatRecord, TexelFormat};
 pub use address::{AddressMode, CubeFace, cube_coordinates, linear_taps, nearest_index, project};
 pub use error::TextureError;
-pub use format::{Channel, ChannelClass, ComponentSource, FormatRecord, TexelFormat};
 pub use image::{Image, Level, Region};
 pub use kind::TextureKind;
 pub use layout::{Layout, TexelMap};

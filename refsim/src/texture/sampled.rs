@@ -1,13 +1,13 @@
 //! The sampling rules of a device, and components as a sampler takes them from texels and borders: bytes, or exact
 //! values, by the device's rules.
 
-use super::format::{Channel, ChannelClass, ComponentSource};
 use super::{
     BorderStorage, ChannelValue, FilterArithmetic, MissingChannels, SignedTexelMinimum, TargetRounding, TexelFormat,
     TexelValues, WeightRounding, decode_channel, encode,
 };
 use crate::device::Rules;
 use crate::num::Format;
+use crate::texel::{Channel, ChannelClass, ComponentSource};
 
 /// A device's sampling rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,7 +122,11 @@ impl SampledComponent {
 impl SampleRules {
     /// Sources of red, green, blue and alpha.
     pub(crate) fn sources(&self, format: TexelFormat) -> [SampledSource; 4] {
-        format.components(self.missing_channels).map(|source| match source {
+        let components = match self.missing_channels {
+            MissingChannels::Direct3d => format.record().components,
+            MissingChannels::Xbox => format.xbox_components(),
+        };
+        components.map(|source| match source {
             ComponentSource::Channel(i) => SampledSource::Stored(format.record().channels[usize::from(i)]),
             ComponentSource::Zero => SampledSource::Missing(0),
             ComponentSource::One => SampledSource::Missing(255),

@@ -1,10 +1,10 @@
 //! Decoding and encoding of texels: decoding is exact, and values are rounded once when they enter a register or a
 //! target.
 
-use super::format::{Channel, ChannelClass, ComponentSource};
 use super::value::{self, Exact};
 use super::{SignedTexelMinimum, TargetRounding, TexelFormat};
 use crate::num::{self, Format};
+use crate::texel::{Channel, ChannelClass, ComponentSource};
 
 /// Exact value of a texel component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use refsim::asm::assemble;
 use refsim::device::Profile;
 use refsim::event::{
-    DepthRecord, DrawEvents, DrawRecord, FilterKind, FlowConstants, MipKind, ProgramWork, ResourceId, SAMPLERS,
-    SamplerRecord, SamplerTraffic, TargetRecord,
+    DepthRecord, DrawEvents, DrawRecord, FlowConstants, ProgramWork, ResourceId, SAMPLERS, SamplerRecord,
+    SamplerTraffic, TargetRecord,
 };
 use refsim::timing::{Level, Model, Picoseconds};
 use std::sync::Arc;
@@ -59,11 +59,9 @@ fn record(work: &Work) -> DrawRecord {
     let sampler = |sampler| SamplerRecord {
         sampler,
         texture: ResourceId::Texture(sampler.into()),
-        format: "rgba16f",
         texel_bytes: 8,
         texture_bytes: 1 << 19,
-        filter: FilterKind::Nearest,
-        mip: MipKind::None,
+        trilinear: false,
         traffic: work.observed.then_some(traffic),
     };
     DrawRecord {

@@ -99,7 +99,7 @@ impl Args {
         }
         let without = [("--partial", self.partial && profile.rules.partial.is_none())];
         given::refuse(without, "cards with a partial precision", "choose one with `--device`, or leave it out")?;
-        let has = |format: &TexelFormat| profile.limits.texture_formats.iter().any(|name| name == format.name());
+        let has = |format: &TexelFormat| profile.limits.texture_formats.contains(format);
         let fractions = [TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm].into_iter().find(has);
         Ok(ProductPlace::Pixels(ProductOptions {
             map_format: self.map_format.or(fractions).unwrap_or(TexelFormat::Rgba8Snorm),

@@ -72,8 +72,8 @@ pub(super) struct Args {
 }
 
 impl Args {
-    fn options(&self, formats: &[String]) -> PrtCardOptions {
-        let has = formats.iter().any(|format| format == TexelFormat::Rgba16Snorm.name());
+    fn options(&self, formats: &[TexelFormat]) -> PrtCardOptions {
+        let has = formats.contains(&TexelFormat::Rgba16Snorm);
         PrtCardOptions {
             superclusters: !self.alone,
             vertex_version: self.vertex,

@@ -244,7 +244,7 @@ impl Card {
 /// Depth format for a program: float where the program computes in float and the card has a float depth buffer; else 24
 /// bits, as on the cards of the time.
 fn depth_format(profile: &Profile, form: Form) -> DepthFormat {
-    let float = form == Form::Float && profile.limits.depth_formats.iter().any(|f| f == DepthFormat::Float32.name());
+    let float = form == Form::Float && profile.limits.depth_formats.contains(&DepthFormat::Float32);
     if float { DepthFormat::Float32 } else { DepthFormat::Unorm24 }
 }
 

@@ -58,7 +58,7 @@ impl Kernel {
         if !has(Version::Ps1_4) {
             return Err(EngineError::NoKernel { device: profile.name.clone() });
         }
-        let signed = profile.limits.texture_formats.iter().any(|f| f == "rg16s");
+        let signed = profile.limits.texture_formats.contains(&TexelFormat::Rg16Snorm);
         let pick = |unsigned: KernelText, with_sign: KernelText| if signed { with_sign } else { unsigned };
         if one_origin {
             let setup = if sides == Sides::Front { kernels::ONE_ORIGIN_SETUP } else { kernels::ONE_ORIGIN_BOTH_SETUP };
@@ -81,7 +81,7 @@ impl Kernel {
     pub fn for_passes(profile: &Profile, sides: Sides, cull: bool, weights: bool) -> Result<Self, EngineError> {
         let plain = Self::choose(profile, false, sides)?;
         let targets = &profile.limits.target_formats;
-        let weights = weights && plain.form == Form::Float && targets.iter().any(|f| f == TexelFormat::Rgba32f.name());
+        let weights = weights && plain.form == Form::Float && targets.contains(&TexelFormat::Rgba32f);
         if !cull && !weights {
             return Ok(plain);
         }

@@ -41,7 +41,7 @@ impl TargetEncoding {
     /// Chooses the encoding for a pass over `triangles` triangles; with `small`, the smallest target of the card that
     /// can distinguish them.
     pub(super) fn choose(profile: &Profile, weights: bool, small: bool, triangles: usize) -> Self {
-        let has = |code: Self| profile.limits.target_formats.iter().any(|name| name == code.format().name());
+        let has = |code: Self| profile.limits.target_formats.contains(&code.format());
         if weights {
             return Self::Weights;
         }

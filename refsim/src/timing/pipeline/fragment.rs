@@ -1,7 +1,7 @@
 //! Cost of a fragment in a pixel pipeline.
 
 use crate::device::Rates;
-use crate::event::{ArithmeticSlot, MipKind, PhaseWork, ProgramWork, SamplerRecord, TextureSlot};
+use crate::event::{ArithmeticSlot, PhaseWork, ProgramWork, SamplerRecord, TextureSlot};
 use crate::isa::Opcode;
 use crate::timing::Clocks;
 
@@ -121,10 +121,7 @@ fn read_clocks(slot: &TextureSlot, samplers: &[SamplerRecord], rates: &Rates) ->
     let bound = samplers.iter().find(|s| s.sampler == number);
     let texel = bound.map_or(PLAIN_TEXEL, |s| s.texel_bytes.into());
     let wide = texel.div_ceil(rates.texel_bytes_per_clock.unwrap_or(PLAIN_TEXEL).max(1));
-    let levels = match bound.map(|s| s.mip) {
-        Some(MipKind::Linear) => rates.trilinear_clocks.unwrap_or(1),
-        _ => 1,
-    };
+    let levels = if bound.is_some_and(|s| s.trilinear) { rates.trilinear_clocks.unwrap_or(1) } else { 1 };
     issue.max(1).saturating_mul(wide.max(1)).saturating_mul(levels.max(1))
 }
 

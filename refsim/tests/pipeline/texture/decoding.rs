@@ -1,9 +1,7 @@
 //! Decoding of texels.
 
 use super::rational::{Rational, assert_nearest};
-use refsim::device::Profile;
 use refsim::num::Format;
-use refsim::output::DepthFormat;
 use refsim::texture::{ChannelClass, SignedTexelMinimum, TargetRounding, TexelFormat, decode, decode_channel, encode};
 
 const FORMATS: [Format; 4] = [Format::S3_12, Format::FP16, Format::FP24, Format::FP32];
@@ -79,20 +77,4 @@ fn l6v5u5_as_wine_measured_it() {
     assert_eq!(texel(-15, -16, 63), [-15.0 / 16.0, -1.0, 1.0, 1.0]);
     assert_eq!(texel(15, 7, 0), [1.0, 7.0 / 15.0, 0.0, 1.0]);
     assert_eq!(texel(-1, 0, 21), [-1.0 / 16.0, 0.0, 1.0 / 3.0, 1.0]);
-}
-
-#[test]
-fn every_format_a_profile_names_exists() {
-    for name in Profile::all_names() {
-        // The last name is a pattern for ideal devices of any format.
-        let name = name.replace("<format>", "fp32");
-        let profile = Profile::named(&name).unwrap();
-        let limits = &profile.limits;
-        for format in limits.texture_formats.iter().chain(&limits.target_formats) {
-            assert!(format.parse::<TexelFormat>().is_ok(), "{name}: {format}");
-        }
-        for format in &limits.depth_formats {
-            assert!(format.parse::<DepthFormat>().is_ok(), "{name}: {format}");
-        }
-    }
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use refsim::event::{
-    DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, MipmapRecord, ProgramWork,
-    ReadBackMode, ResourceId, SamplerRecord, TargetRecord,
+    DrawEvents, DrawRecord, Event, FenceId, FlowConstants, HostWork, MipmapRecord, ProgramWork, ReadBackMode,
+    ResourceId, SamplerRecord, TargetRecord,
 };
 use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 use refsim::timing::queue::QueueFigures;
@@ -49,16 +49,8 @@ const IDS: ResourceId = ResourceId::Texture(1);
 
 fn draw(time: u64) -> Event {
     let program = refsim::asm::assemble("ps_1_4\nmov r0, c0").expect("a program");
-    let sampler = SamplerRecord {
-        sampler: 0,
-        texture: RAYS,
-        format: "rgba8",
-        texel_bytes: 4,
-        texture_bytes: 4,
-        filter: FilterKind::Nearest,
-        mip: MipKind::None,
-        traffic: None,
-    };
+    let sampler =
+        SamplerRecord { sampler: 0, texture: RAYS, texel_bytes: 4, texture_bytes: 4, trilinear: false, traffic: None };
     Event::Draw(Box::new(DrawRecord {
         counts: DrawEvents { vertices: time, ..DrawEvents::default() },
         vertices_run: [0; 3],

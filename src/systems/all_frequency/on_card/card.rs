@@ -152,9 +152,7 @@ impl<'a> FactoredCard<'a> {
 
     /// A floating-point target format of the device, which shows values that other targets clamp.
     pub(super) fn float_target(&self) -> Option<TexelFormat> {
-        let has = |format: &TexelFormat| {
-            self.machine.profile().limits.target_formats.iter().any(|name| name == format.name())
-        };
+        let has = |format: &TexelFormat| self.machine.profile().limits.target_formats.contains(format);
         [TexelFormat::Rgba32f, TexelFormat::Rgba16f].into_iter().find(has)
     }
 }

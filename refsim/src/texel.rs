@@ -1,6 +1,8 @@
-//! Texel formats as records: position and meaning of each channel, and the values of channels that are not stored.
+//! Formats of texels and depths. A texel format is a record: position and meaning of each channel, and the values of
+//! channels that are not stored.
 
-use super::{MissingChannels, TextureError};
+use strum::{Display, IntoStaticStr, VariantArray};
+
 use crate::num::Format;
 
 /// Meaning of the bits of a stored channel.
@@ -9,7 +11,7 @@ use crate::num::Format;
 pub enum ChannelClass {
     /// `k / (2^n - 1)`
     Unorm,
-    /// Two's complement `k / (2^(n-1) - 1)`; [`super::SignedTexelMinimum`] determines the value of the smallest `k`.
+    /// Two's complement `k / (2^(n-1) - 1)`; [`crate::device::SignedTexelMinimum`] determines the value of the smallest `k`.
     Snorm,
     /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` for k < 0, so that -15 is not -1.0 (all
     /// sixteen probes of Wine's test on real cards agree; docs/numbers.md).
@@ -245,33 +247,24 @@ impl TexelFormat {
         usize::from(self.record().bytes)
     }
 
-    /// Sources of red, green, blue and alpha delivered by a sampler, under a device's rule.
-    pub(crate) fn components(self, missing: MissingChannels) -> [ComponentSource; 4] {
+    /// The format with our name or the Direct3D one (`D3DFMT_` allowed), in any case.
+    pub fn named(text: &str) -> Option<Self> {
+        let lower = text.trim().to_ascii_lowercase();
+        let key = lower.strip_prefix("d3dfmt_").unwrap_or(&lower);
+        let is_named = |f: &Self| !key.is_empty() && (f.record().name == key || f.record().d3d_name == key);
+        Self::ALL.iter().copied().find(is_named)
+    }
+
+    /// Sources of red, green, blue and alpha delivered by a sampler of an Xbox.
+    pub(crate) fn xbox_components(self) -> [ComponentSource; 4] {
         let record = self.record();
-        if missing == MissingChannels::Direct3d || record.is_float() {
-            return record.components;
-        }
         match record.components {
+            components if record.is_float() => components,
             ALPHA => [ONE, ONE, ONE, C0],
             RG if record.channels[0].bits == 8 => [C0, C1, C0, C1],
             RG => [C0, C1, C1, C0],
             components => components,
         }
-    }
-}
-
-impl std::str::FromStr for TexelFormat {
-    type Err = TextureError;
-
-    /// Parses our name or the Direct3D one (`D3DFMT_` allowed), in any case.
-    fn from_str(text: &str) -> Result<Self, TextureError> {
-        let lower = text.trim().to_ascii_lowercase();
-        let key = lower.strip_prefix("d3dfmt_").unwrap_or(&lower);
-        Self::ALL
-            .iter()
-            .copied()
-            .find(|f| !key.is_empty() && (f.record().name == key || f.record().d3d_name == key))
-            .ok_or_else(|| TextureError::UnknownFormat { name: text.chars().take(40).collect() })
     }
 }
 
@@ -281,6 +274,44 @@ impl std::fmt::Display for TexelFormat {
     }
 }
 
+/// Storage format of depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray, IntoStaticStr, Display)]
+pub enum DepthFormat {
+    /// `k / (2^16 - 1)`
+    #[strum(serialize = "d16")]
+    Unorm16,
+    /// `k / (2^24 - 1)`
+    #[strum(serialize = "d24")]
+    Unorm24,
+    /// `k / (2^32 - 1)`
+    #[strum(serialize = "d32")]
+    Unorm32,
+    /// FP32
+    #[strum(serialize = "d32f")]
+    Float32,
+    /// 24 bits without a sign: 4 exponent, 20 mantissa bits (`D24FS8`, "20e4"). guess: the bias, which no source
+    /// states, is 15, so that 1.0 has the largest exponent; exponent 0 is subnormal; rounding is to nearest even.
+    #[strum(serialize = "d24f")]
+    Float24,
+}
+
+impl DepthFormat {
+    /// Every format.
+    pub const ALL: &'static [Self] = Self::VARIANTS;
+
+    /// The name in profiles and case files.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+
+    /// Bytes per pixel in the card's memory.
+    pub const fn bytes(self) -> u64 {
+        match self {
+            Self::Unorm16 => 2,
+            Self::Unorm24 | Self::Unorm32 | Self::Float32 | Self::Float24 => 4,
+        }
+    }
+}
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -302,9 +333,9 @@ mod tests {
                     assert!(i < record.channel_count, "{format}: component of a channel that is not stored");
                 }
             }
-            assert_eq!(format.name().parse::<TexelFormat>().unwrap(), format);
+            assert_eq!(TexelFormat::named(format.name()), Some(format));
         }
-        assert_eq!("D3DFMT_A8R8G8B8".parse::<TexelFormat>().unwrap(), TexelFormat::Bgra8);
-        assert!("".parse::<TexelFormat>().is_err());
+        assert_eq!(TexelFormat::named("D3DFMT_A8R8G8B8"), Some(TexelFormat::Bgra8));
+        assert_eq!(TexelFormat::named(""), None);
     }
 }
