@@ -66,7 +66,7 @@ fn image(format: TexelFormat, kind: TextureKind, profile: &Profile, r: &mut Rand
     let mut image = Image::new(format, kind, extents, levels).unwrap_or_else(|e| panic!("{e}"));
     let edges = r.one_in(4);
     let values: Vec<u8> = (0..image.bytes().len())
-        .map(|_| if edges { r.choose(&[0, 0, 0xff, 0xff, 0x7f, 0x80, 0x7c]) } else { r.next() as u8 })
+        .map(|_| if edges { r.of(&[0, 0, 0xff, 0xff, 0x7f, 0x80, 0x7c]) } else { r.next() as u8 })
         .collect();
     image.bytes_mut().copy_from_slice(&values);
     image
@@ -74,7 +74,7 @@ fn image(format: TexelFormat, kind: TextureKind, profile: &Profile, r: &mut Rand
 
 fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) -> SamplerState {
     let modes = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
-    let mode = |r: &mut Random| options.address.unwrap_or_else(|| r.choose(&modes));
+    let mode = |r: &mut Random| options.address.unwrap_or_else(|| r.of(&modes));
     let filtered = profile.limits.float_filtering || !image.format().record().is_float();
     let filter = |r: &mut Random| {
         let linear = filtered && r.one_in(if options.sampling { 2 } else { 4 });
@@ -83,7 +83,7 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
     if options.address.is_none() && r.one_in(3) {
         return SamplerState::NEAREST_CLAMP;
     }
-    let mip = r.choose(&[MipFilter::None, MipFilter::None, MipFilter::Nearest, MipFilter::Linear]);
+    let mip = r.of(&[MipFilter::None, MipFilter::None, MipFilter::Nearest, MipFilter::Linear]);
     let (min, mag) = (filter(r), filter(r));
     let [address_u, address_v, address_w] = [mode(r), mode(r), mode(r)];
     let border = r.vector();
@@ -137,7 +137,7 @@ pub(crate) fn constants(r: &mut Random) -> Constants {
     float[8][1] = 0x3e00_0000;
     Constants {
         float,
-        int: (0..3).map(|_| [r.choose(&[0, 1, 2, 3]), r.choose(&[0, 1, 2]), r.choose(&[-1, 0, 1]), 0]).collect(),
+        int: (0..3).map(|_| [r.of(&[0, 1, 2, 3]), r.of(&[0, 1, 2]), r.of(&[-1, 0, 1]), 0]).collect(),
         boolean: (0..3).map(|_| r.one_in(2)).collect(),
         state: Some(Box::new(state(r.clone()))),
         ..Constants::default()
@@ -150,13 +150,13 @@ fn kinds(options: &Options, r: &mut Random) -> Vec<(usize, TextureKind)> {
     let mut all = if options.is_ps_1() {
         vec![(0, D2), (1, D2), (2, Cube), (3, D2), (4, Rectangle), (5, D1)]
     } else {
-        let flat = r.choose(&[D2, D2, D1, Rectangle]);
-        let step = r.choose(&[1, 1, 1, 2, 3]);
+        let flat = r.of(&[D2, D2, D1, Rectangle]);
+        let step = r.of(&[1, 1, 1, 2, 3]);
         [D2, flat, D2, Cube, Volume].into_iter().enumerate().map(|(i, kind)| (i * step, kind)).collect()
     };
     if options.is_ps_1() && r.one_in(3) {
         for (_, kind) in &mut all {
-            *kind = r.choose(&[D1, D2, Rectangle, Cube, Volume]);
+            *kind = r.of(&[D1, D2, Rectangle, Cube, Volume]);
         }
     }
     if let Some(kind) = options.kind {
@@ -179,7 +179,7 @@ pub(crate) fn textures(
         if options.texture.is_none() && r.one_in(8) {
             continue;
         }
-        let format = options.texture.unwrap_or_else(|| r.choose(formats));
+        let format = options.texture.unwrap_or_else(|| r.of(formats));
         let image = image(format, kind, profile, r);
         let state = sampler(&image, options, profile, r);
         out.push((slot, image, state));
@@ -197,7 +197,7 @@ fn targets(options: &Options, profile: &Profile, r: &mut Random) -> Vec<TexelFor
             Some(format) => format,
             // The first target shows the program's results with enough range, if it can.
             None if i == 0 && !r.one_in(4) => wide.into_iter().find(|f| formats.contains(f)).unwrap_or(formats[0]),
-            None => r.choose(formats),
+            None => r.of(formats),
         })
         .collect()
 }
@@ -205,9 +205,9 @@ fn targets(options: &Options, profile: &Profile, r: &mut Random) -> Vec<TexelFor
 fn blend(options: &Options, r: &mut Random) -> BlendState {
     let all = [BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max];
     let equation = |r: &mut Random| BlendEquation {
-        source: r.choose(BlendFactor::ALL),
-        destination: r.choose(BlendFactor::ALL),
-        op: options.blend.unwrap_or_else(|| r.choose(&all)),
+        source: r.of(BlendFactor::ALL),
+        destination: r.of(BlendFactor::ALL),
+        op: options.blend.unwrap_or_else(|| r.of(&all)),
     };
     BlendState { color: equation(r), alpha: equation(r) }
 }
@@ -243,7 +243,7 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
     let size = shapes::size(shape, r);
     let geometry = shapes::geometry(shape, size, r);
     let depths = &profile.limits.depth_formats;
-    let depth = options.depth.or_else(|| (options.compare.is_some() || !r.one_in(3)).then(|| r.choose(depths)));
+    let depth = options.depth.or_else(|| (options.compare.is_some() || !r.one_in(3)).then(|| r.of(depths)));
     let second = targets[0].record();
     let readable =
         profile.limits.texture_formats.contains(&targets[0]) && (profile.limits.float_mipmaps || !second.is_float());
@@ -269,17 +269,17 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
             primitive: geometry.primitive,
             targets,
             clear: if r.one_in(4) { r.vector() } else { [0x3e80_0000, 0x3f00_0000, 0x3f40_0000, 0x3f80_0000] },
-            depth: depth.map(|format| (format, r.choose(&[0x3f40_0000, 0x3f80_0000, 0, 0x3f00_0000]))),
+            depth: depth.map(|format| (format, r.of(&[0x3f40_0000, 0x3f80_0000, 0, 0x3f00_0000]))),
             depth_state: depth_state(options, plain, r),
             alpha: (!plain && r.one_in(2))
-                .then(|| AlphaTest { function: r.choose(CompareFunction::ALL), reference: r.number() }),
+                .then(|| AlphaTest { function: r.of(CompareFunction::ALL), reference: r.number() }),
             blend: (blends && (options.blend.is_some() || !plain && r.one_in(2))).then(|| blend(options, r)),
             masks: std::array::from_fn(|_| {
                 if !plain && r.one_in(3) { WriteMask(r.below(16) as u8) } else { WriteMask::ALL }
             }),
-            center: r.choose(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
-            clip_space: r.choose(&[ClipSpace::Direct3d, ClipSpace::Direct3d, ClipSpace::OpenGl]),
-            cull: r.choose(&[Cull::None, Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
+            center: r.of(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
+            clip_space: r.of(&[ClipSpace::Direct3d, ClipSpace::Direct3d, ClipSpace::OpenGl]),
+            cull: r.of(&[Cull::None, Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
             viewport: r.one_in(6).then(|| viewport(size, r)),
             scissor: r.one_in(6).then(|| {
                 let (x, y) = (r.below(size[0] as usize) as u32, r.below(size[1] as usize) as u32);
@@ -287,9 +287,9 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
             }),
             draws: if r.one_in(8) { 2 } else { 1 },
             projections: std::array::from_fn(|_| {
-                r.choose(&[Projection::None, Projection::None, Projection::None, Projection::Z, Projection::W])
+                r.of(&[Projection::None, Projection::None, Projection::None, Projection::Z, Projection::W])
             }),
-            flat: r.one_in(5).then(|| r.choose(&[Provoking::First, Provoking::Last])),
+            flat: r.one_in(5).then(|| r.of(&[Provoking::First, Provoking::Last])),
             second_pass: readable && !vertex_stage && r.one_in(10),
             profile,
         };
@@ -323,7 +323,7 @@ fn depth_state(options: &Options, plain: bool, r: &mut Random) -> DepthState {
     let test = match options.compare {
         Some(compare) => Some(compare),
         None if plain => Some(CompareFunction::Always),
-        None => (!r.one_in(4)).then(|| r.choose(CompareFunction::ALL)),
+        None => (!r.one_in(4)).then(|| r.of(CompareFunction::ALL)),
     };
     DepthState { test, write: plain || r.one_in(2) }
 }

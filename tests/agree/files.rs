@@ -146,7 +146,7 @@ pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Ca
     let fits = build(&program.lines, &profile).is_ok();
     let profile = if fits { profile } else { rules::profile(device) };
     let checked = build(&program.lines, &profile).unwrap_or_else(|e| panic!("{} on {device}: {e}", program.file));
-    let shape = r.choose(&[Shape::Flat, Shape::Layers, Shape::Ordinary, Shape::Clipped]);
+    let shape = r.of(&[Shape::Flat, Shape::Layers, Shape::Ordinary, Shape::Clipped]);
     let options = Options { shape: Some(shape), ..Options::new(checked.version) };
     let (mut scene, layout) = dice::scene(profile, &options, r);
     if program.stage == Stage::Vertex {

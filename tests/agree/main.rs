@@ -23,6 +23,7 @@ mod mipmaps;
 mod planted;
 mod prt;
 mod radiosity;
+#[path = "../../refsim/tests/common/random.rs"]
 mod random;
 mod rules;
 mod scene;

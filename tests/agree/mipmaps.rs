@@ -35,7 +35,7 @@ type Drawn = (Vec<u8>, Vec<u8>, Vec<Event>);
 impl Fixture {
     fn new(seed: u64) -> Self {
         let mut r = Random::named("mipmaps", seed);
-        let device = r.pick(&["nv35", "nv30", "ideal-fp32", "ideal-fp16"]);
+        let device = r.of(&["nv35", "nv30", "ideal-fp32", "ideal-fp16"]);
         let profile = if device.starts_with("nv") { rules::card(device, &mut r) } else { rules::profile(device) };
         let formats: Vec<TexelFormat> = TexelFormat::ALL
             .iter()
@@ -43,19 +43,19 @@ impl Fixture {
             .filter(|f| !f.record().is_float() || profile.limits.float_filtering && profile.limits.float_mipmaps)
             .filter(|f| profile.limits.texture_formats.contains(f) && profile.limits.target_formats.contains(f))
             .collect();
-        let size = r.choose(&[[1, 1], [1, 23], [19, 1], [16, 16], [32, 8], [13, 21], [7, 5]]);
+        let size = r.of(&[[1, 1], [1, 23], [19, 1], [16, 16], [32, 8], [13, 21], [7, 5]]);
         let most = Image::most_levels(TextureKind::D2, [size[0], size[1], 1]);
         let levels = if r.one_in(4) && most > 1 { 2 + r.below(most as usize - 1) as u32 } else { most };
         r.tame = true;
         let state = SamplerState {
-            min: r.choose(&[Filter::Nearest, Filter::Linear]),
+            min: r.of(&[Filter::Nearest, Filter::Linear]),
             mag: Filter::Linear,
-            mip: r.choose(&[MipFilter::Nearest, MipFilter::Linear, MipFilter::Linear]),
-            address_u: r.choose(&[AddressMode::Wrap, AddressMode::Clamp]),
+            mip: r.of(&[MipFilter::Nearest, MipFilter::Linear, MipFilter::Linear]),
+            address_u: r.of(&[AddressMode::Wrap, AddressMode::Clamp]),
             max_mip_level: r.below(3) as u8,
             ..SamplerState::NEAREST_CLAMP
         };
-        let format = r.choose(&formats);
+        let format = r.of(&formats);
         let (painted, read) = (quad(6.0, &mut r), quad(0.3, &mut r));
         Self { profile, format, size, levels, state, painted, read }
     }

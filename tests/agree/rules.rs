@@ -140,41 +140,41 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
     let rules = &mut profile.rules;
     if group.has(Group::Arithmetic) {
         let partial = [None, Some("fp16"), Some("fp16:rtz:nv"), Some("s1.10"), Some("fp32"), Some("e4m3fn")];
-        rules.partial = r.choose(&partial).map(format);
+        rules.partial = r.of(&partial).map(format);
         if r.one_in(4) {
-            rules.vertex_format = format(r.pick(&["fp32:rtz", "fp24", "s7.16", "fp32:ftz"]));
+            rules.vertex_format = format(r.of(&["fp32:rtz", "fp24", "s7.16", "fp32:ftz"]));
         }
-        rules.constant_storage = r.choose(ConstantStorage::ALL);
-        rules.mad = r.choose(MadMode::ALL);
-        rules.dot = r.choose(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
-        rules.lrp = r.choose(LrpMode::ALL);
+        rules.constant_storage = r.of(ConstantStorage::ALL);
+        rules.mad = r.of(MadMode::ALL);
+        rules.dot = r.of(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
+        rules.lrp = r.of(LrpMode::ALL);
         rules.zero_times_anything = r.one_in(3);
         rules.vertex_zero_times_anything = r.one_in(3);
     }
     if group.has(Group::Sampling) {
-        rules.texcrd_overflow = r.choose(TexcrdOverflow::ALL);
-        rules.texdepth_denominator = r.choose(TexdepthDenominator::ALL);
-        rules.signed_texel_minimum = r.choose(SignedTexelMinimum::ALL);
-        rules.filter_fraction_bits = r.choose(&[0, 4, 5, 6, 8, 12]);
-        rules.lod_fraction_bits = r.choose(&[0, 4, 5, 6, 8]);
-        rules.filter_weight_rounding = r.choose(WeightRounding::ALL);
-        rules.filter_arithmetic = r.choose(FilterArithmetic::ALL);
-        rules.texel_values = r.choose(TexelValues::ALL);
-        rules.missing_channels = r.choose(MissingChannels::ALL);
-        rules.border_storage = r.choose(BorderStorage::ALL);
+        rules.texcrd_overflow = r.of(TexcrdOverflow::ALL);
+        rules.texdepth_denominator = r.of(TexdepthDenominator::ALL);
+        rules.signed_texel_minimum = r.of(SignedTexelMinimum::ALL);
+        rules.filter_fraction_bits = r.of(&[0, 4, 5, 6, 8, 12]);
+        rules.lod_fraction_bits = r.of(&[0, 4, 5, 6, 8]);
+        rules.filter_weight_rounding = r.of(WeightRounding::ALL);
+        rules.filter_arithmetic = r.of(FilterArithmetic::ALL);
+        rules.texel_values = r.of(TexelValues::ALL);
+        rules.missing_channels = r.of(MissingChannels::ALL);
+        rules.border_storage = r.of(BorderStorage::ALL);
     }
     if group.has(Group::Pipeline) {
         if r.one_in(4) {
-            rules.iterator_format = format(r.pick(&["fp24", "s7.16", "fp16", "fp32:rtz"]));
+            rules.iterator_format = format(r.of(&["fp24", "s7.16", "fp16", "fp32:rtz"]));
         }
-        let bits = r.choose(&[8, 12, 1, 16]);
-        rules.color_iterator = r.choose(&[ColorIterator::Full, ColorIterator::Unorm(bits)]);
-        rules.texkill_components = r.choose(TexkillComponents::ALL);
-        rules.target_rounding = r.choose(TargetRounding::ALL);
-        rules.depth_rounding = r.choose(TargetRounding::ALL);
-        rules.subpixel_bits = r.choose(&[0, 4, 8]);
-        rules.subpixel_rounding = r.choose(SubpixelRounding::ALL);
-        rules.color_clamp = r.choose(ColorClamp::ALL);
+        let bits = r.of(&[8, 12, 1, 16]);
+        rules.color_iterator = r.of(&[ColorIterator::Full, ColorIterator::Unorm(bits)]);
+        rules.texkill_components = r.of(TexkillComponents::ALL);
+        rules.target_rounding = r.of(TargetRounding::ALL);
+        rules.depth_rounding = r.of(TargetRounding::ALL);
+        rules.subpixel_bits = r.of(&[0, 4, 8]);
+        rules.subpixel_rounding = r.of(SubpixelRounding::ALL);
+        rules.color_clamp = r.of(ColorClamp::ALL);
     }
     profile
 }

@@ -61,7 +61,7 @@ pub(crate) struct Geometry {
 
 /// A shape for programs that are to be seen: mostly ordinary ones.
 pub(crate) fn ordinary(r: &mut Random) -> Shape {
-    if r.one_in(3) { r.choose(&Shape::ALL) } else { Shape::Ordinary }
+    if r.one_in(3) { r.of(&Shape::ALL) } else { Shape::Ordinary }
 }
 
 /// Width and height of the targets: some within a tile, some over several.
@@ -84,7 +84,7 @@ const CORNERS: [(f32, f32); 4] = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -
 pub(crate) fn geometry(shape: Shape, size: [u32; 2], r: &mut Random) -> Geometry {
     let primitive = match shape {
         Shape::Flat | Shape::Layers => Primitive::QuadList,
-        _ => r.choose(&PRIMITIVES),
+        _ => r.of(&PRIMITIVES),
     };
     let each = match primitive {
         Primitive::TriangleList => 3,
@@ -241,7 +241,7 @@ pub(crate) fn streams(scene: &mut Scene, r: &mut Random) {
         if r.one_in(5) {
             continue;
         }
-        let step = r.choose(&[StepRate::Vertex, StepRate::Vertex, StepRate::Instance]);
+        let step = r.of(&[StepRate::Vertex, StepRate::Vertex, StepRate::Instance]);
         let entries = if step == StepRate::Vertex { count } else { scene.instances };
         scene.streams.push((register, step, (0..entries).map(|_| r.vector()).collect()));
     }

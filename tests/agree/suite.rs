@@ -133,7 +133,7 @@ impl Suite {
 
 /// The first random numbers of every case: a pixel program version for suites that fix none.
 pub(crate) fn first_throws(r: &mut Random) -> Version {
-    r.choose(&PIXEL[3..])
+    r.of(&PIXEL[3..])
 }
 
 /// A random legal program.
@@ -199,8 +199,8 @@ fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
 /// the storages and accumulators of pixel programs.
 fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     let any = |r: &mut Random| {
-        let formats = r.choose(&Family::ALL).formats();
-        r.pick(formats).parse().expect("a format")
+        let formats = r.of(&Family::ALL).formats();
+        r.of(formats).parse().expect("a format")
     };
     for storage in Storage::ALL.into_iter().filter(|_| version.stage() == Stage::Pixel) {
         if r.one_in(3) {

@@ -1,7 +1,6 @@
 //! Properties of the scalar executor over random programs, random data and every device.
 
-use crate::random::Random;
-use crate::{legal, running};
+use crate::{generate, running};
 use proptest::{collection::vec, prelude::*, sample::select};
 use refsim::asm::assemble;
 use refsim::device::Profile;
@@ -139,14 +138,14 @@ proptest! {
     #[test]
     fn legal_programs_run(
         version in select(&Version::ALL[..]),
-        choices in vec(any::<u32>(), 0..160),
+        seed in any::<u64>(),
         data in vectors(40),
         constants in vectors(8),
         which in any::<prop::sample::Index>(),
     ) {
         let fitting: Vec<Profile> = profiles().into_iter().filter(|p| p.supports(version)).collect();
         let profile = which.get(&fitting);
-        let text = legal::program(version, &choices);
+        let text = generate::legal(version, seed);
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e:?}")))?;
         let Ok(program) = running::ready(program, profile) else {
             // Rejected by a limit of this device; an ideal one accepts all, as tested below.
@@ -154,23 +153,5 @@ proptest! {
         };
         let host = Constants { float: constants, int: vec![[2, 0, 1, 0]; 16], boolean: vec![true, false], ..Constants::default() };
         run(&program, profile, &data, &host)?;
-    }
-}
-
-#[test]
-fn the_generator_makes_legal_programs() {
-    let mut random = Random::new(3);
-    for version in Version::ALL {
-        let ideal = Profile::named("ideal-e8m23").unwrap();
-        let mut rejected = Vec::new();
-        for _ in 0..200 {
-            let choices: Vec<u32> = (0..160).map(|_| random.bits()).collect();
-            let text = legal::program(version, &choices);
-            let program = assemble(&text).unwrap_or_else(|e| panic!("{text}\n{e:?}"));
-            if let Err(why) = running::ready(program, &ideal) {
-                rejected.push(format!("{text}\n{why}"));
-            }
-        }
-        assert!(rejected.is_empty(), "{version}: {} of 200 rejected, for example\n{}", rejected.len(), rejected[0]);
     }
 }

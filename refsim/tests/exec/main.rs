@@ -5,10 +5,10 @@ mod arithmetic;
 mod device;
 mod event_log;
 mod flow;
+#[path = "../../../tests/agree/generate/mod.rs"]
+mod generate;
 mod instruction_formats;
 mod laws;
-#[path = "../common/legal.rs"]
-mod legal;
 mod machine;
 #[path = "../common/quads.rs"]
 mod quads;

@@ -3,8 +3,8 @@
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
 use crate::random::Random;
-use crate::{legal, running};
-use proptest::{collection::vec, prelude::*, sample::select};
+use crate::{generate, running};
+use proptest::{prelude::*, sample::select};
 use refsim::asm::assemble;
 use refsim::device::{ColorIterator, Profile, Storage};
 use refsim::exec::Constants;
@@ -49,12 +49,12 @@ proptest! {
     #[test]
     fn temporaries_are_rounded_when_they_are_written(
         version in select(&PS_2[..]),
-        choices in vec(any::<u32>(), 0..160),
+        seed in any::<u64>(),
         data in vectors(24),
         constants in vectors(8),
         own in select(WITHIN_FP32.to_vec()),
     ) {
-        let text = legal::program(version, &choices);
+        let text = generate::legal(version, seed);
         let mut moves = Vec::new();
         let (mut moved, mut count) = (String::new(), 0);
         for line in text.lines() {
@@ -87,13 +87,13 @@ proptest! {
     #[test]
     fn outputs_and_texels_are_rounded_by_their_instructions(
         version in select(&PS_2[..]),
-        choices in vec(any::<u32>(), 0..160),
+        seed in any::<u64>(),
         data in vectors(24),
         constants in vectors(8),
         own in select(WITHIN_FP32.to_vec()),
         storage in select(vec![Storage::Outputs, Storage::Texels]),
     ) {
-        let program = assemble(&legal::program(version, &choices)).expect("a legal program");
+        let program = assemble(&generate::legal(version, seed)).expect("a legal program");
         let mut mixed = running::ideal("fp32");
         mixed.rules.color_iterator = ColorIterator::Full;
         for (index, instruction) in program.instructions.iter().enumerate() {
@@ -113,7 +113,7 @@ proptest! {
     #[test]
     fn inputs_are_rounded_on_their_way_in(
         version in select(&PS_2[..]),
-        choices in vec(any::<u32>(), 0..160),
+        seed in any::<u64>(),
         data in vectors(24),
         constants in vectors(8),
         own in select(WITHIN_FP32.to_vec()),
@@ -121,7 +121,7 @@ proptest! {
     ) {
         // Colors beyond the format's own range of [0, 1] are not clamped again.
         let round = |bits: u32| rounded(format(own), bits);
-        let program = assemble(&legal::program(version, &choices)).expect("a legal program");
+        let program = assemble(&generate::legal(version, seed)).expect("a legal program");
         let (mut host, mut inputs) =
             (Constants { float: constants, ..Constants::default() }, inputs(&data));
         let stored = results(program.clone(), &storing(storage, format(own)), &inputs, &host);

@@ -1,19 +1,16 @@
 //! Programs on GPUs: the project's programs, fixtures and random ones are encoded as valid WGSL and words, and on an
 //! adapter give the scalar executor's results.
 
-#[path = "../../../tests/agree/generate/mod.rs"]
-#[allow(dead_code, reason = "shared with the agreement suites")]
-mod generate;
-#[path = "../../../tests/agree/random.rs"]
-#[allow(dead_code, reason = "shared with the agreement suites")]
-mod random;
-
 #[path = "../common/adapter.rs"]
 mod adapter;
 mod cases;
 #[path = "../common/environment.rs"]
 mod environment;
+#[path = "../../../tests/agree/generate/mod.rs"]
+mod generate;
 mod modules;
+#[path = "../common/random.rs"]
+mod random;
 #[cfg(feature = "wgpu")]
 mod runs;
 mod texts;

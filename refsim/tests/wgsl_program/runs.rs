@@ -278,17 +278,17 @@ fn written(mut step: Step, checked: &CheckedProgram, rules: &Rules) -> Step {
 fn random_texture(kind: TextureKind, r: &mut Random) -> (Image, SamplerState) {
     let extents = if kind == TextureKind::Volume { [5, 3, 2] } else { [8, 8, 1] };
     let levels = if kind == TextureKind::Volume { 3 } else { 4 };
-    let format = r.choose(&[TexelFormat::ALL[0], TexelFormat::ALL[1], TexelFormat::ALL[2], TexelFormat::ALL[3]]);
+    let format = r.of(&[TexelFormat::ALL[0], TexelFormat::ALL[1], TexelFormat::ALL[2], TexelFormat::ALL[3]]);
     let mut image = Image::new(format, kind, extents, levels).unwrap_or_else(|e| panic!("{e}"));
     image.bytes_mut().fill_with(|| r.next() as u8);
     let filter = [Filter::Nearest, Filter::Linear];
     let mode = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
     let state = SamplerState {
-        min: r.choose(&filter),
-        mag: r.choose(&filter),
-        mip: r.choose(&[MipFilter::None, MipFilter::Nearest, MipFilter::Linear]),
-        address_u: r.choose(&mode),
-        address_v: r.choose(&mode),
+        min: r.of(&filter),
+        mag: r.of(&filter),
+        mip: r.of(&[MipFilter::None, MipFilter::Nearest, MipFilter::Linear]),
+        address_u: r.of(&mode),
+        address_v: r.of(&mode),
         ..SamplerState::NEAREST_CLAMP
     };
     (image, state)

@@ -24,8 +24,8 @@ impl Writer<'_> {
     fn condition(&mut self) -> (String, bool) {
         let c = component(self.r);
         match self.r.below(4) {
-            0 => (format!("if {}b{}", self.r.pick(&["", "", "!"]), self.r.below(2)), false),
-            1 => (format!("if {}p0.{c}", self.r.pick(&["", "!"])), true),
+            0 => (format!("if {}b{}", self.r.of(&["", "", "!"]), self.r.below(2)), false),
+            1 => (format!("if {}p0.{c}", self.r.of(&["", "!"])), true),
             _ => {
                 let (a, b) = (self.scalar(), if self.r.one_in(3) { "c1.x".to_owned() } else { self.scalar() });
                 (format!("if_{} {a}, {b}", comparison(self.r)), true)
@@ -57,7 +57,7 @@ impl Writer<'_> {
                 inner.parted = true;
             }
             1 => {
-                let (not, c) = (self.r.pick(&["", "!"]), component(self.r));
+                let (not, c) = (self.r.of(&["", "!"]), component(self.r));
                 self.lines.push(format!("breakp {not}p0.{c}"));
                 inner.parted = true;
             }
@@ -80,8 +80,8 @@ impl Writer<'_> {
         let c = component(self.r);
         self.lines.push(match self.r.below(3) {
             0 => format!("call l{label}"),
-            1 => format!("callnz l{label}, {}b{}", self.r.pick(&["", "!"]), self.r.below(2)),
-            _ => format!("callnz l{label}, {}p0.{c}", self.r.pick(&["", "!"])),
+            1 => format!("callnz l{label}, {}b{}", self.r.of(&["", "!"]), self.r.below(2)),
+            _ => format!("callnz l{label}, {}p0.{c}", self.r.of(&["", "!"])),
         });
     }
 

@@ -11,11 +11,11 @@ use refsim::texture::TextureKind;
 /// Any state that a program can name.
 fn state(r: &mut Random) -> StateBinding {
     use StateBinding as B;
-    let face = r.choose(&[MaterialFace::Front, MaterialFace::Back]);
-    let color = r.choose(&[LightingColor::Ambient, LightingColor::Diffuse, LightingColor::Specular]);
-    let light = r.below(MAX_LIGHTS.into()) as u8;
-    let unit = r.below(MAX_TEXTURE_UNITS.into()) as u8;
-    let own = r.below(MAX_PROGRAM_MATRICES.into()) as u8;
+    let face = r.of(&[MaterialFace::Front, MaterialFace::Back]);
+    let color = r.of(&[LightingColor::Ambient, LightingColor::Diffuse, LightingColor::Specular]);
+    let light = r.below(MAX_LIGHTS) as u8;
+    let unit = r.below(MAX_TEXTURE_UNITS) as u8;
+    let own = r.below(MAX_PROGRAM_MATRICES) as u8;
     let matrices = [
         StateMatrix::ModelView,
         StateMatrix::Projection,
@@ -23,10 +23,10 @@ fn state(r: &mut Random) -> StateBinding {
         StateMatrix::Texture(unit),
         StateMatrix::Program(own),
     ];
-    let matrix = r.choose(&matrices);
-    let form = r.choose(&[MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans]);
+    let matrix = r.of(&matrices);
+    let form = r.of(&[MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans]);
     let row = B::MatrixRow(matrix, form, r.below(4) as u8);
-    r.choose(&[
+    r.of(&[
         B::Material(face, color),
         B::Emission(face),
         B::Shininess(face),
@@ -83,7 +83,7 @@ impl Writer<'_> {
                 self.lines.push("OPTION ARB_precision_hint_nicest;".to_owned());
             }
             if self.r.one_in(4) {
-                self.lines.push(format!("OPTION {};", self.r.choose(&FogMode::ALL).name()));
+                self.lines.push(format!("OPTION {};", self.r.of(&FogMode::ALL).name()));
             }
             for n in 0..self.temps {
                 self.lines.push(format!("TEMP R{n};"));
@@ -177,7 +177,7 @@ impl Writer<'_> {
     fn destination(&mut self, full: bool) -> String {
         let n = self.r.below(self.temps);
         let register = match self.r.below(8) {
-            0 if self.nv => self.r.pick(&["RC", "HC"]).to_owned(),
+            0 if self.nv => self.r.of(&["RC", "HC"]).to_owned(),
             1..=3 if self.nv => format!("H{n}"),
             _ => format!("R{n}"),
         };
@@ -195,7 +195,7 @@ impl Writer<'_> {
                 (true, false) => &["R", "H", ""],
                 _ => &[""],
             };
-            name += self.r.pick(all);
+            name += self.r.of(all);
             if s.result && self.r.one_in(3) {
                 name.push('C');
             }
@@ -231,9 +231,8 @@ impl Writer<'_> {
         let full = s.name.starts_with("PK");
         let mut line = format!("{} {}", self.name(s), self.destination(full));
         if s.opcode == Opcode::Swz {
-            let parts: Vec<String> = (0..4)
-                .map(|_| self.r.pick(&["", "-"]).to_owned() + self.r.pick(&["x", "y", "z", "w", "0", "1"]))
-                .collect();
+            let parts: Vec<String> =
+                (0..4).map(|_| self.r.of(&["", "-"]).to_owned() + self.r.of(&["x", "y", "z", "w", "0", "1"])).collect();
             return format!("{line}, R{}, {};", self.r.below(self.temps), parts.join(", "));
         }
         let count = usize::from(s.opcode.info().source_count(version).unwrap_or(0)) - usize::from(is_texture);
@@ -267,8 +266,8 @@ impl Writer<'_> {
         let (color, depth) = if self.nv { ("o[COLR]", "o[DEPR].z") } else { ("result.color", "result.depth.z") };
         let half = self.nv && self.r.one_in(3);
         let line = match half {
-            true => format!("MOV{} o[COLH], H{n};", self.r.pick(&["", "R", "H", "X", "C"])),
-            false => format!("MOV{} {color}, R{n};", if self.nv { self.r.pick(&["", "R", "H", "X"]) } else { "" }),
+            true => format!("MOV{} o[COLH], H{n};", self.r.of(&["", "R", "H", "X", "C"])),
+            false => format!("MOV{} {color}, R{n};", if self.nv { self.r.of(&["", "R", "H", "X"]) } else { "" }),
         };
         self.lines.push(line);
         if self.r.one_in(3) {

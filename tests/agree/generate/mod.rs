@@ -1,4 +1,5 @@
 //! Random programs of every version, legal by construction where that is easy; the checker rejects the rest.
+#![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 mod flow;
 mod fp;
@@ -8,6 +9,9 @@ mod ps_2;
 mod vs;
 
 use crate::random::Random;
+use refsim::asm::assemble;
+use refsim::check::check;
+use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::texture::TextureKind;
 use std::fmt::Write as _;
@@ -39,6 +43,19 @@ pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Ra
     lines
 }
 
+/// A random program of a seed that the checker accepts for a device without limits, with texture 0 and one target.
+pub(crate) fn legal(version: Version, seed: u64) -> String {
+    let mut random = Random::new(seed);
+    let layout = Layout { samplers: vec![(0, TextureKind::D2)], targets: 1, limited: false, sampling: false };
+    let device = Profile::named("ideal-fp32").expect("a device");
+    let mut texts = (0..1000).map(|attempt| {
+        let size = random.below(4) >> (attempt / 100).min(3);
+        program(version, &layout, size, &mut random).join("\n")
+    });
+    let is_legal = |text: &String| assemble(text).is_ok_and(|program| check(program, &device).is_ok());
+    texts.find(is_legal).unwrap_or_else(|| panic!("no legal {version} program in 1000 tries"))
+}
+
 /// Four values of a `def`, within `range` of 0; if `range` exceeds 1, special values too, by their bits.
 fn values(r: &mut Random, range: f32) -> String {
     let mut text = String::new();
@@ -54,18 +71,18 @@ fn values(r: &mut Random, range: f32) -> String {
 }
 
 fn comparison(r: &mut Random) -> &'static str {
-    r.pick(&["gt", "lt", "ge", "le", "eq", "ne"])
+    r.of(&["gt", "lt", "ge", "le", "eq", "ne"])
 }
 
 fn component(r: &mut Random) -> &'static str {
-    r.pick(&["x", "y", "z", "w"])
+    r.of(&["x", "y", "z", "w"])
 }
 
 /// A swizzle with its point, or nothing; with `any` one of all 256, otherwise one that ps_2_0 has.
 fn swizzle(r: &mut Random, any: bool) -> String {
     match r.below(8) {
         0 | 1 => format!(".{}", component(r)),
-        2 => format!(".{}", r.pick(&["yzxw", "zxyw", "wzyx"])),
+        2 => format!(".{}", r.of(&["yzxw", "zxyw", "wzyx"])),
         3 | 4 if any => format!(".{}{}{}{}", component(r), component(r), component(r), component(r)),
         _ => String::new(),
     }

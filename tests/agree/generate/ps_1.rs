@@ -45,13 +45,13 @@ impl Writer<'_> {
             let kinds = if layout.sampling { 9 } else { 15 };
             let line = match self.r.below(kinds) {
                 0 | 1 => format!("tex t{n}"),
-                2 if depends => format!("{} t{n}, t{b}", self.r.pick(&["texreg2ar", "texreg2gb"])),
+                2 if depends => format!("{} t{n}, t{b}", self.r.of(&["texreg2ar", "texreg2gb"])),
                 3 if depends && later => {
-                    format!("{} t{n}, t{b}{late_scaled}", self.r.pick(&["texreg2rgb", "texdp3", "texdp3tex"]))
+                    format!("{} t{n}, t{b}{late_scaled}", self.r.of(&["texreg2rgb", "texdp3", "texdp3tex"]))
                 }
                 4 if depends => {
                     spent.push(b);
-                    format!("{} t{n}, t{b}", self.r.pick(&["texbem", "texbeml"]))
+                    format!("{} t{n}, t{b}", self.r.of(&["texbem", "texbeml"]))
                 }
                 5 | 6 if depends && n < 3 => {
                     let depth = self.version == Version::Ps1_3 && self.r.one_in(2);
@@ -100,12 +100,12 @@ impl Writer<'_> {
     fn start(&mut self) {
         let first = match self.loaded.last() {
             Some(t) if self.r.one_in(2) => format!("t{t}"),
-            _ => self.r.pick(&["v0", "c0", "1-v1", "v1_bx2"]).to_owned(),
+            _ => self.r.of(&["v0", "c0", "1-v1", "v1_bx2"]).to_owned(),
         };
         self.lines.push(format!("mov r0, {first}"));
         let second = match self.loaded.first() {
             Some(t) if self.r.one_in(2) => format!("t{t}_bx2"),
-            _ => self.r.pick(&["v0", "c1", "v0_bias", "v1"]).to_owned(),
+            _ => self.r.of(&["v0", "c1", "v0_bias", "v1"]).to_owned(),
         };
         self.lines.push(format!("mov r1, {second}"));
         if self.r.one_in(10) {
@@ -125,12 +125,12 @@ impl Writer<'_> {
             1 if alpha => ".b",
             _ => "",
         };
-        let (before, after) = self.r.choose(&MODIFIERS);
+        let (before, after) = self.r.of(&MODIFIERS);
         format!("{before}{register}{after}{selector}")
     }
 
     fn arithmetic(&mut self) {
-        let mask = self.r.pick(&["", "", ".rgb", ".a"]);
+        let mask = self.r.of(&["", "", ".rgb", ".a"]);
         let line = self.one(mask, false);
         self.lines.push(line);
         let paired = self.lines.last().is_some_and(|l| !l.starts_with("dp4"));
@@ -142,8 +142,8 @@ impl Writer<'_> {
 
     fn one(&mut self, mask: &str, partner: bool) -> String {
         let later = self.version != Version::Ps1_1;
-        let shift = self.r.pick(&["", "", "", "_x2", "_x4", "_d2"]);
-        let sat = self.r.pick(&["", "", "_sat"]);
+        let shift = self.r.of(&["", "", "", "_x2", "_x4", "_d2"]);
+        let sat = self.r.of(&["", "", "_sat"]);
         let alpha = mask == ".a";
         let (a, b, c) = (self.source(alpha), self.source(alpha), self.source(alpha));
         let to = match self.loaded.last() {

@@ -93,7 +93,7 @@ fn second_phase(
     lines.push(match (w.pick(false, r), w.pick(false, r)) {
         (Some(a), Some(b)) if r.one_in(2) => format!("mad_d2 r0.rgb, r{a}, c{}, r{b}", r.below(3)),
         (Some(a), _) if r.one_in(2) => format!("mov r0.rgb, r{a}"),
-        _ => format!("mov r0.rgb, {}", r.pick(&["v0", "c0", "1-v1", "v1_bx2"])),
+        _ => format!("mov r0.rgb, {}", r.of(&["v0", "c0", "1-v1", "v1_bx2"])),
     });
     if r.one_in(10) {
         lines.push("nop".to_owned());
@@ -114,7 +114,7 @@ fn read(
     before: Option<&Written>,
     projections: &mut usize,
 ) {
-    let set = r.below(6);
+    let set: usize = r.below(6);
     // A coordinate set must always have the same selector: even sets have .xyz, odd ones .xyw.
     let selector = if set.is_multiple_of(2) { "" } else { ".xyw" };
     let register = before.and_then(|b| b.pick(false, r));
@@ -146,7 +146,7 @@ fn read(
 }
 
 fn arithmetic(r: &mut Random, lines: &mut Vec<String>, second: bool, w: &mut Written, dead: &[usize]) {
-    let mask = r.pick(&["", ".rgb", ".rgb", ".a", ".r", ".g", ".b", ".rg", ".ga", ".rb", ".gb", ".rga", ".gba"]);
+    let mask = r.of(&["", ".rgb", ".rgb", ".a", ".r", ".g", ".b", ".rg", ".ga", ".rb", ".gb", ".rga", ".gba"]);
     let before = *w;
     let line = one(r, mask, Place { second, partner: false }, &before, w, dead);
     let lone = line.starts_with("dp4");
@@ -161,22 +161,22 @@ fn source(r: &mut Random, second: bool, alpha: bool, w: &Written) -> String {
     let register = match (r.below(10), w.pick(alpha, r)) {
         (0..=6, Some(n)) => format!("r{n}"),
         (7 | 8, _) if second => format!("v{}", r.below(2)),
-        _ => return format!("c{}{}", r.below(8), r.pick(&["", "", ".r", ".g", ".b", ".a"])),
+        _ => return format!("c{}{}", r.below(8), r.of(&["", "", ".r", ".g", ".b", ".a"])),
     };
     let selector = match r.below(5) {
         0 if alpha => ".a",
-        1 => r.pick(&[".r", ".g", ".b"]),
+        1 => r.of(&[".r", ".g", ".b"]),
         _ => "",
     };
-    let (before, after) = r.choose(&MODIFIERS);
-    let (before, after) = if after.is_empty() && r.one_in(5) { (r.pick(&["", "-"]), "_x2") } else { (before, after) };
+    let (before, after) = r.of(&MODIFIERS);
+    let (before, after) = if after.is_empty() && r.one_in(5) { (r.of(&["", "-"]), "_x2") } else { (before, after) };
     format!("{before}{register}{after}{selector}")
 }
 
 fn one(r: &mut Random, mask: &str, place: Place, before: &Written, w: &mut Written, dead: &[usize]) -> String {
     let Place { second, partner } = place;
-    let shift = r.pick(&["", "", "", "_x2", "_x4", "_x8", "_d2", "_d4", "_d8"]);
-    let sat = r.pick(&["", "", "_sat"]);
+    let shift = r.of(&["", "", "", "_x2", "_x4", "_x8", "_d2", "_d4", "_d8"]);
+    let sat = r.of(&["", "", "_sat"]);
     let wide = mask.is_empty() || mask.contains('a');
     let kind = r.below(12);
     let dot4 = kind == 10 && !partner;

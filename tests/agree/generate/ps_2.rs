@@ -50,11 +50,11 @@ pub(super) fn program(version: Version, layout: &Layout, size: usize, r: &mut Ra
 impl Writer<'_> {
     fn declare(&mut self) {
         for t in 0..self.sets {
-            let hint = self.r.pick(&["", "", "", "_pp", "_centroid"]);
+            let hint = self.r.of(&["", "", "", "_pp", "_centroid"]);
             self.lines.push(format!("dcl{hint} t{t}"));
         }
         for v in 0..2 {
-            let hint = self.r.pick(&["", "", "_pp"]);
+            let hint = self.r.of(&["", "", "_pp"]);
             self.lines.push(format!("dcl{hint} v{v}"));
         }
         for &(slot, kind) in &self.layout.samplers {
@@ -63,7 +63,7 @@ impl Writer<'_> {
                 TextureKind::Volume => "volume",
                 _ => "2d",
             };
-            let usage = if self.r.one_in(12) { self.r.pick(&["2d", "cube", "volume"]) } else { right };
+            let usage = if self.r.one_in(12) { self.r.of(&["2d", "cube", "volume"]) } else { right };
             self.lines.push(format!("dcl_{usage} s{slot}"));
         }
         let first = values(self.r, 2.0);
@@ -77,7 +77,7 @@ impl Writer<'_> {
                 self.lines.push(format!("defi i1, {b}, 0, 1, 0"));
             }
             if self.r.one_in(2) {
-                let value = self.r.pick(&["true", "false"]);
+                let value = self.r.of(&["true", "false"]);
                 self.lines.push(format!("defb b0, {value}"));
             }
         }
@@ -117,7 +117,7 @@ impl Writer<'_> {
     }
 
     pub(super) fn scalar(&mut self) -> String {
-        let sign = self.r.pick(&["", "", "-"]);
+        let sign = self.r.of(&["", "", "-"]);
         let temp = self.temp();
         format!("{sign}{temp}.{}", component(self.r))
     }
@@ -130,7 +130,7 @@ impl Writer<'_> {
     }
 
     fn partial(&mut self) -> &'static str {
-        self.r.pick(&["", "", "_pp"])
+        self.r.of(&["", "", "_pp"])
     }
 
     /// A source of arithmetic; an instruction may read one constant and one input only.
@@ -170,8 +170,8 @@ impl Writer<'_> {
     pub(super) fn instruction(&mut self, place: Place) {
         let predicate = match self.version == Version::Ps2A && self.r.one_in(6) {
             true => {
-                let c = self.r.pick(&["", ".x", ".y", ".z", ".w"]);
-                format!("({}p0{c}) ", self.r.pick(&["", "!"]))
+                let c = self.r.of(&["", ".x", ".y", ".z", ".w"]);
+                format!("({}p0{c}) ", self.r.of(&["", "!"]))
             }
             false => String::new(),
         };
@@ -184,7 +184,7 @@ impl Writer<'_> {
             16 if self.version == Version::Ps2A && !place.parted => {
                 let (to, mask) = (self.temp(), mask(self.r));
                 let source = self.source(&mut 0);
-                format!("{} {to}{mask}, {source}", self.r.pick(&["dsx", "dsy"]))
+                format!("{} {to}{mask}, {source}", self.r.of(&["dsx", "dsy"]))
             }
             17 if predicate.is_empty() && self.r.one_in(3) => {
                 let from = if self.r.one_in(2) { "t3".to_owned() } else { self.temp() };
@@ -202,7 +202,7 @@ impl Writer<'_> {
     }
 
     fn vector(&mut self) -> String {
-        let (pp, sat) = (self.partial(), self.r.pick(&["", "", "", "_sat"]));
+        let (pp, sat) = (self.partial(), self.r.of(&["", "", "", "_sat"]));
         let (to, mask) = (self.temp(), mask(self.r));
         let others = &mut 0;
         let (x, y, z) = (self.source(others), self.source(others), self.source(others));
@@ -228,7 +228,7 @@ impl Writer<'_> {
     }
 
     fn one_component(&mut self) -> String {
-        let (pp, sat) = (self.partial(), self.r.pick(&["", "", "_sat"]));
+        let (pp, sat) = (self.partial(), self.r.of(&["", "", "_sat"]));
         let (to, mask) = (self.temp(), mask(self.r));
         let scalar = self.scalar();
         match self.r.below(5) {
@@ -242,29 +242,29 @@ impl Writer<'_> {
 
     /// An instruction that expands to several steps, whose destination may not be one of its sources.
     fn several_steps(&mut self) -> String {
-        let (pp, sat) = (self.partial(), self.r.pick(&["", "", "_sat"]));
+        let (pp, sat) = (self.partial(), self.r.of(&["", "", "_sat"]));
         let from = self.temp();
         let to = self.other(&[&from]);
         match self.r.below(8) {
             0 | 1 => {
-                let mask = self.r.pick(&["", ".xyz"]);
-                format!("nrm{pp}{sat} {to}{mask}, {}{from}{}", self.r.pick(&["", "-"]), swizzle(self.r, false))
+                let mask = self.r.of(&["", ".xyz"]);
+                format!("nrm{pp}{sat} {to}{mask}, {}{from}{}", self.r.of(&["", "-"]), swizzle(self.r, false))
             }
             2 => {
                 let second = if self.r.one_in(2) { format!("c{}", self.r.below(8)) } else { self.other(&[&to]) };
-                let mask = self.r.pick(&[".xyz", ".xyz", ".x", ".y", ".z", ".xy", ".xz", ".yz"]);
+                let mask = self.r.of(&[".xyz", ".xyz", ".x", ".y", ".z", ".xy", ".xz", ".yz"]);
                 format!("crs{pp}{sat} {to}{mask}, {from}, {second}")
             }
             3 => {
                 let (a, b) = if self.r.one_in(4) { ("c1", "c2") } else { ("c6", "c7") };
-                let mask = self.r.pick(&[".xy", ".xy", ".x", ".y"]);
-                format!("sincos{pp} {to}{mask}, {}{from}.{}, {a}, {b}", self.r.pick(&["", "-"]), component(self.r))
+                let mask = self.r.of(&[".xy", ".xy", ".x", ".y"]);
+                format!("sincos{pp} {to}{mask}, {}{from}.{}, {a}, {b}", self.r.of(&["", "-"]), component(self.r))
             }
             k => {
                 let (op, mask) = [("m3x2", ".xy"), ("m3x3", ".xyz"), ("m3x4", ""), ("m4x3", ".xyz"), ("m4x4", "")]
                     [if k == 7 { self.r.below(5) } else { k - 4 }];
                 let rows = format!("c{}", self.r.below(5));
-                format!("{op}{pp}{sat} {to}{mask}, {}{from}, {rows}", self.r.pick(&["", "-"]))
+                format!("{op}{pp}{sat} {to}{mask}, {}{from}, {rows}", self.r.of(&["", "-"]))
             }
         }
     }

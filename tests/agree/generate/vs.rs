@@ -62,7 +62,7 @@ impl Writer<'_> {
             let (start, step) = (self.r.below(4), self.r.below(3));
             self.lines.push(format!("defi i0, {count}, {start}, {step}, 0"));
             if self.r.one_in(2) {
-                let value = self.r.pick(&["true", "false"]);
+                let value = self.r.of(&["true", "false"]);
                 self.lines.push(format!("defb b0, {value}"));
             }
         }
@@ -81,7 +81,7 @@ impl Writer<'_> {
     }
 
     fn scalar(&mut self) -> String {
-        let (sign, temp) = (self.r.pick(&["", "", "-"]), self.temp());
+        let (sign, temp) = (self.r.of(&["", "", "-"]), self.temp());
         format!("{sign}{temp}.{}", component(self.r))
     }
 
@@ -129,7 +129,7 @@ impl Writer<'_> {
         match self.r.below(12) {
             0 => format!("oT{}{}", self.r.below(8), mask(self.r)),
             1 => format!("oD{}{}", self.r.below(2), mask(self.r)),
-            2 if self.r.one_in(4) => format!("{}{}", self.r.pick(&["oFog", "oPts"]), self.r.pick(&["", ".x"])),
+            2 if self.r.one_in(4) => format!("{}{}", self.r.of(&["oFog", "oPts"]), self.r.of(&["", ".x"])),
             _ => format!("{}{}", self.temp(), mask(self.r)),
         }
     }
@@ -139,7 +139,7 @@ impl Writer<'_> {
         let kind = if depth == 0 { self.r.below(5) } else { self.r.below(2) };
         let close = match kind {
             0 | 1 => {
-                let line = format!("if {}b{}", self.r.pick(&["", "!"]), self.r.below(2));
+                let line = format!("if {}b{}", self.r.of(&["", "!"]), self.r.below(2));
                 self.lines.push(line);
                 self.instruction(depth > 0);
                 if self.r.one_in(2) {
@@ -165,7 +165,7 @@ impl Writer<'_> {
                 self.called = true;
                 let line = match self.r.below(2) {
                     0 => "call l0".to_owned(),
-                    _ => format!("callnz l0, {}b{}", self.r.pick(&["", "!"]), self.r.below(2)),
+                    _ => format!("callnz l0, {}b{}", self.r.of(&["", "!"]), self.r.below(2)),
                 };
                 self.lines.push(line);
                 return;
@@ -201,14 +201,14 @@ impl Writer<'_> {
             6 => format!("sub {to}, {x}, {y}"),
             7 => format!("dp3 {to}, {x}, {y}"),
             8 => format!("dp4 {to}, {x}, {y}"),
-            9 => format!("{} {to}, {x}, {y}", self.r.pick(&["sge", "slt"])),
-            10 => format!("{} {to}, {x}, {y}", self.r.pick(&["min", "max"])),
+            9 => format!("{} {to}, {x}, {y}", self.r.of(&["sge", "slt"])),
+            10 => format!("{} {to}, {x}, {y}", self.r.of(&["min", "max"])),
             11 => format!("lit {to}, {x}"),
             12 => format!("dst {to}, {x}, {y}"),
             13 if self.two => format!("frc {to}, {x}"),
             13 => {
                 let temp = self.temp();
-                format!("frc {temp}{}, {x}", self.r.pick(&[".xy", ".y"]))
+                format!("frc {temp}{}, {x}", self.r.of(&[".xy", ".y"]))
             }
             14 if self.two => format!("lrp {to}, {x}, {y}, {z}"),
             15 if self.two => format!("abs {to}, {x}"),
@@ -219,7 +219,7 @@ impl Writer<'_> {
     fn one_component(&mut self) -> String {
         let to = self.destination();
         let scalar = self.scalar();
-        let op = self.r.pick(&["rcp", "rsq", "exp", "log", "expp", "logp", "pow"]);
+        let op = self.r.of(&["rcp", "rsq", "exp", "log", "expp", "logp", "pow"]);
         match op {
             "pow" if self.two => {
                 let power = self.scalar();
@@ -233,19 +233,19 @@ impl Writer<'_> {
     fn several_steps(&mut self, in_loop: bool) -> String {
         let from = self.temp();
         let to = self.other(&[&from]);
-        let sign = self.r.pick(&["", "-"]);
+        let sign = self.r.of(&["", "-"]);
         match self.r.below(9) {
-            0 if self.two => format!("nrm {to}{}, {sign}{from}{}", self.r.pick(&["", ".xyz"]), swizzle(self.r, true)),
+            0 if self.two => format!("nrm {to}{}, {sign}{from}{}", self.r.of(&["", ".xyz"]), swizzle(self.r, true)),
             1 if self.two => {
                 let second = self.other(&[&to]);
-                format!("crs {to}{}, {sign}{from}, {second}", self.r.pick(&[".xyz", ".x", ".y", ".z", ".xz"]))
+                format!("crs {to}{}, {sign}{from}, {second}", self.r.of(&[".xyz", ".x", ".y", ".z", ".xz"]))
             }
             2 if self.two => {
                 let scratch = self.other(&[&to, &from]);
                 format!("sgn {to}{}, {sign}{from}, {scratch}, {}", mask(self.r), self.other(&[&to, &from, &scratch]))
             }
             3 if self.two => {
-                let m = self.r.pick(&[".xy", ".x", ".y"]);
+                let m = self.r.of(&[".xy", ".x", ".y"]);
                 format!("sincos {to}{m}, {sign}{from}.{}, c6, c7", component(self.r))
             }
             k => {
@@ -259,7 +259,7 @@ impl Writer<'_> {
 
     fn outputs(&mut self) {
         // The position stays near the attribute, so that triangles stay in view.
-        let position = self.r.pick(&["mov oPos, v0", "m4x4 oPos, v0, c8", "mad oPos, r0, c5, v0"]);
+        let position = self.r.of(&["mov oPos, v0", "m4x4 oPos, v0, c8", "mad oPos, r0, c5, v0"]);
         self.lines.push(position.to_owned());
         for t in 0..8 {
             if !self.r.one_in(4) {
