@@ -11,15 +11,6 @@ use crate::isa::{
 };
 use crate::num::NumberOperation as Op;
 
-/// Arithmetic of a precision.
-fn arith(precision: Precision) -> Arith {
-    match precision {
-        Precision::Full => Arith::Main,
-        Precision::Half => Arith::Half,
-        Precision::Fixed => Arith::Fixed,
-    }
-}
-
 /// Arithmetic of the numbers in a register file.
 pub(crate) fn of_file(file: RegisterFile) -> Arith {
     if file.is_half() { Arith::Half } else { Arith::Main }
@@ -170,10 +161,7 @@ impl Translator<'_> {
     /// The result in the format of the destination.
     fn fragment_arithmetic(&mut self, instruction: &Instruction) -> NodeVector {
         let Some(destination) = instruction.destination else { return [self.make.zero(); 4] };
-        let k = match instruction.format {
-            Some(own) => self.make.formats.arith_of(own),
-            None => arith(instruction.precision()),
-        };
+        let k = self.arith(instruction);
         let raw = self.fragment_raw(instruction, k);
         let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
         raw.map(|x| {
@@ -203,15 +191,7 @@ impl Translator<'_> {
         for (slot, source) in s.iter_mut().zip(&instruction.sources) {
             *slot = self.fragment_operand(source, k, instruction.fragment.negate);
         }
-        match opcode {
-            Opcode::Dsx => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, false, x))),
-            Opcode::Dsy => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, true, x))),
-            Opcode::Cmp => std::array::from_fn(|i| {
-                let below = self.make.holds(k, Op::Less, s[0][i], zero);
-                self.make.select(below, s[1][i], s[2][i])
-            }),
-            _ => self.make.operation(k, (opcode, self.program.version), &s, &[zero; 4]),
-        }
+        self.make.operation(k, (opcode, self.program.version), &s, &[zero; 4])
     }
 
     fn fragment_texture(&mut self, instruction: &Instruction) -> NodeVector {

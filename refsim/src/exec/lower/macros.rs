@@ -33,6 +33,11 @@ impl GraphBuilder<'_> {
                 [self.add(k, dot, c[0]); 4]
             }
             Cnd => std::array::from_fn(|i| self.compute(k, Op::SelectAboveHalf, a[i], b[i], c[i])),
+            Cmp if version == Version::ArbFp1_0 => std::array::from_fn(|i| {
+                let zero = self.zero();
+                let below = self.holds(k, Op::Less, a[i], zero);
+                self.select(below, b[i], c[i])
+            }),
             Cmp => std::array::from_fn(|i| self.compute(k, Op::SelectNonNegative, a[i], b[i], c[i])),
             Bem => self.bem(k, &a, &b, bump),
             Abs => a.map(|x| self.unary(k, Op::Abs, x)),
@@ -45,6 +50,7 @@ impl GraphBuilder<'_> {
             }
             Min => std::array::from_fn(|i| self.binary(k, Op::Min, a[i], b[i])),
             Max => std::array::from_fn(|i| self.binary(k, Op::Max, a[i], b[i])),
+            Dsx | Dsy => a.map(|x| self.graph.node(NodeKind::Difference(k, opcode == Dsy, x))),
             Sge => std::array::from_fn(|i| self.flag(k, Op::LessEqual, b[i], a[i])),
             Slt => std::array::from_fn(|i| self.flag(k, Op::Less, a[i], b[i])),
             Frc => a.map(|x| self.unary(k, Op::Frc, x)),
@@ -88,12 +94,12 @@ impl GraphBuilder<'_> {
             Str => [self.one(k); 4],
             Rfl => self.rfl(k, &a, &b),
             X2d => self.x2d(k, &a, &b, &c),
-            Sfl | Nop | Phase | Mova | M3x2 | M3x3 | M3x4 | M4x3 | M4x4 | Dsx | Dsy | Setp | Pk2h | Pk2us | Pk4b
-            | Pk4ub | Up2h | Up2us | Up4b | Up4ub | Tex | TexCoord | TexKill | TexBem | TexBemL | TexReg2Ar
-            | TexReg2Gb | TexReg2Rgb | TexM3x2Pad | TexM3x2Tex | TexM3x2Depth | TexM3x3Pad | TexM3x3Tex
-            | TexM3x3Spec | TexM3x3VSpec | TexM3x3 | TexDp3 | TexDp3Tex | TexLd | TexLdB | TexLdP | TexLdD | TexCrd
-            | TexDepth | Kil | If | IfC | Else | EndIf | Rep | EndRep | Loop | EndLoop | Break | BreakC | BreakP
-            | Call | CallNz | Label | Ret => [self.zero(); 4],
+            Sfl | Nop | Phase | Mova | M3x2 | M3x3 | M3x4 | M4x3 | M4x4 | Setp | Pk2h | Pk2us | Pk4b | Pk4ub | Up2h
+            | Up2us | Up4b | Up4ub | Tex | TexCoord | TexKill | TexBem | TexBemL | TexReg2Ar | TexReg2Gb
+            | TexReg2Rgb | TexM3x2Pad | TexM3x2Tex | TexM3x2Depth | TexM3x3Pad | TexM3x3Tex | TexM3x3Spec
+            | TexM3x3VSpec | TexM3x3 | TexDp3 | TexDp3Tex | TexLd | TexLdB | TexLdP | TexLdD | TexCrd | TexDepth
+            | Kil | If | IfC | Else | EndIf | Rep | EndRep | Loop | EndLoop | Break | BreakC | BreakP | Call
+            | CallNz | Label | Ret => [self.zero(); 4],
         }
     }
 

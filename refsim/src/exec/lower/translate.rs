@@ -9,8 +9,8 @@ use super::graph::{Slot, TRUE};
 use crate::device::{ColorIterator, ResultRange, Rules, Storage};
 use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
-    Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
-    Version,
+    Comparison, Destination, Instruction, Modifier, Opcode, Precision, Program, Register, RegisterFile, Relative,
+    Source, Stage, Version,
 };
 use crate::num::{Format, NumberOperation as Op};
 use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
@@ -192,11 +192,17 @@ impl<'a> Translator<'a> {
         self.make.graph.node(NodeKind::Relative(i32::from(register.index), component as u8, address))
     }
 
-    /// Arithmetic in which an instruction computes: its own format, that of `_pp`, or the registers'.
+    /// Arithmetic in which an instruction computes: its own format, that of its precision or of `_pp`, or the
+    /// registers'.
     pub(crate) fn arith(&self, instruction: &Instruction) -> Arith {
         let partial = instruction.destination.is_some_and(|d| d.partial_precision);
         match instruction.format {
             Some(own) => self.make.formats.arith_of(own),
+            None if self.program.version.is_fragment_program() => match instruction.precision() {
+                Precision::Full => Arith::Main,
+                Precision::Half => Arith::Half,
+                Precision::Fixed => Arith::Fixed,
+            },
             None if partial && self.is_pixel() && self.make.rules.partial.is_some() => Arith::Partial,
             None => Arith::Main,
         }
@@ -291,8 +297,6 @@ impl<'a> Translator<'a> {
             *slot = self.operand(k, source);
         }
         let raw = match instruction.opcode {
-            Opcode::Dsx => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, false, x))),
-            Opcode::Dsy => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, true, x))),
             Opcode::Setp => {
                 let comparison = instruction.comparison.unwrap_or(Comparison::Eq);
                 let value = std::array::from_fn(|i| self.comparison(k, comparison, s[0][i], s[1][i]));

@@ -151,7 +151,6 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: ArithmeticUnit, mask: Mask) -> Components {
         let opcode = instruction.opcode;
         match opcode {
-            Opcode::Dsx | Opcode::Dsy => return self.fragment_difference(lane, instruction, k, mask),
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
                 // Into half precision: the number that the word encodes.
                 let Some(source) = instruction.sources.first() else { return [0; 4] };
@@ -167,18 +166,11 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             }
             _ => {}
         }
-        let mut s = [[0; 4]; 3];
-        for (index, (slot, source)) in s.iter_mut().zip(&instruction.sources).enumerate() {
-            let wanted = opcode.lanes_read(index, mask);
-            *slot = self.fragment_operand(lane, source, k, wanted, instruction.fragment.negate);
-        }
+        let s = self.operands(lane, instruction, |this, lane, source, wanted| {
+            this.fragment_operand(lane, source, k, wanted, instruction.fragment.negate)
+        });
         let version = self.prepared.program.version;
-        let unit = self.alu(k);
-        if opcode == Opcode::Cmp {
-            // ARB selects by `< 0`, Direct3D by `>= 0`: a NaN selects the other operand.
-            return operation::each(mask, |i| if unit.less(s[0][i], 0) { s[1][i] } else { s[2][i] });
-        }
-        operation::compute(unit, opcode, &s, &Context { version, bump: [0; 4], mask })
+        operation::compute(self.alu(k), opcode, &s, &Context { version, bump: [0; 4], mask })
     }
 
     fn unpacked(&mut self, lane: usize, instruction: &Instruction) -> Components {
@@ -189,25 +181,6 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             false => self.fragment_operand(lane, source, ArithmeticUnit::Full, Mask(1), 0)[0],
         };
         pack::unpack(&self.fragment_formats(), instruction.opcode, word)
-    }
-
-    /// `DDX`, `DDY`: the difference across the quad's row or column; both of its lanes get the same value.
-    fn fragment_difference(
-        &mut self,
-        lane: usize,
-        instruction: &Instruction,
-        k: ArithmeticUnit,
-        mask: Mask,
-    ) -> Components {
-        let Some(source) = instruction.sources.first() else { return [0; 4] };
-        let (low, high) = match instruction.opcode {
-            Opcode::Dsx => (lane & 2, lane | 1),
-            _ => (lane & 1, lane | 2),
-        };
-        let from = self.fragment_operand(low, source, k, mask, 0);
-        let to = self.fragment_operand(high, source, k, mask, 0);
-        let unit = self.alu(k);
-        operation::each(mask, |i| unit.sub(to[i], from[i]))
     }
 
     /// Writes a result, in the format of its destination, subject to mask and condition, and updates the condition

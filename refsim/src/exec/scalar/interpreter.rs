@@ -10,7 +10,7 @@ use super::prepared::Prepared;
 use super::registers::{Components, LANES, Registers, finished, operand};
 use crate::event::SAMPLERS;
 use crate::exec::{Observer, Step};
-use crate::isa::{Comparison, Destination, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
+use crate::isa::{Comparison, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
 use crate::num::{Flags, Format};
 
 /// Arithmetic unit of an interpreter.
@@ -249,9 +249,6 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             return [0; 4];
         };
         let opcode = instruction.opcode;
-        if matches!(opcode, Opcode::Dsx | Opcode::Dsy) {
-            return self.difference(lane, instruction, destination);
-        }
         let bump = match opcode {
             Opcode::Bem => self.prepared.bump_in_format(destination.register.index),
             _ => [0; 4],
@@ -259,11 +256,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         let registers = self.prepared.format;
         let hint = if destination.partial_precision { ArithmeticUnit::Partial } else { ArithmeticUnit::Full };
         let unit = self.unit_of(instruction, hint);
-        let mut s = [[0; 4]; 3];
-        for (index, (slot, source)) in s.iter_mut().zip(&instruction.sources).enumerate() {
-            let wanted = opcode.lanes_read(index, destination.mask);
-            *slot = self.source(lane, source, wanted, unit);
-        }
+        let s = self.operands(lane, instruction, |this, lane, source, wanted| this.source(lane, source, wanted, unit));
         let rows = opcode.matrix();
         let mut matrix = [[0; 4]; 4];
         if let (Some((count, _)), Some(source)) = (rows, instruction.sources.get(1)) {
@@ -307,36 +300,40 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         done
     }
 
+    /// The operands of an instruction in one lane, each loaded by `load` from a lane. Those of `dsx` and `dsy` are the
+    /// two of the quad's row or column, the second to be subtracted from the first: both lanes get the same value, and
+    /// inactive lanes contribute the contents of their registers.
+    pub(super) fn operands(
+        &mut self,
+        lane: usize,
+        instruction: &Instruction,
+        mut load: impl FnMut(&mut Self, usize, &Source, Mask) -> Components,
+    ) -> [Components; 3] {
+        let opcode = instruction.opcode;
+        let written = instruction.destination.map_or(Mask::ALL, |destination| destination.mask);
+        let pair = match opcode {
+            Opcode::Dsx => Some([lane | 1, lane & 2]),
+            Opcode::Dsy => Some([lane | 2, lane & 1]),
+            _ => None,
+        };
+        let mut operands = [[0; 4]; 3];
+        if let (Some(pair), Some(source)) = (pair, instruction.sources.first()) {
+            for (operand, lane) in operands.iter_mut().zip(pair) {
+                *operand = load(self, lane, source, written);
+            }
+            return operands;
+        }
+        for (index, (operand, source)) in operands.iter_mut().zip(&instruction.sources).enumerate() {
+            *operand = load(self, lane, source, opcode.lanes_read(index, written));
+        }
+        operands
+    }
+
     /// Loads an operand of one lane in the format of the operation.
     pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, unit: ArithmeticUnit) -> Components {
         let prepared = self.prepared;
         let value = self.lanes[lane].value(&source.register, &prepared.constants, self.loop_counter);
         operand(self.alu(unit), prepared.format, source, value, wanted)
-    }
-
-    /// `dsx`, `dsy`: the difference across the quad's row or column; both of its lanes get the same value. Inactive
-    /// lanes contribute the contents of their registers.
-    fn difference(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Components {
-        let Some(source) = instruction.sources.first() else {
-            return [0; 4];
-        };
-        let (low, high) = match instruction.opcode {
-            Opcode::Dsx => (lane & 2, lane | 1),
-            _ => (lane & 1, lane | 2),
-        };
-        let hint = if destination.partial_precision { ArithmeticUnit::Partial } else { ArithmeticUnit::Full };
-        let unit = self.unit_of(instruction, hint);
-        let from = self.source(low, source, destination.mask, unit);
-        let to = self.source(high, source, destination.mask, unit);
-        let registers = self.prepared.format;
-        let alu = self.alu(unit);
-        let mut out = [0; 4];
-        for i in destination.mask.components() {
-            out[i] = alu.sub(to[i], from[i]);
-        }
-        let done = finished(alu, registers, destination, out);
-        self.flags[lane] = alu.take_flags();
-        done
     }
 
     /// Clamps a result to the range of results, rounds it to the format of its storage, writes it subject to mask and

@@ -21,7 +21,7 @@ pub(crate) struct Context {
 
 /// Computes `opcode` on `s`; unused operands are zero.
 ///
-/// Operations that need more than the values of their operands (`dsx`, `dsy`, `setp`, `mova`, the matrix products and
+/// Operations that need more than the values of their operands (`setp`, `mova`, the matrix products and
 /// all texture and flow operations) are computed elsewhere; here they return zero.
 pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], context: &Context) -> Components {
     use Opcode::*;
@@ -33,7 +33,8 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
     match opcode {
         Mov => a,
         Add => each(mask, |i| alu.add(a[i], b[i])),
-        Sub => each(mask, |i| alu.sub(a[i], b[i])),
+        // The operands of differences are those of two lanes.
+        Sub | Dsx | Dsy => each(mask, |i| alu.sub(a[i], b[i])),
         Mul => each(mask, |i| alu.mul(a[i], b[i])),
         Mad => each(mask, |i| alu.mad(a[i], b[i], c[i])),
         Lrp => each(mask, |i| alu.lrp(version, [a[i], b[i], c[i]])),
@@ -44,6 +45,8 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
             [alu.add(dot, c[0]); 4]
         }
         Cnd => each(mask, |i| alu.cnd(a[i], b[i], c[i])),
+        // ARB selects by `< 0`, Direct3D by `>= 0`: a NaN selects the other operand.
+        Cmp if version == Version::ArbFp1_0 => each(mask, |i| if alu.less(a[i], 0) { b[i] } else { c[i] }),
         Cmp => each(mask, |i| alu.cmp(a[i], b[i], c[i])),
         Bem => macros::bem(alu, &a, &b, &context.bump),
         Abs => each(mask, |i| alu.abs(a[i])),
@@ -90,12 +93,11 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Str => [alu.one(); 4],
         Rfl => macros::rfl(alu, &a, &b),
         X2d => macros::x2d(alu, &a, &b, &c),
-        Sfl | Nop | Phase | Mova | M3x2 | M3x3 | M3x4 | M4x3 | M4x4 | Dsx | Dsy | Setp | Pk2h | Pk2us | Pk4b
-        | Pk4ub | Up2h | Up2us | Up4b | Up4ub | Tex | TexCoord | TexKill | TexBem | TexBemL | TexReg2Ar | TexReg2Gb
-        | TexReg2Rgb | TexM3x2Pad | TexM3x2Tex | TexM3x2Depth | TexM3x3Pad | TexM3x3Tex | TexM3x3Spec
-        | TexM3x3VSpec | TexM3x3 | TexDp3 | TexDp3Tex | TexLd | TexLdB | TexLdP | TexLdD | TexCrd | TexDepth | Kil
-        | If | IfC | Else | EndIf | Rep | EndRep | Loop | EndLoop | Break | BreakC | BreakP | Call | CallNz | Label
-        | Ret => [0; 4],
+        Sfl | Nop | Phase | Mova | M3x2 | M3x3 | M3x4 | M4x3 | M4x4 | Setp | Pk2h | Pk2us | Pk4b | Pk4ub | Up2h
+        | Up2us | Up4b | Up4ub | Tex | TexCoord | TexKill | TexBem | TexBemL | TexReg2Ar | TexReg2Gb | TexReg2Rgb
+        | TexM3x2Pad | TexM3x2Tex | TexM3x2Depth | TexM3x3Pad | TexM3x3Tex | TexM3x3Spec | TexM3x3VSpec | TexM3x3
+        | TexDp3 | TexDp3Tex | TexLd | TexLdB | TexLdP | TexLdD | TexCrd | TexDepth | Kil | If | IfC | Else | EndIf
+        | Rep | EndRep | Loop | EndLoop | Break | BreakC | BreakP | Call | CallNz | Label | Ret => [0; 4],
     }
 }
 
