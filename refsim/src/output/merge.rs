@@ -6,7 +6,7 @@ use super::depth::{CompareFunction, DepthState};
 use super::tile::{ColorTile, TargetTile};
 use crate::device::Rules;
 use crate::num::{self, Format};
-use crate::texture::{TargetRounding, encode, value};
+use crate::texture::{TargetRounding, encode};
 
 /// A device's rules for render targets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -179,9 +179,4 @@ fn write_color(
         None => encode(format, rules.format, color, rules.target_rounding),
     };
     target.set_raw(index, old & !bits | new & bits);
-}
-
-/// Converts the 8-bit alpha reference of Direct3D 8 and 9 to `k / 255`, as FP32 bits.
-pub fn alpha_reference(k: u8) -> u32 {
-    value::ratio(Format::FP32, i64::from(k), 255)
 }

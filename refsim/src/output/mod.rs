@@ -12,7 +12,7 @@ mod tile;
 pub use blend::{BlendEquation, BlendFactor, BlendOp, BlendState, blend_texel};
 pub use depth::{CompareFunction, DepthFormat, DepthState, DepthSurface};
 pub use error::OutputError;
-pub use merge::{AlphaTest, FragmentFate, FragmentOutput, OutputRules, OutputState, WriteMask, alpha_reference, merge};
+pub use merge::{AlphaTest, FragmentFate, FragmentOutput, OutputRules, OutputState, WriteMask, merge};
 pub use tile::{ColorTile, DepthTile, TargetTile};
 
 /// Maximum number of colour targets per draw.

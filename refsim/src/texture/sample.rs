@@ -109,11 +109,6 @@ pub fn fetch_nearest(image: &Image, state: &SamplerState, rules: &SampleRules, c
     SamplePlace::new(image, state, coordinates).nearest_value(rules, 0)
 }
 
-/// Slice, row and column of the level 0 texel that a nearest read returns; `None` is the border.
-pub fn nearest_texel(image: &Image, state: &SamplerState, coordinates: [u32; 4]) -> Option<(u32, u32, u32)> {
-    SamplePlace::new(image, state, coordinates).nearest(0)
-}
-
 /// Calls `each` with level, slice, row and column of every texel to which [`sample`] gives a weight above 0, in a fixed
 /// order; skips the border.
 pub fn touched(

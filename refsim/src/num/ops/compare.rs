@@ -28,11 +28,6 @@ pub fn eq(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     compare(env.into(), a, b, true, Ordering::is_eq)
 }
 
-/// `a == b`; any NaN raises `INVALID`.
-pub fn eq_signaling(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
-    compare(env.into(), a, b, false, Ordering::is_eq)
-}
-
 /// `a < b`; any NaN raises `INVALID`, as TestFloat's `lt`.
 pub fn lt(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     compare(env.into(), a, b, false, Ordering::is_lt)

@@ -18,7 +18,7 @@ mod sqrt;
 pub use super::convert::convert;
 pub use super::transcendental::{cos, exp2, log2, pow, sin};
 pub use add::{add, sub};
-pub use compare::{eq, eq_signaling, le, le_quiet, lt, lt_quiet};
+pub use compare::{eq, le, le_quiet, lt, lt_quiet};
 pub use div::{div, rcp};
 pub use dot::{DotOrder, dot, dot_accumulated};
 pub use fused::{fused_mad, mad};

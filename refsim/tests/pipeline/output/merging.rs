@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::output::{
     AlphaTest, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, DepthSurface, FragmentFate,
-    FragmentOutput, OutputError, OutputRules, OutputState, TargetTile, WriteMask, alpha_reference, merge,
+    FragmentOutput, OutputError, OutputRules, OutputState, TargetTile, WriteMask, merge,
 };
 use refsim::texture::{Image, Region, TargetRounding, TexelFormat, TextureKind};
 
@@ -30,7 +30,7 @@ fn steps_come_in_order() {
     let (image, depth) = targets();
     let mut tile = TargetTile::load(&[Some(&image)], Some(&depth), image.region()).unwrap();
     let state = OutputState {
-        alpha: Some(AlphaTest { function: CompareFunction::GreaterEqual, reference: alpha_reference(128) }),
+        alpha: Some(AlphaTest { function: CompareFunction::GreaterEqual, reference: (128.0f32 / 255.0).to_bits() }),
         depth: DepthState { test: Some(CompareFunction::Less), write: true },
         ..OutputState::default()
     };

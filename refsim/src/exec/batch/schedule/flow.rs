@@ -76,7 +76,7 @@ impl FlowPlan {
         let mut next = first_free;
         // Constants and inputs live as long as the program.
         let (mut constant_slots, mut inputs, mut placed) = (Vec::new(), Vec::new(), BTreeMap::new());
-        let results = results(&mut t, program, &registers, &mut next, &mut constant_slots);
+        let results = results(program, &registers, &mut next, &mut constant_slots);
         for i in 0..t.make.graph.len() as u32 {
             match t.make.graph.kind(NodeId(i)) {
                 NodeKind::Constant(raw) => constant_slots.push((next, raw)),
@@ -126,13 +126,11 @@ impl FlowPlan {
 
 /// Result slots of a pixel program; components that are never written share a slot of zeros.
 fn results(
-    t: &mut Translator<'_>,
     program: &Program,
     registers: &BTreeMap<RegisterComponent, Slot>,
     next: &mut Slot,
     constants: &mut Vec<(Slot, u32)>,
 ) -> ResultSlots {
-    let _ = &t;
     let zero = *next;
     *next += 1;
     constants.push((zero, 0));
