@@ -8,6 +8,8 @@ mod check_laws;
 #[path = "../common/environment.rs"]
 mod environment;
 mod fragment_program;
+#[path = "../../../tests/agree/generate/mod.rs"]
+mod generate;
 mod isa_table;
 #[path = "../common/programs.rs"]
 mod programs;

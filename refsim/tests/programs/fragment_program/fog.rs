@@ -126,21 +126,6 @@ fn draw(kind: ExecutorKind, text: &str, constants: &Constants) -> Vec<u8> {
 }
 
 #[test]
-fn executors_fog_to_the_same_bits() {
-    let mut state = FixedFunctionState::default();
-    state.fog.color = bits([0.9, 0.1, 0.3, 0.0]);
-    state.fog.density = 1.7_f32.to_bits();
-    let host = with(state);
-    for mode in ["exp", "exp2", "linear"] {
-        let text = format!("!!ARBfp1.0\nOPTION ARB_fog_{mode};\nMOV result.color, fragment.texcoord[0];\nEND");
-        let scalar = draw(ExecutorKind::Scalar, &text, &host);
-        assert_eq!(draw(ExecutorKind::Batch, &text, &host), scalar, "{mode}");
-        let plain = draw(ExecutorKind::Scalar, &text.replace(&format!("OPTION ARB_fog_{mode};"), ""), &host);
-        assert_ne!(plain, scalar, "{mode}");
-    }
-}
-
-#[test]
 fn a_program_that_writes_nothing_leaves_the_target() {
     let cleared: Vec<u8> = [0.25_f32, 0.5, 0.75, 1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
     for body in ["", "TEMP r;\nMOV r, fragment.texcoord[0];\n", "OPTION ARB_fog_exp;\n"] {

@@ -1,6 +1,5 @@
 //! Tests OpenGL fragment programs on the scalar executor against the two specifications.
 
-mod agree;
 mod arb;
 mod fog;
 mod numbers;

@@ -67,17 +67,6 @@ fn depth_and_the_reciprocal_of_w_are_linear_along_the_screen() {
 }
 
 #[test]
-fn executors_hand_over_the_same_window_position() {
-    for center in [PixelCenter::OpenGl, PixelCenter::Direct3d] {
-        for (w, depth) in [([1.0, 4.0], [0.0, 1.0]), ([0.3, 0.7], [0.9, 0.2]), ([3.0, 3.0], [0.1, 0.9])] {
-            let bits =
-                |kind| drawn(kind, NV, center, w, depth).concat().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(ExecutorKind::Batch), bits(ExecutorKind::Scalar), "{center:?} {w:?} {depth:?}");
-        }
-    }
-}
-
-#[test]
 fn differences_of_what_is_constant_are_zero_on_every_executor() {
     for text in [
         "!!FP1.0\nDDXR R0.xy, f[TEX0];\nDDYR R0.zw, f[TEX0];\nMOVR o[COLR], R0;\nEND",
