@@ -64,8 +64,11 @@ pub(crate) fn ordinary(r: &mut Random) -> Shape {
     if r.one_in(3) { r.of(&Shape::ALL) } else { Shape::Ordinary }
 }
 
-/// Width and height of the targets: some within a tile, some over several.
+/// Width and height of the targets: some within a tile, some over several, some of one row of quads.
 pub(crate) fn size(shape: Shape, r: &mut Random) -> [u32; 2] {
+    if r.one_in(12) {
+        return [1 + r.below(530), 1 + r.below(2)];
+    }
     let (w, h) = if shape == Shape::Layers { (20, 18) } else { (34, 30) };
     [1 + r.below(w) as u32, 1 + r.below(h) as u32]
 }

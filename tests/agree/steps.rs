@@ -7,7 +7,8 @@ use crate::suite;
 use refsim::machine::MachineError;
 
 /// The programs: those with flow control, and some without.
-const SUITES: [&str; 6] = [
+const SUITES: [&str; 7] = [
+    "geometry::fine",
     "programs::ps_2_a::",
     "programs::vs_2_0::",
     "programs::ps_2_a::",

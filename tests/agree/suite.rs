@@ -296,7 +296,8 @@ pub(crate) fn all() -> Vec<Suite> {
         out.push(Suite::new(format!("blending::{name}"), Kind::Blend(blend), 7));
     }
     for shape in Shape::ALL {
-        out.push(Suite::new(format!("geometry::{}", shape.name()), Kind::Geometry(shape), 14));
+        let seeds = if shape == Shape::Fine { 150 } else { 14 };
+        out.push(Suite::new(format!("geometry::{}", shape.name()), Kind::Geometry(shape), seeds));
     }
     out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.short()));
     out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.short()));

@@ -4,10 +4,8 @@ mod array_operation;
 #[path = "../common/environment.rs"]
 mod environment;
 mod filter_rows;
-mod flat_tiles;
 mod guarded_rows;
 mod lanes;
-mod packed_lanes;
 #[path = "../common/random.rs"]
 mod random;
 #[path = "../common/sampling.rs"]
