@@ -26,10 +26,8 @@ use std::sync::Arc;
 
 fn main() -> ExitCode {
     adapter::run(adapter::trials![on_adapter:
-        triangles,
         output_stage,
         memory_follows,
-        programs,
         short_programs_agree_on_any_driver,
         long_traces_are_whole,
         buffers_of_a_trace_run_elsewhere,
@@ -164,21 +162,6 @@ impl State {
     }
 }
 
-fn triangles(gpu: &Arc<Gpu>) {
-    let profile = ideal("fp32");
-    let program = copy(&profile);
-    let host = Constants::default();
-    let mut pair = Pair::new(&profile, gpu);
-    let target = pair.target(TexelFormat::Rgba32f, 40, 24, [0; 4]);
-    let mut random = Random::new(1);
-    for count in [3, 30, 300] {
-        let corners = vertices(&mut random, count);
-        let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
-        pair.draw(&call, "triangles");
-        pair.same(&[target], None, "triangles");
-    }
-}
-
 /// Every target and depth format and the whole output stage, in number formats of every kind.
 fn output_stage(gpu: &Arc<Gpu>) {
     for (number, device) in ["fp32", "fp16", "fp24", "s3.12", "s7.24", "e4m3", "n3.8:rna"].into_iter().enumerate() {
@@ -251,20 +234,6 @@ fn memory_follows(gpu: &Arc<Gpu>) {
     let third = pair.target(TexelFormat::Rgba16f, 33, 17, bits([0.125; 4]));
     draw(&mut pair, third);
     pair.same(&[second, third], None, "a new target");
-}
-
-/// Programs with texture reads, constants, kill and depth output; unbound samplers.
-fn programs(gpu: &Arc<Gpu>) {
-    agree(
-        gpu,
-        &[
-            ("r200", "ps_1_4\ntexld r0, t0\ntexld r1, t1\nmad r0, r0, c0, r1"),
-            ("r200", "ps_1_4\ntexcrd r0.rgb, t0\ntexcrd r1.rgb, t1\ndp3 r2, r0, r1\nmov r0, r2"),
-            ("r300", "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\ntexkill t0\nmov oC0, r0"),
-            ("r300", "ps_2_0\ndcl t0\nrcp r0, t0.x\nrsq r1, r0.x\nmov r0, r1.x\nmov oDepth, r1.x\nmov oC0, r0"),
-            ("nv30", "ps_2_a\ndcl t0\nexp r0, t0.x\nlog r1, t0.y\ndsx r2, t0\nmad r0, r0.x, r1.x, r2\nmov oC0, r0"),
-        ],
-    );
 }
 
 /// A short comparison for drivers that compile slowly.

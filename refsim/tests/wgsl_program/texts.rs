@@ -1,8 +1,7 @@
-//! Texts and words, without an adapter.
+//! Words, without an adapter.
 
 use crate::cases::{self, FORMATS, PIXEL, ideal};
 use crate::environment::seeds;
-use crate::modules;
 use crate::random::Random;
 use refsim::device::Profile;
 use refsim::exec::wgsl::program::{Interpolation, Microcode, PixelShader};
@@ -77,17 +76,8 @@ fn operation_names() -> Vec<String> {
     names.collect()
 }
 
-pub(crate) fn the_modules_are_valid() {
-    for module in [modules::pixel(), modules::followed(), modules::textured()] {
-        modules::validate(&module).unwrap_or_else(|e| panic!("{e}"));
-    }
-}
-
-pub(crate) fn the_validator_says_no_to_something() {
-    assert!(modules::validate("fn shade() { return 1u; }").is_err());
-}
-
-pub(crate) fn files_become_sound_words() {
+#[test]
+fn files_become_sound_words() {
     for format in ["fp32", "s3.12"] {
         let profile = ideal(format);
         for (name, program) in cases::files(&profile).into_iter().filter(|(_, p)| p.version.stage() == Stage::Pixel) {
@@ -98,7 +88,8 @@ pub(crate) fn files_become_sound_words() {
     }
 }
 
-pub(crate) fn random_programs_become_sound_words() {
+#[test]
+fn random_programs_become_sound_words() {
     for seed in seeds(400, 30) {
         let mut r = Random::new(seed);
         let version = PIXEL[seed as usize % PIXEL.len()];
