@@ -1,20 +1,7 @@
 //! Facts about the opcode table and the other types of `refsim::isa`.
 
-use refsim::isa::{DestinationRule, Opcode, OpcodeClass, Register, RegisterFile, Span, Spelling, Stage, Version};
+use refsim::isa::{DestinationRule, Opcode, OpcodeClass, Register, RegisterFile, Spelling, Stage, Version};
 use std::collections::BTreeMap;
-
-#[test]
-fn rows_stand_under_their_own_opcode_and_in_some_version() {
-    for &opcode in Opcode::ALL {
-        let info = opcode.info();
-        assert_eq!(info.opcode, opcode);
-        let mut versions = Version::ALL.iter().chain(&Version::FRAGMENT);
-        assert!(versions.any(|&v| info.available(v)), "{opcode:?} is nowhere");
-        let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit();
-        assert!(info.mnemonic.bytes().all(plain), "{opcode:?}: suffixes are split off at `_`");
-        assert!(info.mnemonic.as_bytes()[0].is_ascii_lowercase(), "{opcode:?}");
-    }
-}
 
 #[test]
 fn a_mnemonic_is_shared_only_by_a_plain_and_a_comparing_form() {
@@ -131,12 +118,4 @@ fn registers_are_written_as_direct3d_writes_them() {
     assert_eq!(Register::new(RegisterFile::DepthOut, 0).to_string(), "oDepth");
     assert_eq!(Register::new(RegisterFile::Loop, 0).to_string(), "aL");
     assert_eq!(Register::new(RegisterFile::Address, 0).to_string(), "a0");
-}
-
-#[test]
-fn spans_join_and_become_source_spans() {
-    let joined = Span::new(7, 9).join(Span::new(2, 4));
-    assert_eq!((joined.start, joined.end), (2, 9));
-    let source = miette::SourceSpan::from(joined);
-    assert_eq!((source.offset(), source.len()), (2, 7));
 }

@@ -68,23 +68,6 @@ fn depth_is_written_only_if_asked() {
 }
 
 #[test]
-fn all_comparisons_decide_the_depth_test() {
-    let (image, mut depth) = targets();
-    depth.clear(0.5f32.to_bits(), TargetRounding::Nearest);
-    for &function in CompareFunction::ALL {
-        for (z, order) in
-            [(0.25f32, std::cmp::Ordering::Less), (0.5, std::cmp::Ordering::Equal), (0.75, std::cmp::Ordering::Greater)]
-        {
-            let mut tile = TargetTile::load(&[Some(&image)], Some(&depth), image.region()).unwrap();
-            let state =
-                OutputState { depth: DepthState { test: Some(function), write: true }, ..OutputState::default() };
-            let fate = merge(&mut tile, (3, 3), &fragment(ONE), z.to_bits(), &state, &RULES);
-            assert_eq!(fate == FragmentFate::Passed, function.holds(Some(order)), "{function:?} {z}");
-        }
-    }
-}
-
-#[test]
 fn targets_have_their_own_masks_and_formats() {
     let formats = [TexelFormat::Rgba8, TexelFormat::L8, TexelFormat::Rgba16f, TexelFormat::Rg16];
     let images = formats.map(|f| Image::new_2d(f, 2, 1).unwrap());
@@ -146,24 +129,5 @@ proptest! {
         prop_assert_eq!(images[0].bytes(), &whole.colors[0].as_ref().unwrap().bytes[..]);
         prop_assert_eq!(images[1].bytes(), &whole.colors[1].as_ref().unwrap().bytes[..]);
         prop_assert_eq!(depth.data(), &whole.depth.as_ref().unwrap().data[..]);
-    }
-
-    #[test]
-    fn any_bits_have_a_fate(colors in any::<[[u32; 4]; 4]>(), own in any::<Option<u32>>(), z in any::<u32>(), reference in any::<u32>(), function in 0usize..8) {
-        let (image, depth) = targets();
-        let function = CompareFunction::ALL[function];
-        let state = OutputState {
-            alpha: Some(AlphaTest { function, reference }),
-            depth: DepthState { test: Some(function), write: true },
-            ..OutputState::default()
-        };
-        for format in [Format::FP32, Format::S3_12, Format::FP16] {
-            let mut tile = TargetTile::load(&[Some(&image), None, Some(&image)], Some(&depth), image.region()).unwrap();
-            let rules = OutputRules { format, ..RULES };
-            let output = FragmentOutput { colors, written: 15, depth: own, killed: false };
-            let fate = merge(&mut tile, (0, 0), &output, z, &state, &rules);
-            prop_assert!(tile.depth.unwrap().data[0] <= 0xffff);
-            prop_assert!(fate != FragmentFate::KilledByShader);
-        }
     }
 }

@@ -1,5 +1,4 @@
-//! Tests of `refsim::output`: comparisons, depth formats, blending properties, masks, and independence of tiles.
+//! Tests of `refsim::output`: comparisons, depth formats, masks, and independence of tiles.
 
-mod blending;
 mod depth;
 mod merging;
