@@ -104,72 +104,47 @@ fn profiles() -> Vec<Profile> {
     out
 }
 
-fn operands(op: &str, count: usize, suffix: &str) -> String {
-    let list: Vec<String> = (0..count).map(|i| format!("r{i}{suffix}")).collect();
-    format!("{op} r4, {}", list.join(", "))
-}
-
 #[test]
-fn ps_1_4_operations_are_their_documented_steps() {
+fn operations_are_their_documented_steps() {
+    let (ps_1_4, ps_2_0) = (("ps_1_4", "mov r0, r4"), ("ps_2_0", "mov oC0, r4"));
     let table = [
-        ("mov", 1),
-        ("add", 2),
-        ("sub", 2),
-        ("mul", 2),
-        ("mad", 3),
-        ("lrp", 3),
-        ("dp3", 2),
-        ("dp4", 2),
-        ("cnd", 3),
-        ("cmp", 3),
+        (ps_1_4, "mov", 1, ""),
+        (ps_1_4, "add", 2, ""),
+        (ps_1_4, "sub", 2, ""),
+        (ps_1_4, "mul", 2, ""),
+        (ps_1_4, "mad", 3, ""),
+        (ps_1_4, "lrp", 3, ""),
+        (ps_1_4, "dp3", 2, ""),
+        (ps_1_4, "dp4", 2, ""),
+        (ps_1_4, "cnd", 3, ""),
+        (ps_1_4, "cmp", 3, ""),
+        (ps_2_0, "abs", 1, ""),
+        (ps_2_0, "min", 2, ""),
+        (ps_2_0, "max", 2, ""),
+        (ps_2_0, "frc", 1, ""),
+        (ps_2_0, "rcp", 1, ".x"),
+        (ps_2_0, "rsq", 1, ".x"),
+        (ps_2_0, "exp", 1, ".x"),
+        (ps_2_0, "log", 1, ".x"),
+        (ps_2_0, "pow", 2, ".x"),
+        (ps_2_0, "nrm", 1, ""),
+        (ps_2_0, "mad", 3, ""),
+        (ps_2_0, "lrp", 3, ""),
+        (ps_2_0, "dp4", 2, ""),
+        (ps_2_0, "cmp", 3, ""),
     ];
     let mut random = Random::new(1);
     for profile in profiles() {
         let format = profile.rules.format;
         let reference = Reference(&profile.rules, format);
-        for (op, count) in table {
-            for _ in 0..8 {
-                let values = vectors(&mut random);
-                let line = operands(op, count, "");
-                let text = format!("ps_1_4\nmov r0, c0\nmov r1, c1\nmov r2, c2\n{line}\nmov r0, r4");
-                let ran = run(&text, &profile, &values);
-                let s = values.map(|v| into(format, v));
-                assert_eq!(ran.value(3), reference.expected(op, &s), "{op} in {format}: {values:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn ps_2_0_operations_are_their_documented_steps() {
-    let table = [
-        ("abs", 1, ""),
-        ("min", 2, ""),
-        ("max", 2, ""),
-        ("frc", 1, ""),
-        ("rcp", 1, ".x"),
-        ("rsq", 1, ".x"),
-        ("exp", 1, ".x"),
-        ("log", 1, ".x"),
-        ("pow", 2, ".x"),
-        ("nrm", 1, ""),
-        ("mad", 3, ""),
-        ("lrp", 3, ""),
-        ("dp4", 2, ""),
-        ("cmp", 3, ""),
-    ];
-    let mut random = Random::new(2);
-    for profile in profiles() {
-        let format = profile.rules.format;
-        let reference = Reference(&profile.rules, format);
-        for (op, count, suffix) in table {
+        for ((version, end), op, count, suffix) in table {
             for _ in 0..8 {
                 let mut values = vectors(&mut random);
                 if matches!(op, "rsq" | "log" | "pow") {
                     values[0][0] = values[0][0].abs() + 0.01;
                 }
-                let line = operands(op, count, suffix);
-                let text = format!("ps_2_0\nmov r0, c0\nmov r1, c1\nmov r2, c2\n{line}\nmov oC0, r4");
+                let operands = (0..count).map(|i| format!("r{i}{suffix}")).collect::<Vec<_>>().join(", ");
+                let text = format!("{version}\nmov r0, c0\nmov r1, c1\nmov r2, c2\n{op} r4, {operands}\n{end}");
                 let ran = run(&text, &profile, &values);
                 let s = values.map(|v| into(format, v));
                 assert_eq!(ran.value(3), reference.expected(op, &s), "{op} in {format}: {values:?}");
