@@ -1,6 +1,6 @@
 //! Components that an instruction reads: the opcode table's answer, refined for texture reads.
 
-use crate::isa::{Instruction, Mask, Opcode, Usage, Version};
+use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Usage, Version};
 
 /// Number of rows of a matrix operation's second source.
 pub fn matrix_rows(opcode: Opcode) -> Option<u16> {
@@ -26,20 +26,8 @@ pub fn source_lanes(version: Version, instruction: &Instruction, index: usize, s
         (Opcode::TexBem | Opcode::TexBemL, _) => 0b0011,
         (Opcode::TexReg2Ar, _) => 0b1001,
         (Opcode::TexReg2Gb, _) => 0b0110,
-        (
-            Opcode::TexReg2Rgb
-            | Opcode::TexM3x2Pad
-            | Opcode::TexM3x2Tex
-            | Opcode::TexM3x2Depth
-            | Opcode::TexM3x3Pad
-            | Opcode::TexM3x3Tex
-            | Opcode::TexM3x3Spec
-            | Opcode::TexM3x3VSpec
-            | Opcode::TexM3x3
-            | Opcode::TexDp3
-            | Opcode::TexDp3Tex,
-            _,
-        ) => 0b0111,
+        (Opcode::TexCrd | Opcode::Kil, _) => written.0,
+        (opcode, _) if opcode.info().class == OpcodeClass::Texture => 0b0111,
         (opcode, _) => opcode.lanes_read(index, written).0,
     };
     Mask(lanes & 0b1111)

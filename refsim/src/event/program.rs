@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::isa::{
     ConstantValue, Destination, Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, Program, Register,
-    RegisterFile, Source, Stage, Version,
+    RegisterFile, ResultKind, Source, Stage, Version,
 };
 
 /// Maximum number of iterations of a loop, as in the executors.
@@ -160,19 +160,7 @@ fn can_pair(first: &Instruction, second: &Instruction) -> bool {
 fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
     let instruction = &program.instructions[at];
     let opcode = instruction.opcode;
-    let reads = !matches!(
-        opcode,
-        Opcode::TexCoord
-            | Opcode::TexCrd
-            | Opcode::TexKill
-            | Opcode::Kil
-            | Opcode::TexDepth
-            | Opcode::TexM3x2Pad
-            | Opcode::TexM3x3Pad
-            | Opcode::TexM3x2Depth
-            | Opcode::TexDp3
-            | Opcode::TexM3x3
-    );
+    let reads = opcode.info().result == ResultKind::Texel;
     let sampler = match instruction.sources.get(1) {
         Some(sampler) if program.version.reads_coordinates() => Some(sampler.register.index),
         _ => instruction.destination.map(|d| d.register.index),
