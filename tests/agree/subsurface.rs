@@ -94,7 +94,7 @@ fn agrees(
         let levels = card.read_levels().unwrap_or_else(|e| panic!("{what}: {e}"));
         let scattered = card.read_scattered().unwrap_or_else(|e| panic!("{what}: {e}"));
         let half = nv35().rules.partial.unwrap_or(refsim::num::Format::FP16);
-        let expected = order::gathered(&levels, links, (card.gather_programs(), half), &options).expect("an order");
+        let expected = order::gathered(&levels, links, card.gather_programs(), half, &options).expect("an order");
         assert!(scattered.texels.iter().any(|texel| texel[0] > 0.0), "{name}: dark");
         assert_eq!(bits(&scattered), bits(&expected), "{name}, {executor}: pass 2 against the host's loop");
         let mut seen: Vec<Vec<[u32; 4]>> = levels.iter().map(bits).collect();

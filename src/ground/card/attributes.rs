@@ -1,7 +1,10 @@
 //! Attributes of vertices, as bits of single precision.
 
+use rayon::prelude::*;
 use refsim::machine::{AttributeStream, StepRate, VertexStreams};
 use refsim::num::{Format, ops};
+
+use super::CardError;
 
 /// The values of an attribute register, one per vertex.
 pub type Attribute = Vec<[u32; 4]>;
@@ -16,6 +19,28 @@ pub fn vertex_streams<'a>(attributes: impl IntoIterator<Item = &'a Attribute>) -
     let of = |(register, data): (usize, &'a Attribute)| AttributeStream { register, step: StepRate::Vertex, data };
     let streams: Vec<_> = attributes.into_iter().enumerate().map(of).collect();
     VertexStreams { vertex_count: streams.first().map_or(0, |first| first.data.len()), instance_count: 1, streams }
+}
+
+/// Attributes register by register, from those of each of `vertices` vertices.
+pub fn by_register(
+    registers: usize,
+    vertices: usize,
+    of_vertex: impl Fn(usize) -> Vec<[u32; 4]> + Send + Sync,
+) -> Vec<Attribute> {
+    let by_vertex: Vec<Vec<[u32; 4]>> = (0..vertices).into_par_iter().map(of_vertex).collect();
+    (0..registers).map(|register| by_vertex.iter().map(|vertex| vertex[register]).collect()).collect()
+}
+
+/// Refuses attributes that overflow single precision.
+///
+/// # Errors
+/// [`CardError::Input`], which says `what` was expected.
+pub fn check_finite(what: &str, attributes: &[Attribute]) -> Result<(), CardError> {
+    let mut numbers = attributes.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
+    match numbers.find(|value| !value.is_finite()) {
+        Some(found) => Err(CardError::figure(what, f64::from(found))),
+        None => Ok(()),
+    }
 }
 
 /// A number that a vertex holds in half precision, as programs read it.

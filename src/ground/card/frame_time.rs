@@ -5,12 +5,14 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use refsim::device::Profile;
-use refsim::event::{DrawEvents, DrawRecord, Event, HostWork, PrimitiveCounts, ProgramWork};
+use refsim::event::{DrawEvents, DrawRecord, Event, FlowConstants, HostWork, PrimitiveCounts, ProgramWork};
 use refsim::timing::host::{HostError, HostModel, HostOperation};
 use refsim::timing::replay::{Options, ReplayError, replay};
 use refsim::timing::timeline::Unit;
 use refsim::timing::{Bottleneck, Level, Model, Picoseconds, TimingError};
 use thiserror::Error;
+
+use super::kernels::SHADE;
 
 /// Number of consecutive frames that are modelled: enough for card and host to reach a steady state.
 const FRAMES: usize = 4;
@@ -115,27 +117,52 @@ pub fn host_work(operation: HostOperation, operations: u64) -> Event {
     Event::Host(HostWork { kind: operation.name().into(), operations })
 }
 
-/// A draw without visible pixels: numbers of triangles and vertices run, of slots and attributes of a vertex.
-pub fn unseen_draw([triangles, run]: [u64; 2], (slots, attributes): (u64, u64), pixel: &Arc<ProgramWork>) -> Event {
-    let mut counts = DrawEvents {
-        draws: 1,
-        instances: 1,
-        vertices: run,
-        vertex_instructions: slots * run,
-        primitives: PrimitiveCounts { assembled: triangles, ..PrimitiveCounts::default() },
-        ..DrawEvents::default()
-    };
-    counts.bytes.vertices = ATTRIBUTE_BYTES * attributes * run;
-    Event::Draw(Box::new(DrawRecord {
-        counts,
-        vertices_run: [run; 3],
-        quads: 0,
-        pixel: pixel.clone(),
-        vertex: None,
-        samplers: Vec::new(),
-        targets: Vec::new(),
-        depth: None,
-        alpha_test: false,
-        blend: true,
-    }))
+/// The log of a frame whose pixels take no time, from numbers of triangles alone.
+#[derive(Clone, Debug)]
+pub struct UnseenFrame {
+    run_per_triangle: f64,
+    pixel: Arc<ProgramWork>,
+    /// The events so far.
+    pub log: Vec<Event>,
+}
+
+impl UnseenFrame {
+    /// A frame that begins with work of the host. Vertices run per triangle follow from the order of a mesh and the
+    /// card's vertex cache.
+    pub fn new(log: Vec<Event>, run_per_triangle: f64) -> Self {
+        let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");
+        Self { run_per_triangle, pixel: Arc::new(ProgramWork::new(&program, FlowConstants::default())), log }
+    }
+
+    /// Draws triangles, whose vertices have so many `attributes` and take so many `slots`.
+    pub fn draw(&mut self, triangles: u64, slots: u64, attributes: u64) {
+        let run = (triangles as f64 * self.run_per_triangle).round() as u64;
+        let mut counts = DrawEvents {
+            draws: 1,
+            instances: 1,
+            vertices: run,
+            vertex_instructions: slots * run,
+            primitives: PrimitiveCounts { assembled: triangles, ..PrimitiveCounts::default() },
+            ..DrawEvents::default()
+        };
+        counts.bytes.vertices = ATTRIBUTE_BYTES * attributes * run;
+        self.log.push(Event::Draw(Box::new(DrawRecord {
+            counts,
+            vertices_run: [run; 3],
+            quads: 0,
+            pixel: self.pixel.clone(),
+            vertex: None,
+            samplers: Vec::new(),
+            targets: Vec::new(),
+            depth: None,
+            alpha_test: false,
+            blend: true,
+        })));
+    }
+
+    /// A pass: new programs and constants, and a draw.
+    pub fn pass(&mut self, constants: u32, triangles: u64, slots: u64, attributes: u64) {
+        self.log.push(Event::StateChange { changes: 2, constants });
+        self.draw(triangles, slots, attributes);
+    }
 }

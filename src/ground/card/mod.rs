@@ -5,29 +5,32 @@
 //! - [`FullScreenPass`]: one quad over a target; [`PingPong`]: two targets that passes write in turn;
 //! - [`Levels`]: a pyramid of targets, each filled from the one before;
 //! - [`NearestTarget`]: a color target that keeps the nearest fragment;
-//! - [`Attribute`], [`vertex_streams`]: what vertices hold;
-//! - [`MeshOnCard`]: a mesh drawn from a camera; [`seen_pixels`]: what pixels show by a device's raster;
-//! - [`frame_time`](mod@frame_time): how long a frame takes beside the host's work.
+//! - [`Attribute`], [`by_register`], [`vertex_streams`]: what vertices hold;
+//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: what pixels show by a device's raster;
+//! - [`frame_time`](mod@frame_time): how long a frame takes beside the host's work;
+//! - [`CardError`]: why a card does not do it.
 //!
 //! Textures are rectangles, which is how the cards of 2003 had float textures: coordinates count texels, and the
 //! center of texel i is at i + 0.5.
 
 mod attributes;
+mod display;
+mod error;
 pub mod frame_time;
 mod kernel;
 pub mod kernels;
 mod levels;
-mod mesh;
 mod nearest;
 mod pass;
 mod seen;
 mod texels;
 
-pub use attributes::{Attribute, attribute, through_half, vertex_streams};
+pub use attributes::{Attribute, attribute, by_register, check_finite, through_half, vertex_streams};
+pub use display::{DepthPrograms, KeptFragments, MeshDisplay, MeshDraw, MeshPass, MeshView};
+pub use error::CardError;
 pub use kernel::{KernelError, KernelText, require_versions, vertex_version};
 pub use kernel::{checked, instructions, kernels, slots};
 pub use levels::Levels;
-pub use mesh::{DepthPrograms, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshPass, MeshView};
 pub use nearest::NearestTarget;
 use nearest::ViewTarget;
 pub use pass::{BILINEAR, FullScreenPass, PingPong, ReadTexture, constants, nearest};

@@ -21,7 +21,8 @@ impl NearestTarget {
     /// [`MachineError`] if the card has no such target or depth buffer.
     pub fn new(
         machine: &mut Machine,
-        (color, depth): (TexelFormat, DepthFormat),
+        color: TexelFormat,
+        depth: DepthFormat,
         [width, height]: [u32; 2],
     ) -> Result<Self, MachineError> {
         let color = machine.create_target(color, width, height)?;
@@ -71,7 +72,7 @@ impl ViewTarget {
             }
             None => {}
         }
-        let target = NearestTarget::new(machine, (format, DepthFormat::Unorm24), size)?;
+        let target = NearestTarget::new(machine, format, DepthFormat::Unorm24, size)?;
         self.0 = Some((target, format, size));
         Ok(target)
     }

@@ -5,7 +5,7 @@ use refsim::machine::{Executor, ExecutorKind};
 use refsim::output::WriteMask;
 
 use super::kernels::{FLOAT_COLOR, SHADE};
-use super::{Attribute, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshView, attribute};
+use super::{Attribute, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, attribute};
 use crate::scene::Camera;
 
 /// A triangle's vertices with barycentric weights that sum to 1.
@@ -23,28 +23,30 @@ pub struct SeenPixel {
 /// the device's subpixel precision of vertices. `None` where the background shows.
 ///
 /// # Errors
-/// [`MeshError::Machine`] for pictures that are too large.
+/// [`CardError::Draw`] for pictures that are too large.
 ///
 /// # Panics
 /// If a triangle names a vertex that does not exist.
 pub fn seen_pixels(
     profile: &Profile,
-    (positions, triangles): (&[[f32; 3]], &[[u32; 3]]),
+    geometry: (&[[f32; 3]], &[[u32; 3]]),
     camera: &Camera,
-) -> Result<Vec<Option<SeenPixel>>, MeshError> {
+) -> Result<Vec<Option<SeenPixel>>, CardError> {
+    let (positions, triangles) = geometry;
     let mut ideal = Profile::named("ideal-fp32").expect("a device of the project");
     ideal.rules.subpixel_bits = profile.rules.subpixel_bits;
     let program =
         |kernel: super::KernelText| kernel.checked(&ideal).expect("the ideal device runs the project's programs");
     let (vertex, pixel) = (program(FLOAT_COLOR), program(SHADE));
-    let mut machine = Executor::from(ExecutorKind::Batch).machine(ideal)?;
-    let mut mesh = MeshOnCard::new(triangles.as_flattened().iter().map(|&vertex| positions[vertex as usize]));
+    let machine = Executor::from(ExecutorKind::Batch).machine(ideal)?;
+    let mut display =
+        MeshDisplay::new(machine, triangles.as_flattened().iter().map(|&vertex| positions[vertex as usize]));
     let weights = |triangle: usize| {
         let mark = |first, second| attribute([first, second, triangle as f64], 1.0);
         [mark(1.0, 0.0), mark(0.0, 1.0), mark(0.0, 0.0)]
     };
     let marks: Attribute = (0..triangles.len()).flat_map(weights).collect();
-    let (texels, _) = mesh.show(&mut machine, (&MeshView::from(*camera), false), |pass| {
+    let (texels, _) = display.show(&MeshView::from(*camera), false, |pass| {
         pass.draw(MeshDraw {
             vertex: (&vertex, pass.rows().to_vec()),
             attributes: vec![pass.positions(), &marks],
@@ -54,7 +56,6 @@ pub fn seen_pixels(
             fragments: KeptFragments::Nearest,
             mask: WriteMask::ALL,
         })
-        .map_err(MeshError::from)
     })?;
     let seen = |&[first, second, triangle, alpha]: &[f32; 4]| {
         let triangle = triangle.round() as u32;

@@ -121,7 +121,8 @@ pub fn new_target(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) 
 /// [`MachineError`] if the texels do not fill the extents, or the card does not support the format.
 pub fn new_texture(
     machine: &mut Machine,
-    (format, kind): (TexelFormat, TextureKind),
+    format: TexelFormat,
+    kind: TextureKind,
     extents: [u32; 3],
     texels: impl IntoIterator<Item = [f32; 4]>,
 ) -> Result<TextureId, MachineError> {

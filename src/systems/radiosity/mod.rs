@@ -52,7 +52,7 @@ mod system;
 pub use crate::scene::built::rooms;
 pub use draw::DrawError;
 pub use form_factor::{FormFactorError, FormFactors};
-pub use on_card::{CardError, CardOptions, CardSolution, CardSolver, Storage};
+pub use on_card::{CardOptions, CardSolution, CardSolver, Storage};
 pub use patch::Patch;
 pub use patch_error::{MAX_PATCHES, PatchError};
 pub use patches::{Patches, Subdivision};

@@ -11,8 +11,9 @@ use thiserror::Error;
 
 use super::card_order::CardSystem;
 use super::model;
-use super::on_card::{CardError, CardSolver, Fit, Storage};
+use super::on_card::{CardSolver, Fit, Storage};
 use super::packing::Packing;
+use crate::card::CardError;
 
 /// Error of timing an iteration.
 #[non_exhaustive]
@@ -115,7 +116,7 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIterat
 fn iteration_log(profile: &Profile, timing: &Timing) -> Result<Vec<Event>, RateError> {
     let fit = Fit::of(profile, timing.packing)?;
     let zeros = CardSystem::zeros(timing.packing, timing.patches, fit.block, fit.limit)
-        .map_err(|problem| CardError::TooLarge { device: profile.name.clone(), problem })?;
+        .map_err(|problem| CardError::input(format!("device `{}`: {problem}", profile.name)))?;
     let mut card = CardSolver::of(profile.clone(), ExecutorKind::Batch, &[zeros], timing.storage)?;
     card.bind_as_after_iteration()?;
     if timing.cache {

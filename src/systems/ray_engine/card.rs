@@ -82,8 +82,8 @@ impl RayTextures {
     ) -> Result<Self, EngineError> {
         let mut made = Vec::new();
         let textures = upload(&mut made, machine, kernel, rays, units)?;
-        let formats = (code.format(), depth_format(machine.profile(), kernel.form));
-        let target = NearestTarget::new(machine, formats, [rays.width(), rays.height()])?;
+        let depth = depth_format(machine.profile(), kernel.form);
+        let target = NearestTarget::new(machine, code.format(), depth, [rays.width(), rays.height()])?;
         Ok(Self { made, textures, code, target })
     }
 

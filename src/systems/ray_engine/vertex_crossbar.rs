@@ -54,8 +54,8 @@ impl VertexCrossbar {
     /// As [`VertexCrossbar::intersect`].
     pub fn intersect_on(&self, machine: &mut Machine, mesh: &Mesh, rays: &RayBatch) -> Result<Answer, EngineError> {
         let (vertex, pixel) = (kernels::VERTEX_TEST.checked(&self.profile)?, kernels::ID.checked(&self.profile)?);
-        let formats = (TexelFormat::Bgra8, DepthFormat::Unorm24);
-        let target = NearestTarget::new(machine, formats, [rays.width(), rays.height()])?;
+        let size = [rays.width(), rays.height()];
+        let target = NearestTarget::new(machine, TexelFormat::Bgra8, DepthFormat::Unorm24, size)?;
         let units = Units::choose(Form::Float, Range::of(&self.profile.rules.vertex_format), mesh, rays);
         let streams = Streams::new(mesh, rays, units.scale());
         let mut events = DrawEvents::default();

@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
+use crate::card::attribute;
 use crate::geom::vector::{least_axis, unit};
 
 /// Tangents whose part across the normal is shorter than this, relative to their length, have no direction.
@@ -40,6 +41,11 @@ impl LocalFrame {
     /// The tangent.
     pub fn tangent(&self) -> DVec3 {
         self.axes[0]
+    }
+
+    /// Tangent and normal as attributes of a card's vertex.
+    pub fn attributes(&self) -> [[u32; 4]; 2] {
+        [self.tangent(), self.normal()].map(|axis| attribute(axis.to_array(), 0.0))
     }
 
     /// The global directions of the local axes.

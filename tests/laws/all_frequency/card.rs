@@ -89,8 +89,8 @@ fn what_is_coarser_is_farther_off() {
     let seen =
         seen_pixels(&Profile::named("r350").expect("a card"), hills.vertices.geometry(), &camera()).expect("pixels");
     let brightest = seen.iter().flatten().flat_map(|seen| {
-        let view = (ViewNumbers::Coordinates, camera().eye());
-        pixel_of_products(&hills.mesh(), view, seen.corners, seen.weights).map(|value| 2.5 * value)
+        let (view, eye) = (ViewNumbers::Coordinates, camera().eye());
+        pixel_of_products(&hills.mesh(), view, eye, seen.corners, seen.weights).map(|value| 2.5 * value)
     });
     let brightest = brightest.fold(0.0, f64::max);
     assert!((0.5..2.0).contains(&brightest), "{brightest}");

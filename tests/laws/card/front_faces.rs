@@ -259,9 +259,10 @@ fn all_frequency_transfer_shows_front_faces() {
         let mut card = FactoredCard::new(ideal(), ExecutorKind::Batch, mesh, place).expect("a card");
         let view = MeshView { camera: scene.camera, exposure: 1.5, format: FLOATS };
         let texels = card.view_texels(&view).expect("a picture");
-        let view = (ViewNumbers::Coordinates, scene.camera.eye());
         let value = |seen: &SeenPixel| {
-            Some(pixel_of_products(&mesh, view, seen.corners, seen.weights).map(|value| 1.5 * value))
+            let eye = scene.camera.eye();
+            let pixel = pixel_of_products(&mesh, ViewNumbers::Coordinates, eye, seen.corners, seen.weights);
+            Some(pixel.map(|value| 1.5 * value))
         };
         scene.check("products per pixel", &texels, 1e-5, &value);
     }
@@ -292,7 +293,7 @@ fn bi_scale_transfer_shows_front_faces() {
         let texels = card.view_texels(&local, &view).expect("a picture");
         let local: Vec<[f64; 3]> = local.iter().map(|rgb| rgb.map(f64::from)).collect();
         let value = |seen: &SeenPixel| {
-            Some(pixel(&mesh, &local, (scene.camera.eye(), BlockEdges::Wrapped), seen).map(|value| 0.7 * value))
+            Some(pixel(&mesh, &local, scene.camera.eye(), BlockEdges::Wrapped, seen).map(|value| 0.7 * value))
         };
         scene.check("bi-scale", &texels, 1e-5, &value);
     }

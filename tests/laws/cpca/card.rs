@@ -3,9 +3,8 @@
 use approx::assert_relative_eq;
 use crossbar::card::frame_time::frame_time;
 use crossbar::card::{MeshView, Texels};
-use crossbar::cpca::on_card::estimate::FrameCounts;
 use crossbar::cpca::on_card::model::TransferSize;
-use crossbar::cpca::on_card::time::host_of_section_7;
+use crossbar::cpca::on_card::time::{FrameCounts, host_of_section_7};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, WeightFormat};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;

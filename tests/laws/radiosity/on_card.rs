@@ -1,11 +1,11 @@
 //! Matrix radiosity on the card: within its bound of the truth, relit, refused in words that help; programs counted.
 
 use approx::abs_diff_eq;
-use crossbar::card::Texels;
+use crossbar::card::{CardError, Texels};
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::bound::{ErrorBound, before, bounded_step, contraction};
 use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::on_card::{self, CardError, CardOptions, CardSolver, Fit, Storage};
+use crossbar::radiosity::on_card::{self, CardOptions, CardSolver, Fit, Storage};
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::solve::Solver;
 use crossbar::radiosity::{System, kernels, model};

@@ -1,14 +1,14 @@
 //! Passes 1 and 2 on a card against the formulas of section 4, in f64.
 
 use crossbar::atlas::Atlas;
-use crossbar::card::Texels;
+use crossbar::card::{CardError, Texels};
 use crossbar::geom::Mesh;
 use crossbar::subsurface::factor::SurfaceMoments;
 use crossbar::subsurface::fresnel::mean_transmittance;
 use crossbar::subsurface::links::{IrradianceMeans, LinkChoice, Links, MeanWeighting};
 use crossbar::subsurface::on_card::{
-    CardModel, Light, LightStage, LinkTextures, MapFormat, PassEvent, PassKind, SubsurfaceCard, SubsurfaceCardError,
-    SubsurfaceCardOptions, pass_times,
+    CardModel, Light, LightStage, LinkTextures, MapFormat, PassEvent, PassKind, SubsurfaceCard, SubsurfaceCardOptions,
+    pass_times,
 };
 use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance};
 use glam::DVec3;
@@ -306,7 +306,7 @@ fn what_does_not_fit_the_card_is_named() {
     let new = |profile: Profile, links: &LinkTextures, eta, options| {
         SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), links, eta, options)
     };
-    let refused = |result: Result<SubsurfaceCard, SubsurfaceCardError>| result.expect_err("refused").to_string();
+    let refused = |result: Result<SubsurfaceCard, CardError>| result.expect_err("refused").to_string();
     let usual = SubsurfaceCardOptions::default();
     let r300 = Profile::named("r300").expect("a card");
     let words = refused(new(r300, &links, ETA, usual));

@@ -23,13 +23,11 @@ mod vertex_values;
 
 use crate::all_frequency::code::CodeOptionsError;
 use crate::all_frequency::factor::FactorizationError;
-use crate::all_frequency::on_card::FactoredCardError;
 use crate::all_frequency::shade::LightSizeError;
-use crate::bi_scale::on_card::BiScaleCardError;
-use crate::card::MeshError;
+use crate::card::CardError;
 use crate::card::frame_time::FrameTimeError;
-use crate::cpca::on_card::PrtCardError;
 use crate::sphere::{HemisphereError, RotationError};
+use crate::study::StudyError;
 use crate::study::error::library_errors;
 use crate::transfer::file::PrtFileError;
 use crate::transfer::light::CubeLightError;
@@ -63,20 +61,28 @@ pub use turned_frames::{TurnedFrames, Turning};
 pub use vertex_values::{ValuesFormat, VertexValues};
 
 library_errors! {
-    BiScaleCardError => "crossbar::prt::card";
+    CardError => "crossbar::prt::card";
     CodeOptionsError => "crossbar::prt::code";
     CubeLightError => "crossbar::prt::light";
-    FactoredCardError => "crossbar::prt::card",
-        "`--way colors` runs on every card; `crossbar all-frequency render` draws on the host what no card takes";
     FactorizationError;
     FrameTimeError => "crossbar::prt::time";
     HemisphereError => "crossbar::prt::functions";
     LightSizeError => "crossbar::prt::segments";
-    MeshError => "crossbar::prt::card";
-    PrtCardError => "crossbar::prt::card",
-        "`crossbar cpca render` draws on the host what no card takes; `crossbar devices` lists cards";
     PrtFileError;
     RotationError => "crossbar::prt::turn";
     SignalError => "crossbar::prt::signal";
     TransferError => "crossbar::prt::precompute";
+}
+
+/// Error of a card that displays compressed transfer.
+pub(super) fn no_cpca_card(error: CardError) -> StudyError {
+    let help = "`crossbar cpca render` draws on the host what no card takes; `crossbar devices` lists cards";
+    StudyError::from(error).with_help(help)
+}
+
+/// Error of a card that displays all-frequency transfer.
+pub(super) fn no_all_frequency_card(error: CardError) -> StudyError {
+    StudyError::from(error).with_help(
+        "`--way colors` runs on every card; `crossbar all-frequency render` draws on the host what no card takes",
+    )
 }

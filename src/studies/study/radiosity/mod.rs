@@ -21,10 +21,11 @@ mod tables;
 mod time;
 
 use crate::atlas::AtlasError;
+use crate::card::CardError;
 use crate::picture::metrics::value_error;
 use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
-use crate::radiosity::on_card::{CardError, Fit};
+use crate::radiosity::on_card::Fit;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::solve::SolveError;
 use crate::radiosity::{DrawError, FormFactorError, PatchError, Patches, System, SystemError};
@@ -47,13 +48,17 @@ use pictures::PictureRenderer;
 use sweep::Sweep;
 
 library_errors! {
-    CardError => "radiosity::card";
     DrawError => "radiosity::display";
     FormFactorError => "radiosity::form_factors";
     PatchError => "radiosity::patches";
     RateError => "radiosity::rate";
     SolveError => "radiosity::solve";
     SystemError => "radiosity::system";
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("radiosity::card", error)
 }
 
 /// Error of a scene without an atlas.
@@ -100,7 +105,8 @@ fn run(
     let patches = Patches::new(&parameters.scene, parameters.subdivision)?;
     let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(how.packing) } else { None };
     for packing in parameters.methods.iter().filter_map(on_card) {
-        Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
+        let require = |fit: Fit| fit.require(&parameters.profile, packing, patches.list().len());
+        Fit::of(&parameters.profile, packing).and_then(require).map_err(no_card)?;
     }
     let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
     let sweep = Sweep::new(parameters)?;

@@ -2,7 +2,9 @@
 
 use super::change::Relit;
 use super::method::{CardMethod, SolveMethod, StopReason};
+use super::no_card;
 use super::parameters::Parameters;
+use crate::card::CardError;
 use crate::radiosity::System;
 use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, to_f64};
 use crate::radiosity::solve::{Options, Solver, mean_square};
@@ -40,7 +42,7 @@ pub(super) fn solve(
 ) -> Result<Solved, StudyError> {
     match method {
         SolveMethod::Host(solver) => on_host(solver, system, changed, &parameters.options),
-        SolveMethod::Card(how) => on_card(how, system, changed, parameters),
+        SolveMethod::Card(how) => on_card(how, system, changed, parameters).map_err(no_card),
     }
 }
 
@@ -81,7 +83,7 @@ fn on_card(
     system: &System,
     changed: Option<&System>,
     parameters: &Parameters,
-) -> Result<Solved, StudyError> {
+) -> Result<Solved, CardError> {
     let executor = parameters.executor.clone();
     let mut card = CardSolver::new(parameters.profile.clone(), executor, system, how.packing, how.storage)?;
     let Options { tolerance, most_iterations } = parameters.options;
@@ -93,7 +95,7 @@ fn on_card(
         }
     })?;
     let radiosity = to_f64(&found.radiosity);
-    let relit = changed.map(|changed| -> Result<Relit, StudyError> {
+    let relit = changed.map(|changed| -> Result<Relit, CardError> {
         let mut run = |start: &[[f32; 3]]| {
             card.load(start)?;
             card.set_system(changed)?;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use refsim::device::Profile;
 use serde::{Deserialize, Serialize};
 
-use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, room};
+use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card, room};
 use crate::radiosity::bias::{Accumulator, predicted};
 use crate::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
 use crate::radiosity::solve::{Options, Solver};
@@ -99,8 +99,8 @@ impl<'a> Sweep<'a> {
     fn system(&self, size: u32, progress: &mut ProgressFn<'_>) -> Result<(System, Vec<[f64; 3]>), StudyError> {
         let patches = Patches::new(&self.parameters.scene, Subdivision::AtMost(size as usize))?;
         for (how, _) in self.settings.iter().step_by(self.values) {
-            let fit = Fit::of(&self.parameters.profile, how.packing)?;
-            fit.require(&self.parameters.profile, how.packing, patches.list().len())?;
+            let require = |fit: Fit| fit.require(&self.parameters.profile, how.packing, patches.list().len());
+            Fit::of(&self.parameters.profile, how.packing).and_then(require).map_err(no_card)?;
         }
         let factors = room::find(&patches, self.parameters, progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
@@ -134,10 +134,11 @@ fn solved(
     parameters: &Parameters,
 ) -> Result<(Vec<[f32; 3]>, SweepRow), StudyError> {
     let profile = &setting.profile;
-    let mut card = CardSolver::new(profile.clone(), parameters.executor.clone(), system, how.packing, how.storage)?;
+    let executor = parameters.executor.clone();
+    let card = CardSolver::new(profile.clone(), executor, system, how.packing, how.storage);
     let Options { tolerance, most_iterations } = parameters.options;
     let options = CardOptions { tolerance, most_iterations, check_every: 1 };
-    let solution = card.solve(system, &options, &mut |_| ())?;
+    let solution = card.and_then(|mut card| card.solve(system, &options, &mut |_| ())).map_err(no_card)?;
     let widened: Vec<[f64; 3]> = solution.radiosity.iter().map(|b| b.map(f64::from)).collect();
     let row = SweepRow {
         patches: reference.len(),
@@ -161,7 +162,7 @@ fn bias(
 ) -> Result<Option<f64>, StudyError> {
     let rules = &profile.rules;
     let format = if how.storage == Storage::Fp16 { rules.partial.unwrap_or(rules.format) } else { rules.format };
-    let block = Fit::of(profile, how.packing)?.block;
+    let block = Fit::of(profile, how.packing).map_err(no_card)?.block;
     let Some(accumulator) = Accumulator::of(&format, how.packing, block) else { return Ok(None) };
     let error = predicted(system, reference, accumulator)?;
     let found: Vec<[f64; 3]> =

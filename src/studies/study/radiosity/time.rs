@@ -3,8 +3,8 @@
 use refsim::event::Event;
 use refsim::timing::{Bottleneck, TimingError};
 
-use super::Parameters;
 use super::method::CardMethod;
+use super::{Parameters, no_card};
 use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::on_card::{CardSolver, PassProgram};
 use crate::radiosity::rate::{RateError, Timing, timed_iteration};
@@ -61,10 +61,8 @@ pub(super) fn facts(
         _ => None,
     };
     card.record(true);
-    card.set_emittance(system)?;
-    for _ in 0..LOGGED {
-        card.iterate()?;
-    }
+    card.set_emittance(system).map_err(no_card)?;
+    (0..LOGGED).try_for_each(|_| card.iterate()).map_err(no_card)?;
     if let (Some(display), [all]) = (display, &card.radiosity_textures()[..]) {
         display.flat(card.machine_mut(), *all, 1.0)?;
     }

@@ -3,23 +3,27 @@
 use refsim::timing::TimingError;
 
 use crate::atlas::AtlasError;
+use crate::card::CardError;
 use crate::study::StudyError;
 use crate::study::error::library_errors;
 use crate::subsurface::MaterialError;
 use crate::subsurface::factor::FactorError;
-use crate::subsurface::on_card::SubsurfaceCardError;
 use crate::subsurface::walk::MeshWalkError;
 
 library_errors! {
     FactorError => "subsurface::links";
     MaterialError => "subsurface::material";
     MeshWalkError => "subsurface::walk";
-    SubsurfaceCardError => "subsurface::card";
 }
 
 /// Error of a model without an atlas.
 pub fn no_atlas(error: AtlasError) -> StudyError {
     StudyError::coded("subsurface::atlas", error)
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("subsurface::card", error)
 }
 
 /// Error of the timing model.

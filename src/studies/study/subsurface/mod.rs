@@ -32,6 +32,7 @@ use bands::GatheredBands;
 pub use all_pairs::{ALL_PAIRS_SIDE, AllPairs, GatherError, MAX_ALL_PAIRS_SIDE};
 pub use angles::{AngleBin, BinError};
 pub use error::no_atlas;
+pub(in crate::study) use error::no_card;
 pub use link_table::LinkRow;
 pub use model::ModelLengths;
 pub use outcome::SubsurfaceOutcome;

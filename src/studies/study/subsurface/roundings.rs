@@ -2,6 +2,7 @@
 
 use super::GatherWay;
 use super::all_pairs::GatherError;
+use super::no_card;
 use super::way::{Scene, gathered, lit_card};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::links::{Links, MeanWeighting};
@@ -45,7 +46,8 @@ pub(super) fn roundings(
         progress(&format!("{switch}={value}: {label}"), at as u64, others.len() as u64);
         let mut profile = parameters.profile.clone();
         profile.set_switch(switch, value)?;
-        let found = gathered(&lit_card(scene, way, profile, &textures, false)?)?;
+        let card = lit_card(scene, way, profile, &textures, false);
+        let found = card.and_then(|card| gathered(&card)).map_err(no_card)?;
         rows.push(RoundingRow {
             label: label.clone(),
             switch: switch.clone(),

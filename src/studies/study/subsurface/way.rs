@@ -9,9 +9,10 @@ use refsim::num::Format;
 use refsim::timing::TimingError;
 
 use super::all_pairs::{AllPairSums, AllPairs, GatherError};
-use super::error::no_time;
+use super::error::{no_card, no_time};
 use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
 use crate::atlas::Atlas;
+use crate::card::CardError;
 use crate::picture::Picture;
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::Dipole;
@@ -130,10 +131,10 @@ pub(super) fn run(
     let encoded = EncodedLinks::new(links, scene.surface, MeanWeighting::Area);
     let textures = LinkTextures::new(links, scene.surface, MeanWeighting::Area);
     progress(&format!("passes: {label}"), 1, 2);
-    let mut card = lit_card(scene, way, parameters.profile.clone(), &textures, true)?;
-    let radiosity = gathered(&card)?;
+    let mut card = lit_card(scene, way, parameters.profile.clone(), &textures, true).map_err(no_card)?;
+    let radiosity = gathered(&card).map_err(no_card)?;
     drop(textures);
-    let picture = card.view(&view(parameters, parameters.view.direct))?;
+    let picture = card.view(&view(parameters, parameters.view.direct)).map_err(no_card)?;
     let events = card.take_log();
     card.record(false);
     let times = match pass_times(&parameters.profile, &events) {
@@ -141,8 +142,8 @@ pub(super) fn run(
         Err(TimingError::Missing { .. }) => None,
         Err(error) => return Err(no_time(error)),
     };
-    let scattered = card.view(&view(parameters, DirectLight::None))?;
-    let irradiance = if first { entered(scene, &card, card.options().map.scale())? } else { Vec::new() };
+    let scattered = card.view(&view(parameters, DirectLight::None)).map_err(no_card)?;
+    let irradiance = if first { entered(scene, &card).map_err(no_card)? } else { Vec::new() };
     let off = |found: &[[f64; 3]], expected: &[[f64; 3]]| GatherError::between(scene.atlas, found, expected);
     let against_truth = |found: &[[f64; 3]]| scene.truth.map(|truth| off(found, &truth.texels));
     let programs = card.gather_programs();
@@ -151,7 +152,7 @@ pub(super) fn run(
         memory: [card.memory().bytes(), card.memory().parts.iter().filter(|part| part.0 == "links").map(|p| p.1).sum()],
         programs: programs.iter().map(|program| [program.instructions(), program.samplers()]).collect(),
         lost: encoded.lost(format(way.links)),
-        saturated: card.saturated()?,
+        saturated: card.saturated().map_err(no_card)?,
         links_error: against_truth(&summed),
         plain_error: against_truth(&plain),
         card_error: off(&radiosity, &summed),
@@ -162,7 +163,7 @@ pub(super) fn run(
         picture,
         scattered,
         log: events.into_iter().map(|event| event.event).collect(),
-        frames: if first { frames(scene, &mut card, progress)? } else { Vec::new() },
+        frames: if first { frames(scene, &mut card, progress).map_err(no_card)? } else { Vec::new() },
         radiosity,
         way,
         label,
@@ -184,7 +185,7 @@ pub(super) fn lit_card(
     profile: Profile,
     textures: &LinkTextures,
     record: bool,
-) -> Result<SubsurfaceCard, StudyError> {
+) -> Result<SubsurfaceCard, CardError> {
     let parameters = scene.parameters;
     let options = SubsurfaceCardOptions {
         light: parameters.stage,
@@ -207,7 +208,7 @@ pub(super) fn lit_card(
 }
 
 /// B of every texel.
-pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, StudyError> {
+pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, CardError> {
     Ok(card.read_scattered()?.texels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect())
 }
 
@@ -238,8 +239,8 @@ fn view(parameters: &Parameters, direct: DirectLight) -> View {
 }
 
 /// E of every texel as the map has it; 0 where a texel has no area.
-fn entered(scene: &Scene<'_>, card: &SubsurfaceCard, scale: f64) -> Result<Vec<[f64; 3]>, StudyError> {
-    let map = card.read_map()?;
+fn entered(scene: &Scene<'_>, card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, CardError> {
+    let (map, scale) = (card.read_map()?, card.options().map.scale());
     let mean = scene.atlas.mean_texel_area();
     let texel = |(&[r, g, b, _], texel): (&[f32; 4], &crate::atlas::Texel)| {
         let factor = if texel.area > 0.0 { mean / (texel.area * scale) } else { 0.0 };
@@ -253,7 +254,7 @@ fn frames(
     scene: &Scene<'_>,
     card: &mut SubsurfaceCard,
     progress: &mut ProgressFn<'_>,
-) -> Result<Vec<Picture>, StudyError> {
+) -> Result<Vec<Picture>, CardError> {
     let parameters = scene.parameters;
     let (count, Lighting::Lights(lights)) = (parameters.frames, &parameters.lighting) else { return Ok(Vec::new()) };
     let middle = parameters

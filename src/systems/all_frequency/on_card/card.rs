@@ -6,20 +6,18 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
-use refsim::texture::{SamplerState, TexelFormat};
+use refsim::texture::TexelFormat;
 
-use super::counts::FactoredCounts;
-use super::error::FactoredCardError;
-use super::maps::FactorMaps;
-use super::options::ProductPlace;
-use super::programs::{Drawing, Programs};
-use super::streams::{ColorStream, RadianceStream};
+use super::attributes::{RadianceStream, colors, diffuse_radiance, radiance};
+use super::frame::FactoredCounts;
+use super::options::{ProductPlace, VertexColors};
+use super::programs::Programs;
 use super::subject::TransferredMesh;
+use super::textures::FactorMaps;
 use super::time;
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::kernels::MapFilter;
 use crate::all_frequency::shade::Multiplies;
-use crate::card::{Attribute, BILINEAR, KeptFragments, MeshDraw, MeshOnCard, MeshView, Texels, attribute, slots};
+use crate::card::{Attribute, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, Texels, by_register, slots};
 use crate::geom::UnitFrame;
 
 /// Write masks of the passes of one channel each; alpha marks covered pixels.
@@ -28,10 +26,9 @@ const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
 /// A mesh with transferred radiance on a card.
 #[derive(Debug)]
 pub struct FactoredCard<'a> {
-    machine: Machine,
+    display: MeshDisplay,
     transferred: TransferredMesh<'a>,
     place: ProductPlace,
-    mesh: MeshOnCard,
     /// Tangents and normals, if the vertex program computes the view.
     axes: Vec<Attribute>,
     indices: Vec<u32>,
@@ -39,25 +36,18 @@ pub struct FactoredCard<'a> {
     maps: Option<FactorMaps>,
 }
 
-/// The vertex streams of a frame, pass by pass.
-struct FrameStreams {
-    /// Per pass the attributes between positions and tangents.
-    passes: Vec<Vec<Attribute>>,
-    counts: FactoredCounts,
-}
-
 impl<'a> FactoredCard<'a> {
     /// Uploads a mesh, and the maps of G.
     ///
     /// # Errors
-    /// [`FactoredCardError`] if the device lacks programs, coordinate sets, samplers or filtering of the format, or the
+    /// [`CardError`] if the device lacks programs, coordinate sets, samplers or filtering of the format, or the
     /// parts of the mesh have contradictory sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
         mesh: TransferredMesh<'a>,
         place: ProductPlace,
-    ) -> Result<Self, FactoredCardError> {
+    ) -> Result<Self, CardError> {
         let profile = profile.into();
         mesh.check()?;
         let programs = Programs::new(&profile, &mesh, &place)?;
@@ -68,19 +58,12 @@ impl<'a> FactoredCard<'a> {
             }
             _ => None,
         };
-        let frames = || mesh.vertices.frames().iter();
-        let axes = if programs.makes_view() {
-            let tangents = frames().map(|frame| attribute(frame.tangent().to_array(), 0.0)).collect();
-            vec![tangents, frames().map(|frame| attribute(frame.normal().to_array(), 0.0)).collect()]
-        } else {
-            Vec::new()
-        };
+        let axes = |vertex: usize| mesh.vertices.frames()[vertex].attributes().to_vec();
         Ok(Self {
-            machine,
+            axes: if programs.makes_view { by_register(2, mesh.vertices.len(), axes) } else { Vec::new() },
+            display: MeshDisplay::new(machine, mesh.vertices.positions().iter().copied()),
             transferred: mesh,
             place,
-            mesh: MeshOnCard::new(mesh.vertices.positions().iter().copied()),
-            axes,
             indices: mesh.vertices.triangles().as_flattened().to_vec(),
             programs,
             maps,
@@ -89,7 +72,7 @@ impl<'a> FactoredCard<'a> {
 
     /// The emulated card.
     pub fn machine_mut(&mut self) -> &mut Machine {
-        &mut self.machine
+        self.display.machine_mut()
     }
 
     /// Texture reads and arithmetic slots of the pixel program.
@@ -100,10 +83,10 @@ impl<'a> FactoredCard<'a> {
     /// The target of a frame. Background pixels are 0, alpha is 1 elsewhere.
     ///
     /// # Errors
-    /// [`FactoredCardError`] for an exposure out of range, radiance outside its format's range, and draws that the card
+    /// [`CardError`] for an exposure out of range, radiance outside its format's range, and draws that the card
     /// refuses.
-    pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, FactoredCardError> {
-        Ok(self.show((view, false))?.0)
+    pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, CardError> {
+        Ok(self.show(view, false)?.0)
     }
 
     /// As [`Self::view_texels`], with the log of host and card for [`time`]; `host` are the multiplications of steps 2
@@ -115,25 +98,25 @@ impl<'a> FactoredCard<'a> {
         &mut self,
         view: &MeshView,
         host: Multiplies,
-    ) -> Result<(Texels, FactoredCounts, Vec<Event>), FactoredCardError> {
-        let (texels, counts, drawn) = self.show((view, true))?;
+    ) -> Result<(Texels, FactoredCounts, Vec<Event>), CardError> {
+        let (texels, counts, drawn) = self.show(view, true)?;
         let mut log = time::host_log(&self.transferred, &self.place, host);
         log.extend(drawn);
         Ok((texels, counts, log))
     }
 
-    fn show(&mut self, view: (&MeshView, bool)) -> Result<(Texels, FactoredCounts, Vec<Event>), FactoredCardError> {
-        let frame = *self.mesh.frame();
+    fn show(&mut self, view: &MeshView, is_logged: bool) -> Result<(Texels, FactoredCounts, Vec<Event>), CardError> {
+        let frame = *self.display.frame();
         let Self { transferred, place, axes, programs, maps, .. } = self;
-        let sampler = sampler(&programs.drawing);
-        let textures: Vec<_> = maps.iter().flat_map(|maps| &maps.textures).map(|&texture| (texture, sampler)).collect();
+        let textures = maps.iter().flat_map(|maps| &maps.textures);
+        let textures: Vec<_> = textures.map(|&texture| (texture, programs.sampler)).collect();
         let mut counts = FactoredCounts::default();
-        let (texels, log) = self.mesh.show(&mut self.machine, view, |pass| {
-            let streams = streams((transferred, place, maps.as_ref()), view.0, &frame)?;
-            counts = streams.counts;
+        let (texels, log) = self.display.show(view, is_logged, |pass| {
+            let passes;
+            (passes, counts) = attributes(transferred, place, maps.as_ref(), view, &frame)?;
             let mut head = pass.head();
-            head.truncate(if programs.makes_view() { 5 } else { 4 });
-            for (number, sets) in streams.passes.iter().enumerate() {
+            head.truncate(if programs.makes_view { 5 } else { 4 });
+            for (number, sets) in passes.iter().enumerate() {
                 pass.draw(MeshDraw {
                     vertex: (&programs.vertex, head.clone()),
                     attributes: [pass.positions()].into_iter().chain(sets).chain(axes.iter()).collect(),
@@ -142,50 +125,39 @@ impl<'a> FactoredCard<'a> {
                     textures: textures.clone(),
                     // The first pass fills the depth buffer; the others write their channel at the same depths.
                     fragments: if number == 0 { KeptFragments::Nearest } else { KeptFragments::Visible },
-                    mask: if streams.passes.len() == 1 { WriteMask::ALL } else { CHANNELS[number] },
+                    mask: if passes.len() == 1 { WriteMask::ALL } else { CHANNELS[number] },
                 })?;
             }
-            Ok::<_, FactoredCardError>(())
+            Ok(())
         })?;
         Ok((texels, counts, log))
     }
 
     /// A floating-point target format of the device, which shows values that other targets clamp.
     pub(super) fn float_target(&self) -> Option<TexelFormat> {
-        let has = |format: &TexelFormat| self.machine.profile().limits.target_formats.contains(format);
+        let has = |format: &TexelFormat| self.display.machine().profile().limits.target_formats.contains(format);
         [TexelFormat::Rgba32f, TexelFormat::Rgba16f].into_iter().find(has)
     }
 }
 
-/// The vertex streams that the host sends for a view.
-fn streams(
-    (mesh, place, maps): (&TransferredMesh<'_>, &ProductPlace, Option<&FactorMaps>),
+/// The attributes between positions and tangents that the host sends for a view, pass by pass, and counts of colors.
+fn attributes(
+    mesh: &TransferredMesh<'_>,
+    place: &ProductPlace,
+    maps: Option<&FactorMaps>,
     view: &MeshView,
     frame: &UnitFrame,
-) -> Result<FrameStreams, FactoredCardError> {
+) -> Result<(Vec<Vec<Attribute>>, FactoredCounts), CardError> {
     if let (ProductPlace::Pixels(options), Some(maps)) = (place, maps) {
         let stream = RadianceStream { mesh: *mesh, options, scales: &maps.scales, frame };
         let passes = if options.is_pass_per_channel { 3 } else { 1 };
-        let sets = |pass| stream.sets(&view.camera, view.exposure, pass);
-        let passes = (0..passes).map(sets).collect::<Result<_, _>>()?;
-        return Ok(FrameStreams { passes, counts: FactoredCounts::default() });
+        let passes = (0..passes).map(|pass| stream.sets(view, pass)).collect::<Result<_, _>>()?;
+        return Ok((passes, FactoredCounts::default()));
     }
-    let stream = match *place {
-        ProductPlace::Vertices(format) => ColorStream::new(mesh, (&view.camera, view.exposure), format)?,
-        ProductPlace::Pixels(_) => ColorStream::diffuse(mesh, view.exposure)?,
+    let (colors, counts) = match *place {
+        ProductPlace::Vertices(format) => colors(&radiance(mesh, view.camera.eye()), view.exposure, format)?,
+        // The one term of a diffuse surface, whose G does not depend on the view.
+        ProductPlace::Pixels(_) => colors(&diffuse_radiance(mesh), view.exposure, VertexColors::Floats)?,
     };
-    let ColorStream { colors, below_zero, above_one } = stream;
-    let counts = FactoredCounts {
-        vertices_below_zero: Some(below_zero),
-        vertices_above_one: Some(above_one),
-        ..FactoredCounts::default()
-    };
-    Ok(FrameStreams { passes: vec![vec![colors]], counts })
-}
-
-fn sampler(drawing: &Drawing) -> SamplerState {
-    match drawing {
-        Drawing::Products(kernel) if kernel.filter == MapFilter::Program => SamplerState::NEAREST_CLAMP,
-        _ => BILINEAR,
-    }
+    Ok((vec![vec![colors]], counts))
 }

@@ -1,4 +1,4 @@
-//! A picture with its counts.
+//! A picture with its counts of colors out of a target's range.
 
 use std::sync::Arc;
 
@@ -7,12 +7,24 @@ use refsim::event::Event;
 use refsim::machine::Executor;
 
 use super::card::FactoredCard;
-use super::counts::FactoredCounts;
-use super::error::FactoredCardError;
 use super::options::ProductPlace;
 use super::subject::TransferredMesh;
 use crate::all_frequency::shade::Multiplies;
-use crate::card::{MeshView, Texels};
+use crate::card::{CardError, MeshView, Texels};
+
+/// Counts of clamped colors. Truncated factors have negative lobes, which targets and vertex colors in fractions clamp
+/// to 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FactoredCounts {
+    /// Pixels that show the mesh; `None` if the device has no floating-point target by which to count.
+    pub covered: Option<u64>,
+    /// Covered pixels with a negative channel before clamping.
+    pub below_zero: Option<u64>,
+    /// Vertices with a negative channel; `None` if products are computed per pixel.
+    pub vertices_below_zero: Option<u64>,
+    /// Vertices with a channel above 1, which bytes clamp.
+    pub vertices_above_one: Option<u64>,
+}
 
 /// A picture, its counts and its log.
 #[derive(Clone, Debug)]
@@ -32,14 +44,15 @@ pub struct FactoredDrawing {
 /// Draws a mesh on a device. `host` are the multiplications of steps 2 and 3.
 ///
 /// # Errors
-/// [`FactoredCardError`].
+/// [`CardError`].
 pub fn draw(
+    profile: impl Into<Arc<Profile>>,
+    executor: impl Into<Executor>,
     mesh: TransferredMesh<'_>,
-    (profile, executor): (impl Into<Arc<Profile>>, impl Into<Executor>),
     place: ProductPlace,
     view: &MeshView,
     host: Multiplies,
-) -> Result<FactoredDrawing, FactoredCardError> {
+) -> Result<FactoredDrawing, CardError> {
     let mut card = FactoredCard::new(profile, executor, mesh, place)?;
     let (texels, mut counts, log) = card.logged_view(view, host)?;
     let signed = match card.float_target() {

@@ -5,23 +5,19 @@
 //! [`SumCard`] also takes over step 3 from the host. [`draw`] makes a picture with counts and log; [`mod@reference`] is
 //! step 4 in f64; [`time`] models the time of a frame.
 
+mod attributes;
 mod card;
-mod counts;
-mod error;
 mod frame;
-mod maps;
 mod options;
 mod programs;
 pub mod reference;
-mod streams;
 mod subject;
 mod sums;
+mod textures;
 pub mod time;
 
 pub use card::FactoredCard;
-pub use counts::FactoredCounts;
-pub use error::FactoredCardError;
-pub use frame::{FactoredDrawing, draw};
+pub use frame::{FactoredCounts, FactoredDrawing, draw};
 pub use options::{ProductOptions, ProductPlace, RadianceFormat, VertexColors, ViewMaker};
 pub use subject::TransferredMesh;
 pub use sums::{SumCard, SumLog};

@@ -4,9 +4,8 @@ use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::texture::{ChannelClass, TexelFormat};
 
-use super::error::FactoredCardError;
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
-use crate::card::{MeshError, require_versions};
+use crate::card::{CardError, require_versions};
 
 /// The place of step 4, G(v) . T_p.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,22 +115,38 @@ impl ProductOptions {
     }
 
     /// Refuses options that the device cannot satisfy.
-    pub(super) fn check(&self, profile: &Profile, terms: usize) -> Result<(), FactoredCardError> {
+    pub(super) fn check(&self, profile: &Profile, terms: usize) -> Result<(), CardError> {
         require_versions(profile, &[Version::Ps2_0], "the product per pixel")?;
         if let Some(found) = self.map_bits.filter(|bits| !(2..=24).contains(bits)) {
-            return Err(MeshError::Figure { what: "2 to 24 bits of G", found: found.into() }.into());
+            return Err(CardError::figure("2 to 24 bits of G", found));
         }
-        let (device, format, record) = (profile.name.clone(), self.map_format, self.map_format.record());
+        let (device, format, record) = (&profile.name, self.map_format, self.map_format.record());
+        let refused = |sentence: String| Err(CardError::Input(sentence));
         let holds = |class| matches!(class, ChannelClass::Snorm | ChannelClass::Float(_));
         if ![2, 4].contains(&record.channel_count) || !record.stored().iter().all(|channel| holds(channel.class)) {
-            return Err(FactoredCardError::MapFormat { found: format });
+            return refused(format!(
+                "expected maps in floats or signed fractions of two or four components, found {format}"
+            ));
         }
         let by_program = self.filter == MapFilter::Program;
         match record.is_float() {
-            _ if by_program && record.channel_count == 2 => return Err(FactoredCardError::TwoTerms { found: format }),
-            true if !profile.limits.float_mipmaps => return Err(FactoredCardError::FloatRectangles { device, format }),
+            _ if by_program && record.channel_count == 2 => {
+                return refused(format!(
+                    "maps of two terms per texel are filtered by the sampler alone, found {format} filtered by the \
+                     program"
+                ));
+            }
+            true if !profile.limits.float_mipmaps => {
+                return refused(format!(
+                    "`{device}` has {format} textures as rectangles alone (limits.float_mipmaps), which ps_2_0 cannot \
+                     address; hold G in signed fractions"
+                ));
+            }
             true if !by_program && !profile.limits.float_filtering => {
-                return Err(FactoredCardError::FloatFilter { device, format });
+                return refused(format!(
+                    "`{device}` filters no {format} textures (limits.float_filtering); filter by the program, or hold \
+                     G in signed fractions"
+                ));
             }
             _ => {}
         }
@@ -139,13 +154,28 @@ impl ProductOptions {
         let found = profile.limits.texture_coordinates.map_or(8, |limit| limit as usize).min(8);
         if layout.sets() > found {
             let (channels, view, needed) = (layout.channels, layout.view.count(), layout.sets());
-            return Err(FactoredCardError::Coordinates { terms, channels, view, needed, device, found });
+            return refused(format!(
+                "{terms} terms of {channels} channels and {view} numbers of the view need {needed} sets of texture \
+                 coordinates; `{device}` has {found} (limits.texture_coordinates); draw a channel per pass, or take \
+                 fewer terms"
+            ));
         }
-        let found = profile.limits.samplers.map_or(16, |limit| limit as usize).min(16);
-        let needed = terms.div_ceil(self.terms_per_texel());
-        if needed > found {
-            return Err(FactoredCardError::Samplers { terms, format, needed, device, found });
-        }
-        Ok(())
+        check_samplers(profile, terms, format, terms.div_ceil(self.terms_per_texel()))
     }
+}
+
+/// Refuses more textures than the device has samplers.
+pub(super) fn check_samplers(
+    profile: &Profile,
+    terms: usize,
+    format: TexelFormat,
+    needed: usize,
+) -> Result<(), CardError> {
+    let (device, found) = (&profile.name, profile.limits.samplers.map_or(16, |limit| limit as usize).min(16));
+    if needed <= found {
+        return Ok(());
+    }
+    Err(CardError::input(format!(
+        "{terms} terms in {format} need {needed} textures; `{device}` has {found} samplers (limits.samplers)"
+    )))
 }

@@ -38,7 +38,8 @@ pub fn pixel_of_colors(colors: &[[f64; 3]], corners: [u32; 3], weights: [f64; 3]
 /// are interpolated between three vertices. Below the horizon G continues as its map does.
 pub fn pixel_of_products(
     mesh: &TransferredMesh<'_>,
-    (view, eye): (ViewNumbers, [f32; 3]),
+    view: ViewNumbers,
+    eye: [f32; 3],
     corners: [u32; 3],
     weights: [f64; 3],
 ) -> [f64; 3] {

@@ -2,7 +2,7 @@
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::shade::TransferredRadiance;
-use crate::card::MeshError;
+use crate::card::CardError;
 use crate::transfer::Vertices;
 
 /// A mesh with transferred radiance at its vertices.
@@ -30,11 +30,11 @@ impl TransferredMesh<'_> {
     }
 
     /// Checks that the parts have matching sizes.
-    pub(super) fn check(&self) -> Result<(), MeshError> {
+    pub(super) fn check(&self) -> Result<(), CardError> {
         let materials = self.vertices.materials().iter().max().map_or(0, |&most| most as usize + 1);
         let transferred = self.transferred;
-        MeshError::check_size("vertices with transferred radiance", self.vertices.len(), transferred.vertices())?;
-        MeshError::check_size("rows, one per term", self.terms(), transferred.rows())?;
-        MeshError::check_size("colors, one per material", materials, self.colors.len().min(materials))
+        CardError::check_size("vertices with transferred radiance", self.vertices.len(), transferred.vertices())?;
+        CardError::check_size("rows, one per term", self.terms(), transferred.rows())?;
+        CardError::check_size("colors, one per material", materials, self.colors.len().min(materials))
     }
 }

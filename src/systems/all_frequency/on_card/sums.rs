@@ -17,12 +17,12 @@ use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 use refsim::timing::host::HostOperation;
 
-use super::error::FactoredCardError;
+use super::options::check_samplers;
 use crate::all_frequency::code::{CodedSegment, CodedTransfer};
 use crate::all_frequency::kernels::{OF_SUM, SUMMED, SumKernel};
 use crate::all_frequency::shade::{LightSizeError, Representatives, Shader, TransferredRadiance};
 use crate::card::frame_time::host_work;
-use crate::card::{FullScreenPass, MeshError, PingPong, ReadTexture, Texels, constants, nearest, require_versions};
+use crate::card::{CardError, FullScreenPass, PingPong, Texels, constants, nearest, require_versions};
 
 /// Everything is in single precision: weights are the integers of the code, whose steps are multiplied into T.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
@@ -78,26 +78,21 @@ impl SumCard {
     /// Uploads weights and the addresses of clusters.
     ///
     /// # Errors
-    /// [`FactoredCardError`] if the device lacks the program version, samplers, texture formats or sizes.
+    /// [`CardError`] if the device lacks the program version, samplers, texture formats or sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
         coded: &CodedTransfer,
-    ) -> Result<Self, FactoredCardError> {
+    ) -> Result<Self, CardError> {
         let profile = profile.into();
         require_versions(&profile, &[Version::ArbFp1_0], "sums over representatives")?;
         let kernels = [true, false].map(|is_first| SumKernel { is_first });
-        let needed = kernels[1].samplers();
-        let found = profile.limits.samplers.map_or(16, |limit| limit as usize).min(16);
-        if needed > found {
-            let (device, terms) = (profile.name.clone(), coded.rows);
-            return Err(FactoredCardError::Samplers { terms, format: FORMAT, needed, device, found });
-        }
+        check_samplers(&profile, coded.rows, FORMAT, kernels[1].samplers())?;
         let side = profile.limits.max_texture_size.map_or(4096, |limit| limit as usize).min(4096);
         let [first, next] = kernels.map(|kernel| kernel.checked(&profile));
         let programs = [first?, next?];
         let size = [coded.vertices.clamp(1, ROW.min(side)), coded.vertices.div_ceil(ROW.min(side)).max(1)];
-        within("vertices", coded.vertices, (size[1], side), &profile)?;
+        within("vertices", coded.vertices, size[1], side, &profile)?;
         let mut machine = executor.into().machine(profile.clone())?;
         let mut parts = Vec::new();
         let mut first = 0;
@@ -105,7 +100,7 @@ impl SumCard {
             let most = part.counts.iter().map(|&count| usize::from(count)).max().unwrap_or(0);
             let columns = (side / SUMMED).min(part.counts.len()).max(1);
             let extents = [columns * SUMMED, part.counts.len().div_ceil(columns).max(1)];
-            within("clusters of a segment", part.counts.len(), (extents[1], side), &profile)?;
+            within("clusters of a segment", part.counts.len(), extents[1], side, &profile)?;
             let places = places(part, columns, size).upload(&mut machine, FORMAT)?;
             for slice in 0..most.div_ceil(SUMMED) {
                 let weights = weights(part, slice, size);
@@ -146,10 +141,10 @@ impl SumCard {
     /// T_p of all vertices under light: step 2 on the host, step 3 on the card.
     ///
     /// # Errors
-    /// [`FactoredCardError`]: light for fewer segments, draws that the card refuses.
-    pub fn transferred(&mut self, light: &[[f32; 3]]) -> Result<(TransferredRadiance, SumLog), FactoredCardError> {
+    /// [`CardError`]: light for fewer segments, draws that the card refuses.
+    pub fn transferred(&mut self, light: &[[f32; 3]]) -> Result<(TransferredRadiance, SumLog), CardError> {
         let products = self.shader.per_cluster(light).map_err(|LightSizeError { expected, found, .. }| {
-            MeshError::Size { what: "light coefficients", expected, found }
+            CardError::input(format!("expected {expected} light coefficients, found {found}"))
         })?;
         let numbers = 3 * self.rows;
         let mut log = SumLog::default();
@@ -175,15 +170,14 @@ impl SumCard {
     }
 
     /// Four numbers of T_p for all vertices.
-    fn group(&mut self, group: usize, products: &[f32], log: &mut SumLog) -> Result<Texels, FactoredCardError> {
+    fn group(&mut self, group: usize, products: &[f32], log: &mut SumLog) -> Result<Texels, CardError> {
         let none = constants([]);
         for (pass, part) in self.parts.iter().enumerate() {
             let texels = part.texels(&self.shader, products, group, 3 * self.rows);
             texels.update(&mut self.machine, part.representatives, FORMAT)?;
             log.sent += 16 * texels.texels.len() as u64;
-            let mut textures: Vec<ReadTexture> = nearest([part.places]).to_vec();
-            textures.extend(nearest(part.weights));
-            textures.extend(nearest([part.representatives]));
+            let [a, b, c, d] = part.weights;
+            let mut textures = nearest([part.places, a, b, c, d, part.representatives]).to_vec();
             if pass > 0 {
                 debug_assert_eq!(textures.len(), OF_SUM, "the sum's sampler");
                 textures.extend(nearest([self.targets.read_by(pass)]));
@@ -225,16 +219,15 @@ impl SumPart {
 }
 
 /// Refuses more rows of texels than a texture can have.
-fn within(
-    what: &'static str,
-    count: usize,
-    (needed, found): (usize, usize),
-    profile: &Profile,
-) -> Result<(), FactoredCardError> {
+fn within(what: &'static str, count: usize, needed: usize, found: usize, profile: &Profile) -> Result<(), CardError> {
     if needed <= found {
         return Ok(());
     }
-    Err(FactoredCardError::TextureSize { what, count, needed, device: profile.name.clone(), found })
+    let device = &profile.name;
+    Err(CardError::input(format!(
+        "{count} {what} need {needed} rows of texels; `{device}` has textures of {found} (limits.max_texture_size); \
+         take fewer"
+    )))
 }
 
 /// Per vertex the texel of its cluster's first representative; the first texel for a vertex outside the segment.

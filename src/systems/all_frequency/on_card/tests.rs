@@ -12,7 +12,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crate::all_frequency::kernels::{MapFilter, ViewNumbers};
 use crate::all_frequency::shade::{Multiplies, TransferredRadiance};
-use crate::card::{MeshError, MeshView, SeenPixel, Texels, seen_pixels};
+use crate::card::{MeshView, SeenPixel, Texels, seen_pixels};
 use crate::scene::Camera;
 use crate::transfer::synthetic::{hills, signal_at};
 use crate::transfer::{Tangents, Vertices};
@@ -53,7 +53,7 @@ impl FactoredHills {
 
     fn draw(&self, name: &str, place: ProductPlace, format: TexelFormat) -> FactoredDrawing {
         let view = MeshView { camera: camera(), exposure: 0.7, format };
-        draw(self.mesh(), (device(name), ExecutorKind::Batch), place, &view, Multiplies::default())
+        draw(device(name), ExecutorKind::Batch, self.mesh(), place, &view, Multiplies::default())
             .unwrap_or_else(|e| panic!("{name}, {place:?}: {e}"))
     }
 
@@ -69,7 +69,7 @@ impl FactoredHills {
             let expected = match place {
                 ProductPlace::Vertices(_) => pixel_of_colors(&colors, corners, weights),
                 ProductPlace::Pixels(options) => {
-                    pixel_of_products(&self.mesh(), (options.view, camera().eye()), corners, weights)
+                    pixel_of_products(&self.mesh(), options.view, camera().eye(), corners, weights)
                 }
             };
             for (found, expected) in texel.iter().zip(expected) {
@@ -206,6 +206,8 @@ fn what_does_not_fit_is_refused() {
     let mesh = TransferredMesh { transferred: &bright, ..hills.mesh() };
     let mut card = FactoredCard::new(device("r350"), ExecutorKind::Batch, mesh, place).expect("a card");
     let view = |exposure| MeshView { camera: camera(), exposure, format: FLOATS };
-    assert!(matches!(card.view_texels(&view(1e3)), Err(FactoredCardError::Mesh(MeshError::Figure { .. }))));
-    assert!(matches!(card.view_texels(&view(-1.0)), Err(FactoredCardError::Mesh(MeshError::Figure { .. }))));
+    for (exposure, expected) in [(1e3, "radiance that its format holds"), (-1.0, "an exposure of 0 to 1e30")] {
+        let refused = card.view_texels(&view(exposure)).expect_err("refused").to_string();
+        assert!(refused.contains(expected), "{refused}");
+    }
 }

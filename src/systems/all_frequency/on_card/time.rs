@@ -1,8 +1,6 @@
 //! The time of a frame (Table 1): the host's steps by one calibrated rate, transfer over the bus, vertices and pixels.
 
-use std::sync::Arc;
-
-use refsim::event::{Event, FlowConstants, ProgramWork, ResourceId};
+use refsim::event::{Event, ResourceId};
 use refsim::isa::Version;
 use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 
@@ -10,8 +8,7 @@ use super::options::{ProductPlace, VertexColors, ViewMaker};
 use super::subject::TransferredMesh;
 use crate::all_frequency::kernels::TransferredVertexKernel;
 use crate::all_frequency::shade::Multiplies;
-use crate::card::frame_time::{host_work, unseen_draw};
-use crate::card::kernels::SHADE;
+use crate::card::frame_time::{UnseenFrame, host_work};
 
 /// Channels of light.
 const CHANNELS: u64 = 3;
@@ -39,7 +36,8 @@ pub struct PrintedModel {
 }
 
 const fn printed(
-    (name, terms): (&'static str, u64),
+    name: &'static str,
+    terms: u64,
     vertex_hundreds: u64,
     clusters: u64,
     omega_thousandths: u64,
@@ -50,12 +48,12 @@ const fn printed(
 
 /// Table 1.
 pub const TABLE_1: [PrintedModel; 6] = [
-    printed(("bunny", 10), 115, 763, 560, [50, 62]),
-    printed(("teapot", 10), 513, 3801, 618, [12, 13]),
-    printed(("tweety (d)", 1), 328, 2260, 576, [84, 140]),
-    printed(("tweety (g)", 10), 328, 2263, 576, [17, 18]),
-    printed(("buddha (d)", 1), 541, 2739, 424, [66, 94]),
-    printed(("buddha (g)", 10), 541, 2740, 424, [11, 12]),
+    printed("bunny", 10, 115, 763, 560, [50, 62]),
+    printed("teapot", 10, 513, 3801, 618, [12, 13]),
+    printed("tweety (d)", 1, 328, 2260, 576, [84, 140]),
+    printed("tweety (g)", 10, 328, 2263, 576, [17, 18]),
+    printed("buddha (d)", 1, 541, 2739, 424, [66, 94]),
+    printed("buddha (g)", 10, 541, 2740, 424, [11, 12]),
 ];
 
 impl PrintedModel {
@@ -147,11 +145,7 @@ const COLOR_ATTRIBUTES: u64 = 2;
 impl FactoredFrame {
     /// The log of such a frame, in which pixels take no time.
     pub fn log(&self, place: &ProductPlace) -> Vec<Event> {
-        let run = (self.triangles as f64 * self.run_per_triangle).round() as u64;
-        let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");
-        let pixel = Arc::new(ProgramWork::new(&program, FlowConstants::default()));
-        let mut log = share_of_host(self.vertices, self.terms, place, self.host);
-        let (passes, vertex) = match place {
+        let (passes, (slots, attributes)) = match place {
             ProductPlace::Pixels(options) if self.terms > 1 => {
                 let kernel = TransferredVertexKernel {
                     layout: options.layout(self.terms),
@@ -163,10 +157,11 @@ impl FactoredFrame {
             }
             _ => (1, (COLOR_SLOTS, COLOR_ATTRIBUTES)),
         };
+        let host = share_of_host(self.vertices, self.terms, place, self.host);
+        let mut frame = UnseenFrame::new(host, self.run_per_triangle);
         for _ in 0..passes {
-            log.push(Event::StateChange { changes: 2, constants: VERTEX_CONSTANTS });
-            log.push(unseen_draw([self.triangles, run], vertex, &pixel));
+            frame.pass(VERTEX_CONSTANTS, self.triangles, slots, attributes);
         }
-        log
+        frame.log
     }
 }

@@ -10,15 +10,14 @@ use refsim::exec::CheckedProgram;
 use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 
-use super::error::BiScaleCardError;
+use super::attributes::{LocalStream, largest};
 use super::gather::version;
 use super::options::DisplayOptions;
 use super::parts::{CardPart, parts};
-use super::streams::{LocalStream, largest};
 use super::subject::{CardVertices, TexturedMesh};
 use crate::bi_scale::kernels::{LocalLayout, LocalVertexKernel};
 use crate::card::{
-    Attribute, BILINEAR, DepthPrograms, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshView, Texels, attribute,
+    Attribute, BILINEAR, CardError, DepthPrograms, KeptFragments, MeshDisplay, MeshDraw, MeshView, Texels, by_register,
     slots, vertex_version,
 };
 
@@ -52,14 +51,13 @@ pub struct DisplayCounts {
 /// A mesh with bidirectional textures on a card.
 #[derive(Debug)]
 pub struct BiScaleCard<'a> {
-    machine: Machine,
+    display: MeshDisplay,
     textured: TexturedMesh<'a>,
     options: DisplayOptions,
     layout: LocalLayout,
     vertices: CardVertices,
-    mesh: MeshOnCard,
     /// Texture coordinates, tangents, normals.
-    beside: [Attribute; 3],
+    beside: Vec<Attribute>,
     /// One part per texture that triangles use.
     parts: Vec<CardPart>,
     depth: DepthPrograms,
@@ -70,20 +68,24 @@ pub struct BiScaleCard<'a> {
 impl<'a> BiScaleCard<'a> {
     /// Uploads a mesh and its textures.
     ///
-    /// [`BiScaleCardError`] if the device lacks programs, texture coordinates, the volumes' size or their format, or
+    /// [`CardError`] if the device lacks programs, texture coordinates, the volumes' size or their format, or
     /// the parts of the mesh have contradictory sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
         mesh: TexturedMesh<'a>,
         options: DisplayOptions,
-    ) -> Result<Self, BiScaleCardError> {
+    ) -> Result<Self, CardError> {
         let profile = profile.into();
         mesh.check()?;
         let ps = version(&profile, "the display")?;
         let sets = profile.limits.texture_coordinates.map_or(SETS, |limit| limit as usize).min(SETS);
         if sets < LEAST_SETS {
-            return Err(BiScaleCardError::Coordinates { device: profile.name.clone(), found: sets });
+            return Err(CardError::input(format!(
+                "a direction of light, texture coordinates and the view need 3 sets of texture coordinates; `{}` has \
+                 {sets} (limits.texture_coordinates)",
+                profile.name
+            )));
         }
         let layout = LocalLayout { sets };
         let kernel = LocalVertexKernel { layout, version: vertex_version(&profile, None)? };
@@ -91,20 +93,18 @@ impl<'a> BiScaleCard<'a> {
         let depth = DepthPrograms::new(&profile)?;
         let mut machine = executor.into().machine(profile.clone())?;
         let vertices = CardVertices::new(&mesh);
-        let parts = parts(&mut machine, (&mesh, &vertices), options, (layout, ps))?;
+        let parts = parts(&mut machine, &mesh, &vertices, options, layout, ps)?;
         let place = |&vertex: &u32| mesh.vertices.positions()[vertex as usize];
-        let frames = || vertices.vertices.iter().map(|&vertex| &mesh.vertices.frames()[vertex as usize]);
-        let beside = [
-            vertices.coordinates.iter().map(|&[u, v]| [u, v, 0.0, 0.0].map(f32::to_bits)).collect(),
-            frames().map(|frame| attribute(frame.tangent().to_array(), 0.0)).collect(),
-            frames().map(|frame| attribute(frame.normal().to_array(), 0.0)).collect(),
-        ];
+        let beside = by_register(3, vertices.vertices.len(), |at| {
+            let [tangent, normal] = mesh.vertices.frames()[vertices.vertices[at] as usize].attributes();
+            let [u, v] = vertices.coordinates[at];
+            vec![[u, v, 0.0, 0.0].map(f32::to_bits), tangent, normal]
+        });
         Ok(Self {
-            machine,
+            display: MeshDisplay::new(machine, vertices.vertices.iter().map(place)),
             textured: mesh,
             options,
             layout,
-            mesh: MeshOnCard::new(vertices.vertices.iter().map(place)),
             vertices,
             beside,
             parts,
@@ -116,7 +116,7 @@ impl<'a> BiScaleCard<'a> {
 
     /// The emulated card.
     pub fn machine_mut(&mut self) -> &mut Machine {
-        &mut self.machine
+        self.display.machine_mut()
     }
 
     /// Width, height and depth of each texture's volume, in texels.
@@ -145,10 +145,10 @@ impl<'a> BiScaleCard<'a> {
     /// are 0, alpha is 1 elsewhere.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] for an exposure out of range, light of another size or outside its format's range, and
+    /// [`CardError`] for an exposure out of range, light of another size or outside its format's range, and
     /// draws that the card refuses.
-    pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, BiScaleCardError> {
-        Ok(self.show(local, (view, false))?.0)
+    pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, CardError> {
+        Ok(self.show(local, view, false)?.0)
     }
 
     /// As [`Self::view_texels`], with the log of the frame's work: without read-back, and without upload of local
@@ -156,24 +156,25 @@ impl<'a> BiScaleCard<'a> {
     ///
     /// # Errors
     /// As [`Self::view_texels`].
-    pub fn logged_view(
-        &mut self,
-        local: &[[f32; 3]],
-        view: &MeshView,
-    ) -> Result<(Texels, Vec<Event>), BiScaleCardError> {
-        self.show(local, (view, true))
+    pub fn logged_view(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
+        self.show(local, view, true)
     }
 
     /// Draws a frame: the mesh into the depth buffer, then the directions of each texture, added up pass by pass.
-    fn show(&mut self, local: &[[f32; 3]], view: (&MeshView, bool)) -> Result<(Texels, Vec<Event>), BiScaleCardError> {
+    fn show(
+        &mut self,
+        local: &[[f32; 3]],
+        view: &MeshView,
+        is_logged: bool,
+    ) -> Result<(Texels, Vec<Event>), CardError> {
         let Self { vertices, layout, options, .. } = self;
         let directions = self.textured.directions();
         let expected = directions * self.textured.vertices.len();
-        self.mesh.show(&mut self.machine, view, |pass| {
-            MeshError::check_size("numbers of local light", expected, local.len())?;
+        self.display.show(view, is_logged, |pass| {
+            CardError::check_size("numbers of local light", expected, local.len())?;
             pass.draw_depth(&self.depth, &vertices.indices)?;
             for part in &self.parts {
-                let factor = view.0.exposure * part.volume.scale;
+                let factor = view.exposure * part.volume.scale;
                 let largest = largest(local, factor)?;
                 for first in (0..directions).step_by(layout.directions()) {
                     let count = layout.directions().min(directions - first);

@@ -19,12 +19,11 @@ use refsim::output::WriteMask;
 use refsim::raster::Viewport;
 use refsim::texture::{AddressMode, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-use super::error::BiScaleCardError;
-use super::lists::{ListLimits, ListPass, Lists, MOST_PLACES, extents};
+use super::lists::{ListLimits, ListPass, Lists, check_places, extents};
 use super::options::LightFormat;
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::kernels::ListSumKernel;
-use crate::card::{FullScreenPass, KernelError, MeshError, Texels, constants, require_versions};
+use crate::card::{CardError, FullScreenPass, KernelError, Texels, constants, require_versions};
 
 /// Lists and sums are in single precision.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
@@ -84,32 +83,32 @@ impl GatherCard {
     /// Uploads the lists of biclusters.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] if the device lacks the shader version, texture format or texture size, or a value is
+    /// [`CardError`] if the device lacks the shader version, texture format or texture size, or a value is
     /// beyond single precision.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
         biclusters: &Biclustering,
         format: LightFormat,
-    ) -> Result<Self, BiScaleCardError> {
+    ) -> Result<Self, CardError> {
         let profile = profile.into();
         let version = version(&profile, "the product with biclusters")?;
         let limits = &profile.limits;
         let sides = [limits.max_texture_size, limits.max_target_size].into_iter().flatten();
         let side = sides.fold(SIDE, |side, limit| side.min(limit as usize));
         let [rows, columns] = biclusters.matrix_size();
-        if columns >= MOST_PLACES {
-            let (most, found) = (MOST_PLACES - 1, columns);
-            return Err(BiScaleCardError::Places { what: "columns", most, found });
-        }
+        check_places("columns", columns)?;
         require_singles(biclusters)?;
         let instructions = limits.instructions.map_or(INSTRUCTIONS, |limit| limit as usize).min(INSTRUCTIONS);
-        let of = |is_weighted| ListLimits { texels: ListSumKernel::most_texels(is_weighted, instructions), side };
-        let buffer = buffer_lists(biclusters, (of(true), &profile.name))?;
-        let sums = row_lists(biclusters, &buffer, (of(false), &profile.name))?;
+        let of = |is_weighted| {
+            let texels = ListSumKernel::most_texels(is_weighted, instructions);
+            ListLimits { texels, side, device: &profile.name }
+        };
+        let buffer = buffer_lists(biclusters, of(true))?;
+        let sums = row_lists(biclusters, &buffer, of(false))?;
         let mut machine = executor.into().machine(profile.clone())?;
         let size = extents(columns + 1);
-        let empty = light_image(&[], size, (format, 1.0))?;
+        let empty = light_image(&[], size, format, 1.0)?;
         let light = (machine.create_texture(empty)?, size);
         let stages = [Stage::new(&mut machine, buffer, true)?, Stage::new(&mut machine, sums, false)?];
         let mut programs = BTreeMap::new();
@@ -146,9 +145,9 @@ impl GatherCard {
     /// Local light of each row in red, green and blue, from one color per column.
     ///
     /// # Errors
-    /// [`BiScaleCardError`]: light of another size, numbers that are not finite, or negative in [`LightFormat::Bytes`],
+    /// [`CardError`]: light of another size, numbers that are not finite, or negative in [`LightFormat::Bytes`],
     /// draws that the card refuses.
-    pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, BiScaleCardError> {
+    pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, CardError> {
         let scale = self.draw(light)?;
         let texels = Texels::read_back(&self.machine, self.stages[1].targets[0])?.texels;
         let mut local = vec![[0.0; 3]; self.rows];
@@ -163,7 +162,7 @@ impl GatherCard {
     ///
     /// # Errors
     /// As [`Self::multiply`].
-    pub fn logged_multiply(&mut self, light: &[[f32; 3]]) -> Result<(Vec<[f32; 3]>, Vec<Event>), BiScaleCardError> {
+    pub fn logged_multiply(&mut self, light: &[[f32; 3]]) -> Result<(Vec<[f32; 3]>, Vec<Event>), CardError> {
         self.machine.record(true);
         let drawn = self.draw(light);
         self.machine.record(false);
@@ -174,25 +173,22 @@ impl GatherCard {
     }
 
     /// Draws the sums; returns the factor by which they must be multiplied.
-    fn draw(&mut self, light: &[[f32; 3]]) -> Result<f32, BiScaleCardError> {
-        if light.len() != self.columns {
-            let (expected, found) = (self.columns, light.len());
-            return Err(MeshError::Size { what: "numbers of light", expected, found }.into());
-        }
+    fn draw(&mut self, light: &[[f32; 3]]) -> Result<f32, CardError> {
+        CardError::check_size("numbers of light", self.columns, light.len())?;
         let is_good = |value: &&f32| value.is_finite() && (**value >= 0.0 || self.format != LightFormat::Bytes);
         if let Some(&found) = light.as_flattened().iter().find(|value| !is_good(value)) {
             let what = "light of finite numbers, of 0 or more in bytes";
-            return Err(MeshError::Figure { what, found: found.into() }.into());
+            return Err(CardError::figure(what, f64::from(found)));
         }
         let largest = light.as_flattened().iter().fold(0.0_f32, |most, value| most.max(value.abs()));
         let scale = self.format.scale(largest);
         let (texture, size) = self.light;
-        self.machine.update_texture(texture, &light_image(light, size, (self.format, scale))?)?;
+        self.machine.update_texture(texture, &light_image(light, size, self.format, scale)?)?;
         let [buffer, rows] = &self.stages;
-        for (stage, source) in [(buffer, self.light), (rows, (buffer.targets[0], buffer.size))] {
+        for (stage, (source, size)) in [(buffer, self.light), (rows, (buffer.targets[0], buffer.size))] {
             for pass in &stage.passes {
                 let program = &self.programs[&stage.kernel(pass, self.version)];
-                stage.draw(&mut self.machine, pass, program, source)?;
+                stage.draw(&mut self.machine, pass, program, source, size)?;
             }
         }
         Ok(scale)
@@ -200,7 +196,7 @@ impl GatherCard {
 }
 
 impl Stage {
-    fn new(machine: &mut Machine, lists: Lists, is_weighted: bool) -> Result<Self, BiScaleCardError> {
+    fn new(machine: &mut Machine, lists: Lists, is_weighted: bool) -> Result<Self, CardError> {
         let Lists { order, size, passes, sheets } = lists;
         let mut textures = Vec::new();
         for sheet in sheets {
@@ -225,8 +221,9 @@ impl Stage {
         machine: &mut Machine,
         pass: &ListPass,
         program: &CheckedProgram,
-        (source, [width, height]): (TextureId, [usize; 2]),
-    ) -> Result<(), BiScaleCardError> {
+        source: TextureId,
+        [width, height]: [usize; 2],
+    ) -> Result<(), CardError> {
         let [number, count] = pass.pass;
         let written = (count - 1 - number) % 2;
         let (sheet, sheet_rows) = self.sheets[pass.sheet];
@@ -259,18 +256,21 @@ impl Stage {
 }
 
 /// Refuses biclusters with values beyond single precision.
-fn require_singles(biclusters: &Biclustering) -> Result<(), BiScaleCardError> {
+fn require_singles(biclusters: &Biclustering) -> Result<(), CardError> {
     for bicluster in 0..biclusters.len() {
         let values = biclusters.columns_of(bicluster).iter().map(|entry| biclusters.value(entry.value));
         if let Some(found) = values.into_iter().find(|value| !(*value as f32).is_finite()) {
-            return Err(BiScaleCardError::Value { bicluster, found });
+            return Err(CardError::input(format!(
+                "expected values of biclusters within single precision, found {found:e} in bicluster {bicluster}: \
+                 scale the matrix"
+            )));
         }
     }
     Ok(())
 }
 
 /// The lists of the bicluster buffer: columns, increasing, with their values. The texel after the last column is 0.
-fn buffer_lists(biclusters: &Biclustering, limits: (ListLimits, &str)) -> Result<Lists, BiScaleCardError> {
+fn buffer_lists(biclusters: &Biclustering, limits: ListLimits<'_>) -> Result<Lists, CardError> {
     let [_, columns] = biclusters.matrix_size();
     let none = columns as f32 + 0.5;
     let lengths: Vec<usize> =
@@ -284,12 +284,12 @@ fn buffer_lists(biclusters: &Biclustering, limits: (ListLimits, &str)) -> Result
         let ([a, b], [c, d]) = (of(2 * at), of(2 * at + 1));
         [a, b, c, d]
     };
-    Lists::new("biclusters", (&lengths, &texel), [none, 0.0, none, 0.0], limits)
+    Lists::new("biclusters", &lengths, &texel, [none, 0.0, none, 0.0], limits)
 }
 
 /// The lists of rows: the buffer places of their biclusters, in the order in which these were found. The place after
 /// the last one is 0.
-fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: (ListLimits, &str)) -> Result<Lists, BiScaleCardError> {
+fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: ListLimits<'_>) -> Result<Lists, CardError> {
     let mut places = vec![0; biclusters.len()];
     (0_u32..).zip(&buffer.order).for_each(|(place, &bicluster)| places[bicluster as usize] = place);
     let none = biclusters.len() as f32 + 0.5;
@@ -299,15 +299,11 @@ fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: (ListLimits, &st
         let list = &of_row[begins[row]..begins[row + 1]];
         [0, 1, 2, 3].map(|k| list.get(4 * at + k).map_or(none, |&bicluster| places[bicluster as usize] as f32 + 0.5))
     };
-    Lists::new("rows", (&lengths, &texel), [none; 4], limits)
+    Lists::new("rows", &lengths, &texel, [none; 4], limits)
 }
 
 /// Light as texels, row by row, padded with zeros.
-fn light_image(
-    light: &[[f32; 3]],
-    size: [usize; 2],
-    (format, scale): (LightFormat, f32),
-) -> Result<Image, BiScaleCardError> {
+fn light_image(light: &[[f32; 3]], size: [usize; 2], format: LightFormat, scale: f32) -> Result<Image, CardError> {
     let texel = |number: usize| {
         let [red, green, blue] = light.get(number).map_or([0.0; 3], |rgb| rgb.map(|value| value / scale));
         [red, green, blue, 0.0].map(f32::to_bits)

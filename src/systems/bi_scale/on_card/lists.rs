@@ -4,11 +4,21 @@
 //! pass covers rows whose longest lists have the same number of texels, and reads that many for each fragment. Shorter
 //! lists are padded with places of 0.
 
-use super::error::BiScaleCardError;
-use crate::card::Texels;
+use crate::card::{CardError, Texels};
 
 /// The number of places that remain distinct in single precision after one half is added: 23 bits.
-pub(super) const MOST_PLACES: usize = 1 << 23;
+const MOST_PLACES: usize = 1 << 23;
+
+/// Refuses more sums or columns than have distinct places.
+pub(super) fn check_places(what: &str, found: usize) -> Result<(), CardError> {
+    if found < MOST_PLACES {
+        return Ok(());
+    }
+    let most = MOST_PLACES - 1;
+    Err(CardError::input(format!(
+        "expected at most {most} {what}, whose places single precision tells apart, found {found}"
+    )))
+}
 
 /// Width and height of a texture with at least `count` texels: powers of two, width at least height.
 pub(super) fn extents(count: usize) -> [usize; 2] {
@@ -18,11 +28,13 @@ pub(super) fn extents(count: usize) -> [usize; 2] {
 
 /// Limits of a pass.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ListLimits {
+pub(super) struct ListLimits<'a> {
     /// Largest number of list texels per fragment.
     pub(super) texels: usize,
     /// Largest side of a texture, in texels.
     pub(super) side: usize,
+    /// The device's name.
+    pub(super) device: &'a str,
 }
 
 /// A pass: a range of rows of the target, and the list texels that it reads.
@@ -56,22 +68,24 @@ impl Lists {
     /// 0.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] if the target exceeds the largest texture, or has more places than remain distinct.
+    /// [`CardError`] if the target exceeds the largest texture, or has more places than remain distinct.
     pub(super) fn new(
         what: &'static str,
-        (lengths, texel): (&[usize], &dyn Fn(usize, usize) -> [f32; 4]),
+        lengths: &[usize],
+        texel: &dyn Fn(usize, usize) -> [f32; 4],
         filler: [f32; 4],
-        (limits, device): (ListLimits, &str),
-    ) -> Result<Self, BiScaleCardError> {
+        limits: ListLimits<'_>,
+    ) -> Result<Self, CardError> {
         let count = lengths.len();
-        if count >= MOST_PLACES {
-            return Err(BiScaleCardError::Places { what, most: MOST_PLACES - 1, found: count });
-        }
+        check_places(what, count)?;
         let size = extents(count + 1);
         let [width, height] = size;
         if width > limits.side {
-            let (device, found) = (device.to_owned(), limits.side);
-            return Err(BiScaleCardError::TextureSize { what, count, width, height, device, found });
+            return Err(CardError::input(format!(
+                "{count} {what} need a texture of {width} x {height} texels; `{}` has textures of {} a side \
+                 (limits.max_texture_size); take fewer",
+                limits.device, limits.side
+            )));
         }
         let mut order: Vec<u32> = (0..count as u32).collect();
         order.sort_by_key(|&sum| lengths[sum as usize]);
@@ -81,7 +95,7 @@ impl Lists {
         let rows: Vec<usize> = (0..count.div_ceil(width)).map(longest).collect();
         let mut first = 0;
         for class in rows.chunk_by(|a, b| a == b) {
-            lists.push_class(([first, class.len()], class[0]), limits);
+            lists.push_class(first, class.len(), class[0], limits);
             first += class.len();
         }
         lists.fill(lengths, texel, filler);
@@ -89,7 +103,7 @@ impl Lists {
     }
 
     /// Adds the passes over rows whose longest lists have the same number of texels.
-    fn push_class(&mut self, ([first, count], texels): ([usize; 2], usize), limits: ListLimits) {
+    fn push_class(&mut self, first: usize, count: usize, texels: usize, limits: ListLimits<'_>) {
         if texels == 0 {
             return;
         }
@@ -144,8 +158,8 @@ mod tests {
         for (side, texels) in [(64, 100), (16, 3), (8, 1), (16, 5)] {
             let lengths: Vec<usize> = (0..60).map(|sum: usize| (sum * sum) % 11).collect();
             let texel = |sum: usize, at: usize| [sum as f32, at as f32, 0.0, 1.0];
-            let limits = ListLimits { texels, side };
-            let lists = Lists::new("sums", (&lengths, &texel), [-1.0; 4], (limits, "a card")).expect("lists");
+            let limits = ListLimits { texels, side, device: "a card" };
+            let lists = Lists::new("sums", &lengths, &texel, [-1.0; 4], limits).expect("lists");
             assert_eq!(lists.size, [8, 8]);
             let mut read = vec![Vec::new(); 60];
             for pass in &lists.passes {
@@ -169,8 +183,8 @@ mod tests {
 
     #[test]
     fn what_has_no_place_is_refused() {
-        let limits = ListLimits { texels: 4, side: 4 };
-        let lists = |count| Lists::new("rows", (&vec![1; count], &|_, _| [0.0; 4]), [0.0; 4], (limits, "small"));
+        let limits = ListLimits { texels: 4, side: 4, device: "small" };
+        let lists = |count| Lists::new("rows", &vec![1; count], &|_, _| [0.0; 4], [0.0; 4], limits);
         assert!(lists(15).is_ok());
         insta::assert_snapshot!(lists(16).expect_err("refused"), @"16 rows need a texture of 8 x 4 texels; `small` has textures of 4 a side (limits.max_texture_size); take fewer");
     }

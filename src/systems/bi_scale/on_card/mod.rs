@@ -6,23 +6,21 @@
 //!   coordinates, pass by pass added up by blending.
 //! - [`mod@reference`]: pixels in f64.
 
+mod attributes;
 mod card;
-mod error;
 mod gather;
 mod lists;
 mod options;
 mod parts;
 pub mod reference;
-mod streams;
 mod subject;
-mod volume;
+mod textures;
 
 pub use card::{BiScaleCard, DisplayCounts};
-pub use error::BiScaleCardError;
 pub use gather::{GatherCard, GatherCounts};
 pub use options::{DisplayOptions, LightFormat, LocalFormat};
 pub use subject::{TexturedMesh, corner_coordinates};
-pub use volume::{VolumeTexture, volume_image};
+pub use textures::{VolumeTexture, volume_image};
 
 #[cfg(test)]
 mod tests;

@@ -6,11 +6,11 @@ use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::machine::Machine;
 
-use super::error::BiScaleCardError;
 use super::options::DisplayOptions;
 use super::subject::{CardVertices, TexturedMesh};
-use super::volume::VolumeTexture;
+use super::textures::VolumeTexture;
 use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
+use crate::card::CardError;
 
 /// The pixel program for a number of directions.
 #[derive(Clone, Debug)]
@@ -50,10 +50,12 @@ impl CardPart {
 /// The parts of a mesh: textures that no triangle names stay away.
 pub(super) fn parts(
     machine: &mut Machine,
-    (mesh, vertices): (&TexturedMesh<'_>, &CardVertices),
+    mesh: &TexturedMesh<'_>,
+    vertices: &CardVertices,
     options: DisplayOptions,
-    (layout, version): (LocalLayout, Version),
-) -> Result<Vec<CardPart>, BiScaleCardError> {
+    layout: LocalLayout,
+    version: Version,
+) -> Result<Vec<CardPart>, CardError> {
     let (whole, left) = (layout.directions().min(mesh.directions()), mesh.directions() % layout.directions());
     let mut parts = Vec::new();
     for (number, texture) in mesh.textures.iter().enumerate() {
@@ -63,7 +65,7 @@ pub(super) fn parts(
         if indices.is_empty() {
             continue;
         }
-        let volume = VolumeTexture::new(machine, texture, (options.edges, options.texture))?;
+        let volume = VolumeTexture::new(machine, texture, options.edges, options.texture)?;
         let mut pixels = Vec::new();
         for directions in [whole, left].into_iter().filter(|&directions| directions > 0) {
             if pixels.iter().all(|known: &PixelProgram| known.directions != directions) {

@@ -35,7 +35,8 @@ pub fn patch_at(patch: &[[f32; 3]], size: usize, [u, v]: [f64; 2], edges: BlockE
 pub fn pixel(
     mesh: &TexturedMesh<'_>,
     local: &[[f64; 3]],
-    (eye, edges): ([f32; 3], BlockEdges),
+    eye: [f32; 3],
+    edges: BlockEdges,
     seen: &SeenPixel,
 ) -> [f64; 3] {
     let (texture, directions) = (mesh.texture(seen.triangle), mesh.directions());

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::error::BiScaleCardError;
 use crate::bi_scale::texture::BidirectionalTexture;
-use crate::card::MeshError;
+use crate::card::CardError;
 use crate::geom::Mesh;
 use crate::transfer::Vertices;
 
@@ -24,9 +23,10 @@ pub struct TexturedMesh<'a> {
 /// Texture coordinates of the corners of a mesh's triangles, in units of a patch that repeats `repeat` times.
 ///
 /// # Errors
-/// [`BiScaleCardError::NoTextureCoordinates`].
-pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]; 3]>, BiScaleCardError> {
-    let of = mesh.texcoords().ok_or(BiScaleCardError::NoTextureCoordinates)?;
+/// [`CardError::Input`] for a mesh without texture coordinates.
+pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]; 3]>, CardError> {
+    let none = "the mesh has no texture coordinates, by which a bidirectional texture is placed";
+    let of = mesh.texcoords().ok_or_else(|| CardError::input(none))?;
     let corner = |corner: u32| {
         let [u, v] = of[corner as usize];
         [repeat[0] * u, repeat[1] * v]
@@ -75,20 +75,20 @@ impl TexturedMesh<'_> {
     }
 
     /// Checks that the parts have matching sizes.
-    pub(super) fn check(&self) -> Result<(), MeshError> {
+    pub(super) fn check(&self) -> Result<(), CardError> {
         let triangles = self.vertices.triangles().len();
-        MeshError::check_size("triangles with texture coordinates", triangles, self.coordinates.len())?;
-        MeshError::check_size("triangles with a texture", triangles, self.texture_of.len())?;
+        CardError::check_size("triangles with texture coordinates", triangles, self.coordinates.len())?;
+        CardError::check_size("triangles with a texture", triangles, self.texture_of.len())?;
         let named = self.texture_of.iter().max().map_or(0, |&most| most as usize + 1);
         let found = self.textures.len();
-        MeshError::check_size("textures, which triangles name", named.max(found), found)?;
+        CardError::check_size("textures, which triangles name", named.max(found), found)?;
         for texture in self.textures {
             let found = texture.light().directions().len();
-            MeshError::check_size("directions of light in each texture", self.directions(), found)?;
+            CardError::check_size("directions of light in each texture", self.directions(), found)?;
         }
         let mut numbers = self.coordinates.as_flattened().as_flattened().iter();
         match numbers.find(|value| !value.is_finite()) {
-            Some(&found) => Err(MeshError::Figure { what: "finite texture coordinates", found: found.into() }),
+            Some(&found) => Err(CardError::figure("finite texture coordinates", f64::from(found))),
             None => Ok(()),
         }
     }

@@ -168,7 +168,7 @@ fn no_read_reaches_another_block_or_layer() {
     for (size, views, lights) in [(4, 3, 3), (16, 2, 5), (5, 12, 2), (64, 2, 8), (1, 2, 2)] {
         for edges in [BlockEdges::Touching, BlockEdges::Wrapped] {
             let texture = texture(size, views, lights, |at| [(at % 250) as f32; 3]);
-            let (image, grid, _) = volume_image(&device("gt200"), &texture, (edges, TexelFormat::Rgba8)).expect("fits");
+            let (image, grid, _) = volume_image(&device("gt200"), &texture, edges, TexelFormat::Rgba8).expect("fits");
             let ends = edges_of(size);
             for number in 0..4000_u64 {
                 let pick = |dimension| random.unit(number, size as u64, dimension);
@@ -207,7 +207,7 @@ fn blocks_repeat_as_the_hosts_patch_does() {
     for (size, views, lights) in [(8, 2, 3), (16, 3, 2)] {
         let texture = texture(size, views, lights, of);
         for edges in [BlockEdges::Touching, BlockEdges::Wrapped] {
-            let (image, grid, scale) = volume_image(&device("gt200"), &texture, (edges, FLOATS)).expect("fits");
+            let (image, grid, scale) = volume_image(&device("gt200"), &texture, edges, FLOATS).expect("fits");
             assert_eq!(scale, 1.0);
             for number in 0..3000_u64 {
                 let pick = |dimension, most: usize| (random.unit(number, 1, dimension) * most as f64) as usize;
@@ -265,7 +265,7 @@ impl Hills {
         for (texel, seen) in drawing.texels.iter().zip(&seen) {
             assert_eq!(texel[3] != 0.0, seen.is_some(), "what is covered");
             let Some(seen) = seen else { continue };
-            let expected = pixel(&self.mesh(), &local, (camera().eye(), edges), seen);
+            let expected = pixel(&self.mesh(), &local, camera().eye(), edges, seen);
             for (found, expected) in texel.iter().zip(expected) {
                 let off = (f64::from(*found) - 0.7 * expected).abs();
                 (worst, largest, squares) = (worst.max(off), largest.max(0.7 * expected), squares + off * off);

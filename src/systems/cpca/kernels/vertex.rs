@@ -66,6 +66,11 @@ impl VertexKernel {
         [0, 1].map(|axis| WEIGHTS + self.weight_registers() + axis)
     }
 
+    /// Number of vertex attributes.
+    pub fn attributes(&self) -> usize {
+        WEIGHTS + self.weight_registers() + if self.glossy() { 2 } else { 0 }
+    }
+
     /// The largest number of vectors whose weights fit the attribute registers.
     pub fn most_vectors(&self) -> usize {
         4 * (ATTRIBUTES - WEIGHTS - if self.glossy() { 2 } else { 0 })

@@ -4,18 +4,14 @@
 //! vectors of all clusters by the light ([`Products`]); the card draws the mesh into the depth buffer, then adds up
 //! the chunks, glossy transfer in one pass per color channel.
 
-mod chunks;
-mod error;
-pub mod estimate;
-mod exit_map;
+mod attributes;
 pub mod model;
 mod options;
-pub mod order;
 mod products;
 mod programs;
+mod textures;
 pub mod time;
 mod transfer;
-mod weights;
 
 use std::sync::Arc;
 
@@ -25,20 +21,19 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::timing::host::HostOperation;
 
-pub use error::PrtCardError;
+pub use attributes::{CardWeights, WeightFormat};
 pub use options::PrtCardOptions;
 pub use products::Products;
 pub use transfer::CompressedTransfer;
-pub use weights::{CardWeights, WeightFormat};
 
 use crate::card::frame_time::host_work;
-use crate::card::{KeptFragments, MeshDraw, MeshOnCard, MeshView, ReadTexture, Texels};
+use crate::card::{CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, ReadTexture, Texels};
 use crate::cpca::coherence::Superclusters;
 use crate::sphere::{HarmonicLight, ParabolicMap};
-use chunks::{Chunk, chunks};
-use exit_map::{exit_maps, map_scale};
+use attributes::{Chunk, chunks};
 use model::TransferSize;
 use programs::{ShadingPrograms, kernel, registers};
+use textures::{exit_maps, map_scale};
 
 #[cfg(test)]
 mod tests;
@@ -49,11 +44,10 @@ const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
 /// A mesh with compressed transfer on a card.
 #[derive(Debug)]
 pub struct PrtCard<'a> {
-    machine: Machine,
+    display: MeshDisplay,
     transfer: CompressedTransfer<'a>,
     size: TransferSize,
     weights: CardWeights,
-    mesh: MeshOnCard,
     indices: Vec<u32>,
     superclusters: Superclusters,
     chunks: Vec<Chunk>,
@@ -67,14 +61,14 @@ pub struct PrtCard<'a> {
 impl<'a> PrtCard<'a> {
     /// Uploads a mesh with its transfer.
     ///
-    /// [`PrtCardError`] if the device has no such programs, the number of vectors or functions exceeds a limit,
+    /// [`CardError`] if the device has no such programs, the number of vectors or functions exceeds a limit,
     /// clusters have more vectors than `transfer` states, or its parts have contradictory sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
         transfer: CompressedTransfer<'a>,
         options: &PrtCardOptions,
-    ) -> Result<Self, PrtCardError> {
+    ) -> Result<Self, CardError> {
         let profile = profile.into();
         options.check()?;
         let size = transfer.size()?;
@@ -82,26 +76,24 @@ impl<'a> PrtCard<'a> {
         let (clustering, triangles) = (transfer.clustering, transfer.vertices.triangles());
         let registers = registers(&profile, &kernel);
         let superclusters = match transfer.superclusters {
-            _ if !options.superclusters => Superclusters::apart(clustering, registers)?,
-            None => Superclusters::new(clustering, triangles, registers)?,
-            Some(given) => {
-                given.require(clustering, registers)?;
-                given.clone()
-            }
+            _ if !options.superclusters => Superclusters::apart(clustering, registers),
+            None => Superclusters::new(clustering, triangles, registers),
+            Some(given) => given.require(clustering, registers).map(|()| given.clone()),
         };
+        let superclusters = superclusters.map_err(CardError::input)?;
         let programs = ShadingPrograms::new(&profile, kernel)?;
         let mut machine = executor.into().machine(profile)?;
         let map = ParabolicMap::new(options.map_side);
         let (mut maps, mut scale) = (Vec::new(), 1.0);
         if transfer.is_glossy() {
             scale = map_scale(transfer.basis, map, options.map_format);
-            maps = exit_maps(&mut machine, transfer.basis, (map, options.map_format, scale))?;
+            maps = exit_maps(&mut machine, transfer.basis, map, options.map_format, scale)?;
         }
-        let mesh = MeshOnCard::new(transfer.vertices.positions().iter().copied());
+        let display = MeshDisplay::new(machine, transfer.vertices.positions().iter().copied());
         let weights = CardWeights::new(transfer.clustering, options.weights);
-        let chunks = chunks((&transfer, &weights), &superclusters, &programs.kernel, mesh.positions());
+        let chunks = chunks(&transfer, &weights, &superclusters, &programs.kernel, display.positions());
         let (indices, map_scale) = (triangles.as_flattened().to_vec(), scale);
-        Ok(Self { machine, transfer, size, weights, mesh, indices, superclusters, chunks, programs, maps, map_scale })
+        Ok(Self { display, transfer, size, weights, indices, superclusters, chunks, programs, maps, map_scale })
     }
 
     /// The groups in which clusters are drawn.
@@ -116,16 +108,16 @@ impl<'a> PrtCard<'a> {
 
     /// The emulated card.
     pub fn machine_mut(&mut self) -> &mut Machine {
-        &mut self.machine
+        self.display.machine_mut()
     }
 
     /// The target of a frame. Background pixels are 0.
     ///
     /// # Errors
-    /// [`PrtCardError`] for light of too low an order, an exposure out of range, products that are not finite, and
+    /// [`CardError`] for light of too low an order, an exposure out of range, products that are not finite, and
     /// draws that the card refuses.
-    pub fn view_texels(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<Texels, PrtCardError> {
-        Ok(self.show(light, (view, false))?.0)
+    pub fn view_texels(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<Texels, CardError> {
+        Ok(self.show(light, view, false)?.0)
     }
 
     /// As [`Self::view_texels`], with the log of host and card for [`frame_time`](crate::card::frame_time::frame_time),
@@ -133,22 +125,23 @@ impl<'a> PrtCard<'a> {
     ///
     /// # Errors
     /// As [`Self::view_texels`].
-    pub fn logged_view(
-        &mut self,
-        light: &HarmonicLight,
-        view: &MeshView,
-    ) -> Result<(Texels, Vec<Event>), PrtCardError> {
-        let (texels, mut log) = self.show(light, (view, true))?;
+    pub fn logged_view(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
+        let (texels, mut log) = self.show(light, view, true)?;
         log.insert(0, host_work(HostOperation::MultiplyAdd, self.size.host_multiply_adds() as u64));
         Ok((texels, log))
     }
 
     /// Draws a frame: products on the host, the mesh into the depth buffer, then chunk by chunk into the target.
-    fn show(&mut self, light: &HarmonicLight, view: (&MeshView, bool)) -> Result<(Texels, Vec<Event>), PrtCardError> {
+    fn show(
+        &mut self,
+        light: &HarmonicLight,
+        view: &MeshView,
+        is_logged: bool,
+    ) -> Result<(Texels, Vec<Event>), CardError> {
         let Self { transfer, weights, programs, maps, .. } = self;
         let masks = if maps.is_empty() { &[WriteMask::ALL][..] } else { &CHANNELS };
-        let factor = view.0.exposure * self.map_scale;
-        self.mesh.show(&mut self.machine, view, |pass| {
+        let factor = view.exposure * self.map_scale;
+        self.display.show(view, is_logged, |pass| {
             let products = Products::new(transfer, weights, light, factor)?;
             pass.draw_depth(&programs.depth, &self.indices)?;
             let mut head = pass.head();

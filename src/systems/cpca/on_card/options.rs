@@ -3,8 +3,8 @@
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
-use super::weights::WeightFormat;
-use crate::card::MeshError;
+use super::attributes::WeightFormat;
+use crate::card::CardError;
 
 /// Options of drawing compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,10 +32,10 @@ impl Default for PrtCardOptions {
 
 impl PrtCardOptions {
     /// Checks the ranges.
-    pub(super) fn check(&self) -> Result<(), MeshError> {
+    pub(super) fn check(&self) -> Result<(), CardError> {
         if (1..=4096).contains(&self.map_side) {
             return Ok(());
         }
-        Err(MeshError::Figure { what: "1 to 4096 texels along an edge of a map", found: self.map_side as f64 })
+        Err(CardError::figure("1 to 4096 texels along an edge of a map", self.map_side))
     }
 }

@@ -2,10 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::error::PrtCardError;
+use super::attributes::CardWeights;
 use super::transfer::{CompressedTransfer, TransferShape};
-use super::weights::CardWeights;
-use crate::card::MeshError;
+use crate::card::CardError;
 use crate::linalg::dot;
 use crate::sphere::HarmonicLight;
 
@@ -22,18 +21,21 @@ impl Products {
     /// Coefficients of the light beyond the matrices' columns are ignored.
     ///
     /// # Errors
-    /// [`PrtCardError`] for parts with contradictory sizes, light of too low an order, and products that overflow
+    /// [`CardError`] for parts with contradictory sizes, light of too low an order, and products that overflow
     /// single precision.
     pub fn new(
         transfer: &CompressedTransfer<'_>,
         weights: &CardWeights,
         light: &HarmonicLight,
         factor: f64,
-    ) -> Result<Self, PrtCardError> {
+    ) -> Result<Self, CardError> {
         let shape = transfer.shape()?;
         let expected = shape.columns.isqrt();
         if light.order() < expected {
-            return Err(PrtCardError::LightOrder { expected, found: light.order() });
+            return Err(CardError::input(format!(
+                "expected light of order {expected} or more, found {}",
+                light.order()
+            )));
         }
         let of_cluster = |cluster: usize| {
             let subspace = &transfer.clustering.subspaces()[cluster];
@@ -51,7 +53,7 @@ impl Products {
         let clusters: Vec<Vec<f32>> =
             (0..transfer.clustering.subspaces().len()).into_par_iter().map(of_cluster).collect();
         match clusters.iter().flatten().find(|value| !value.is_finite()) {
-            Some(&found) => Err(MeshError::Figure { what: "products of finite size", found: found.into() }.into()),
+            Some(&found) => Err(CardError::figure("products of finite size", f64::from(found))),
             None => Ok(Self { rows: shape.rows, clusters }),
         }
     }

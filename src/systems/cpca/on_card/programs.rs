@@ -4,11 +4,10 @@ use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
-use super::error::PrtCardError;
 use super::options::PrtCardOptions;
 use super::transfer::CompressedTransfer;
 use crate::card::kernels::{SHADE, SHADE_COLOR};
-use crate::card::{DepthPrograms, KernelError, require_versions, vertex_version};
+use crate::card::{CardError, DepthPrograms, KernelError, require_versions, vertex_version};
 use crate::cpca::coherence::ConstantRegisters;
 use crate::cpca::kernels::{ExitKernel, VertexKernel, VertexShading};
 
@@ -26,12 +25,14 @@ pub(super) fn kernel(
     profile: &Profile,
     transfer: &CompressedTransfer<'_>,
     options: &PrtCardOptions,
-) -> Result<VertexKernel, PrtCardError> {
+) -> Result<VertexKernel, CardError> {
     let shading = if transfer.is_glossy() {
         require_versions(profile, &[Version::Ps2_0], "glossy transfer")?;
         let (found, most) = (transfer.basis.len(), 4 * ExitKernel::MAX_REGISTERS);
         if found > most {
-            return Err(PrtCardError::Functions { found, most });
+            return Err(CardError::input(format!(
+                "expected at most {most} functions of exit radiance, which fit 7 sets of coordinates, found {found}"
+            )));
         }
         VertexShading::Glossy { registers: found.div_ceil(4) }
     } else if profile.limits.versions.contains(&Version::Ps2_0) {
@@ -41,8 +42,11 @@ pub(super) fn kernel(
     };
     let version = vertex_version(profile, options.vertex_version)?;
     let kernel = VertexKernel { shading, vectors: transfer.vectors, version };
-    if transfer.vectors > kernel.most_vectors() {
-        return Err(PrtCardError::Weights { found: transfer.vectors, most: kernel.most_vectors() });
+    let (found, most) = (transfer.vectors, kernel.most_vectors());
+    if found > most {
+        return Err(CardError::input(format!(
+            "expected at most {most} vectors, whose weights fit the attributes of a vertex, found {found}"
+        )));
     }
     Ok(kernel)
 }

@@ -1,8 +1,13 @@
-//! The host that section 7 times frames with.
+//! The time of a frame: the host that section 7 times frames with, and the log of a frame from sizes and counts alone,
+//! without mesh, clusters or pixels.
 
+use refsim::event::Event;
+use refsim::isa::Version;
 use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 
 use super::model::TransferSize;
+use crate::card::frame_time::{UnseenFrame, host_work};
+use crate::cpca::kernels::{VertexKernel, VertexShading};
 
 /// The uncompressed head of section 7, whose matrices the host of 2.2 GHz multiplies by the light, every one of them.
 const HEAD: TransferSize = TransferSize { vertices: 50_060, rows: 25, columns: 25, clusters: 0, vectors: 0 };
@@ -17,4 +22,46 @@ const HEAD_SECONDS: u64 = 10;
 pub fn host_of_section_7() -> Result<HostModel, HostError> {
     let work = HEAD_FRAMES * HEAD.uncompressed_multiply_adds() as u64;
     HostModel::calibrate(&HostCounts::default().with(HostOperation::MultiplyAdd, work), HEAD_SECONDS, 1)
+}
+
+/// The parameters of a frame's time, without its pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameCounts {
+    /// The sizes of the transfer.
+    pub size: TransferSize,
+    /// Triangles of the mesh.
+    pub triangles: u64,
+    /// Triangles drawn per pass: [`Self::triangles`] times the overdraw.
+    pub drawn: u64,
+    /// Number of superclusters, or of clusters if each is drawn alone.
+    pub groups: u64,
+    /// Vertices run per triangle, which follow from the order of the mesh and the card's vertex cache.
+    pub run_per_triangle: f64,
+}
+
+/// Number of instructions of the program that draws positions only.
+const POSITION_SLOTS: u64 = 4;
+
+impl FrameCounts {
+    /// The log of such a frame, for [`frame_time`](crate::card::frame_time::frame_time), in which pixels take no time:
+    /// products on the host, the mesh into the depth buffer, then group by group its constants and passes. Groups have
+    /// equal sizes.
+    pub fn log(&self) -> Vec<Event> {
+        let registers = self.size.rows.div_ceil(4);
+        let shading = if self.size.rows == 1 { VertexShading::Diffuse } else { VertexShading::Glossy { registers } };
+        let kernel = VertexKernel { shading, vectors: self.size.vectors, version: Version::Vs2_0 };
+        let work = host_work(HostOperation::MultiplyAdd, self.size.host_multiply_adds() as u64);
+        let mut frame = UnseenFrame::new(vec![work], self.run_per_triangle);
+        frame.draw(self.triangles, POSITION_SLOTS, 1);
+        let (groups, passes) = (self.groups.max(1), self.size.passes() as u64);
+        let constants = (self.size.uploaded_registers() as u64 / (groups * passes)) as u32;
+        for group in 0..groups {
+            // Differences of rounded shares, which sum to all drawn triangles.
+            let triangles = self.drawn * (group + 1) / groups - self.drawn * group / groups;
+            for _ in 0..passes {
+                frame.pass(constants, triangles, kernel.slots() as u64, kernel.attributes() as u64);
+            }
+        }
+        frame.log
+    }
 }

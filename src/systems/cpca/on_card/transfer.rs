@@ -1,13 +1,12 @@
 //! Compressed transfer of a mesh, which is the drawn object.
 
-use crate::card::MeshError;
+use crate::card::CardError;
 use crate::cpca::coherence::Superclusters;
 use crate::sphere::order_with;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
 use crate::transfer::clustering::Clustering;
 
-use super::error::PrtCardError;
 use super::model::TransferSize;
 
 /// The compressed transfer of a mesh's vertices: one matrix per channel, row by row, from light in global coordinates
@@ -48,25 +47,32 @@ impl CompressedTransfer<'_> {
     /// Its sizes.
     ///
     /// # Errors
-    /// [`PrtCardError`] if the parts have contradictory sizes.
-    pub fn size(&self) -> Result<TransferSize, PrtCardError> {
+    /// [`CardError`] if the parts have contradictory sizes.
+    pub fn size(&self) -> Result<TransferSize, CardError> {
         let TransferShape { rows, columns, .. } = self.shape()?;
         let clusters = self.clustering.subspaces().len();
         Ok(TransferSize { vertices: self.vertices.len(), rows, columns, clusters, vectors: self.vectors })
     }
 
     /// Checks that the parts have matching sizes.
-    pub(super) fn shape(&self) -> Result<TransferShape, PrtCardError> {
+    pub(super) fn shape(&self) -> Result<TransferShape, CardError> {
         let (channels, rows, found) = (self.channels, self.basis.len(), self.clustering.dimension());
         let size = channels * rows;
         let columns = found.checked_div(size).unwrap_or(0);
         if ![1, 3].contains(&channels) || size * columns != found || order_with(columns).is_none() {
-            return Err(PrtCardError::Shape { channels, rows, found });
+            return Err(CardError::input(format!(
+                "expected {channels} x {rows} x n^2 numbers per vertex for light of an order n of 1 to 10, found \
+                 {found}; channels are 1 or 3"
+            )));
         }
-        MeshError::check_size("points, one per vertex", self.vertices.len(), self.clustering.points())?;
+        CardError::check_size("points, one per vertex", self.vertices.len(), self.clustering.points())?;
         let lens = self.clustering.subspaces().iter().map(|subspace| subspace.len());
         match lens.enumerate().find(|&(_, found)| found > self.vectors) {
-            Some((cluster, found)) => Err(PrtCardError::Vectors { cluster, found, expected: self.vectors }),
+            Some((cluster, found)) => Err(CardError::input(format!(
+                "cluster {cluster} has {found} vectors, expected at most {}: the programs have no loops that depend \
+                 on data, so clusters of adaptive size are evaluated on the host alone",
+                self.vectors
+            ))),
             None => Ok(TransferShape { channels, rows, columns }),
         }
     }

@@ -94,7 +94,7 @@ impl Display {
             PatchShape { primitive: Primitive::TriangleList, vertices: triangles, smooth: triangle },
         ];
         let size = [camera.width(), camera.height()];
-        let target = NearestTarget::new(machine, (options.target, DepthFormat::Unorm24), size)?;
+        let target = NearestTarget::new(machine, options.target, DepthFormat::Unorm24, size)?;
         let ids = NearestTarget { color: machine.create_target(TexelFormat::R32f, size[0], size[1])?, ..target };
         Ok(Self { patches: patches.list().len(), options, shapes, flat, id, resampler, target, ids })
     }

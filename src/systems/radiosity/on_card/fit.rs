@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
-use super::CardError;
+use crate::card::CardError;
 use crate::radiosity::card_order::CardSystem;
 use crate::radiosity::kernels;
 use crate::radiosity::packing::{Packing, TooLarge};
@@ -47,7 +47,7 @@ impl Fit {
     /// Limits of a device. A block is 254 texels on the paper's card.
     ///
     /// # Errors
-    /// [`CardError::NoPrograms`].
+    /// [`CardError::Input`] for a device without programs of such length.
     pub fn of(profile: &Profile, packing: Packing) -> Result<Self, CardError> {
         let (instructions, limit) = limits(profile)?;
         let blocks = kernels::of(packing, false).map(|kernel| kernel.block(instructions));
@@ -57,7 +57,7 @@ impl Fit {
     /// Checks the size of a system before its form factors are computed, which takes long.
     ///
     /// # Errors
-    /// [`CardError::TooLarge`].
+    /// [`CardError::Input`].
     pub fn require(self, profile: &Profile, packing: Packing, patches: usize) -> Result<(), CardError> {
         let [width, height] = packing.matrix_texels(patches);
         if width.max(height) <= self.limit {
@@ -69,7 +69,7 @@ impl Fit {
     /// Lays out a system for the device: one system of three channels, or three of one.
     ///
     /// # Errors
-    /// [`CardError::TooLarge`].
+    /// [`CardError::Input`].
     pub fn systems(self, profile: &Profile, packing: Packing, system: &System) -> Result<Vec<CardSystem>, CardError> {
         let made = match packing {
             Packing::Rgb => CardSystem::rgb(system, self.block, self.limit).map(|one| vec![one]),
@@ -87,7 +87,7 @@ impl Fit {
 pub(super) fn limits(profile: &Profile) -> Result<(usize, usize), CardError> {
     let limits = &profile.limits;
     if !limits.versions.contains(&Version::Fp1_0) {
-        return Err(CardError::no_programs(profile));
+        return Err(no_programs(profile));
     }
     let instructions = limits.fragment_instructions.unwrap_or(model::MAX_INSTRUCTIONS) as usize;
     // A vector is a target and a texture; a matrix is as wide as a vector is long.
@@ -96,5 +96,21 @@ pub(super) fn limits(profile: &Profile) -> Result<(usize, usize), CardError> {
 }
 
 pub(super) fn too_large(profile: &Profile, problem: TooLarge) -> CardError {
-    CardError::TooLarge { device: profile.name.clone(), problem }
+    CardError::input(format!("device `{}`: {problem}", profile.name))
+}
+
+/// The error of a device without shader version for programs of this length.
+fn no_programs(profile: &Profile) -> CardError {
+    let runs = |name: &&str| Profile::named(name).is_ok_and(|p| p.limits.versions.contains(&Version::Fp1_0));
+    let mut have: Vec<&str> = Profile::card_names().into_iter().filter(runs).collect();
+    have.push("ideal-<format>");
+    let chain = |reads: u32| {
+        format!(" (its own allow a chain of {reads} dependent reads (limits.dependent_reads); a block has hundreds)")
+    };
+    let why = profile.limits.dependent_reads.map_or_else(String::new, chain);
+    CardError::input(format!(
+        "device `{}` runs no `!!FP1.0` programs, in which the passes are written{why}; expected one of {}",
+        profile.name,
+        have.join(", ")
+    ))
 }

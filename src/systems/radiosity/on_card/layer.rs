@@ -4,9 +4,9 @@ use refsim::exec::Constants;
 use refsim::machine::{Machine, TextureId};
 use refsim::output::WriteMask;
 
+use super::Storage;
 use super::programs::{BlockPass, Programs};
-use super::{CardError, Storage};
-use crate::card::{FullScreenPass, PingPong, Texels, nearest, new_target};
+use crate::card::{CardError, FullScreenPass, PingPong, Texels, nearest, new_target};
 use crate::radiosity::card_order::CardSystem;
 use crate::radiosity::packing::Packing;
 
@@ -31,12 +31,8 @@ impl SystemLayout {
 
     /// Checks that a texture is one of this system's vectors.
     pub(super) fn check_vector(&self, texels: &Texels) -> Result<(), CardError> {
-        same("texels, as the card has", self.width, texels.texels.len())
+        CardError::check_size("texels, as the card has", self.width, texels.texels.len())
     }
-}
-
-pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<(), CardError> {
-    if expected == found { Ok(()) } else { Err(CardError::Size { what, expected, found }) }
 }
 
 /// A system's textures. A pass reads the radiosities and the partial sums of the pass before, and writes the next
@@ -65,7 +61,7 @@ impl Layer {
     }
 
     pub(super) fn set_matrix(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        same("texels, as the card has", self.layout.width * self.layout.rows, texels.texels.len())?;
+        CardError::check_size("texels, as the card has", self.layout.width * self.layout.rows, texels.texels.len())?;
         self.update(machine, self.matrix, texels)
     }
 
@@ -92,10 +88,10 @@ impl Layer {
     pub(super) fn pass(&self, machine: &mut Machine, programs: &Programs, number: usize) -> Result<(), CardError> {
         let Some(&pass) = programs.passes.get(number) else { return Ok(()) };
         match self.layout.packing {
-            Packing::Rgb => self.draw(machine, programs, (number, pass), 0.0, WriteMask::ALL),
+            Packing::Rgb => self.draw(machine, programs, number, pass, 0.0, WriteMask::ALL),
             // Channel c of texel x is row 4x + c; at the middle of the texel the row is 4 (x + 0.5) + c - 1.5.
             Packing::Luminance => (0..4_u8)
-                .try_for_each(|c| self.draw(machine, programs, (number, pass), f32::from(c) - 1.5, WriteMask(1 << c))),
+                .try_for_each(|c| self.draw(machine, programs, number, pass, f32::from(c) - 1.5, WriteMask(1 << c))),
         }
     }
 
@@ -104,7 +100,8 @@ impl Layer {
         &self,
         machine: &mut Machine,
         programs: &Programs,
-        (number, pass): (usize, BlockPass),
+        number: usize,
+        pass: BlockPass,
         row: f32,
         mask: WriteMask,
     ) -> Result<(), CardError> {

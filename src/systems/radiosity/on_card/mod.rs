@@ -6,7 +6,6 @@
 //! lies below that row and is lost.
 
 mod cycle;
-mod error;
 mod fit;
 mod layer;
 mod product;
@@ -20,7 +19,6 @@ use refsim::event::Event;
 use refsim::machine::{Executor, Machine, TextureId};
 
 pub use cycle::Cycle;
-pub use error::CardError;
 pub use fit::{Fit, Storage};
 pub use product::{product, product_block};
 pub use programs::PassProgram;
@@ -30,8 +28,8 @@ use super::System;
 use super::card_order::{CardSystem, emittances};
 use super::kernels;
 use super::packing::Packing;
-use crate::card::Texels;
-use layer::{Layer, SystemLayout, same};
+use crate::card::{CardError, Texels};
+use layer::{Layer, SystemLayout};
 use programs::Programs;
 
 /// Unit of the sizes in error messages.
@@ -53,7 +51,7 @@ impl CardSolver {
     /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one.
     ///
     /// # Errors
-    /// [`CardError::NoPrograms`], [`CardError::TooLarge`]; [`CardError::Machine`] if the device lacks the format, or
+    /// [`CardError::Input`]; [`CardError::Draw`] if the device lacks the format, or
     /// a GPU of the host does not open.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
@@ -71,8 +69,8 @@ impl CardSolver {
     /// one size for the three channels.
     ///
     /// # Errors
-    /// As [`Self::new`]; [`CardError::Size`] for other numbers of systems or several of different sizes,
-    /// [`CardError::Kernel`] for blocks that are too long for the device.
+    /// As [`Self::new`]; [`CardError::Input`] for other numbers of systems or several of different sizes,
+    /// [`CardError::Program`] for blocks that are too long for the device.
     pub fn of(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -81,12 +79,12 @@ impl CardSolver {
     ) -> Result<Self, CardError> {
         let profile = profile.into();
         let Some(layout) = systems.first().map(SystemLayout::of) else {
-            return Err(CardError::Size { what: SYSTEMS, expected: 1, found: 0 });
+            return Err(CardError::input(format!("expected 1 {SYSTEMS}, found 0")));
         };
         let expected = if layout.packing == Packing::Luminance && systems.len() > 1 { 3 } else { 1 };
-        same(SYSTEMS, expected, systems.len())?;
+        CardError::check_size(SYSTEMS, expected, systems.len())?;
         let alike = systems.iter().filter(|system| SystemLayout::of(system) == layout).count();
-        same("systems of one layout, size and block", systems.len(), alike)?;
+        CardError::check_size("systems of one layout, size and block", systems.len(), alike)?;
         let fit = Fit::of(&profile, layout.packing)?;
         let kernels = kernels::of(layout.packing, storage == Storage::Fp16);
         let programs = Programs::new(&profile, kernels, layout.width, layout.block)?;
@@ -124,7 +122,7 @@ impl CardSolver {
     /// Runs one iteration: all passes of all systems.
     ///
     /// # Errors
-    /// [`CardError::Machine`].
+    /// [`CardError::Draw`].
     pub fn iterate(&mut self) -> Result<(), CardError> {
         self.iterate_watched(&mut |_, _, _| Ok(()))
     }
@@ -132,7 +130,7 @@ impl CardSolver {
     /// Runs one iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
     ///
     /// # Errors
-    /// [`CardError::Machine`].
+    /// [`CardError::Draw`].
     pub fn iterate_by_pass(&mut self, each: &mut dyn FnMut(usize, usize, Texels)) -> Result<(), CardError> {
         self.iterate_watched(&mut |machine, (place, layer), pass| {
             each(place, pass, Texels::read_back(machine, layer.target(pass))?);
@@ -166,7 +164,7 @@ impl CardSolver {
     /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey.
     ///
     /// # Errors
-    /// [`CardError::Machine`].
+    /// [`CardError::Draw`].
     pub fn read(&self) -> Result<Vec<[f32; 3]>, CardError> {
         let all = self.read_texels()?;
         let last = all.len().saturating_sub(1);
@@ -180,7 +178,7 @@ impl CardSolver {
     /// Reads the radiosities back in the layout of the textures, one per system.
     ///
     /// # Errors
-    /// [`CardError::Machine`].
+    /// [`CardError::Draw`].
     pub fn read_texels(&self) -> Result<Vec<Texels>, CardError> {
         let layers = self.layers.iter();
         Ok(layers.map(|layer| Texels::read_back(&self.machine, layer.radiosity)).collect::<Result<_, _>>()?)
@@ -189,9 +187,9 @@ impl CardSolver {
     /// Replaces the radiosities.
     ///
     /// # Errors
-    /// [`CardError::Size`] if there is not one per patch.
+    /// [`CardError::Input`] if there is not one per patch.
     pub fn load(&mut self, radiosity: &[[f32; 3]]) -> Result<(), CardError> {
-        same(PATCHES, self.len(), radiosity.len())?;
+        CardError::check_size(PATCHES, self.len(), radiosity.len())?;
         let texel = |c: usize, x: usize| [0, 1, 2, 3].map(|k| radiosity.get(4 * x + k).map_or(0.0, |b| b[c]));
         let layouts: Vec<Texels> = match self.layout.packing {
             Packing::Rgb => vec![Texels::vector(radiosity.iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect())],
@@ -205,9 +203,9 @@ impl CardSolver {
     /// Replaces the radiosities, in the layout of the textures, one per system.
     ///
     /// # Errors
-    /// [`CardError::Size`].
+    /// [`CardError::Input`].
     pub fn load_texels(&mut self, radiosity: &[Texels]) -> Result<(), CardError> {
-        same("vectors, one a system on the card", self.layers.len(), radiosity.len())?;
+        CardError::check_size("vectors, one a system on the card", self.layers.len(), radiosity.len())?;
         let machine = &mut self.machine;
         self.layers.iter().zip(radiosity).try_for_each(|(layer, texels)| layer.load(machine, texels))
     }
@@ -216,9 +214,9 @@ impl CardSolver {
     /// kept.
     ///
     /// # Errors
-    /// [`CardError::Size`] if it has another number of patches.
+    /// [`CardError::Input`] if it has another number of patches.
     pub fn set_emittance(&mut self, system: &System) -> Result<(), CardError> {
-        same(PATCHES, self.len(), system.factors().len())?;
+        CardError::check_size(PATCHES, self.len(), system.factors().len())?;
         let texels = emittances(system, self.layout.packing, self.fit.limit)
             .map_err(|problem| fit::too_large(self.machine.profile(), problem))?;
         let machine = &mut self.machine;
@@ -228,9 +226,9 @@ impl CardSolver {
     /// Replaces the reflectances: uploads matrix and emittances of a system of as many patches. Radiosities are kept.
     ///
     /// # Errors
-    /// [`CardError::Size`] if it has another number of patches.
+    /// [`CardError::Input`] if it has another number of patches.
     pub fn set_system(&mut self, system: &System) -> Result<(), CardError> {
-        same(PATCHES, self.len(), system.factors().len())?;
+        CardError::check_size(PATCHES, self.len(), system.factors().len())?;
         let fit = Fit { block: self.layout.block, ..self.fit };
         let systems = fit.systems(self.machine.profile(), self.layout.packing, system)?;
         for (layer, system) in self.layers.iter().zip(&systems) {

@@ -9,18 +9,17 @@ use refsim::machine::Executor;
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
+use super::PassProgram;
 use super::fit::{limits, too_large};
-use super::layer::same;
 use super::programs::Programs;
-use super::{CardError, PassProgram};
-use crate::card::{FullScreenPass, PingPong, Texels, nearest};
+use crate::card::{CardError, FullScreenPass, PingPong, Texels, nearest};
 use crate::radiosity::kernels;
 use crate::radiosity::packing::TooLarge;
 
 /// The largest block on a device, in texels: the steps of a pass.
 ///
 /// # Errors
-/// [`CardError::NoPrograms`].
+/// [`CardError::Input`] for a device without programs of such length.
 pub fn product_block(profile: &Profile) -> Result<usize, CardError> {
     let (instructions, _) = limits(profile)?;
     Ok(kernels::PRODUCT_FIRST.block(instructions).min(kernels::PRODUCT_NEXT.block(instructions)).max(1))
@@ -43,8 +42,8 @@ pub fn product(
     let (_, limit) = limits(&profile)?;
     let size = left.width;
     for texels in [left, right] {
-        same("columns, as the left matrix has", size, texels.width)?;
-        same("rows, as the left matrix has columns", size, texels.height)?;
+        CardError::check_size("columns, as the left matrix has", size, texels.width)?;
+        CardError::check_size("rows, as the left matrix has columns", size, texels.height)?;
     }
     if size > limit {
         return Err(too_large(&profile, TooLarge { what: "a matrix", limit, width: size, height: size }));

@@ -60,15 +60,15 @@ impl CardSolver {
     /// computed.
     ///
     /// # Errors
-    /// [`CardError::Size`] if the system has another number of patches, [`CardError::Diverged`],
-    /// [`CardError::Machine`]. Reaching the maximum of iterations is no error: see [`CardSolution::converged`].
+    /// [`CardError::Input`] if the system has another number of patches, or the iteration diverges;
+    /// [`CardError::Draw`]. Reaching the maximum of iterations is no error: see [`CardSolution::converged`].
     pub fn solve(
         &mut self,
         system: &System,
         options: &CardOptions,
         each: &mut dyn FnMut(&Iteration<'_>),
     ) -> Result<CardSolution, CardError> {
-        super::same(super::PATCHES, self.len(), system.factors().len())?;
+        CardError::check_size(super::PATCHES, self.len(), system.factors().len())?;
         let channels = [0, 1, 2];
         let target = channels.map(|c| options.tolerance * options.tolerance * mean_square(&system.right_hand_side(c)));
         let (mut history, mut number) = (Vec::new(), 0);
@@ -77,7 +77,9 @@ impl CardSolver {
         loop {
             let residual = system.residual(&to_f64(&radiosity));
             if residual.iter().any(|r| !r.is_finite()) {
-                return Err(CardError::Diverged { iterations: number });
+                return Err(CardError::input(format!(
+                    "expected an iteration that converges, found no finite residual after {number} iterations"
+                )));
             }
             history.push((number, residual));
             each(&Iteration { number, residual, radiosity: &radiosity });

@@ -5,11 +5,10 @@ use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
 use refsim::output::WriteMask;
 
-use super::error::SubsurfaceCardError;
 use super::levels::LeveledMap;
 use super::link_textures::LinkTextures;
 use super::options::SubsurfaceCardOptions;
-use crate::card::{FullScreenPass, constants, nearest, new_target};
+use crate::card::{CardError, FullScreenPass, constants, nearest, new_target};
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
 
 /// A program of pass 2, accepted by the device.
@@ -59,7 +58,7 @@ impl Gather {
         machine: &mut Machine,
         links: &LinkTextures,
         options: &SubsurfaceCardOptions,
-    ) -> Result<Self, SubsurfaceCardError> {
+    ) -> Result<Self, CardError> {
         let map = map_texture(options);
         let programs = programs(machine.profile(), links, options)?;
         let format = options.links.format();
@@ -68,18 +67,18 @@ impl Gather {
             let end = next + program.kernel.link_textures(program.links);
             while next < end {
                 let count = (tiles * tiles).min(end - next);
-                textures.push(links.tiled((next, count), tiles, map).upload(machine, format)?);
+                textures.push(links.tiled(next, count, tiles, map).upload(machine, format)?);
                 next += count;
             }
         }
         let target = |_| Ok(new_target(machine, options.scattered.format(), [links.side as usize; 2])?);
-        let targets = (0..programs.len().min(2)).map(target).collect::<Result<_, SubsurfaceCardError>>()?;
+        let targets = (0..programs.len().min(2)).map(target).collect::<Result<_, CardError>>()?;
         let factor = (1.0 / options.map.scale()) as f32;
         Ok(Self { side: links.side, level: links.level, factor, textures, programs, targets })
     }
 
     /// Gathers from a map.
-    pub(super) fn run(&self, machine: &mut Machine, map: &LeveledMap) -> Result<(), SubsurfaceCardError> {
+    pub(super) fn run(&self, machine: &mut Machine, map: &LeveledMap) -> Result<(), CardError> {
         let mut next = 0;
         for (pass, program) in self.programs.iter().enumerate() {
             let kernel = program.kernel;
@@ -141,7 +140,7 @@ pub(super) fn programs(
     profile: &Profile,
     links: &LinkTextures,
     options: &SubsurfaceCardOptions,
-) -> Result<Vec<GatherProgram>, SubsurfaceCardError> {
+) -> Result<Vec<GatherProgram>, CardError> {
     let mut programs = Vec::new();
     let mut from = 0;
     while from < links.count {
@@ -155,7 +154,7 @@ pub(super) fn programs(
 }
 
 /// The most links of one pass. Fixed ones by fours, which share textures.
-fn most_links(profile: &Profile, kernel: GatherKernel) -> Result<usize, SubsurfaceCardError> {
+fn most_links(profile: &Profile, kernel: GatherKernel) -> Result<usize, CardError> {
     let limits = &profile.limits;
     let samplers = limits.samplers.unwrap_or(16).min(16);
     let constants = limits.fragment_parameters.unwrap_or(64);
@@ -167,5 +166,10 @@ fn most_links(profile: &Profile, kernel: GatherKernel) -> Result<usize, Subsurfa
     };
     let step = if kernel.layout == LinkLayout::Fixed { 4 } else { 1 };
     let most = (1..=64).map(|count| count * step).take_while(fits).last();
-    most.ok_or_else(|| SubsurfaceCardError::NoRoom { device: profile.name.clone(), samplers, constants })
+    most.ok_or_else(|| {
+        CardError::input(format!(
+            "device `{}` has no room for a link in a program: {samplers} samplers, {constants} constants",
+            profile.name
+        ))
+    })
 }

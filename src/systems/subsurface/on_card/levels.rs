@@ -7,9 +7,8 @@ use refsim::output::WriteMask;
 use refsim::raster::Viewport;
 use refsim::texture::{MipFilter, SamplerState};
 
-use super::error::SubsurfaceCardError;
 use super::options::MapFormat;
-use crate::card::{FullScreenPass, KernelError, Levels, ReadTexture, Texels, nearest, new_target};
+use crate::card::{CardError, FullScreenPass, KernelError, Levels, ReadTexture, Texels, nearest, new_target};
 use crate::subsurface::kernels::{self, LinkLayout};
 
 /// The map with its levels.
@@ -36,7 +35,7 @@ impl LeveledMap {
         format: MapFormat,
         side: u32,
         layout: LinkLayout,
-    ) -> Result<Self, SubsurfaceCardError> {
+    ) -> Result<Self, CardError> {
         let texels = format.format();
         if format.is_leveled() {
             let map = machine.create_target_with_levels(texels, side, side, side.ilog2() + 1)?;
@@ -63,7 +62,7 @@ impl LeveledMap {
     }
 
     /// Makes all levels from the map.
-    pub(super) fn fill(&self, machine: &mut Machine) -> Result<(), SubsurfaceCardError> {
+    pub(super) fn fill(&self, machine: &mut Machine) -> Result<(), CardError> {
         let Some(float) = &self.float else {
             machine.generate_mipmaps(self.map)?;
             return Ok(());
@@ -105,7 +104,7 @@ impl LeveledMap {
     }
 
     /// The values of all levels, finest first, as the programs read them.
-    pub(super) fn read_back(&self, machine: &Machine) -> Result<Vec<Texels>, SubsurfaceCardError> {
+    pub(super) fn read_back(&self, machine: &Machine) -> Result<Vec<Texels>, CardError> {
         if self.format.is_leveled() {
             return Ok(Texels::levels_of(machine.read_back(self.map)?));
         }

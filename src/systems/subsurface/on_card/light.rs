@@ -3,8 +3,8 @@
 use glam::DVec3;
 use std::f64::consts::PI;
 
-use super::error::SubsurfaceCardError;
 use super::model::CardModel;
+use crate::card::CardError;
 use crate::geom::vector::unit;
 
 /// The farthest place of a point light, in units of the model: its square is a single float.
@@ -57,10 +57,10 @@ pub(super) struct CardLights {
 }
 
 impl CardLights {
-    pub(super) fn new(lights: &[Light], model: &CardModel) -> Result<Self, SubsurfaceCardError> {
+    pub(super) fn new(lights: &[Light], model: &CardModel) -> Result<Self, CardError> {
         let mut all = Self::default();
         for (number, light) in lights.iter().enumerate() {
-            let wrong = |what| Err(SubsurfaceCardError::Light { light: number, what });
+            let wrong = |what: &str| Err(CardError::input(format!("light {number} (counted from 0): expected {what}")));
             let (Light::Sky { radiance: color }
             | Light::Directional { irradiance: color, .. }
             | Light::Point { intensity: color, .. }) = light;

@@ -1,8 +1,7 @@
 //! Links as the programs of pass 2 read them.
 
-use super::error::SubsurfaceCardError;
 use super::options::FloatTexels;
-use crate::card::{MeshError, Texels};
+use crate::card::{CardError, Texels};
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
 use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting};
@@ -37,26 +36,26 @@ impl LinkTextures {
     /// its own.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Mesh`] for another number of textures or texels.
+    /// [`CardError::Input`] for another number of textures or texels.
     pub fn from_textures(
         side: u32,
         level: Option<u32>,
         rgb: bool,
         count: usize,
         textures: Vec<Texels>,
-    ) -> Result<Self, SubsurfaceCardError> {
+    ) -> Result<Self, CardError> {
         let expected = match (level, rgb) {
             (Some(_), false) => count.div_ceil(4),
             (Some(_), true) => 3 * count.div_ceil(4),
             (None, rgb) => count * if rgb { 2 } else { 1 },
         };
-        MeshError::check_size("textures of links", expected, textures.len())?;
+        CardError::check_size("textures of links", expected, textures.len())?;
         for texture in &textures {
-            MeshError::check_size("texels of a texture of links", side as usize * side as usize, texture.texels.len())?;
+            CardError::check_size("texels of a texture of links", side as usize * side as usize, texture.texels.len())?;
         }
         if let Some(level) = level {
             let width = (side >> level.min(31)) as usize;
-            MeshError::check_size("links to a level", width * width, count)?;
+            CardError::check_size("links to a level", width * width, count)?;
         }
         Ok(Self { side, level, rgb, count, textures })
     }
@@ -82,11 +81,15 @@ impl LinkTextures {
     }
 
     /// Checks that no factor is infinite in a format.
-    pub(super) fn check(&self, format: FloatTexels) -> Result<(), SubsurfaceCardError> {
+    pub(super) fn check(&self, format: FloatTexels) -> Result<(), CardError> {
         let (largest, format) = format.largest();
         let mut values = self.textures.iter().flat_map(|texture| &texture.texels).flatten();
         match values.find(|value| value.is_nan() || **value > largest) {
-            Some(&found) => Err(SubsurfaceCardError::Factor { format, largest, found }),
+            Some(&found) => Err(CardError::input(format!(
+                "expected factors of links of at most {largest:e} in textures of {format} texels, found {found:e}: \
+                 the areas of the model's texels differ too much; leave out faces that are far larger than the \
+                 others, or store links in fp32"
+            ))),
             None => Ok(()),
         }
     }
@@ -99,7 +102,7 @@ impl LinkTextures {
 
     /// Textures from `first` on as tiles of one, row by row, `tiles` along an edge; 0 where there are no more than
     /// `count`.
-    pub(super) fn tiled(&self, (first, count): (usize, usize), tiles: usize, map: MapTexture) -> Texels {
+    pub(super) fn tiled(&self, first: usize, count: usize, tiles: usize, map: MapTexture) -> Texels {
         if tiles == 1 {
             return self.on_card(first, map);
         }

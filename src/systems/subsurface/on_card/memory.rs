@@ -1,10 +1,10 @@
 //! Memory of the card that the passes take.
 
-use super::error::SubsurfaceCardError;
 use super::gather::GatherProgram;
 use super::levels::LeveledMap;
 use super::link_textures::LinkTextures;
 use super::options::{LightStage, SubsurfaceCardOptions};
+use crate::card::CardError;
 use refsim::device::Profile;
 
 /// Bytes of textures and targets by what they are for, without the picture.
@@ -37,12 +37,16 @@ impl CardMemory {
         self.parts.iter().map(|part| part.1).sum()
     }
 
-    pub(super) fn check(&self, profile: &Profile, held: Option<u64>) -> Result<(), SubsurfaceCardError> {
+    pub(super) fn check(&self, profile: &Profile, held: Option<u64>) -> Result<(), CardError> {
         match held {
             Some(held) if self.bytes() > held => {
                 let parts: Vec<String> = self.parts.iter().map(|(what, bytes)| format!("{what} {bytes}")).collect();
-                let (device, needed) = (profile.name.clone(), self.bytes());
-                Err(SubsurfaceCardError::Memory { device, needed, held, parts: parts.join(", ") })
+                Err(CardError::input(format!(
+                    "expected at most {held} bytes in the memory of device `{}`, the passes need {}: {}",
+                    profile.name,
+                    self.bytes(),
+                    parts.join(", ")
+                )))
             }
             _ => Ok(()),
         }

@@ -3,7 +3,6 @@
 //! A [`SubsurfaceCard`] holds links, geometry and maps of one model. [`SubsurfaceCard::light`] runs passes 1 and 2 for
 //! new lights, [`SubsurfaceCard::view`] pass 3 for a new camera: links stay, and a view needs no new light.
 
-mod error;
 mod gather;
 mod levels;
 mod light;
@@ -22,7 +21,6 @@ use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::machine::{Executor, Machine};
 
-pub use error::SubsurfaceCardError;
 pub use gather::GatherProgram;
 pub use light::Light;
 pub use link_textures::LinkTextures;
@@ -32,7 +30,7 @@ pub use options::{FloatTexels, LightStage, MapFormat, SubsurfaceCardOptions};
 pub use time::{PassEvent, PassKind, PassTime, pass_times};
 pub use view::View;
 
-use crate::card::{MeshError, Texels, require_versions};
+use crate::card::{CardError, Texels, require_versions};
 use crate::picture::Picture;
 use gather::Gather;
 use levels::LeveledMap;
@@ -46,7 +44,6 @@ const MAX_TEXELS: u32 = 16384;
 /// A model on a card, with its links. Dark at first.
 #[derive(Debug)]
 pub struct SubsurfaceCard {
-    machine: Machine,
     options: SubsurfaceCardOptions,
     model: CardModel,
     memory: CardMemory,
@@ -63,7 +60,7 @@ impl SubsurfaceCard {
     /// Uploads a model and its links. `eta` is the index of refraction.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError`] if the device has no such programs, an atlas or a program is too large for it, the links
+    /// [`CardError`] if the device has no such programs, an atlas or a program is too large for it, the links
     /// are of another atlas, or a figure is out of its range.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
@@ -72,10 +69,10 @@ impl SubsurfaceCard {
         links: &LinkTextures,
         eta: f64,
         options: SubsurfaceCardOptions,
-    ) -> Result<Self, SubsurfaceCardError> {
+    ) -> Result<Self, CardError> {
         let profile = profile.into();
         options.check()?;
-        MeshError::check_size("texels along a side of the links' atlas", model.side() as usize, links.side as usize)?;
+        CardError::check_size("texels along a side of the links' atlas", model.side() as usize, links.side as usize)?;
         Self::fits(&profile, links, &options)?;
         links.check(options.links)?;
         let programs = gather::programs(&profile, links, &options)?;
@@ -83,27 +80,25 @@ impl SubsurfaceCard {
         memory.check(&profile, options.memory)?;
         let mut machine = executor.into().machine(profile)?;
         let map = LeveledMap::new(&mut machine, options.map, model.side(), links.layout())?;
-        let light = LightPass::new(&mut machine, &model, (options.light, options.map), eta)?;
+        let light = LightPass::new(&mut machine, &model, options.light, options.map, eta)?;
         let gather = Gather::new(&mut machine, links, &options)?;
-        let view = ViewPass::new(&model, eta);
+        let view = ViewPass::new(machine, &model, eta);
         let lights = CardLights::default();
-        Ok(Self { machine, options, model, memory, map, light, gather, view, lights, log: None })
+        Ok(Self { options, model, memory, map, light, gather, view, lights, log: None })
     }
 
     /// Checks the sizes before anything is made.
-    fn fits(
-        profile: &Profile,
-        links: &LinkTextures,
-        options: &SubsurfaceCardOptions,
-    ) -> Result<(), SubsurfaceCardError> {
+    fn fits(profile: &Profile, links: &LinkTextures, options: &SubsurfaceCardOptions) -> Result<(), CardError> {
         require_versions(profile, &[Version::Fp1_0, Version::Vs2_0], "the passes")?;
         let sides = [profile.limits.max_texture_size, profile.limits.max_target_size].into_iter().flatten();
         let limit = sides.min().unwrap_or(MAX_TEXELS);
         let row = !options.map.is_leveled() && links.level.is_none();
         let (what, width) = if row { ("the row of levels", 2 * links.side) } else { ("the atlas", links.side) };
         if width > limit {
-            let (device, height) = (profile.name.clone(), links.side);
-            return Err(SubsurfaceCardError::TooLarge { device, what, width, height, limit });
+            return Err(CardError::input(format!(
+                "device `{}` has textures of at most {limit}x{limit} texels, {what} needs {width}x{}",
+                profile.name, links.side
+            )));
         }
         Ok(())
     }
@@ -131,10 +126,10 @@ impl SubsurfaceCard {
     /// New lights: passes 1 and 2.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Light`], [`SubsurfaceCardError::Machine`].
-    pub fn light(&mut self, lights: &[Light]) -> Result<(), SubsurfaceCardError> {
+    /// [`CardError::Input`], [`CardError::Draw`].
+    pub fn light(&mut self, lights: &[Light]) -> Result<(), CardError> {
         self.lights = CardLights::new(lights, &self.model)?;
-        self.light.run(&mut self.machine, &self.lights, self.map.map)?;
+        self.light.run(self.view.machine_mut(), &self.lights, self.map.map)?;
         self.scatter()
     }
 
@@ -142,27 +137,27 @@ impl SubsurfaceCard {
     /// 2. There is no direct light then.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Mesh`], [`SubsurfaceCardError::Machine`].
-    pub fn irradiate(&mut self, by_face: &[[f64; 3]]) -> Result<(), SubsurfaceCardError> {
+    /// [`CardError::Input`], [`CardError::Draw`].
+    pub fn irradiate(&mut self, by_face: &[[f64; 3]]) -> Result<(), CardError> {
         self.lights = CardLights::default();
-        self.light.fill_from_faces(&mut self.machine, &self.model, by_face, self.map.map)?;
+        self.light.fill_from_faces(self.view.machine_mut(), &self.model, by_face, self.map.map)?;
         self.scatter()
     }
 
     /// As [`Self::irradiate`], with a table of texels, row by row.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Mesh`], [`SubsurfaceCardError::Machine`].
-    pub fn irradiate_texels(&mut self, by_texel: &[[f64; 3]]) -> Result<(), SubsurfaceCardError> {
+    /// [`CardError::Input`], [`CardError::Draw`].
+    pub fn irradiate_texels(&mut self, by_texel: &[[f64; 3]]) -> Result<(), CardError> {
         self.lights = CardLights::default();
-        self.light.fill_from_texels(&mut self.machine, &self.model, by_texel, self.map.map)?;
+        self.light.fill_from_texels(self.view.machine_mut(), &self.model, by_texel, self.map.map)?;
         self.scatter()
     }
 
     /// Levels and pass 2.
-    fn scatter(&mut self) -> Result<(), SubsurfaceCardError> {
+    fn scatter(&mut self) -> Result<(), CardError> {
         self.note(PassKind::RadiosityMap);
-        self.map.fill(&mut self.machine)?;
+        self.map.fill(self.view.machine_mut())?;
         self.note(PassKind::Levels);
         self.gather()
     }
@@ -170,9 +165,9 @@ impl SubsurfaceCard {
     /// Pass 2 over the present map, as [`Self::light`] and [`Self::irradiate`] end with it.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Machine`].
-    pub fn gather(&mut self) -> Result<(), SubsurfaceCardError> {
-        self.gather.run(&mut self.machine, &self.map)?;
+    /// [`CardError::Draw`].
+    pub fn gather(&mut self) -> Result<(), CardError> {
+        self.gather.run(self.view.machine_mut(), &self.map)?;
         self.note(PassKind::Gather);
         Ok(())
     }
@@ -180,8 +175,8 @@ impl SubsurfaceCard {
     /// The model from a camera: pass 3. Pixels that show nothing are 0.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Lights`], [`SubsurfaceCardError::Mesh`], [`SubsurfaceCardError::Machine`].
-    pub fn view(&mut self, view: &View) -> Result<Picture, SubsurfaceCardError> {
+    /// [`CardError::Input`], [`CardError::Draw`].
+    pub fn view(&mut self, view: &View) -> Result<Picture, CardError> {
         let Texels { width, height, texels } = self.view_texels(view)?;
         let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
         Ok(Picture::rgb(width as u32, height as u32, &pixels))
@@ -191,8 +186,8 @@ impl SubsurfaceCard {
     ///
     /// # Errors
     /// As [`Self::view`].
-    pub fn view_texels(&mut self, view: &View) -> Result<Texels, SubsurfaceCardError> {
-        let texels = self.view.show(&mut self.machine, &self.lights, self.gather.scattered(), view)?;
+    pub fn view_texels(&mut self, view: &View) -> Result<Texels, CardError> {
+        let texels = self.view.show(&self.lights, self.gather.scattered(), view)?;
         self.note(PassKind::View);
         Ok(texels)
     }
@@ -201,32 +196,32 @@ impl SubsurfaceCard {
     /// area, times the map's scale.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Machine`].
-    pub fn read_levels(&self) -> Result<Vec<Texels>, SubsurfaceCardError> {
-        self.map.read_back(&self.machine)
+    /// [`CardError::Draw`].
+    pub fn read_levels(&self) -> Result<Vec<Texels>, CardError> {
+        self.map.read_back(self.view.machine())
     }
 
     /// Reads the finest level of the radiosity map alone.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Machine`].
-    pub fn read_map(&self) -> Result<Texels, SubsurfaceCardError> {
-        Ok(Texels::read_back(&self.machine, self.map.map)?)
+    /// [`CardError::Draw`].
+    pub fn read_map(&self) -> Result<Texels, CardError> {
+        Ok(Texels::read_back(self.view.machine(), self.map.map)?)
     }
 
     /// Reads the scattered irradiance: B of equation 9 per texel.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Machine`].
-    pub fn read_scattered(&self) -> Result<Texels, SubsurfaceCardError> {
-        Ok(Texels::read_back(&self.machine, self.gather.scattered())?)
+    /// [`CardError::Draw`].
+    pub fn read_scattered(&self) -> Result<Texels, CardError> {
+        Ok(Texels::read_back(self.view.machine(), self.gather.scattered())?)
     }
 
     /// How many channels of texels of the radiosity map are at its largest value, so that light may have been cut off.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Machine`].
-    pub fn saturated(&self) -> Result<usize, SubsurfaceCardError> {
+    /// [`CardError::Draw`].
+    pub fn saturated(&self) -> Result<usize, CardError> {
         let largest = self.options.map.largest();
         let map = self.read_map()?;
         let channels = map.texels.iter().flat_map(|texel| &texel[..3]);
@@ -235,13 +230,13 @@ impl SubsurfaceCard {
 
     /// The emulated card.
     pub fn machine_mut(&mut self) -> &mut Machine {
-        &mut self.machine
+        self.view.machine_mut()
     }
 
     /// Starts or stops recording the log.
     pub fn record(&mut self, on: bool) {
-        self.machine.record(on);
-        self.machine.take_log();
+        self.view.machine_mut().record(on);
+        self.view.machine_mut().take_log();
         self.log = on.then(Vec::new);
     }
 
@@ -253,7 +248,7 @@ impl SubsurfaceCard {
     /// Moves what the machine has recorded to a pass.
     fn note(&mut self, pass: PassKind) {
         if let Some(log) = &mut self.log {
-            log.extend(self.machine.take_log().into_iter().map(|event| PassEvent { pass, event }));
+            log.extend(self.view.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use refsim::texture::TexelFormat;
 
-use crate::card::MeshError;
+use crate::card::CardError;
 
 /// Floats of a texture or target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
@@ -118,14 +118,14 @@ impl SubsurfaceCardOptions {
         self.tiles.unwrap_or(1) as usize
     }
 
-    pub(super) fn check(&self) -> Result<(), MeshError> {
+    pub(super) fn check(&self) -> Result<(), CardError> {
         let scale = self.map.scale();
         if self.tiles == Some(0) {
-            return Err(MeshError::Figure { what: "a number of tiles above 0", found: 0.0 });
+            return Err(CardError::figure("a number of tiles above 0", 0));
         }
         if scale.is_finite() && scale > 0.0 && (scale as f32).is_normal() {
             return Ok(());
         }
-        Err(MeshError::Figure { what: "a scale of the 8-bit map above 0", found: scale })
+        Err(CardError::figure("a scale of the 8-bit map above 0", scale))
     }
 }

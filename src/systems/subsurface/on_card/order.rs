@@ -22,7 +22,8 @@ use crate::subsurface::kernels::MapTexture;
 pub fn gathered(
     levels: &[Texels],
     links: &LinkTextures,
-    (programs, half): (&[GatherProgram], Format),
+    programs: &[GatherProgram],
+    half: Format,
     options: &SubsurfaceCardOptions,
 ) -> Result<Texels, TextureError> {
     let map = map_texture(options);
@@ -39,7 +40,7 @@ pub fn gathered(
             let texel = |x: usize| {
                 let mut sum = sums.row(y)[x].map(|value| arithmetic.taken(value));
                 for link in program.from..program.from + program.links {
-                    let (factors, texel) = arithmetic.link(links, (&textures, map), levels, (link, x, y));
+                    let (factors, texel) = arithmetic.link(links, &textures, map, levels, link, [x, y]);
                     for channel in 0..3 {
                         let product = arithmetic.mul(arithmetic.taken(texel[channel]), factors[channel]);
                         sum[channel] = arithmetic.add(sum[channel], product);
@@ -97,9 +98,11 @@ impl Arithmetic {
     fn link(
         self,
         links: &LinkTextures,
-        (textures, map): (&[Texels], MapTexture),
+        textures: &[Texels],
+        map: MapTexture,
         levels: &[Texels],
-        (link, x, y): (usize, usize, usize),
+        link: usize,
+        [x, y]: [usize; 2],
     ) -> ([f32; 3], [f32; 4]) {
         let at = |texture: usize| textures[texture].row(y)[x].map(|value| self.taken(value));
         if let Some(level) = links.level {

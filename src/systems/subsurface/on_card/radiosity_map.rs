@@ -1,16 +1,17 @@
 //! Pass 1 (4.2.2): the light that enters each texel, times the texel's area over the mean area.
 
 use refsim::exec::{CheckedProgram, Constants};
-use refsim::machine::{AttributeStream, DrawCall, Machine, StepRate, TextureId, VertexSource, VertexStreams};
+use refsim::machine::{DrawCall, Machine, TextureId, VertexSource};
 use refsim::output::WriteMask;
 use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::{SamplerState, TexelFormat};
 
-use super::error::SubsurfaceCardError;
 use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
 use super::model::{CardFace, CardModel};
 use super::options::{LightStage, MapFormat};
-use crate::card::{FullScreenPass, MeshError, PingPong, ReadTexture, Texels, constants, nearest};
+use crate::card::{
+    Attribute, CardError, FullScreenPass, PingPong, ReadTexture, Texels, constants, nearest, vertex_streams,
+};
 use crate::subsurface::fresnel::mean_transmittance;
 use crate::subsurface::kernels::{self, LightKernel};
 use crate::subsurface::material::check_eta;
@@ -41,10 +42,8 @@ enum StageData {
 /// The corners of all faces' rectangles.
 #[derive(Debug)]
 struct RectangleVertices {
-    positions: Vec<[u32; 4]>,
-    normals: Vec<[u32; 4]>,
-    /// In clip space, and the area factor.
-    places: Vec<[u32; 4]>,
+    /// Positions, normals, and places in clip space with the area factor.
+    attributes: [Attribute; 3],
     indices: Vec<u32>,
 }
 
@@ -63,10 +62,11 @@ impl LightPass {
     pub(super) fn new(
         machine: &mut Machine,
         model: &CardModel,
-        (stage, format): (LightStage, MapFormat),
+        stage: LightStage,
+        format: MapFormat,
         eta: f64,
-    ) -> Result<Self, SubsurfaceCardError> {
-        check_eta(eta)?;
+    ) -> Result<Self, CardError> {
+        check_eta(eta).map_err(CardError::input)?;
         let most = lights_per_pass(machine, stage);
         let stage = match stage {
             LightStage::Vertices => StageData::Vertices(RectangleVertices::new(model)),
@@ -85,12 +85,7 @@ impl LightPass {
     }
 
     /// Lights the map.
-    pub(super) fn run(
-        &mut self,
-        machine: &mut Machine,
-        lights: &CardLights,
-        map: TextureId,
-    ) -> Result<(), SubsurfaceCardError> {
+    pub(super) fn run(&mut self, machine: &mut Machine, lights: &CardLights, map: TextureId) -> Result<(), CardError> {
         let passes = self.passes(lights.list.len());
         if passes > 1 && self.between.is_none() {
             self.between = Some(PingPong::new(machine, TexelFormat::Rgba32f, [self.side as usize; 2])?);
@@ -132,19 +127,15 @@ impl LightPass {
         constants.into_iter()
     }
 
-    fn by_vertex(
-        &self,
-        machine: &mut Machine,
-        vertices: &RectangleVertices,
-        part: Part<'_>,
-    ) -> Result<(), SubsurfaceCardError> {
+    fn by_vertex(&self, machine: &mut Machine, vertices: &RectangleVertices, part: Part<'_>) -> Result<(), CardError> {
         let profile = machine.profile();
         let program = kernels::VERTEX_LIGHTS.checked(profile, part.lights.len())?;
         let pixel = if part.before.is_some() { kernels::LIT_NEXT } else { kernels::LIT }.checked(profile)?;
         let head = [self.refraction(), part.sky, [0.0, 1.0, LEAST_LENGTH, 0.0]];
         let lit = constants(head.into_iter().chain(self.of_lights(part.lights)));
         let pixel_constants = constants([[part.largest; 4]]);
-        let source = VertexSource::Program { program: &program, constants: &lit, streams: vertices.streams() };
+        let source =
+            VertexSource::Program { program: &program, constants: &lit, streams: vertex_streams(&vertices.attributes) };
         let mut call = DrawCall::new(source, Primitive::TriangleList, &pixel, &pixel_constants, part.target);
         call.indices = Some(&vertices.indices);
         call.center = PixelCenter::OpenGl;
@@ -160,7 +151,7 @@ impl LightPass {
         machine: &mut Machine,
         [positions, normals]: [TextureId; 2],
         part: Part<'_>,
-    ) -> Result<(), SubsurfaceCardError> {
+    ) -> Result<(), CardError> {
         let kernel = kernels::TEXEL_LIGHTS[usize::from(part.before.is_some())];
         let program = kernel.checked(machine.profile(), part.lights.len())?;
         let [r, g, b, _] = part.sky;
@@ -179,7 +170,7 @@ impl LightPass {
         constants: &Constants,
         textures: &[ReadTexture],
         target: TextureId,
-    ) -> Result<(), SubsurfaceCardError> {
+    ) -> Result<(), CardError> {
         FullScreenPass { program, constants, textures, target, mask: WriteMask::ALL, part: None }
             .draw_counting(machine, [self.side as usize; 2])?;
         Ok(())
@@ -192,9 +183,9 @@ impl LightPass {
         model: &CardModel,
         irradiances: &[[f64; 3]],
         map: TextureId,
-    ) -> Result<(), SubsurfaceCardError> {
-        MeshError::check_size("irradiances, one per face", model.faces(), irradiances.len())?;
-        self.fill(machine, model, irradiances, (|face, _| face, map))
+    ) -> Result<(), CardError> {
+        CardError::check_size("irradiances, one per face", model.faces(), irradiances.len())?;
+        self.fill(machine, model, irradiances, |face, _| face, map)
     }
 
     /// Fills the map from a table of irradiances (equation 8), one per texel.
@@ -204,10 +195,10 @@ impl LightPass {
         model: &CardModel,
         irradiances: &[[f64; 3]],
         map: TextureId,
-    ) -> Result<(), SubsurfaceCardError> {
+    ) -> Result<(), CardError> {
         let texels = self.side as usize * self.side as usize;
-        MeshError::check_size("irradiances, one per texel", texels, irradiances.len())?;
-        self.fill(machine, model, irradiances, (|_, texel| texel, map))
+        CardError::check_size("irradiances, one per texel", texels, irradiances.len())?;
+        self.fill(machine, model, irradiances, |_, texel| texel, map)
     }
 
     /// Fills the map with the irradiance that `place` tells by face and texel.
@@ -216,10 +207,11 @@ impl LightPass {
         machine: &mut Machine,
         model: &CardModel,
         irradiances: &[[f64; 3]],
-        (place, map): (fn(usize, usize) -> usize, TextureId),
-    ) -> Result<(), SubsurfaceCardError> {
+        place: fn(usize, usize) -> usize,
+        map: TextureId,
+    ) -> Result<(), CardError> {
         if let Some(&found) = irradiances.iter().flatten().find(|value| !(value.is_finite() && **value >= 0.0)) {
-            return Err(MeshError::Figure { what: "finite irradiances of at least 0", found }.into());
+            return Err(CardError::figure("finite irradiances of at least 0", found));
         }
         let (scale, largest) = (self.format.scale(), f64::from(self.format.largest()));
         let side = self.side as usize;
@@ -266,25 +258,18 @@ fn lights_per_pass(machine: &Machine, stage: LightStage) -> usize {
 impl RectangleVertices {
     fn new(model: &CardModel) -> Self {
         let side = model.side() as f32;
-        let count = 4 * model.faces();
-        let [mut positions, mut normals, mut places] = [(); 3].map(|()| Vec::with_capacity(count));
+        let mut attributes = [(); 3].map(|()| Vec::with_capacity(4 * model.faces()));
         let mut indices = Vec::with_capacity(6 * model.faces());
         for face in &model.faces {
-            let first = positions.len() as u32;
+            let first = attributes[0].len() as u32;
             indices.extend(CardFace::TRIANGLES.map(|corner| first + corner as u32));
             for vertex in &face.rectangle {
                 let ([px, py, pz], [nx, ny, nz], [x, y]) = (vertex.position, vertex.normal, vertex.at);
-                positions.push([px, py, pz, 1.0].map(f32::to_bits));
-                normals.push([nx, ny, nz, 0.0].map(f32::to_bits));
-                places.push([2.0 * x / side - 1.0, 1.0 - 2.0 * y / side, face.area, 0.0].map(f32::to_bits));
+                let place = [2.0 * x / side - 1.0, 1.0 - 2.0 * y / side, face.area, 0.0];
+                let of_vertex = [[px, py, pz, 1.0], [nx, ny, nz, 0.0], place];
+                attributes.iter_mut().zip(of_vertex).for_each(|(into, value)| into.push(value.map(f32::to_bits)));
             }
         }
-        Self { positions, normals, places, indices }
-    }
-
-    fn streams(&self) -> VertexStreams<'_> {
-        let streams = [&self.positions, &self.normals, &self.places].into_iter().enumerate();
-        let streams = streams.map(|(register, data)| AttributeStream { register, step: StepRate::Vertex, data });
-        VertexStreams { vertex_count: self.positions.len(), instance_count: 1, streams: streams.collect() }
+        Self { attributes, indices }
     }
 }

@@ -6,11 +6,10 @@ use refsim::machine::{Machine, TextureId};
 use refsim::output::WriteMask;
 use refsim::texture::{SamplerState, TexelFormat, TextureKind};
 
-use super::error::SubsurfaceCardError;
 use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
 use super::model::CardModel;
 use crate::card::{
-    Attribute, BILINEAR, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshPass, MeshView, Texels, new_texture,
+    Attribute, BILINEAR, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshPass, MeshView, Texels, new_texture,
 };
 use crate::subsurface::fresnel::{fresnel_transmittance, mean_transmittance};
 use crate::subsurface::kernels::{self, Combine, DirectLight, EyeTransmittance, ViewKernel};
@@ -40,28 +39,28 @@ impl View {
         Self { mesh: mesh.into(), kernel, diffuse: [0.0; 3], specular: [0.0; 3], shininess: 0.0 }
     }
 
-    fn check(&self) -> Result<(), MeshError> {
+    fn check(&self) -> Result<(), CardError> {
         let shininess = [("a shininess of 0 to 128", self.shininess, 128.0)];
         let colors = self.diffuse.iter().map(|&value| ("a diffuse reflectance of 0 to 1", value, 1.0));
         let shine = self.specular.iter().map(|&value| ("a specular coefficient of 0 to 1e30", value, 1e30));
         let wrong =
             shininess.into_iter().chain(colors).chain(shine).find(|(_, value, most)| !(0.0..=*most).contains(value));
-        wrong.map_or(Ok(()), |(what, found, _)| Err(MeshError::Figure { what, found }))
+        wrong.map_or(Ok(()), |(what, found, _)| Err(CardError::figure(what, found)))
     }
 }
 
-/// The model's faces, and the table of transmittances.
+/// The display of the model's faces, and the table of transmittances.
 #[derive(Debug)]
 pub(super) struct ViewPass {
     eta: f64,
-    mesh: MeshOnCard,
+    display: MeshDisplay,
     /// Normals, two places in the atlas, and bounds of reads.
     beside: [Attribute; 3],
     table: Option<TextureId>,
 }
 
 impl ViewPass {
-    pub(super) fn new(model: &CardModel, eta: f64) -> Self {
+    pub(super) fn new(machine: Machine, model: &CardModel, eta: f64) -> Self {
         let (mut positions, mut beside) = (Vec::new(), [const { Vec::new() }; 3]);
         for (face, vertex) in model.faces.iter().flat_map(|face| face.whole.iter().map(move |vertex| (face, vertex))) {
             let ([px, py, pz], [nx, ny, nz]) = (vertex.position, vertex.normal);
@@ -69,31 +68,35 @@ impl ViewPass {
             let of_vertex = [[nx, ny, nz, 0.0], vertex.at, face.bounds];
             beside.iter_mut().zip(of_vertex).for_each(|(into, value)| into.push(value.map(f32::to_bits)));
         }
-        Self { eta, mesh: MeshOnCard::in_frame(*model.frame(), positions), beside, table: None }
+        Self { eta, display: MeshDisplay::in_frame(machine, *model.frame(), positions), beside, table: None }
+    }
+
+    /// The card, which all passes share.
+    pub(super) fn machine(&self) -> &Machine {
+        self.display.machine()
+    }
+
+    /// The card, which all passes share.
+    pub(super) fn machine_mut(&mut self) -> &mut Machine {
+        self.display.machine_mut()
     }
 
     /// Draws a view.
-    pub(super) fn show(
-        &mut self,
-        machine: &mut Machine,
-        lights: &CardLights,
-        scattered: TextureId,
-        view: &View,
-    ) -> Result<Texels, SubsurfaceCardError> {
+    pub(super) fn show(&mut self, lights: &CardLights, scattered: TextureId, view: &View) -> Result<Texels, CardError> {
         view.check()?;
-        let direct = direct_lights(machine, lights, view.kernel)?;
+        let direct = direct_lights(self.display.machine(), lights, view.kernel)?;
         let mut textures = vec![(scattered, SamplerState::NEAREST_CLAMP)];
         if view.kernel.transmittance == EyeTransmittance::Table {
-            textures.push((self.table(machine)?, BILINEAR));
+            textures.push((self.table()?, BILINEAR));
         }
-        let profile = machine.profile();
+        let profile = self.display.machine().profile();
         let pixel = view.kernel.checked(profile, direct.len())?;
         let vertex = match view.kernel.direct {
             DirectLight::ByVertex => kernels::VIEW_LIGHTS.checked(profile, direct.len())?,
             DirectLight::None | DirectLight::ByFragment => kernels::VIEW.checked(profile)?,
         };
         let scene = ViewConstants { eta: self.eta, view, lights, direct };
-        let (texels, _) = self.mesh.show(machine, (&view.mesh, false), |pass| {
+        let (texels, _) = self.display.show(&view.mesh, false, |pass| {
             pass.draw(MeshDraw {
                 vertex: (&vertex, scene.of_vertices(pass)),
                 attributes: [pass.positions()].into_iter().chain(&self.beside).collect(),
@@ -103,18 +106,18 @@ impl ViewPass {
                 fragments: KeptFragments::Nearest,
                 mask: WriteMask::ALL,
             })
-            .map_err(SubsurfaceCardError::from)
         })?;
         Ok(texels)
     }
 
     /// Transmittances of cosines 0 to 1, 16 bits each.
-    fn table(&mut self, machine: &mut Machine) -> Result<TextureId, SubsurfaceCardError> {
+    fn table(&mut self) -> Result<TextureId, CardError> {
         if let Some(table) = self.table {
             return Ok(table);
         }
+        let machine = self.display.machine_mut();
         let texel = |at: u32| [fresnel_transmittance(self.eta, f64::from(at) / f64::from(TABLE - 1)) as f32; 4];
-        let texture = new_texture(machine, (TexelFormat::L16, TextureKind::D1), [TABLE, 1, 1], (0..TABLE).map(texel))?;
+        let texture = new_texture(machine, TexelFormat::L16, TextureKind::D1, [TABLE, 1, 1], (0..TABLE).map(texel))?;
         Ok(*self.table.insert(texture))
     }
 }
@@ -124,7 +127,7 @@ fn direct_lights<'a>(
     machine: &Machine,
     lights: &'a CardLights,
     kernel: ViewKernel,
-) -> Result<&'a [CardLight], SubsurfaceCardError> {
+) -> Result<&'a [CardLight], CardError> {
     let limits = &machine.profile().limits;
     let or = |limit: Option<u32>, usual: usize| limit.map_or(usual, |limit| limit as usize);
     let most = match kernel.direct {
@@ -138,7 +141,10 @@ fn direct_lights<'a>(
     };
     let found = lights.list.len();
     if found > most {
-        return Err(SubsurfaceCardError::Lights { device: machine.profile().name.clone(), found, most });
+        return Err(CardError::input(format!(
+            "found {found} lights beside skies, a program of direct light on device `{}` takes at most {most}",
+            machine.profile().name
+        )));
     }
     Ok(&lights.list)
 }

@@ -12,6 +12,7 @@ use crate::all_frequency::shade::TransferredRadiance;
 use crate::card::MeshView;
 use crate::scene::Camera;
 use crate::study::StudyError;
+use crate::study::prt::no_all_frequency_card;
 use crate::transfer::synthetic::signal_at;
 use crate::transfer::{Tangents, Vertices};
 
@@ -52,8 +53,9 @@ impl SystemRun for FactoredBunny {
         let Self { vertices, reflectance, transferred, .. } = self;
         let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
         let place = ProductPlace::Pixels(ProductOptions::default());
-        let mut card = FactoredCard::new(profile.clone(), executor.clone(), mesh, place)?;
+        let card = FactoredCard::new(profile.clone(), executor.clone(), mesh, place);
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
-        Ok(colors(&card.view_texels(&view)?.texels))
+        let texels = card.and_then(|mut card| card.view_texels(&view)).map_err(no_all_frequency_card)?.texels;
+        Ok(colors(&texels))
     }
 }

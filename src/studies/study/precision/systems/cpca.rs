@@ -11,7 +11,7 @@ use crate::cpca::transfer::{Bounces, Incident};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
 use crate::study::StudyError;
-use crate::study::prt::{ExitRadiance, Precomputation};
+use crate::study::prt::{ExitRadiance, Precomputation, no_cpca_card};
 use crate::transfer::brdf::{Brdf, ExitBasis};
 use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crate::transfer::{Tangents, Vertices};
@@ -78,10 +78,12 @@ impl SystemRun for GlossyBunny {
         let Self { vertices, clustering, basis, .. } = self;
         let transfer =
             CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: VECTORS, superclusters: None };
-        let mut card = PrtCard::new(profile.clone(), executor.clone(), transfer, &PrtCardOptions::default())?;
+        let options = PrtCardOptions::default();
+        let card = PrtCard::new(profile.clone(), executor.clone(), transfer, &options);
         // The paper's card adds clusters up by blending, which it cannot do with floats.
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Bgra8 };
-        let colors = colors(&card.view_texels(&self.light, &view)?.texels);
+        let texels = card.and_then(|mut card| card.view_texels(&self.light, &view)).map_err(no_cpca_card)?.texels;
+        let colors = colors(&texels);
         // Codes of 8 bits, which were read in single precision.
         Ok(colors.into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
     }

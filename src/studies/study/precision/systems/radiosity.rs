@@ -8,6 +8,7 @@ use crate::radiosity::packing::Packing;
 use crate::radiosity::{CardSolver, FormFactors, Patches, Storage, Subdivision, System, rooms};
 use crate::study::StudyError;
 use crate::study::precision::goal::Goal;
+use crate::study::radiosity::no_card;
 
 /// Patches, at most. Programs are unrolled over them, so that their number is that of instructions too.
 const PATCHES: usize = 24;
@@ -49,11 +50,10 @@ impl SystemRun for CornellBox {
             &self.systems[input as usize],
             Packing::Rgb,
             Storage::Fp32,
-        )?;
-        for _ in 0..ITERATIONS {
-            card.iterate()?;
-        }
-        Ok(card.read()?.iter().map(|rgb| rgb.map(f64::from)).collect())
+        )
+        .map_err(no_card)?;
+        (0..ITERATIONS).try_for_each(|_| card.iterate()).map_err(no_card)?;
+        Ok(card.read().map_err(no_card)?.iter().map(|rgb| rgb.map(f64::from)).collect())
     }
 
     fn size(&self) -> Option<[u32; 2]> {

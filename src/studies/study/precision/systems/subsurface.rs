@@ -9,6 +9,7 @@ use crate::atlas::Atlas;
 use crate::card::MeshView;
 use crate::scene::Camera;
 use crate::study::StudyError;
+use crate::study::subsurface::no_card;
 use crate::subsurface::Dipole;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::{LinkChoice, Links, MeanWeighting, SCALAR_CHANNEL};
@@ -75,9 +76,11 @@ impl SystemRun for Marble {
             &self.textures,
             self.eta,
             options,
-        )?;
-        card.light(&[Light::Directional { towards: [1.0, -1.0, 2.0], irradiance: [4.0, 3.8, 3.4] }])?;
+        )
+        .map_err(no_card)?;
+        let light = Light::Directional { towards: [1.0, -1.0, 2.0], irradiance: [4.0, 3.8, 3.4] };
+        card.light(&[light]).map_err(no_card)?;
         let view = MeshView { camera: self.cameras[input as usize], exposure: 1.0, format: TexelFormat::Rgba32f };
-        Ok(colors(&card.view_texels(&View::scattered(view))?.texels))
+        Ok(colors(&card.view_texels(&View::scattered(view)).map_err(no_card)?.texels))
     }
 }

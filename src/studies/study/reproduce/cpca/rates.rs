@@ -11,8 +11,8 @@ use super::{
     printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
-use crate::cpca::on_card::estimate::FrameCounts;
 use crate::cpca::on_card::model::TransferSize;
+use crate::cpca::on_card::time::FrameCounts;
 use crate::cpca::on_card::time::host_of_section_7;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;

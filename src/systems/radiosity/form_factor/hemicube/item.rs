@@ -33,8 +33,7 @@ impl ItemBuffer {
     pub(super) fn new(executor: &Executor, profile: &Arc<Profile>, resolution: u32) -> Result<Self, DrawError> {
         let mut machine = executor.machine(Arc::clone(profile))?;
         let program = kernels::ID.checked(profile)?;
-        let formats = (TexelFormat::R32f, DepthFormat::Unorm24);
-        let target = NearestTarget::new(&mut machine, formats, size(resolution))?;
+        let target = NearestTarget::new(&mut machine, TexelFormat::R32f, DepthFormat::Unorm24, size(resolution))?;
         Ok(Self { machine, program, resolution, target })
     }
 

@@ -24,7 +24,7 @@ pub(super) fn exact_pixels(
         let Some(SeenPixel { corners, weights, .. }) = *seen else { return [0.0; 3] };
         let radiance = match &colors {
             Some(colors) => pixel_of_colors(colors, corners, weights),
-            None => pixel_of_products(mesh, (view_of(place), eye), corners, weights),
+            None => pixel_of_products(mesh, view_of(place), eye, corners, weights),
         };
         radiance.map(|value| exposure * value)
     };

@@ -7,10 +7,10 @@ use refsim::texture::TexelFormat;
 use super::pixels::exact_pixels;
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
 use crate::all_frequency::on_card::{
-    FactoredCardError, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw,
+    ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw,
 };
 use crate::all_frequency::shade::Multiplies;
-use crate::card::{MeshView, seen_pixels};
+use crate::card::{CardError, MeshView, seen_pixels};
 use crate::scene::Camera;
 use crate::study::prt::card::{PictureVariant, PixelErrors};
 
@@ -114,19 +114,19 @@ pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
 /// numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn.
 ///
 /// # Errors
-/// [`FactoredCardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
+/// [`CardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
 pub fn factored_precision(
     mesh: TransferredMesh<'_>,
     executor: &Executor,
     (camera, exposure): (Camera, f64),
     done: &mut dyn FnMut(u64),
-) -> Result<Vec<PictureVariant>, FactoredCardError> {
+) -> Result<Vec<PictureVariant>, CardError> {
     let view = MeshView { camera, exposure, format: TexelFormat::Rgba32f };
     let mut found = Vec::new();
     for Choice { axis, label: choice, device, place } in choices(&mesh) {
         let profile = Profile::named(device).expect("a device of the project");
         let seen = seen_pixels(&profile, mesh.vertices.geometry(), &camera)?;
-        let drawing = draw(mesh, (profile, executor.clone()), place, &view, Multiplies::default())?;
+        let drawing = draw(profile, executor.clone(), mesh, place, &view, Multiplies::default())?;
         let expected = exact_pixels(&mesh, &seen, &place, (camera.eye(), exposure));
         let drawn: Vec<[f64; 3]> =
             drawing.texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();

@@ -18,7 +18,7 @@ use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
 use crate::study::prt::card::{PictureVariant, PixelErrors, frame};
-use crate::study::prt::of_texels;
+use crate::study::prt::{no_all_frequency_card, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 
 const SWEEP: &str = "Each row is one change of a picture that hardly rounds, in 255ths of white. \
@@ -37,8 +37,9 @@ impl Study for AllFrequencyOnCard {
         let (exposure, host) = study.exposed(exact_pixels(&mesh, &seen, &self.place, (lit.view.camera.eye(), 1.0)));
         progress("card", 1, 2);
         let view = MeshView { camera: lit.view.camera, exposure, format: card.format };
-        let on_card = (card.profile.clone(), card.executor.clone());
-        let mut drawing = draw(mesh, on_card, self.place, &view, steps.multiplies)?;
+        let (profile, executor) = (card.profile.clone(), card.executor.clone());
+        let mut drawing =
+            draw(profile, executor, mesh, self.place, &view, steps.multiplies).map_err(no_all_frequency_card)?;
         if let Some(sums) = &steps.sums {
             drawing.log = sums.log.events.iter().cloned().chain(drawing.log).collect();
         }
@@ -186,7 +187,9 @@ impl AllFrequencyOnCard {
         let drawn = ways_of_precision(mesh);
         let all = drawn + self.lit.file.coded.as_ref().map_or(0, ways_to_code);
         let mut done = |done| progress("sweep", done, all);
-        let mut variants = factored_precision(*mesh, &self.card.executor, (self.lit.view.camera, exposure), &mut done)?;
+        let view = (self.lit.view.camera, exposure);
+        let variants = factored_precision(*mesh, &self.card.executor, view, &mut done);
+        let mut variants = variants.map_err(no_all_frequency_card)?;
         if let Some(coded) = &self.lit.file.coded {
             let mut done = |done| progress("sweep", drawn + done, all);
             variants.extend(coarse_codes(self, (coded, &steps.cut.light), (seen, exposure), &mut done)?);

@@ -10,6 +10,7 @@ use crate::study::StudyError;
 use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
 use crate::study::prt::card::CardSetting;
+use crate::study::prt::no_all_frequency_card;
 use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
 
 /// A lit model with all-frequency transfer, and the card that draws it.
@@ -61,8 +62,9 @@ impl AllFrequencyOnCard {
                 StudyError::new("crossbar::prt::card", what).with_help(help)
             };
             let coded = self.lit.file.coded.as_ref().ok_or_else(not_coded)?;
-            let mut card = SumCard::new(self.card.profile.clone(), self.card.executor.clone(), coded)?;
-            let (transferred, log) = card.transferred(&cut.light.singles())?;
+            let mut card = SumCard::new(self.card.profile.clone(), self.card.executor.clone(), coded)
+                .map_err(no_all_frequency_card)?;
+            let (transferred, log) = card.transferred(&cut.light.singles()).map_err(no_all_frequency_card)?;
             let sums = Some(CardSums { log, texture_bytes: card.texture_bytes() });
             return Ok(HostSteps { cut, transferred, multiplies: Multiplies::default(), sums });
         }

@@ -58,7 +58,7 @@ impl BiScaleOnCard {
     ) -> Vec<[f64; 3]> {
         let (mesh, eye) = (self.mesh(), self.view.camera.eye());
         let of = |seen: &Option<SeenPixel>| {
-            let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, (eye, edges), &seen));
+            let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, eye, edges, &seen));
             color.map(|value| exposure * value)
         };
         seen.par_iter().map(of).collect()

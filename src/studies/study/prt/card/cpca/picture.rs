@@ -6,11 +6,10 @@ use refsim::event::Event;
 use refsim::texture::TexelFormat;
 
 use super::subject::OnCard;
-use crate::card::{MeshView, SeenPixel};
+use crate::card::{CardError, MeshView, SeenPixel};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::geom::vector::wide;
-use crate::study::StudyError;
 use crate::study::prt::interpolate::SeenSurface;
 use crate::transfer::brdf::ExitBasis;
 
@@ -51,7 +50,7 @@ impl CardDrawing<'_> {
         study: &OnCard,
         transfer: CompressedTransfer<'_>,
         exposure: f64,
-    ) -> Result<Drawn, StudyError> {
+    ) -> Result<Drawn, CardError> {
         let mut card = PrtCard::new(self.profile.clone(), study.card.executor.clone(), transfer, &self.options)?;
         let view = MeshView { camera: study.view.camera, exposure, format: self.format };
         let (texels, log) = if self.timed {

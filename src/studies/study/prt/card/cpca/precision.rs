@@ -11,6 +11,7 @@ use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
 use crate::study::StudyError;
 use crate::study::prt::card::PictureVariant;
 use crate::study::prt::card::difference::{PixelErrors, held};
+use crate::study::prt::no_cpca_card;
 
 /// Maps as fine as the reference picture has them.
 const FINE: usize = 512;
@@ -87,7 +88,7 @@ pub(super) fn variants(
     let draw = |choice: &Choice| -> Result<Vec<[f64; 3]>, StudyError> {
         let profile = Profile::named(choice.device)?;
         let way = CardDrawing { profile: &profile, format: choice.format, options: choice.options, timed: false };
-        Ok(held(&way.draw(study, transfer, exposure)?.colors, true))
+        Ok(held(&way.draw(study, transfer, exposure).map_err(no_cpca_card)?.colors, true))
     };
     let expected = draw(&reference())?;
     let mut variants = Vec::new();

@@ -13,6 +13,7 @@ use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
 use crate::study::prt::exit_radiance::Lit;
 use crate::study::prt::exit_radiance::no_transfer;
+use crate::study::prt::no_cpca_card;
 use crate::study::{ProgressFn, Study, StudyError};
 
 impl Study for OnCard {
@@ -28,7 +29,7 @@ impl Study for OnCard {
         let (exposure, host) = study.exposed(on_host(self, &seen, &basis, &exit));
         progress("card", 1, steps);
         let way = CardDrawing { profile: &card.profile, format: card.format, options: self.options, timed: true };
-        let drawn = way.draw(self, transfer, exposure)?;
+        let drawn = way.draw(self, transfer, exposure).map_err(no_cpca_card)?;
         let compared = ComparedPicture::new(&seen, &drawn.colors, (&host, card.is_clamped()));
         let mut found = study.findings("Compressed transfer on a card", &compared, exposure)?;
         let of_vertices = || lit.radiance(&exit, &self.vertices, wide(self.view.camera.eye()));

@@ -47,12 +47,7 @@ impl FactorMaps {
                 // Exchanged, as the program joins it with the one before.
                 _ => [value(texel, first + 1), value(texel, first), 0.0, 0.0],
             });
-            new_texture(
-                machine,
-                (options.map_format, TextureKind::D2),
-                [map.side() as u32, map.side() as u32, 1],
-                texels,
-            )
+            new_texture(machine, options.map_format, TextureKind::D2, [map.side() as u32, map.side() as u32, 1], texels)
         };
         let textures = (0..terms).step_by(per_texel).enumerate().map(texture).collect::<Result<_, _>>()?;
         Ok(Self { textures, scales })

@@ -1,11 +1,9 @@
 //! Local light of vertices as sets of texture coordinates.
 
-use rayon::prelude::*;
-
 use super::options::LocalFormat;
 use super::subject::CardVertices;
 use crate::bi_scale::kernels::LocalLayout;
-use crate::card::{Attribute, MeshError};
+use crate::card::{Attribute, CardError, by_register, check_finite};
 
 /// Local light of a frame, and its format for the card.
 #[derive(Clone, Copy, Debug)]
@@ -24,10 +22,11 @@ pub(super) struct LocalStream<'a> {
 
 impl LocalStream<'_> {
     /// The sets of a pass but the last, which is begun by the first direction of the pass.
-    pub(super) fn sets(&self, first: usize, count: usize) -> Result<Vec<Attribute>, MeshError> {
-        let of_vertex = |&vertex: &u32| {
+    pub(super) fn sets(&self, first: usize, count: usize) -> Result<Vec<Attribute>, CardError> {
+        let of_vertex = |at: usize| {
+            let vertex = self.vertices.vertices[at] as usize;
             let mut sets = vec![[0_u32; 4]; self.layout.last()];
-            let light = &self.local[vertex as usize * self.directions..][..self.directions];
+            let light = &self.local[vertex * self.directions..][..self.directions];
             for (direction, rgb) in light[first..first + count].iter().enumerate() {
                 for (channel, &value) in rgb.iter().enumerate() {
                     let (set, component) = self.layout.place(direction, channel);
@@ -37,24 +36,21 @@ impl LocalStream<'_> {
             }
             sets
         };
-        let by_vertex: Vec<Vec<[u32; 4]>> = self.vertices.vertices.par_iter().map(of_vertex).collect();
-        let mut numbers = by_vertex.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
-        if let Some(found) = numbers.find(|value| !value.is_finite()) {
-            return Err(MeshError::Figure { what: "local light that its format holds", found: found.into() });
-        }
-        Ok((0..self.layout.last()).map(|set| by_vertex.iter().map(|sets| sets[set]).collect()).collect())
+        let sets = by_register(self.layout.last(), self.vertices.vertices.len(), of_vertex);
+        check_finite("local light that its format holds", &sets)?;
+        Ok(sets)
     }
 }
 
 /// The largest number of local light times a factor.
 ///
 /// # Errors
-/// [`MeshError::Figure`] if single precision does not hold it.
-pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, MeshError> {
+/// [`CardError::Input`] if single precision does not hold it.
+pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, CardError> {
     let numbers = local.as_flattened().iter();
     let found = numbers.fold(0.0_f64, |most, &value| most.max((factor * f64::from(value)).abs()));
     if found.is_finite() && found <= f64::from(f32::MAX) {
         return Ok(found);
     }
-    Err(MeshError::Figure { what: "local light times exposure that single precision holds", found })
+    Err(CardError::figure("local light times exposure that single precision holds", found))
 }

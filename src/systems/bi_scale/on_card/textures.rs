@@ -5,10 +5,9 @@ use refsim::machine::{Machine, TextureId};
 use refsim::num::Format;
 use refsim::texture::{Image, TargetRounding, TexelFormat, TextureKind, encode};
 
-use super::error::BiScaleCardError;
 use crate::bi_scale::kernels::{BlockEdges, BlockGrid};
 use crate::bi_scale::texture::BidirectionalTexture;
-use crate::card::MeshError;
+use crate::card::CardError;
 
 /// The largest number of half precision.
 const HALF_MOST: f32 = 65_504.0;
@@ -16,13 +15,14 @@ const HALF_MOST: f32 = 65_504.0;
 /// The image of a volume, and the factor by which its texels must be multiplied.
 ///
 /// # Errors
-/// [`BiScaleCardError`] for a format other than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or
+/// [`CardError`] for a format other than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or
 /// has no volumes of the size, and samples outside the format's range.
 pub fn volume_image(
     profile: &Profile,
     texture: &BidirectionalTexture,
-    (edges, format): (BlockEdges, TexelFormat),
-) -> Result<(Image, BlockGrid, f64), BiScaleCardError> {
+    edges: BlockEdges,
+    format: TexelFormat,
+) -> Result<(Image, BlockGrid, f64), CardError> {
     let (lights, views) = (texture.light().side(), texture.view().side());
     let grid = BlockGrid { size: texture.size(), lights, views, edges };
     check(profile, &grid, format)?;
@@ -30,8 +30,8 @@ pub fn volume_image(
     let mut image = Image::new(format, TextureKind::Volume, extents.map(|side| side as u32), 1)?;
     let largest = texture.samples().as_flattened().iter().fold(0.0_f32, |most, &value| most.max(value));
     if format == TexelFormat::Rgba16f && largest > HALF_MOST {
-        let found = largest.into();
-        return Err(MeshError::Figure { what: "samples of at most 65504, which half precision holds", found }.into());
+        let what = "samples of at most 65504, which half precision holds";
+        return Err(CardError::figure(what, f64::from(largest)));
     }
     let scale = if format == TexelFormat::Rgba8 && largest > 0.0 { f64::from(largest) } else { 1.0 };
     let [width, height, layers] = extents;
@@ -50,19 +50,26 @@ pub fn volume_image(
 }
 
 /// Refuses a volume that the device cannot store or filter.
-fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(), BiScaleCardError> {
+fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(), CardError> {
     if ![TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f].contains(&format) {
-        let (what, expected) = ("a bidirectional texture", "rgba8, rgba16f or rgba32f");
-        return Err(BiScaleCardError::Format { what, expected, found: format });
+        let sentence = format!("expected a bidirectional texture in rgba8, rgba16f or rgba32f, found {format}");
+        return Err(CardError::Input(sentence));
     }
+    let device = &profile.name;
     if format.record().is_float() && !profile.limits.float_filtering {
-        return Err(BiScaleCardError::FloatFilter { device: profile.name.clone(), format });
+        return Err(CardError::input(format!(
+            "`{device}` filters no {format} textures (limits.float_filtering); hold samples in 8 bits"
+        )));
     }
     let [width, height, layers] = grid.extents();
     match profile.limits.max_volume_size.map(|limit| limit as usize) {
         Some(found) if width.max(height).max(layers) > found => {
-            let (lights, pitch, device) = (grid.lights, grid.pitch(), profile.name.clone());
-            Err(BiScaleCardError::Volume { lights, pitch, width, height, layers, device, found })
+            let (lights, pitch) = (grid.lights, grid.pitch());
+            Err(CardError::input(format!(
+                "{lights} x {lights} blocks of {pitch} x {pitch} texels in {layers} layers need a volume of {width} x \
+                 {height} x {layers}; `{device}` has volumes of {found} a side (limits.max_volume_size); take a \
+                 smaller patch, or fewer directions"
+            )))
         }
         _ => Ok(()),
     }
@@ -87,9 +94,10 @@ impl VolumeTexture {
     pub fn new(
         machine: &mut Machine,
         texture: &BidirectionalTexture,
-        way: (BlockEdges, TexelFormat),
-    ) -> Result<Self, BiScaleCardError> {
-        let (image, grid, scale) = volume_image(machine.profile(), texture, way)?;
+        edges: BlockEdges,
+        format: TexelFormat,
+    ) -> Result<Self, CardError> {
+        let (image, grid, scale) = volume_image(machine.profile(), texture, edges, format)?;
         Ok(Self { id: machine.create_texture(image)?, grid, scale })
     }
 }

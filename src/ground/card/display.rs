@@ -3,15 +3,15 @@
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::exec::CheckedProgram;
-use refsim::machine::{DrawCall, Machine, MachineError, VertexSource};
+use refsim::machine::{DrawCall, Machine, VertexSource};
 use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthState, WriteMask};
 use refsim::raster::{Cull, Primitive};
 use refsim::texture::TexelFormat;
-use thiserror::Error;
 
 use super::kernels::{DEPTH, SHADE_COLOR};
 use super::{
-    Attribute, KernelError, NearestTarget, ReadTexture, Texels, ViewTarget, attribute, constants, vertex_streams,
+    Attribute, CardError, KernelError, NearestTarget, ReadTexture, Texels, ViewTarget, attribute, constants,
+    vertex_streams,
 };
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
@@ -37,32 +37,9 @@ impl From<Camera> for MeshView {
 }
 
 impl MeshView {
-    fn check(&self) -> Result<(), MeshError> {
-        let (what, found) = ("an exposure of 0 to 1e30", self.exposure);
-        if (0.0..=1e30).contains(&found) { Ok(()) } else { Err(MeshError::Figure { what, found }) }
-    }
-}
-
-/// Errors of displaying a mesh.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MeshError {
-    /// Two parts have contradictory sizes.
-    #[error("expected {expected} {what}, found {found}")]
-    Size { what: &'static str, expected: usize, found: usize },
-    /// A number out of its range.
-    #[error("expected {what}, found {found}")]
-    Figure { what: &'static str, found: f64 },
-    /// The card refused a resource or a draw.
-    #[error(transparent)]
-    Machine(#[from] MachineError),
-}
-
-impl MeshError {
-    /// Returns an error unless two sizes are equal.
-    pub fn check_size(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
-        if expected == found { Ok(()) } else { Err(Self::Size { what, expected, found }) }
+    fn check(&self) -> Result<(), CardError> {
+        let found = self.exposure;
+        if (0.0..=1e30).contains(&found) { Ok(()) } else { Err(CardError::figure("an exposure of 0 to 1e30", found)) }
     }
 }
 
@@ -113,26 +90,38 @@ impl DepthPrograms {
     }
 }
 
-/// A mesh in the form that a card gets: in units of its own size, so that the scene's unit of length does not matter.
+/// A card that displays a mesh, which it has in units of the mesh's own size: the scene's unit of length does not
+/// matter.
 #[derive(Debug)]
-pub struct MeshOnCard {
+pub struct MeshDisplay {
+    machine: Machine,
     frame: UnitFrame,
     positions: Attribute,
     target: ViewTarget,
 }
 
-impl MeshOnCard {
-    /// A mesh whose vertices have these positions.
-    pub fn new(positions: impl IntoIterator<Item = [f32; 3], IntoIter: Clone>) -> Self {
+impl MeshDisplay {
+    /// A mesh whose vertices have these positions, on a machine.
+    pub fn new(machine: Machine, positions: impl IntoIterator<Item = [f32; 3], IntoIter: Clone>) -> Self {
         let positions = positions.into_iter().map(wide);
         let frame = UnitFrame::new(positions.clone());
         let positions = positions.map(|position| attribute(frame.of_scene(position).to_array(), 1.0)).collect();
-        Self::in_frame(frame, positions)
+        Self::in_frame(machine, frame, positions)
     }
 
     /// A mesh with positions that are already in a frame, with w = 1.
-    pub fn in_frame(frame: UnitFrame, positions: Attribute) -> Self {
-        Self { frame, positions, target: ViewTarget::default() }
+    pub fn in_frame(machine: Machine, frame: UnitFrame, positions: Attribute) -> Self {
+        Self { machine, frame, positions, target: ViewTarget::default() }
+    }
+
+    /// The emulated card.
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// The emulated card, for work beside the display.
+    pub fn machine_mut(&mut self) -> &mut Machine {
+        &mut self.machine
     }
 
     /// The frame of the positions.
@@ -149,37 +138,36 @@ impl MeshOnCard {
     /// read-back.
     ///
     /// # Errors
-    /// [`MeshError::Figure`] for an exposure out of range, [`MeshError::Machine`] if the card has no such target, and
-    /// the errors of `draw`.
-    pub fn show<E: From<MeshError>>(
+    /// [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the card has no such target, and the
+    /// errors of `draw`.
+    pub fn show(
         &mut self,
-        machine: &mut Machine,
-        (view, is_logged): (&MeshView, bool),
-        draw: impl FnOnce(&mut MeshPass<'_>) -> Result<(), E>,
-    ) -> Result<(Texels, Vec<Event>), E> {
+        view: &MeshView,
+        is_logged: bool,
+        draw: impl FnOnce(&mut MeshPass<'_>) -> Result<(), CardError>,
+    ) -> Result<(Texels, Vec<Event>), CardError> {
         view.check()?;
         if is_logged {
-            machine.record(true);
+            self.machine.record(true);
         }
-        let drawn = self.drawn(machine, view, draw);
+        let drawn = self.drawn(view, draw);
         let mut log = Vec::new();
         if is_logged {
-            machine.record(false);
-            log = machine.take_log();
+            self.machine.record(false);
+            log = self.machine.take_log();
         }
-        Ok((Texels::read_back(machine, drawn?.color).map_err(MeshError::from)?, log))
+        Ok((Texels::read_back(&self.machine, drawn?.color)?, log))
     }
 
-    fn drawn<E: From<MeshError>>(
+    fn drawn(
         &mut self,
-        machine: &mut Machine,
         view: &MeshView,
-        draw: impl FnOnce(&mut MeshPass<'_>) -> Result<(), E>,
-    ) -> Result<NearestTarget, E> {
-        let size = [view.camera.width(), view.camera.height()];
-        let target = self.target.of(machine, view.format, size).map_err(MeshError::from)?;
-        target.clear(machine).map_err(MeshError::from)?;
-        draw(&mut MeshPass { machine, frame: &self.frame, positions: &self.positions, camera: view.camera, target })?;
+        draw: impl FnOnce(&mut MeshPass<'_>) -> Result<(), CardError>,
+    ) -> Result<NearestTarget, CardError> {
+        let (machine, camera) = (&mut self.machine, view.camera);
+        let target = self.target.of(machine, view.format, [camera.width(), camera.height()])?;
+        target.clear(machine)?;
+        draw(&mut MeshPass { machine, frame: &self.frame, positions: &self.positions, camera, target })?;
         Ok(target)
     }
 }
@@ -195,11 +183,6 @@ pub struct MeshPass<'a> {
 }
 
 impl<'a> MeshPass<'a> {
-    /// The card.
-    pub fn machine(&mut self) -> &mut Machine {
-        self.machine
-    }
-
     /// Positions in the mesh's frame, with w = 1.
     pub fn positions(&self) -> &'a Attribute {
         self.positions
@@ -223,8 +206,8 @@ impl<'a> MeshPass<'a> {
     /// Draws the whole mesh into the depth buffer only.
     ///
     /// # Errors
-    /// [`MachineError`] if the card refuses the draw.
-    pub fn draw_depth(&mut self, programs: &DepthPrograms, indices: &[u32]) -> Result<(), MachineError> {
+    /// [`CardError::Draw`].
+    pub fn draw_depth(&mut self, programs: &DepthPrograms, indices: &[u32]) -> Result<(), CardError> {
         self.draw(MeshDraw {
             vertex: (&programs.vertex, self.rows().to_vec()),
             attributes: vec![self.positions],
@@ -239,8 +222,8 @@ impl<'a> MeshPass<'a> {
     /// Draws front faces: triangles whose corners appear counter-clockwise.
     ///
     /// # Errors
-    /// [`MachineError`] if the card refuses the draw.
-    pub fn draw(&mut self, draw: MeshDraw<'_>) -> Result<(), MachineError> {
+    /// [`CardError::Draw`].
+    pub fn draw(&mut self, draw: MeshDraw<'_>) -> Result<(), CardError> {
         let MeshDraw { vertex: (program, vertex_constants), pixel: (pixel, pixel_constants), .. } = draw;
         let (vertex_constants, pixel_constants) = (constants(vertex_constants), constants(pixel_constants));
         let streams = vertex_streams(draw.attributes);

@@ -29,13 +29,15 @@ fn texels(basis: &ExitBasis, map: ParabolicMap) -> impl Iterator<Item = Vec<f64>
 pub(super) fn exit_maps(
     machine: &mut Machine,
     basis: &ExitBasis,
-    (map, format, scale): (ParabolicMap, TexelFormat, f64),
+    map: ParabolicMap,
+    format: TexelFormat,
+    scale: f64,
 ) -> Result<Vec<ReadTexture>, MachineError> {
     let all: Vec<Vec<f64>> = texels(basis, map).collect();
     let extents = [map.side() as u32, map.side() as u32, 1];
     let texture = |first: usize| {
         let four = |y: &Vec<f64>| [0, 1, 2, 3].map(|at| y.get(first + at).map_or(0.0, |y| (y / scale) as f32));
-        Ok((new_texture(machine, (format, TextureKind::D2), extents, all.iter().map(four))?, BILINEAR))
+        Ok((new_texture(machine, format, TextureKind::D2, extents, all.iter().map(four))?, BILINEAR))
     };
     (0..basis.len()).step_by(4).map(texture).collect()
 }

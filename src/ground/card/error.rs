@@ -1,0 +1,48 @@
+//! The error of everything that a card of any system is asked for.
+
+use std::fmt::Display;
+
+use refsim::machine::MachineError;
+use refsim::texture::TextureError;
+use thiserror::Error;
+
+use super::KernelError;
+
+/// Why a card does not compute or draw what it is asked for.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CardError {
+    /// An input of a wrong size, out of its range, or beyond a limit of the device: what was expected and what was
+    /// found.
+    #[error("{0}")]
+    Input(String),
+    /// The device does not run a language, or refuses a program.
+    #[error(transparent)]
+    Program(#[from] KernelError),
+    /// The card refused a resource or a draw, or could not be opened.
+    #[error(transparent)]
+    Draw(#[from] MachineError),
+}
+
+impl CardError {
+    /// The error of an input.
+    pub fn input(sentence: impl Display) -> Self {
+        Self::Input(sentence.to_string())
+    }
+
+    /// The error of a number out of its range.
+    pub fn figure(what: &str, found: impl Display) -> Self {
+        Self::Input(format!("expected {what}, found {found}"))
+    }
+
+    /// Returns an error unless two sizes are equal.
+    pub fn check_size(what: &str, expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found { Ok(()) } else { Err(Self::Input(format!("expected {expected} {what}, found {found}"))) }
+    }
+}
+
+impl From<TextureError> for CardError {
+    fn from(error: TextureError) -> Self {
+        Self::Draw(error.into())
+    }
+}

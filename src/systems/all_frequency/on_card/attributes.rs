@@ -1,0 +1,111 @@
+//! The vertex streams of a frame.
+
+use glam::DVec3;
+
+use super::frame::FactoredCounts;
+use super::options::{ProductOptions, RadianceFormat, VertexColors, ViewMaker};
+use super::subject::TransferredMesh;
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::kernels::{LEAST_DENOMINATOR, ViewNumbers};
+use crate::all_frequency::shade::exit_radiance;
+use crate::card::{Attribute, CardError, MeshView, attribute, by_register, check_finite, through_half};
+use crate::geom::UnitFrame;
+use crate::geom::vector::wide;
+
+/// Step 4 per vertex, for vertex colors.
+pub(super) fn radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
+    let transferred = |vertex: usize, row: usize| mesh.transferred.of(vertex)[row].map(f64::from);
+    exit_radiance(mesh.vertices, mesh.reflectance, &|vertex| mesh.color(vertex), &transferred, wide(eye))
+}
+
+/// Step 4 per vertex of a diffuse surface, which is the same from everywhere.
+pub(super) fn diffuse_radiance(mesh: &TransferredMesh<'_>) -> Vec<[f64; 3]> {
+    let mut g = [0.0];
+    Reflectance::Diffuse.view(DVec3::Z, &mut g);
+    let of = |vertex: usize| {
+        let (row, color) = (mesh.transferred.of(vertex)[0], mesh.color(vertex));
+        [0, 1, 2].map(|channel| g[0] * f64::from(row[channel]) * color[channel])
+    };
+    (0..mesh.vertices.len()).map(of).collect()
+}
+
+/// Vertex colors, and how many are below 0 or above 1, which bytes do not hold.
+pub(super) fn colors(
+    radiance: &[[f64; 3]],
+    exposure: f64,
+    format: VertexColors,
+) -> Result<(Attribute, FactoredCounts), CardError> {
+    let colors: Vec<[f64; 3]> = radiance.iter().map(|color| color.map(|value| exposure * value)).collect();
+    let count = |is_out: fn(&f64) -> bool| Some(colors.iter().filter(|color| color.iter().any(is_out)).count() as u64);
+    let counts = FactoredCounts {
+        vertices_below_zero: count(|&value| value < 0.0),
+        vertices_above_one: count(|&value| value > 1.0),
+        ..FactoredCounts::default()
+    };
+    let held = |color: &[f64; 3]| match format {
+        VertexColors::Floats => attribute(*color, 1.0),
+        VertexColors::Bytes => attribute(color.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() / 255.0), 1.0),
+    };
+    let stream: Attribute = colors.iter().map(held).collect();
+    check_finite(HELD, std::slice::from_ref(&stream))?;
+    Ok((stream, counts))
+}
+
+/// What attributes must be.
+const HELD: &str = "radiance that its format holds";
+
+/// Transferred radiance for products per pixel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RadianceStream<'a> {
+    pub(super) mesh: TransferredMesh<'a>,
+    pub(super) options: &'a ProductOptions,
+    /// Per term the factor of T_p that compensates the scale of G's texels.
+    pub(super) scales: &'a [f64],
+    pub(super) frame: &'a UnitFrame,
+}
+
+impl RadianceStream<'_> {
+    /// The coordinate sets of a pass: T_p times exposure, color and scales, and the view if the host computes it.
+    pub(super) fn sets(&self, view: &MeshView, pass: usize) -> Result<Vec<Attribute>, CardError> {
+        let layout = self.options.layout(self.mesh.terms());
+        let eye = self.frame.of_scene(wide(view.camera.eye()));
+        let rounded = |value: f64| match self.options.radiance {
+            RadianceFormat::Fp32 => value as f32,
+            RadianceFormat::Fp16 => through_half(value as f32),
+        };
+        let of_vertex = |vertex: usize| {
+            let mut numbers = vec![[0_u32; 4]; layout.sets()];
+            let color = self.mesh.color(vertex);
+            for (term, row) in self.mesh.transferred.of(vertex).iter().enumerate() {
+                for channel in 0..layout.channels {
+                    let of = if layout.channels == 1 { pass } else { channel };
+                    let (set, component) = layout.place(term, channel);
+                    let value = f64::from(row[of]) * color[of] * view.exposure * self.scales[term];
+                    numbers[set][component] = rounded(value).to_bits();
+                }
+            }
+            if self.options.view_maker == ViewMaker::Host {
+                for (component, value) in self.view(vertex, eye).into_iter().take(layout.view.count()).enumerate() {
+                    numbers[layout.view_set()][component] = rounded(value).to_bits();
+                }
+            }
+            numbers
+        };
+        let sets = by_register(layout.sets(), self.mesh.vertices.len(), of_vertex);
+        check_finite(HELD, &sets)?;
+        Ok(sets)
+    }
+
+    /// The view of a vertex, by the vertex program's formula in f64.
+    fn view(&self, vertex: usize, eye: DVec3) -> [f64; 3] {
+        let position = self.frame.of_scene(wide(self.mesh.vertices.positions()[vertex]));
+        let local = self.mesh.vertices.frames()[vertex].to_local(eye - position);
+        match self.options.view {
+            ViewNumbers::Vector => local.to_array(),
+            ViewNumbers::Coordinates => {
+                let scale = 0.5 / (local.length() + local.z).max(LEAST_DENOMINATOR);
+                [0.5 + scale * local.x, 0.5 + scale * local.y, 0.0]
+            }
+        }
+    }
+}
