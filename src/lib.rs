@@ -70,7 +70,7 @@ pub use crossbar_base::{compare, elementary, geom, oracle};
 pub use crossbar_ground::{atlas, card, fresnel, io, linalg, names, picture, quadrature, scene, sphere, tracer};
 #[cfg(feature = "cli")]
 #[doc(inline)]
-pub use crossbar_studies::{case, report, shader, split, study};
+pub use crossbar_studies::{case, options, report, shader, split, study};
 #[cfg(feature = "systems")]
 #[doc(inline)]
 pub use crossbar_systems::{all_frequency, bi_scale, cpca, radiosity, ray_engine, renderer, subsurface, transfer};

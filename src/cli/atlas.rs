@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use super::memory::{self, MemoryNeed};
 use super::model_name;
 use super::scene_name::EyeArgs;
-use super::size::Size;
 use super::study::StudyArgs;
 use crate::atlas::{MAX_SIDE, require_side};
+use crate::options::Size;
 use crate::study::atlas::{AtlasStudy, MAX_PICTURE, no_atlas};
 
 const EXAMPLES: &str = "\
@@ -38,9 +38,6 @@ pub(super) struct Args {
     /// Pixels of the pictures of the mesh
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
-
-    #[command(flatten)]
-    eye: EyeArgs,
 
     /// Folder for pictures, tables, page and files [default: write nothing]
     #[arg(long, value_name = "DIR")]
@@ -83,7 +80,7 @@ impl StudyArgs for Args {
         let mesh = model_name::mesh(&self.model)?;
         require_faces(mesh.len(), self.out.is_some())?;
         let camera = match self.out {
-            Some(_) if !mesh.is_empty() => Some(self.eye.framing(&mesh, self.size)?),
+            Some(_) if !mesh.is_empty() => Some(EyeArgs::default().framing(&mesh, self.size)?),
             _ => None,
         };
         Ok(AtlasStudy { name: self.model.display().to_string(), mesh, side: self.side, camera })

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::memory::{self, MemoryNeed};
-use super::number;
 use super::study::{self, StudyArgs};
 use super::{CommandLine, Out, Problem, view};
 use crate::io::PictureFile;
+use crate::options::number;
 use crate::picture::metrics::{DEFAULT_PPD, MAX_PPD, MIN_PPD};
 use crate::report::Verdict;
 use crate::study::picture_difference::{DifferenceBounds, PictureDifference, PictureInput};

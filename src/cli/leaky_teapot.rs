@@ -10,12 +10,12 @@ use super::memory::MemoryNeed;
 use super::model_name;
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
-use super::size::Size;
 use super::study::StudyArgs;
 use super::view;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::io::load_rays;
+use crate::options::Size;
 use crate::ray_engine::RayBatch;
 use crate::scene::Camera;
 use crate::study::configuration::Configuration;
@@ -93,7 +93,7 @@ pub(super) struct Args {
 
     /// Every ray against every triangle; without it, buckets of 32 x 32 rays meet the triangles near them
     #[arg(long)]
-    all_pairs: bool,
+    brute_force: bool,
 
     /// Which executor computes; the bits are the same
     #[arg(long, value_enum, default_value = "batch")]
@@ -158,7 +158,7 @@ impl StudyArgs for Args {
             rays_per_edge: self.rays_per_edge,
             seed: self.seed,
             executor: self.executor.open(&self.gpu)?,
-            all_pairs: self.all_pairs,
+            all_pairs: self.brute_force,
         })
     }
 }

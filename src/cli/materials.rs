@@ -2,8 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::{Out, Problem, Verdict, number, study};
+use super::{Out, Problem, Verdict, study};
 use crate::names::did_you_mean;
+use crate::options::number;
 use crate::report::{Cell, Findings, Table};
 use crate::subsurface::materials::{MATERIALS, PublishedFigure, PublishedMaterial, named};
 use crate::subsurface::{Coefficients, Dipole, Material, MaterialError};
@@ -14,7 +15,7 @@ Examples:
       the published media: coefficients, mean free paths, diffuse reflectances
   crossbar materials marble
       lengths and reflectances of marble, and where its coefficients are from
-  crossbar materials skin1 --at 0,0.5,1,2,5
+  crossbar materials skin1 --radius 0,0.5,1,2,5
       how much light leaves at these distances (mm) from where it entered
   crossbar materials --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3
       a medium of one's own; one number for all channels, or R,G,B
@@ -23,7 +24,7 @@ Examples:
 
 Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
 
-/// Distances that are shown without `--at`, in mean free paths of the longest.
+/// Distances that are shown without `--radius`, in mean free paths of the longest.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 /// Fractions of the light whose radii are shown.
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
@@ -38,7 +39,7 @@ pub(super) struct Args {
 
     /// Distances in mm at which R_d is shown [default: 0 to 10 of the longest mean free path]
     #[arg(long, value_name = "MM,...", value_delimiter = ',', value_parser = number::not_negative)]
-    at: Vec<f64>,
+    radius: Vec<f64>,
 
     /// Reduced scattering coefficient per mm, one number or R,G,B
     #[arg(long, value_name = "PER_MM", value_parser = channels, requires = "sigma_a", allow_hyphen_values = true)]
@@ -80,11 +81,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         Some(material) => {
             let eta = args.eta.unwrap_or(material.eta);
             let material = Material::new(material.name, material.channels, eta).map_err(refused)?;
-            study::show(&one(&Shown::new(&material, &args.at).map_err(refused)?, published), out)
+            study::show(&one(&Shown::new(&material, &args.radius).map_err(refused)?, published), out)
         }
-        None if args.eta.is_some() || !args.at.is_empty() => {
+        None if args.eta.is_some() || !args.radius.is_empty() => {
             let help = "name a medium, or give `--sigma-s` and `--sigma-a`; `crossbar materials` lists the names";
-            Err(Problem::usage("`--eta` and `--at` are about one medium", help).into())
+            Err(Problem::usage("`--eta` and `--radius` are about one medium", help).into())
         }
         None => all(out),
     }

@@ -30,8 +30,6 @@ mod memory;
 mod merge;
 mod model_file;
 mod model_name;
-mod number;
-mod one_of;
 mod out;
 mod outputs;
 mod page;
@@ -47,7 +45,6 @@ mod run;
 mod scene;
 mod scene_name;
 mod shown;
-mod size;
 mod study;
 mod subsurface;
 mod switch;
@@ -71,7 +68,6 @@ pub use error::{OutputError, Problem};
 pub use memory::{LimitSource, MemoryError};
 pub use out::Out;
 pub use progress::ProgressBar;
-pub use size::{BadSize, Size};
 
 /// The answer to nothing.
 const WELCOME: &str = "\

@@ -8,7 +8,7 @@ use clap::{ArgMatches, Command};
 use super::Problem;
 
 /// The options whose value is the path of a file or folder that is written.
-const OUTPUTS: [&str; 9] = ["out", "dump", "csv", "matrix", "values", "sheet", "arrays", "trace", "coefficients"];
+const OUTPUTS: [&str; 7] = ["out", "csv", "matrix", "sheet", "arrays", "perfetto", "coefficients"];
 
 /// Refuses two outputs with one path: one would overwrite the other.
 ///

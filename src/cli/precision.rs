@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::memory::MemoryNeed;
-use super::one_of::{OneOf, one_of};
 use super::part::PartArgs;
 use super::study::StudyArgs;
 use super::{given, run, switch};
 use crate::case::{Overrides, Setup};
+use crate::options::one_of::{OneOf, one_of};
 use crate::study::precision::{
     CaseSubject, FormatCosts, FormatFamily, Goal, KnownRuns, PaperSystem, Precision, PrecisionSubject,
 };

@@ -137,8 +137,8 @@ mod tests {
     #[test]
     fn what_is_resolved_resolves_to_itself() {
         for line in [
-            "crossbar leaky-teapot --all-pairs --device r200 --device nv20",
-            "crossbar radiosity cornell-room --per-side 3 --frames 1,2 --solver card --solver direct --switch rounding=rtz",
+            "crossbar leaky-teapot --brute-force --device r200 --device nv20",
+            "crossbar radiosity cornell-room --per-side 3 --picture-after 1,2 --solver card --solver direct --switch rounding=rtz",
             "crossbar all-frequency factor --table q.csv",
             "crossbar all-frequency factor --merl m.binary --channel red",
             "crossbar all-frequency factor --brdf phong --exponent 9",

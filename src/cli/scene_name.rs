@@ -4,10 +4,11 @@ use std::path::Path;
 
 use miette::IntoDiagnostic as _;
 
-use super::size::Size;
-use super::{Problem, model_file, number, view};
+use super::{Problem, model_file, view};
 use crate::geom::Mesh;
 use crate::names::did_you_mean;
+use crate::options::Size;
+use crate::options::number;
 use crate::scene::{Camera, Scene, built};
 
 /// A scene of the project, if the path is its name; `None` for a file.
@@ -41,7 +42,7 @@ pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
 }
 
 /// An eye of the user's own.
-#[derive(Clone, Copy, Debug, clap::Args)]
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(super) struct EyeArgs {
     /// Where the rays start [default: far enough to see all of the scene]
     #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]

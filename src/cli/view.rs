@@ -6,13 +6,13 @@ use glam::DVec3;
 use miette::IntoDiagnostic as _;
 use refsim::num::FormatError;
 
-use super::one_of::{OneOf, one_of};
-use super::size::Size;
 use super::{MemoryError, Problem, memory};
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::io::PictureFile;
 use crate::io::atomic::FileSet;
+use crate::options::Size;
+use crate::options::one_of::{OneOf, one_of};
 use crate::picture::Picture;
 use crate::scene::Camera;
 

@@ -60,6 +60,7 @@ const CROSSBAR: Law = (
         ("card", "geom scene"),
         ("atlas", "elementary geom"),
         ("report", "elementary picture"),
+        ("options", "io"),
         ("split", "io report"),
         ("shader", "io report"),
         ("compare", ""),
@@ -76,12 +77,12 @@ const CROSSBAR: Law = (
         (
             "study",
             "names ray_engine radiosity subsurface transfer cpca all_frequency bi_scale sphere atlas renderer case \
-             shader split report picture card tracer elementary geom scene linalg io",
+             shader split report options picture card tracer elementary geom scene linalg io",
         ),
         (
             "cli",
             "names study ray_engine radiosity subsurface transfer cpca all_frequency bi_scale sphere atlas renderer \
-             case compare shader split report picture card tracer geom scene linalg io",
+             case compare shader split report options picture card tracer geom scene linalg io",
         ),
         ("lib", ""),
         ("main", "cli"),

@@ -16,7 +16,7 @@ fn glossy(folder: &Path) -> [String; 2] {
     let [factors, sight, coded] = ["factors", "sight.prt", "coded.prt"].map(|name| place(folder, name));
     let of_factors = ["--brdf", "cook-torrance", "--side", "16", "--supersamples", "1x1", "--terms", "10"];
     document(&[&["all-frequency", "factor"], &of_factors[..], &["--out", &factors]].concat());
-    let of_sight = ["--factors", &factors, "--out", &sight];
+    let of_sight = ["--reflectance", &factors, "--out", &sight];
     document(&[&["all-frequency", "precompute", MODEL], &of_sight[..]].concat());
     let of_code = ["--model", MODEL, "--points-per-cluster", "20", "--vectors", "6", "--out", &coded];
     document(&[&["all-frequency", "compress", &sight], &of_code[..]].concat());

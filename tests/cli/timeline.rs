@@ -10,7 +10,7 @@ use crate::trace_format::{Shown, read};
 use crate::{crossbar, crossbar_in};
 
 /// A small crossbar.
-const RAYS: &[&str] = &["timeline", "--rays", "48x40", "--mesh", "fixtures/models/square.obj"];
+const RAYS: &[&str] = &["timeline", "--eye-rays", "48x40", "--mesh", "fixtures/models/square.obj"];
 
 fn number(value: &Value) -> u64 {
     value.as_u64().unwrap_or_else(|| panic!("expected a whole number, found {value}"))
@@ -43,7 +43,7 @@ fn check(document: &Value, models: &[&str]) {
 #[test]
 fn a_case_by_its_rates() {
     // The model without guesses of the two: its tables change with the tables of the device, not with a guess.
-    let ran = crossbar(&["timeline", "fixtures/cases/modulate.toml", "--model", "rates", "--sensitivity"], "");
+    let ran = crossbar(&["timeline", "fixtures/cases/modulate.toml", "--timing", "rates", "--sensitivity"], "");
     insta::assert_snapshot!(ran.transcript());
 }
 
@@ -88,7 +88,7 @@ fn asynchronous_is_never_slower_and_two_copies_are_not() {
 
 #[test]
 fn guesses_are_halved_and_doubled() {
-    let document = document(&["timeline", "fixtures/cases/modulate.toml", "--model", "pipeline", "--sensitivity"]);
+    let document = document(&["timeline", "fixtures/cases/modulate.toml", "--timing", "pipeline", "--sensitivity"]);
     let model = &document["models"][0];
     let total = number(&model["total_ps"]);
     let rows = model["sensitivity"].as_array().expect("rows");
@@ -103,7 +103,7 @@ fn guesses_are_halved_and_doubled() {
 
 #[test]
 fn the_texture_cache_on_request() {
-    let arguments = [RAYS, &["--model", "pipeline"]].concat();
+    let arguments = [RAYS, &["--timing", "pipeline"]].concat();
     let estimated = document(&arguments);
     assert!(estimated["texture_cache"].is_null());
     let simulated = document(&[&arguments[..], &["--cache"]].concat());
@@ -124,7 +124,7 @@ fn traced(arguments: &[&str]) -> (Shown, u64) {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let path = folder.path().join("trace.json");
     let path = path.to_str().expect("a path of text");
-    let document = document(&[arguments, &["--trace", path]].concat());
+    let document = document(&[arguments, &["--perfetto", path]].concat());
     assert_eq!(document["trace"], path);
     let models = document["models"].as_array().expect("models");
     let total = number(&models.last().expect("a model")["total_ps"]);
@@ -155,10 +155,10 @@ fn bad_requests() {
         ("no_time", vec!["timeline", &case, "--device", "ideal-fp32"]),
         ("unknown_device", vec!["timeline", &case, "--device", "r9999"]),
         ("nothing", vec!["timeline"]),
-        ("case_and_rays", vec!["timeline", &case, "--rays", "4x4"]),
+        ("case_and_rays", vec!["timeline", &case, "--eye-rays", "4x4"]),
         ("mesh_of_a_case", vec!["timeline", &case, "--mesh", "m.obj"]),
-        ("bad_rays", vec!["timeline", "--rays", "4"]),
-        ("no_kernel", vec!["timeline", "--rays", "4x4", "--device", "nv20"]),
+        ("bad_rays", vec!["timeline", "--eye-rays", "4"]),
+        ("no_kernel", vec!["timeline", "--eye-rays", "4x4", "--device", "nv20"]),
     ] {
         let ran = crossbar_in(folder.path(), &arguments, "");
         assert_eq!(ran.code, Some(2), "{name}: {}", ran.stdout);
@@ -171,7 +171,7 @@ fn bad_requests() {
 fn a_trace_that_cannot_be_written() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     fs::write(folder.path().join("no"), "a file").expect("a file");
-    let ran = crossbar_in(folder.path(), &["timeline", &example("modulate"), "--trace", "no/folder/trace.json"], "");
+    let ran = crossbar_in(folder.path(), &["timeline", &example("modulate"), "--perfetto", "no/folder/trace.json"], "");
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
     assert!(ran.stderr.contains("no/folder"), "{}", ran.stderr);
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1);

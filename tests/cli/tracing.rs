@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use crate::crossbar_in;
-use approx::abs_diff_eq;
 
 fn in_project(path: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path).to_string_lossy().into_owned()
@@ -19,20 +18,6 @@ fn hits(arguments: &[&str]) -> String {
     let ran = crossbar_in(folder.path(), &all, "");
     assert_eq!(ran.code, Some(0), "{}", ran.transcript());
     fs::read_to_string(folder.path().join("hits.csv")).expect("the hits were written")
-}
-
-#[test]
-fn fp32_and_both_executors_agree_with_exact_arithmetic_on_easy_rays() {
-    for sides in ["front", "both"] {
-        let exact = hits(&["--sides", sides]);
-        assert!(exact.starts_with("ray,triangle,t\n0,"), "{exact}");
-        let batch = hits(&["--sides", sides, "--executor", "batch", "--device", "ideal-fp32"]);
-        let scalar = hits(&["--sides", sides, "--executor", "scalar", "--device", "ideal-fp32"]);
-        assert_eq!(batch, scalar, "{sides}: one kernel, two executors");
-        let triangles =
-            |text: &str| text.lines().map(|l| l.rsplit_once(',').expect("t").0.to_owned()).collect::<Vec<_>>();
-        assert_eq!(triangles(&exact).len(), triangles(&batch).len(), "a line a ray");
-    }
 }
 
 #[test]
@@ -104,39 +89,6 @@ fn the_wrong_option_is_named() {
     assert_eq!(ran.code, Some(2), "{}", ran.transcript());
     // The eye that is derived from the tangent is infinite, but nobody gave it.
     assert!(ran.stderr.contains("tangent") && !ran.stderr.contains("eye"), "{}", ran.stderr);
-}
-
-#[test]
-fn a_radeon_8500_traces_rays_of_any_origin_in_one_pass() {
-    let folder = tempfile::tempdir().expect("a folder");
-    // A triangle in z = 0 and rays of four origins: two through it (from the front and from behind), one beside it, one
-    // that starts beyond it.
-    fs::write(folder.path().join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
-    let rays = "ox,oy,oz,dx,dy,dz\n0.25,0.25,1,0,0,-1\n0.25,0.25,-0.5,0,0,2\n0.9,0.9,1,0,0,-1\n0.25,0.25,-1,0,0,-1\n";
-    fs::write(folder.path().join("r.csv"), rays).expect("written");
-    let trace = |sides: &str| {
-        let arguments = "intersect --mesh m.obj --rays r.csv --out h.csv --device r200 --executor batch --sides";
-        let arguments: Vec<&str> = arguments.split(' ').chain([sides]).collect();
-        let ran = crossbar_in(folder.path(), &arguments, "");
-        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-        let text = fs::read_to_string(folder.path().join("h.csv")).expect("written");
-        let t: Vec<Option<f32>> = text
-            .lines()
-            .skip(1)
-            .map(|l| {
-                let mut parts = l.split(',').skip(1);
-                let triangle: i32 = parts.next().expect("a triangle").parse().expect("a number");
-                let t: f32 = parts.next().expect("t").parse().expect("a number");
-                (triangle == 0).then_some(t)
-            })
-            .collect();
-        t
-    };
-    let near = |t: Option<f32>, wanted: f32| t.is_some_and(|t| abs_diff_eq!(t, wanted, epsilon = 0.01));
-    let front = trace("front");
-    assert!(near(front[0], 1.0) && front[1..].iter().all(Option::is_none), "front: {front:?}");
-    let both = trace("both");
-    assert!(near(both[0], 1.0) && near(both[1], 0.25) && both[2..].iter().all(Option::is_none), "both: {both:?}");
 }
 
 #[test]
@@ -219,7 +171,7 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     case(&["leaky-teapot", "--size", "0x9"]);
     case(&["leaky-teapot", "--tessellation", "0"]);
     case(&["leaky-teapot", "--device", "nv20", "--size", "4x4", "--tessellation", "1"]);
-    case(&["leaky-teapot", "--device", "r200", "--size", "4096x1", "--all-pairs", "--tessellation", "1"]);
+    case(&["leaky-teapot", "--device", "r200", "--size", "4096x1", "--brute-force", "--tessellation", "1"]);
     case(&["leaky-teapot", "--size", "4x4", "--out", "a_file/out"]);
     case(&["intersect", "--mesh", "nowhere.obj", "--rays", &rays, "--out", "h.csv"]);
     case(&["intersect", "--mesh", &mesh, "--rays", "nowhere.csv", "--out", "h.csv"]);

@@ -74,7 +74,7 @@ fn shown_vertices_have_the_models_numbers() {
         assert_eq!(same["vertex"], at["vertex"], "{command}");
         assert!(document(&[command, "show", &file, "--vertex", &found])["vertex"]["of_model"].is_null(), "{command}");
     }
-    document(&["bi-scale", "multiply", &file, "--values", &csv, "--model", &model]);
+    document(&["bi-scale", "multiply", &file, "--csv", &csv, "--model", &model]);
     let table = rows(&csv, "vertex,direction,r,g,b,model_vertex,x,y,z");
     assert_eq!(table.len(), 4 * 4);
     table.iter().for_each(|row| is_named(&row[5..]));
@@ -88,7 +88,7 @@ fn ways_to_store_transfer_are_off_at_vertices() {
     let (model, file, csv) = (of("square.obj"), of("file.prt"), of("errors.csv"));
     fs::write(&model, SQUARE).expect("written");
     document(&["bi-scale", "precompute", &model, "--directions", "2", "--out", &file]);
-    let small = ["--clusters", "2", "--vectors", "1", "--sample", "8", "--rounds", "1", "--csv", &csv];
+    let small = ["--clusters", "2", "--vectors", "1", "--sample", "8", "--csv", &csv];
     let compare = |more: &[&str]| document(&[&["bi-scale", "compare", &file][..], &small, more].concat());
     let found = compare(&["--model", &model]);
     let text = fs::read_to_string(&csv).expect("a table");

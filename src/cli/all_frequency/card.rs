@@ -4,17 +4,16 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use refsim::device::Profile;
-use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::file::LitArgs;
 use crate::all_frequency::kernels::MapFilter;
-use crate::all_frequency::on_card::{ProductOptions, ProductPlace, RadianceFormat, VertexColors};
+use crate::all_frequency::on_card::{ProductOptions, ProductPlace, VertexColors};
 use crate::cli::memory::MemoryNeed;
-use crate::cli::one_of::variants;
 use crate::cli::study::StudyArgs;
-use crate::cli::transfer::on_card::{OnCardArgs, vertex_versions};
+use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::{Problem, given};
+use crate::options::one_of::variants;
 use crate::study::prt::AllFrequencyOnCard;
 
 const EXAMPLES: &str = "\
@@ -59,21 +58,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "WHO", value_parser = variants::<MapFilter>())]
     filter: Option<MapFilter>,
 
-    /// Number format of the transferred radiance of a vertex, for products [default: fp32]
-    #[arg(long, value_name = "F", value_parser = variants::<RadianceFormat>())]
-    radiance: Option<RadianceFormat>,
-
-    /// Draw a channel per pass, for products
-    #[arg(long)]
-    pass_per_channel: bool,
-
     /// Ask for the card's partial precision, for products
     #[arg(long)]
     partial: bool,
-
-    /// The language of the vertex program, for products [default: vs_2_0 where the card has it]
-    #[arg(long, value_name = "V", value_parser = vertex_versions())]
-    vertex: Option<Version>,
 
     #[command(flatten)]
     card: OnCardArgs,
@@ -89,10 +76,7 @@ impl Args {
             let of_products = [
                 ("--map-format", self.map_format.is_some()),
                 ("--filter", self.filter.is_some()),
-                ("--radiance", self.radiance.is_some()),
-                ("--pass-per-channel", self.pass_per_channel),
                 ("--partial", self.partial),
-                ("--vertex", self.vertex.is_some()),
             ];
             given::refuse(of_products, "`--way products` and `sums`, found `--way colors`", "leave it out")?;
             return Ok(ProductPlace::Vertices(VertexColors::Bytes));
@@ -104,10 +88,7 @@ impl Args {
         Ok(ProductPlace::Pixels(ProductOptions {
             map_format: self.map_format.or(fractions).unwrap_or(TexelFormat::Rgba8Snorm),
             filter: self.filter.unwrap_or_default(),
-            radiance: self.radiance.unwrap_or_default(),
-            is_pass_per_channel: self.pass_per_channel,
             is_partial: self.partial,
-            vertex_version: self.vertex,
             ..ProductOptions::default()
         }))
     }

@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::file::FileOfModel;
-use crate::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
+use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
-use crate::cli::one_of::variants;
 use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::words::counted;
 use crate::cli::{CommandLine, Problem, ProgressBar, memory, view};
+use crate::options::one_of::variants;
 use crate::report::{Cell, Findings, Table};
 use crate::split::{Computed, KeptResults, SpentTime};
 use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
@@ -69,10 +69,6 @@ pub(super) struct Args {
     /// Bits of weights
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u8).range(2..=16))]
     weight_bits: u8,
-
-    /// The numbers that share a step
-    #[arg(long, value_name = "OF", default_value = "representative", value_parser = variants::<ScaleOf>())]
-    scale: ScaleOf,
 
     /// Keep finished segments in this folder, and take those that it has; one with other work is refused
     #[arg(long, value_name = "FOLDER", conflicts_with = "part")]
@@ -148,7 +144,7 @@ fn options(args: &Args) -> SegmentOptions {
 }
 
 fn code(args: &Args) -> CodeOptions {
-    CodeOptions { representative_bits: args.bits, weight_bits: args.weight_bits, scale: args.scale }
+    CodeOptions { representative_bits: args.bits, weight_bits: args.weight_bits, ..CodeOptions::default() }
 }
 
 /// Bytes of weights and representatives in single precision.

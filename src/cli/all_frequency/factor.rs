@@ -6,13 +6,14 @@ use clap::ArgGroup;
 
 use super::factor_values::{LimitArg, ModelArg, SupersamplesArg};
 use crate::all_frequency::factor::{
-    Denominators, FacetDistribution, FactorSampling, FresnelForm, Lobe, MAX_MAP_SIDE, MerlChannel, OutsideDisc,
-    ProductClamp, Shadowing, TangentCosine, load_merl, load_product_table,
+    Denominators, FactorSampling, FresnelForm, Lobe, MAX_MAP_SIDE, MerlChannel, ProductClamp, Shadowing, load_merl,
+    load_product_table,
 };
 use crate::cli::memory::MemoryNeed;
-use crate::cli::one_of::{OneOf, one_of, variants};
 use crate::cli::study::StudyArgs;
-use crate::cli::{Problem, given, number};
+use crate::cli::{Problem, given};
+use crate::options::number;
+use crate::options::one_of::variants;
 use crate::study::prt::{BrdfFactors, FactorSubject};
 use crate::transfer::brdf::Brdf;
 
@@ -20,7 +21,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency factor --brdf cook-torrance --roughness 0.4 --fresnel 0.5
       ten terms of the paper's first reflectance: errors, pictures, tables of G and F
-  crossbar all-frequency factor --brdf schlick --roughness 0.2 --isotropy 0.2 --fresnel 0.8 --denominators quarter --tangent half-vector
+  crossbar all-frequency factor --brdf schlick --roughness 0.2 --isotropy 0.2 --fresnel 0.8 --denominators quarter
       the second, without pi and cosines in the denominator
   crossbar all-frequency factor --brdf cook-torrance --fresnel-form constant --shadowing none --denominators product --sweep-roughness 0.2,0.3,0.5
       other forms of its factors, and three roughnesses side by side
@@ -33,10 +34,10 @@ Written to --out: index.html (self-contained), pictures, singular_values.csv, vi
 docs/papers/all_frequency.md says what the options are.";
 
 /// Options of a model, which a measurement or a table has no use for.
-const OF_MODEL: [&str; 9] =
-    ["roughness", "fresnel", "isotropy", "exponent", "albedo", "denominators", "fresnel_form", "shadowing", "tangent"];
+const OF_MODEL: [&str; 8] =
+    ["roughness", "fresnel", "isotropy", "exponent", "albedo", "denominators", "fresnel_form", "shadowing"];
 /// Options of how reflectance is sampled, which a table is already.
-const OF_SAMPLING: [&str; 5] = ["side", "supersamples", "outside", "clamp", "clamp_when"];
+const OF_SAMPLING: [&str; 3] = ["side", "supersamples", "clamp"];
 
 /// Factor reflectance into functions of view and of light: singular values, errors, tables
 #[derive(Debug, clap::Args)]
@@ -88,10 +89,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "S", value_parser = variants::<Shadowing>())]
     shadowing: Option<Shadowing>,
 
-    /// The cosine along the tangent in schlick [default: projected]
-    #[arg(long, value_name = "W", value_parser = variants::<TangentCosine>())]
-    tangent: Option<TangentCosine>,
-
     /// The channel of a measurement
     #[arg(long, value_name = "C", default_value = "green", value_parser = variants::<MerlChannel>())]
     channel: MerlChannel,
@@ -104,17 +101,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "VxL", default_value = "4x4", allow_hyphen_values = true)]
     supersamples: SupersamplesArg,
 
-    /// Texels outside of the disc, whose directions lie below the horizon
-    #[arg(long, value_name = "HOW", default_value = "zero", value_parser = variants::<OutsideDisc>())]
-    outside: OutsideDisc,
-
     /// Cut off reflectance times cosine at this value, or at `none`
     #[arg(long, value_name = "LIMIT", default_value = "3", allow_hyphen_values = true)]
     clamp: LimitArg,
-
-    /// Order of clamping and averaging of samples [default: after]
-    #[arg(long, value_name = "WHEN", value_parser = clamp_when())]
-    clamp_when: Option<fn(f64) -> ProductClamp>,
 
     /// Terms [default: 10, or the rank of the table where that is less]
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..))]
@@ -129,32 +118,19 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-/// The values that are cut off, for `--clamp-when`.
-fn clamp_when() -> OneOf<fn(f64) -> ProductClamp> {
-    let before: (_, _, fn(f64) -> _) = ("before", "Each sample, before the mean is taken", ProductClamp::Samples);
-    one_of([before, ("after", "The mean", ProductClamp::Means)])
-}
-
 impl Args {
     fn sampling(&self) -> FactorSampling {
         FactorSampling {
             side: self.side as usize,
             supersamples: self.supersamples.0,
-            outside: self.outside,
-            clamp: self.clamp.0.map_or(ProductClamp::None, self.clamp_when.unwrap_or(ProductClamp::Means)),
+            clamp: self.clamp.0.map_or(ProductClamp::None, ProductClamp::Means),
+            ..FactorSampling::default()
         }
     }
 
     fn lobe(&self, lobe: Lobe) -> Result<FactorSubject, Problem> {
-        let distribution = match lobe.distribution {
-            FacetDistribution::Schlick { roughness, isotropy, .. } => {
-                FacetDistribution::Schlick { roughness, isotropy, tangent: self.tangent.unwrap_or_default() }
-            }
-            beckmann @ FacetDistribution::Beckmann { .. } => beckmann,
-        };
         let lobe = Lobe {
             albedo: self.albedo.unwrap_or(0.0),
-            distribution,
             fresnel: self.fresnel_form.unwrap_or(lobe.fresnel),
             shadowing: self.shadowing.unwrap_or_default(),
             denominators: self.denominators.unwrap_or_default(),
@@ -167,7 +143,7 @@ impl Args {
     /// Refuses figures of other models than this one.
     fn refuse_others(&self, model: ModelArg) -> Result<(), Problem> {
         use ModelArg::{CookTorrance, Lambert, Phong, Schlick};
-        let figures: [(&str, bool, &[ModelArg]); 8] = [
+        let figures: [(&str, bool, &[ModelArg]); 7] = [
             ("--roughness", self.roughness.is_some(), &[CookTorrance, Schlick]),
             ("--fresnel", self.fresnel.is_some(), &[CookTorrance, Schlick, Phong]),
             ("--isotropy", self.isotropy.is_some(), &[Schlick]),
@@ -175,7 +151,6 @@ impl Args {
             ("--denominators", self.denominators.is_some(), &[CookTorrance, Schlick]),
             ("--fresnel-form", self.fresnel_form.is_some(), &[CookTorrance, Schlick]),
             ("--shadowing", self.shadowing.is_some(), &[CookTorrance, Schlick]),
-            ("--tangent", self.tangent.is_some(), &[Schlick]),
         ];
         let name = match model {
             CookTorrance => "cook-torrance",
@@ -243,10 +218,6 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<BrdfFactors> {
-        if self.clamp.0.is_none() {
-            let when = [("--clamp-when", self.clamp_when.is_some())];
-            given::refuse(when, "reflectance that is cut off, found `--clamp none`", "leave it out")?;
-        }
         let (name, subject) = match (&self.merl, &self.table, self.brdf) {
             (Some(path), ..) => (path.display().to_string(), FactorSubject::Merl(load_merl(path)?, self.channel)),
             (None, Some(path), _) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),

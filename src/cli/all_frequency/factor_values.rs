@@ -5,7 +5,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 
 use crate::all_frequency::factor::Supersamples;
-use crate::cli::number;
+use crate::options::number;
 
 /// Reflectance models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

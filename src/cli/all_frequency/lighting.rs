@@ -7,11 +7,11 @@ use serde_json::json;
 
 use super::file::FileOfModel;
 use crate::all_frequency::transfer::transfer_of;
-use crate::cli::one_of::variants;
 use crate::cli::study::written;
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::{Problem, given, number, view};
+use crate::cli::{Problem, given, view};
 use crate::io::{write_cube_table, write_file};
+use crate::options::one_of::variants;
 use crate::report::{Cell, Findings, Table};
 use crate::sphere::turn_around_z;
 use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
@@ -67,14 +67,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "MODEL", requires = "transfer")]
     model: Option<PathBuf>,
 
-    /// Weights of the samples of a texel
-    #[arg(long, value_name = "HOW", default_value = "solid-angle", value_parser = variants::<Decimation>())]
-    decimation: Decimation,
-
-    /// Turn the light around z, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number::finite, allow_hyphen_values = true)]
-    rotate: f64,
-
     /// Turn it around z in so many steps, and measure the flicker of what is kept
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=720))]
     frames: u32,
@@ -90,8 +82,8 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let light = args.light.distant()?;
-    let cube = |turns: f64| light.cube(&turn_around_z(turns), args.decimation).map_err(refused);
-    let first = cube(args.rotate / 360.0)?;
+    let cube = |turns: f64| light.cube(&turn_around_z(turns), Decimation::SolidAngle).map_err(refused);
+    let first = cube(0.0)?;
     let truncation = Truncation::new(args)?;
     let cut = truncation.of(&first)?;
     let texels = cut.light.radiances();
@@ -103,9 +95,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         write_coefficients(&cut.light, path)?;
     }
     let negative = texels.iter().filter(|rgb| rgb.iter().any(|&value| value < 0.0)).count();
-    let frames: Vec<CubeLight> = (0..args.frames)
-        .map(|frame| cube(args.rotate / 360.0 + f64::from(frame) / f64::from(args.frames)))
-        .collect::<Result<_, _>>()?;
+    let frames: Vec<CubeLight> =
+        (0..args.frames).map(|frame| cube(f64::from(frame) / f64::from(args.frames))).collect::<Result<_, _>>()?;
     let flicker = if frames.is_empty() { None } else { Some(truncation.flicker(&frames)?) };
     let mut found = Findings::new("Light as wavelets");
     found.fields(json!({

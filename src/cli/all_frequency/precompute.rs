@@ -8,7 +8,6 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::ProductFactors;
 use crate::all_frequency::file::save_all_frequency;
 use crate::cli::model_name::transfer_model_help;
-use crate::cli::one_of::{OneOf, one_of};
 use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, refused, vertices};
@@ -40,12 +39,6 @@ Examples:
 
 The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes transfer of them.";
 
-/// The widths of the hats of the light's texels, for `--hats`.
-fn hats() -> OneOf<BasisWidth> {
-    let two = ("two", "To the centers of its neighbors", BasisWidth::TwoTexels);
-    one_of([("one", "A texel alone", BasisWidth::OneTexel), two])
-}
-
 /// Compute what each vertex of a model sees, for light of all frequencies
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
@@ -57,16 +50,12 @@ pub(super) struct Args {
     /// Output of `crossbar all-frequency factor`: view_factors.npy and light_factors.npy in a folder [default: the one
     /// term of a diffuse surface]
     #[arg(long, value_name = "DIR")]
-    factors: Option<PathBuf>,
+    reflectance: Option<PathBuf>,
 
     /// Put the model on a diffuse ground of N x N vertices; the paper has 192. Written beside --out, with the endings
     /// ground.prt and ground.obj: the ground's own file and its model
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1024))]
     ground: Option<u32>,
-
-    /// Width in texels of the hats of the light's texels
-    #[arg(long, value_name = "WIDTH", default_value = "two", value_parser = hats())]
-    hats: BasisWidth,
 
     /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
     /// axis X,Y,Z
@@ -84,7 +73,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let (tangents, path) = (args.tangents.0, args.out.as_path());
     let reflectance =
-        args.factors.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
+        args.reflectance.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
     let model = load(&args.model, tangents)?;
     let vertices = vertices(&model, tangents)?;
     let below = u64::from(args.ground.unwrap_or(0)).pow(2);
@@ -97,7 +86,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let sight = SightOfModel {
         scene: ground.as_ref().map_or(&model.mesh, |ground| &ground.scene),
         vertices: &vertices,
-        hats: args.hats,
+        hats: BasisWidth::TwoTexels,
         reflectance,
         ground: ground.as_ref().map(|ground| &ground.vertices),
     };

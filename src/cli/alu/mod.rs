@@ -12,8 +12,8 @@ use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
 use self::operation::{AluOperation, Unit};
 use self::row::{RowOperation, RowUnit};
-use super::one_of::{OneOf, one_of};
 use super::{Out, Problem, Verdict, given};
+use crate::options::one_of::{OneOf, one_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -72,7 +72,7 @@ pub(super) struct Args {
 
     /// The order in which `dot` sums; by default sequential
     #[arg(long, value_parser = orders())]
-    order: Option<DotOrder>,
+    summation: Option<DotOrder>,
 
     /// Lines carry expected results too, as testfloat_gen writes them: print every mismatch, then the count
     ///
@@ -108,7 +108,7 @@ fn tininess() -> OneOf<Tininess> {
     one_of([("before", "Before rounding", Tininess::Before), after])
 }
 
-/// The orders of a sum, for `--order`.
+/// The orders of a sum, for `--summation`.
 fn orders() -> OneOf<DotOrder> {
     one_of([
         ("sequential", "((x + y) + z) + w, each step rounded", DotOrder::Sequential),
@@ -172,12 +172,12 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
             ));
         }
         (AluOperation::Dot, None) => {
-            RowOperation::Dot(args.order.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(args.format))
+            RowOperation::Dot(args.summation.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(args.format))
         }
         (_, None) => {
-            if args.accumulator.is_some() || args.order.is_some() {
+            if args.accumulator.is_some() || args.summation.is_some() {
                 return Err(Problem::usage(
-                    "`--accumulator` and `--order` are for `dot` only",
+                    "`--accumulator` and `--summation` are for `dot` only",
                     "leave them out: every other operation is rounded once, in its format",
                 ));
             }

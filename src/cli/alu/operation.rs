@@ -2,7 +2,7 @@
 
 use refsim::num::{Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
 
-use crate::cli::one_of::{OneOf, one_of};
+use crate::options::one_of::{OneOf, one_of};
 
 /// An operation that the command has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

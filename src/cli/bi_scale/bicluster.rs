@@ -12,8 +12,9 @@ use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Problem, ProgressBar, number};
+use crate::cli::{Problem, ProgressBar};
 use crate::io::write_file;
+use crate::options::number;
 use crate::report::{Cell, Findings, Table};
 
 const EXAMPLES: &str = "\
@@ -24,7 +25,7 @@ Examples:
       other start points; what is written is for `crossbar bi-scale multiply`
   crossbar bi-scale bicluster docs/examples/quarters.mtx --seeds 8
       the cheapest of eight: seeds differ by up to a fifth
-  crossbar bi-scale bicluster docs/examples/quarters.mtx --no-deletion --dump biclusters.csv --json
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --csv biclusters.csv --json
       every bicluster as a line; figures for machines
   crossbar bi-scale bicluster docs/examples/quarters.mtx --drop 0.25
       with loss: what is off by a quarter stays so
@@ -51,17 +52,13 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     seeds: u32,
 
-    /// Insert rows and columns alone, and take none out again
-    #[arg(long)]
-    no_deletion: bool,
-
     /// Leave out residuals of at most this size: what is left of the matrix is off by no more, place by place
     #[arg(long, value_name = "ERROR", default_value_t = 0.0, value_parser = number::not_negative)]
     drop: f64,
 
     /// Write the biclusters as a table: cost, rows, columns and values of each
     #[arg(long, value_name = "B.csv")]
-    dump: Option<PathBuf>,
+    csv: Option<PathBuf>,
 
     /// Write the biclusters to a .prt file
     #[arg(long, value_name = "X.prt")]
@@ -79,7 +76,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let seconds = start.elapsed().as_secs_f64();
     let residual = biclusters.residual(&matrix);
     let summary = Summary { matrix: &matrix, biclusters: &biclusters, seed, residual, seconds };
-    if let Some(path) = &args.dump {
+    if let Some(path) = &args.csv {
         dump(&biclusters, path)?;
     }
     let mut found = summary.findings();
@@ -87,7 +84,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         let file = BiScaleFile { meaning, matrix: None, biclusters: Some(biclusters) };
         save_bi_scale(&file, path).map_err(Problem::from)?;
     }
-    written(&mut found, [("dump", args.dump.as_deref()), ("out", args.out.as_deref())]);
+    written(&mut found, [("csv", args.csv.as_deref()), ("out", args.out.as_deref())]);
     Ok(found)
 }
 
@@ -97,7 +94,7 @@ impl Args {
         let total = matrix.nonzeros() as u64;
         let bar = ProgressBar::new("non-zeros", total).quicker("fewer `--seeds`");
         let of_seed = |seed: u64| {
-            let options = BiclusterOptions { seed, deletion: !self.no_deletion, drop: self.drop };
+            let options = BiclusterOptions { seed, drop: self.drop, ..BiclusterOptions::default() };
             let mut number = 0_u64;
             let mut found = |left: u64| {
                 number += 1;

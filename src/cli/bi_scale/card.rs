@@ -6,11 +6,9 @@ use refsim::texture::TexelFormat;
 
 use super::texture_args::TextureArgs;
 use super::textures::TransferOfModel;
-use crate::bi_scale::kernels::BlockEdges;
-use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat, corner_coordinates};
+use crate::bi_scale::on_card::{DisplayOptions, LightFormat, corner_coordinates};
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
-use crate::cli::one_of::variants;
 use crate::cli::study::StudyArgs;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::on_card::OnCardArgs;
@@ -42,18 +40,6 @@ pub(super) struct Args {
     /// Format of the volumes that hold textures: rgba8, of the largest sample, rgba16f or rgba32f
     #[arg(long, value_name = "F", default_value = "rgba8")]
     texture_format: TexelFormat,
-
-    /// How the volume's blocks meet
-    #[arg(long, value_name = "EDGES", default_value = "wrapped", value_parser = variants::<BlockEdges>())]
-    blocks: BlockEdges,
-
-    /// Format of light on the card
-    #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<LightFormat>())]
-    light_format: LightFormat,
-
-    /// Format of local light at vertices
-    #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<LocalFormat>())]
-    local_format: LocalFormat,
 
     #[command(flatten)]
     light: LightArgs,
@@ -108,8 +94,8 @@ impl StudyArgs for Args {
             texture_of,
             light: self.light.distant()?,
             card,
-            light_format: self.light_format,
-            options: DisplayOptions { edges: self.blocks, texture: self.texture_format, local: self.local_format },
+            light_format: LightFormat::default(),
+            options: DisplayOptions { texture: self.texture_format, ..DisplayOptions::default() },
         })
     }
 }

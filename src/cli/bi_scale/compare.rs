@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::file::{load, turned, vertices_of};
+use super::file::{cube_of, load, vertices_of};
 use super::vertex_errors::VertexErrors;
 use crate::bi_scale::baselines::{
     BaselineError, CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
@@ -15,12 +15,12 @@ use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::product::by_rows;
 use crate::bi_scale::transfer::light_vectors;
-use crate::cli::one_of::variants;
 use crate::cli::study::written;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar, memory};
+use crate::options::one_of::variants;
 use crate::report::Findings;
 use crate::study::prt::{StoredComparison, StoredWay, stored_ways_table};
 use crate::transfer::clustering::CpcaForm;
@@ -54,11 +54,6 @@ pub(super) struct Args {
     #[command(flatten)]
     light: LightArgs,
 
-    /// Turn the light around z, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = crate::cli::number::finite,
-          allow_hyphen_values = true)]
-    rotate: f64,
-
     /// Clusters of rows
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     clusters: u32,
@@ -75,17 +70,13 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     sample: u32,
 
-    /// Rounds in which all rows take part afterwards
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(0..=10_000))]
-    rounds: u32,
-
     /// Draws the sample and the first representatives, and the elements that biclusters start at
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
     /// Wavelet coefficients of a row
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=6144))]
-    coefficients: u32,
+    wavelets: u32,
 
     /// By what they are chosen
     #[arg(long, value_name = "BY", default_value = "area", value_parser = variants::<CoefficientPriority>())]
@@ -93,7 +84,7 @@ pub(super) struct Args {
 
     /// Storage of coefficients, beside two bytes for their numbers
     #[arg(long, value_name = "AS", default_value = "byte", value_parser = variants::<CoefficientStorage>())]
-    storage: CoefficientStorage,
+    wavelet_format: CoefficientStorage,
 
     /// Order of spherical harmonics
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
@@ -135,7 +126,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
             bicluster(&matrix, options, &mut |_| ()).map_err(|error| refused(&error))?
         }
     };
-    let cube = turned(&args.light, args.rotate, "compare")?;
+    let cube = cube_of(&args.light, "compare")?;
     let channels = light_vectors(&cube);
     let side = meaning.map_or(1, |meaning| meaning.side as usize);
     let local = side * side;
@@ -188,14 +179,13 @@ impl Args {
             vectors: self.vectors as usize,
             form: if self.linear { CpcaForm::Linear } else { CpcaForm::Affine },
             sample: self.sample as usize,
-            rounds: self.rounds as usize,
             seed: self.seed,
             ..RowClusterOptions::default()
         }
     }
 
     fn wavelets(&self) -> HaarRowOptions {
-        HaarRowOptions { keep: self.coefficients as usize, priority: self.priority, storage: self.storage }
+        HaarRowOptions { keep: self.wavelets as usize, priority: self.priority, storage: self.wavelet_format }
     }
 }
 

@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
+use glam::DMat3;
+
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, load_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::model::{load as load_model, vertices};
-use crate::cli::{MemoryError, Problem, memory, number, view};
+use crate::cli::{MemoryError, Problem, memory, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
-use crate::sphere::turn_around_z;
+use crate::options::number;
 use crate::study::prt::creased;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::{CubeLight, Decimation};
@@ -78,9 +80,9 @@ fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), MemoryEr
     memory::require(what, PER_LINE.saturating_mul(rows as u64 + columns as u64), "name a smaller matrix")
 }
 
-/// The light of a verb, turned around z by some degrees.
-pub(super) fn turned(light: &LightArgs, degrees: f64, verb: &str) -> miette::Result<CubeLight> {
-    let cube = light.distant()?.cube(&turn_around_z(degrees / 360.0), Decimation::SolidAngle);
+/// The light of a verb.
+pub(super) fn cube_of(light: &LightArgs, verb: &str) -> miette::Result<CubeLight> {
+    let cube = light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     Ok(cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar bi-scale {verb} --help`")))?)
 }
 

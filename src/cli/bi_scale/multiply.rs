@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::file::{load, turned, vertices_of};
+use super::file::{cube_of, load, vertices_of};
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
@@ -20,10 +20,10 @@ use crate::transfer::light::CubeLight;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale multiply docs/examples/step_biclusters.prt --light sky:1,-1,1 --values local.csv
+  crossbar bi-scale multiply docs/examples/step_biclusters.prt --light sky:1,-1,1 --csv local.csv
       light that reaches each local direction of each vertex, by biclusters (Algorithm 2)
-  crossbar bi-scale multiply docs/examples/step_biclusters.prt --light red-and-blue --rotate 90 --json
-      another light, turned; figures for machines
+  crossbar bi-scale multiply docs/examples/step_biclusters.prt --light red-and-blue --json
+      another light; figures for machines
 
 Of a matrix the product is taken row by row, in double precision; of biclusters in single precision, which rounds values \
 that it does not hold.";
@@ -39,27 +39,22 @@ pub(super) struct Args {
     #[command(flatten)]
     light: LightArgs,
 
-    /// Turn the light around z, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = crate::cli::number::finite,
-          allow_hyphen_values = true)]
-    rotate: f64,
-
     /// Write red, green and blue of every row to this table
     #[arg(long, value_name = "Y.csv")]
-    values: Option<PathBuf>,
+    csv: Option<PathBuf>,
 
-    /// The model that the transfer was made from: the table of --values names its vertices, too
-    #[arg(long, value_name = "MODEL", requires = "values")]
+    /// The model that the transfer was made from: the table of --csv names its vertices, too
+    #[arg(long, value_name = "MODEL", requires = "csv")]
     model: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
-    let cube = turned(&args.light, args.rotate, "multiply")?;
+    let cube = cube_of(&args.light, "multiply")?;
     let vertices = |model| vertices_of(model, &args.file, file.meaning.as_ref());
     let of_model = args.model.as_deref().map(vertices).transpose()?;
     let product = multiply(&args.file, &file, &cube)?;
-    if let Some(path) = &args.values {
+    if let Some(path) = &args.csv {
         let local = file.meaning.map(|meaning| meaning.side.pow(2) as usize);
         let names = args.model.as_ref().zip(of_model.as_ref());
         let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
@@ -76,7 +71,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (rows, seconds) = (counted(product.rows.len()), product.seconds);
     found.introduce(format!("{} times {}, {rows} rows, in {seconds:.3} s", args.light.name(), product.way));
     found.table(table);
-    written(&mut found, [("values", args.values.as_deref())]);
+    written(&mut found, [("csv", args.csv.as_deref())]);
     Ok(found)
 }
 

@@ -2,14 +2,12 @@
 
 use std::path::Path;
 
-use crate::bi_scale::texture::{
-    HeightField, HeightFieldError, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind,
-};
-use crate::cli::one_of::variants;
+use crate::bi_scale::texture::{HeightField, HeightFieldError, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
 use crate::cli::transfer::values::BrdfArg;
-use crate::cli::{Problem, given, number, view};
+use crate::cli::{Problem, given, view};
 use crate::io::{PictureFile, load_numbers};
 use crate::names::did_you_mean;
+use crate::options::number;
 
 /// The name of a patch without relief.
 const PLAIN: &str = "plain";
@@ -23,10 +21,6 @@ const COLOR: [f32; 3] = [0.5; 3];
 /// How a patch is made.
 #[derive(Debug, clap::Args)]
 pub(super) struct PatchArgs {
-    /// Detail drawn of the heights, but for `plain`, which has none [default: relief]
-    #[arg(long, value_name = "WHAT", value_parser = variants::<MesoDetail>())]
-    detail: Option<MesoDetail>,
-
     /// How many times as deep the heights are; of a picture white lies a tenth of the patch's edge above black
     /// [default: 1]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
@@ -50,22 +44,23 @@ impl PatchArgs {
     /// The patch of a name, or of a file of heights.
     pub(super) fn patch(&self, source: &Path) -> miette::Result<MesoPatch> {
         let name = source.to_str().unwrap_or_default();
-        let mut patch = if let Ok(kind) = name.parse::<PatchKind>() {
+        if let Ok(kind) = name.parse::<PatchKind>() {
             if self.color.is_some() || self.brdf.is_some() {
                 let what = format!("`--color` and `--brdf` are for `plain` and files of heights, found `{name}`");
                 return Err(Problem::usage(what, "leave them out").into());
             }
             self.check_relief(kind.patch(1.0).heights().depth())?;
-            kind.patch(self.relief())
+            Ok(kind.patch(self.relief()))
         } else if name == PLAIN {
-            let of_heights = [("--detail", self.detail.is_some()), ("--relief", self.relief.is_some())];
-            given::refuse(of_heights, "patches with heights, found `plain`", "leave it out")?;
-            MesoPatch::plain(self.material()?).map_err(refused)?
+            given::refuse(
+                [("--relief", self.relief.is_some())],
+                "patches with heights, found `plain`",
+                "leave it out",
+            )?;
+            Ok(MesoPatch::plain(self.material()?).map_err(refused)?)
         } else {
-            self.of_file(source)?
-        };
-        patch.detail = self.detail.unwrap_or_default();
-        Ok(patch)
+            self.of_file(source)
+        }
     }
 
     fn relief(&self) -> f64 {

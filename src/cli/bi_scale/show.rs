@@ -32,7 +32,7 @@ Examples:
   crossbar bi-scale show docs/examples/step_biclusters.prt --matrix step.mtx
       the matrix that the biclusters sum to
 
-`crossbar bi-scale multiply --values` writes the light that reaches all local directions, `render --values csv` the \
+`crossbar bi-scale multiply --csv` writes the light that reaches all local directions, `render --values csv` the \
 radiance of all vertices with their textures.";
 
 /// Show what a matrix or a .prt file of biclusters holds: values, sizes of biclusters, rows of a vertex

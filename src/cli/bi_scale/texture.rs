@@ -17,12 +17,12 @@ use crate::report::Findings;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale texture mail --size 16 --directions 4 --views 4 --out mail.npy --sheet mail.png
+  crossbar bi-scale texture mail --texels 16 --directions 4 --views 4 --out mail.npy --sheet mail.png
       rings of wire, seen from 16 views and lit from 16 directions; a picture of those lit from each
-  crossbar bi-scale texture plain --brdf ward:0.1,0.3,0.1,0.4 --size 1 --directions 8 --views 12 --out brushed.npy
+  crossbar bi-scale texture plain --brdf ward:0.1,0.3,0.1,0.4 --texels 1 --directions 8 --views 12 --out brushed.npy
       a reflectance that is the same everywhere in place of a texture
-  crossbar bi-scale texture bumps --detail normals --size 16 --directions 4 --views 4 --out bumps.npy --json
-      a normal map in place of one; figures for machines
+  crossbar bi-scale texture bumps --texels 16 --directions 4 --views 4 --out bumps.npy --json
+      figures for machines
 
 The file is an array of NumPy's of the shape (views, lights, size, size, 3): docs/papers/bi_scale.md says what its numbers are. \
 Those that others measured or computed are read by `crossbar bi-scale render --texture` if they have this shape.";
@@ -41,7 +41,7 @@ pub(super) struct Args {
 
     /// Texels along an edge; the paper has 32 and 64
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1024))]
-    size: u32,
+    texels: u32,
 
     /// Directions of light along an edge of the square that is mapped to the hemisphere: as for transfer
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
@@ -59,13 +59,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "B.npy")]
     out: PathBuf,
 
-    /// Write a picture of one view, lit from each direction: a layer of the paper's Figure 4
+    /// Write a picture of the view nearest to the normal, lit from each direction: a layer of the paper's Figure 4
     #[arg(long, value_name = "S.png")]
     sheet: Option<PathBuf>,
-
-    /// The view of the picture [default: that nearest to the normal]
-    #[arg(long, value_name = "N", requires = "sheet")]
-    sheet_view: Option<u32>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
@@ -75,19 +71,15 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     };
     let (view, light) = (directions(args.views)?, directions(args.directions)?);
     let (views, lights) = (view.directions().len(), light.directions().len());
-    let (size, samples) = (args.size as usize, usize::from(args.samples));
-    let number = args.sheet_view.map_or_else(|| view.nearest(glam::DVec3::Z), |number| number as usize);
-    if number >= views {
-        let what = format!("expected a view below {views} (counted from 0), found {number}");
-        return Err(Problem::usage(what, "lower `--sheet-view`, or ask for more `--views`").into());
-    }
+    let (size, samples) = (args.texels as usize, usize::from(args.samples));
+    let nearest = view.nearest(glam::DVec3::Z);
     let bytes = (views * lights * size * size) as u64 * 12;
     // The samples; points of one view; the picture.
     let points = (size * size * samples * samples) as u64 * 200;
     let what = format!("{views} x {lights} patches of {size} x {size} texels");
     memory::require(what, bytes + points, "ask for fewer texels or directions")?;
     let patch = args.patch.patch(&args.source)?;
-    let bar = ProgressBar::new("views", 1).quicker("fewer `--samples`, `--views` or a smaller `--size`");
+    let bar = ProgressBar::new("views", 1).quicker("fewer `--samples`, `--views` or fewer `--texels`");
     let start = Instant::now();
     let sampling = TextureSampling { size, view, light, samples };
     let texture = patch
@@ -97,7 +89,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     drop(bar);
     write_file(&args.out, |out| write_bidirectional_texture(&texture, out)).map_err(Problem::from)?;
     if let Some(path) = &args.sheet {
-        let image = png(&sheet(&texture, number))?;
+        let image = png(&sheet(&texture, nearest))?;
         write_file(path, |out| out.write_all(&image)).map_err(Problem::from)?;
     }
     let (mean, largest) =

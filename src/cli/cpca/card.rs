@@ -2,18 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::file::{FileOfModel, clusters_of, light_order};
 use crate::cli::memory::MemoryNeed;
-use crate::cli::one_of::variants;
 use crate::cli::study::StudyArgs;
 use crate::cli::transfer::light::HarmonicLightArgs;
-use crate::cli::transfer::on_card::{OnCardArgs, vertex_versions};
+use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::transfer::picture::PictureArgs;
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{PrtCardOptions, WeightFormat};
+use crate::options::one_of::variants;
 use crate::study::prt::OnCard;
 
 const EXAMPLES: &str = "\
@@ -46,19 +45,11 @@ pub(super) struct Args {
 
     /// Texels along a side of the maps of harmonics; the paper has 32
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=4096))]
-    map: u32,
+    map_side: u32,
 
     /// Format of these maps [default: rgba16s where the card has it, else rgba8s]
     #[arg(long, value_name = "F")]
     map_format: Option<TexelFormat>,
-
-    /// The language of the vertex program [default: vs_2_0 where the card has it]
-    #[arg(long, value_name = "V", value_parser = vertex_versions())]
-    vertex: Option<Version>,
-
-    /// Draw each cluster alone, not in the superclusters of the file, or as many as the registers hold
-    #[arg(long)]
-    alone: bool,
 
     #[command(flatten)]
     card: OnCardArgs,
@@ -75,9 +66,9 @@ impl Args {
     fn options(&self, formats: &[TexelFormat]) -> PrtCardOptions {
         let has = formats.contains(&TexelFormat::Rgba16Snorm);
         PrtCardOptions {
-            superclusters: !self.alone,
-            vertex_version: self.vertex,
-            map_side: self.map as usize,
+            superclusters: true,
+            vertex_version: None,
+            map_side: self.map_side as usize,
             map_format: self.map_format.unwrap_or(if has { TexelFormat::Rgba16Snorm } else { TexelFormat::Rgba8Snorm }),
             weights: self.weights,
         }

@@ -6,8 +6,9 @@ use serde_json::{Value, json};
 
 use super::file::model_of;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Problem, given, number};
+use crate::cli::{Problem, given};
 use crate::cpca::coherence::{Superclusters, overdraw, reclassify};
+use crate::options::number;
 use crate::report::Findings;
 use crate::transfer::clustering::{Clustering, refit};
 use crate::transfer::file::MeshDigest;

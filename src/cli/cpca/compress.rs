@@ -1,16 +1,16 @@
 //! `crossbar cpca compress`: clustered principal components of any signal.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::json;
 
 use super::coherence::{Coherence, CoherenceArgs};
 use super::compress_report::{most_vectors, steps_document, table};
-use crate::cli::one_of::{name, variants};
 use crate::cli::study::written;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Problem, ProgressBar, given, memory, number, view};
-use crate::io::{ReadError, read_limited};
+use crate::cli::{Problem, ProgressBar, given, memory, view};
+use crate::options::number;
+use crate::options::one_of::{name, variants};
 use crate::report::Findings;
 use crate::study::prt::CompressionError;
 use crate::transfer::clustering::{
@@ -26,8 +26,8 @@ Examples:
       each vertex as the mean of its cluster and three weighted vectors
   crossbar cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --method adaptive --iterations 20 --json --out small.prt
       vectors redistributed among the clusters; every step's error for machines
-  crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --start docs/examples/start.txt --out small.prt
-      a signal of one's own, a line of numbers per point, from given start points
+  crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.prt
+      a signal of one's own, a line of numbers per point
   crossbar cpca compress docs/examples/step.prt --clusters 8 --max-error 0.001 --out small.prt
       as few vectors as leave a thousandth of the signal's squares
   crossbar cpca compress docs/examples/step.prt --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.prt
@@ -81,10 +81,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// The start points instead: a file with the number of a point per line, counted from 0, one per cluster
-    #[arg(long, value_name = "FILE", conflicts_with = "seed")]
-    start: Option<PathBuf>,
-
     /// The file to write
     #[arg(long, value_name = "Y.prt")]
     out: PathBuf,
@@ -102,10 +98,9 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     args.refuse_idle()?;
     // The bytes, and numbers of four bytes while their list grows: a number takes two bytes of a table at least.
     view::require_file(&args.signal, 8, HELP)?;
-    let start = start(args)?;
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
     let vertices = args.coherence.vertices(&args.signal, mesh)?;
-    let options = args.options(&signal, start)?;
+    let options = args.options(&signal)?;
     let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters` or `--iterations`");
     let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, options.vectors as u64 + 1);
     let Compression { clustering, steps } = match args.max_error {
@@ -165,7 +160,7 @@ impl Args {
     }
 
     /// How a signal is compressed; checks that there is memory for it.
-    fn options(&self, signal: &Signal, start: StartPoints) -> miette::Result<CpcaOptions> {
+    fn options(&self, signal: &Signal) -> miette::Result<CpcaOptions> {
         let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
         let points = u32::try_from(signal.points()).unwrap_or(u32::MAX);
         let all = if self.grown() == Grown::Clusters { points } else { 256 };
@@ -186,7 +181,7 @@ impl Args {
             iterations,
             method: self.method().with_rounds(iterations),
             form: if self.linear { CpcaForm::Linear } else { CpcaForm::Affine },
-            start,
+            start: StartPoints::Seed(self.seed),
         })
     }
 
@@ -200,10 +195,7 @@ impl Args {
             format!("form={}", if self.linear { "linear" } else { "affine" }),
             format!("vq-iterations={}", options.vq_iterations),
             format!("iterations={}", options.iterations),
-            match &options.start {
-                StartPoints::Seed(seed) => format!("seed={seed}"),
-                StartPoints::Given(_) => "start=given".to_owned(),
-            },
+            format!("seed={}", self.seed),
         ];
         if let Some(share) = self.max_error {
             parts.extend([format!("max-error={share}"), format!("grow={}", name(&self.grown()))]);
@@ -223,27 +215,11 @@ fn memory_need(signal: &Signal, clusters: u64, vectors: u64) -> u64 {
     (12 * values).saturating_add(of_points).saturating_add(of_clusters)
 }
 
-/// The start points of a file, else those of the seed.
-fn start(args: &Args) -> miette::Result<StartPoints> {
-    /// Longest list of start points, in bytes.
-    const LIMIT: u64 = 64 << 20;
-    let Some(path) = &args.start else { return Ok(StartPoints::Seed(args.seed)) };
-    let what = "list of start points";
-    let read = read_limited(path, LIMIT).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit: LIMIT })?;
-    Ok(StartPoints::parse(&String::from_utf8_lossy(&bytes)).map_err(|error| in_file(path, &error))?)
-}
-
-fn in_file(path: &Path, error: &CpcaError) -> Problem {
-    Problem::usage(format!("{}: {error}", path.display()), "give the number of a point per line, counted from 0")
-}
-
 fn refused(error: &CpcaError) -> Problem {
     let help = match error {
         CpcaError::Clusters { .. } => "choose fewer `--clusters`, or name a larger signal",
         CpcaError::NothingLinear => "choose more `--vectors`, or leave `--linear` out",
         CpcaError::Vectors { .. } => "choose fewer `--vectors`",
-        CpcaError::StartCount { .. } => "give as many start points as `--clusters`",
         CpcaError::AdaptiveGoesOn => "choose another `--method`, or `--grow clusters`",
         CpcaError::NotMet { .. } => "allow more `--vectors` or `--clusters`, or a larger `--max-error`",
         _ => "see `crossbar cpca compress --help`",

@@ -4,17 +4,18 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::precompute_values::{IncidentArg, KindArg, RowsArg};
+use super::precompute_values::{KindArg, RowsArg};
 use crate::cli::materials::published;
 use crate::cli::model_name::{Model, transfer_model_help};
-use crate::cli::one_of::{OneOf, one_of};
 use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
 use crate::cli::words::{counted, measured};
-use crate::cli::{CommandLine, Problem, ProgressBar, given, memory, number};
+use crate::cli::{CommandLine, Problem, ProgressBar, given, memory};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
+use crate::options::number;
+use crate::options::one_of::{OneOf, one_of};
 use crate::report::Findings;
 use crate::split::Computed;
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
@@ -37,6 +38,8 @@ Examples:
 The file holds a matrix of 32-bit floats per vertex: `crossbar cpca compress` makes it small. It is written whole at the end: an interrupted \
 run leaves nothing, and cannot be resumed.";
 
+/// Order of incident radiance in harmonics, as in the paper.
+const INCIDENT_ORDER: usize = 5;
 /// The solid angle below which vertices that scatter count as one point, in steradians.
 const SOLID_ANGLE: f64 = 0.05;
 
@@ -60,18 +63,6 @@ pub(super) struct Args {
     /// without l = 1, m = 0 [default: 25]
     #[arg(long, value_name = "COUNT")]
     rows: Option<RowsArg>,
-
-    /// How exit radiance is projected onto them [default: least-squares]
-    #[arg(long, value_name = "HOW", value_parser = least_squares())]
-    exit: Option<bool>,
-
-    /// How incident radiance reaches the BRDF, for --kind glossy [default: least-squares]
-    #[arg(long, value_enum, value_name = "HOW")]
-    incident: Option<IncidentArg>,
-
-    /// Order of incident radiance, unless it is taken direction by direction, for --kind glossy [default: 5]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=10))]
-    incident_order: Option<u8>,
 
     /// One reflectance for all of the model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0,
     /// schlick:A,S,ROUGHNESS,ISOTROPY,F0, ward:A,S,X,Y or ashikhmin-shirley:A,S,U,V with albedo A and specular
@@ -105,10 +96,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
     bounces: u32,
 
-    /// End with the first bounce that adds less than this share of the direct transfer
-    #[arg(long, value_name = "SHARE", value_parser = number::positive, requires = "bounces")]
-    bounce_tolerance: Option<f64>,
-
     #[command(flatten)]
     part: PartArgs,
 
@@ -123,13 +110,6 @@ fn channels_of() -> OneOf<&'static [usize]> {
     one_of([scalar, ("rgb", "Red, green and blue", &[0, 1, 2])])
 }
 
-/// Projections of exit radiance, for `--exit`: true for least squares.
-fn least_squares() -> OneOf<bool> {
-    let nearest = "The nearest combination on the hemisphere, by the inverse of the Gram matrix";
-    let integrals = "Integrals with the functions over the hemisphere";
-    one_of([("least-squares", nearest, true), ("zero-hemisphere", integrals, false)])
-}
-
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let exit = exit(args)?;
     let scatterer = scatterer(args)?;
@@ -142,10 +122,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         exit,
         order: usize::from(args.order),
         degree: usize::from(args.degree),
-        bounces: match args.bounce_tolerance {
-            Some(share) => Bounces::Tolerance { share, most: args.bounces },
-            None => Bounces::Count(args.bounces),
-        },
+        bounces: Bounces::Count(args.bounces),
         scatterer,
     };
     require_memory(args, &precomputation)?;
@@ -161,32 +138,12 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
 }
 
 fn exit(args: &Args) -> Result<ExitRadiance, Problem> {
-    let order_given = ("--incident-order", args.incident_order.is_some());
     if args.kind == KindArg::Diffuse {
-        let of_glossy = [
-            ("--rows", args.rows.is_some()),
-            ("--exit", args.exit.is_some()),
-            ("--incident", args.incident.is_some()),
-            order_given,
-        ];
-        given::refuse(of_glossy, "glossy transfer", "add `--kind glossy`, or leave it out")?;
+        given::refuse([("--rows", args.rows.is_some())], "glossy transfer", "add `--kind glossy`, or leave it out")?;
         return Ok(ExitRadiance::Diffuse);
     }
-    let order = usize::from(args.incident_order.unwrap_or(5));
-    let incident = match args.incident.unwrap_or(IncidentArg::LeastSquares) {
-        IncidentArg::LeastSquares => Incident::Harmonics { order, inverse: true },
-        IncidentArg::ZeroHemisphere => Incident::Harmonics { order, inverse: false },
-        IncidentArg::Directions => {
-            given::refuse(
-                [order_given],
-                "incident radiance in harmonics, found `--incident directions`",
-                "leave it out",
-            )?;
-            Incident::Directions
-        }
-    };
-    let basis = args.rows.unwrap_or_default().basis();
-    Ok(ExitRadiance::Glossy { basis, least_squares: args.exit.unwrap_or(true), incident })
+    let incident = Incident::Harmonics { order: INCIDENT_ORDER, inverse: true };
+    Ok(ExitRadiance::Glossy { basis: args.rows.unwrap_or_default().basis(), least_squares: true, incident })
 }
 
 fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {

@@ -15,17 +15,6 @@ pub(super) enum KindArg {
     Glossy,
 }
 
-/// How incident radiance reaches the BRDF.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum IncidentArg {
-    /// In harmonics, by least squares: equation 1
-    LeastSquares,
-    /// In harmonics, by integrals over the hemisphere
-    ZeroHemisphere,
-    /// Direction by direction: the double integral of section 3.1
-    Directions,
-}
-
 /// Functions of exit radiance: all of an order, or all but (1, 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RowsArg {

@@ -7,9 +7,10 @@ use clap::ValueEnum;
 use crate::cli::caster::CasterArg;
 use crate::cli::executor::{Decider, GpuArgs};
 use crate::cli::scene_name::EyeArgs;
-use crate::cli::size::Size;
-use crate::cli::{Problem, given, number, view};
+use crate::cli::{Problem, given, view};
 use crate::geom::exact::Sides;
+use crate::options::Size;
+use crate::options::number;
 use crate::renderer::Lens;
 
 const EXAMPLES: &str = "\

@@ -9,12 +9,12 @@ use miette::IntoDiagnostic as _;
 use serde_json::json;
 
 use super::executor::Decider;
-use super::size::Size;
 use super::{CommandLine, Out, Problem, memory, model_file, scene_name, study, view};
 use crate::case::device_named;
 use crate::geom::Mesh;
 use crate::geom::exact::{ExactT, Tracer};
 use crate::io::atomic::FileSet;
+use crate::options::Size;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::{Provenance, Verdict};

@@ -1,26 +1,100 @@
 //! `crossbar subsurface`: links over an atlas, three passes on a card, all pairs beside them.
 
-mod args;
-mod ask;
-mod values;
+mod light;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::Problem;
+use super::card::CardArgs;
+use super::materials::published;
 use super::memory::{self, MemoryNeed};
-use super::model_name;
 use super::part::PartArgs;
+use super::scene_name::EyeArgs;
 use super::study::StudyArgs;
+use super::{Problem, model_name};
 use crate::atlas::require_side;
-use crate::report::digits::{Quantity, shown};
-use crate::study::subsurface::{Parameters, no_atlas};
-use crate::subsurface::kernels::{DirectLight, ViewKernel};
+use crate::options::{Size, number};
+use crate::study::subsurface::{Parameters, SubsurfaceOptions, no_atlas};
+use crate::subsurface::{Coefficients, Material};
+use light::{LightArg, coefficient, lighting};
 
-pub(super) use args::Args;
-use values::LightArg;
+const EXAMPLES: &str = "\
+Examples:
+  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --all-pairs yes
+      a stand-in for the paper's head with 16 fixed links per texel, beside all pairs of texels, as one page
+  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice fixed --choice adaptive --links 4,16,64 --channels rgb --all-pairs yes
+      both choices of links, and how the error falls with their number
+  crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
+      the coefficients of the paper's Figure 7, in every format of map and links
+  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2 --frames 8
+      a lamp and a sky, and the lamp carried round the model
+  crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20 --walk 20000
+      an environment map with shadows, marble behind another boundary, and photons that walk beside the dipole
+  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice adaptive --link-table --probe 0,-1,0
+      where one texel gathers from: clusters, factors and distances
 
-/// Diffuse reflectance for direct light, unless asked for.
-const DIFFUSE: f64 = 0.1;
+Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of every vertex of the model, in every \
+way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), with --walk walk.csv, with --link-table links.csv, \
+with --probe probes.csv, timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
+
+/// The index of refraction where coefficients come without one.
+const ETA: f64 = 1.3;
+
+/// Light below the surface of a model: links over an atlas, three passes on a card, all pairs beside them
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
+    /// of the paper: stand-in-bunny, stand-in-dolphin, stand-in-head
+    #[arg(value_name = "MODEL")]
+    model: PathBuf,
+
+    /// A published medium: see `crossbar materials`
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["sigma_s", "sigma_a"])]
+    material: Option<String>,
+
+    /// Reduced scattering coefficient per mm, for all channels or as R,G,B
+    #[arg(long, value_name = "S", value_parser = coefficient, requires = "sigma_a", allow_hyphen_values = true)]
+    sigma_s: Option<[f64; 3]>,
+
+    /// Absorption coefficient per mm, for all channels or as R,G,B
+    #[arg(long, value_name = "A", value_parser = coefficient, requires = "sigma_s", allow_hyphen_values = true)]
+    sigma_a: Option<[f64; 3]>,
+
+    /// Index of refraction, 1 to 3 [default: the published one; 1.3 with --sigma-s and --sigma-a]
+    #[arg(long, value_name = "N", value_parser = number::positive)]
+    eta: Option<f64>,
+
+    #[command(flatten)]
+    options: SubsurfaceOptions,
+
+    /// ambient:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment map,
+    /// with shadows: a lat-long, angular-probe or cube-cross picture, a table of a cube's texels (.csv) or of small
+    /// sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun) or red-and-blue [default: from beside the
+    /// camera]
+    #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
+    light: Vec<LightArg>,
+
+    /// In place of lights, what has entered each face: a table with the header r,g,b and a line per face
+    #[arg(long, value_name = "FACES.csv", conflicts_with = "light")]
+    irradiance: Option<PathBuf>,
+
+    #[command(flatten)]
+    card: CardArgs,
+
+    /// Pixels of the pictures
+    #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
+    size: Size,
+
+    #[command(flatten)]
+    eye: EyeArgs,
+
+    #[command(flatten)]
+    part: PartArgs,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/subsurface")]
+    out: PathBuf,
+}
 
 impl StudyArgs for Args {
     type Study = Parameters;
@@ -44,23 +118,23 @@ impl StudyArgs for Args {
 
     /// Memory of the atlas, its links, the card's textures and the pictures of every way.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        let SubsurfaceOptions { side, ref links, frames, link_table, .. } = self.options;
         // Before memory, which what cannot be has no need of.
-        require_side(self.atlas).map_err(no_atlas)?;
+        require_side(side).map_err(no_atlas)?;
         const PER_TEXEL: u64 = 1000;
         const PER_LINK: u64 = 80;
         const PER_PIXEL_AND_PICTURE: u64 = 100;
-        let texels = u64::from(self.atlas) * u64::from(self.atlas);
-        let most = u64::from(self.links.iter().copied().max().unwrap_or(0));
-        let kinds = [self.choice.len(), self.channels.len(), self.link_format.len(), self.map.len(), self.links.len()];
-        let ways: u64 = kinds.into_iter().map(|count| count.max(1) as u64).product();
-        let pictures = 3 * ways + u64::from(self.frames);
+        let texels = u64::from(side) * u64::from(side);
+        let most = u64::from(links.iter().copied().max().unwrap_or(0));
+        let ways = self.options.way_count();
+        let pictures = 3 * ways + u64::from(frames);
         // Rows of the table of links, of which there are at most 2^18 per study.
-        let table = if self.link_table { 128 << 20 } else { 0 };
+        let table = if link_table { 128 << 20 } else { 0 };
         let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways).saturating_add(table);
         Ok(Some(MemoryNeed {
             what: format!(
-                "{0} x {0} texels with {most} links each, and {pictures} pictures of {1} pixels",
-                self.atlas, self.size
+                "{side} x {side} texels with {most} links each, and {pictures} pictures of {} pixels",
+                self.size
             ),
             bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, maps),
             help: "ask for a smaller `--atlas`, fewer `--links` or a smaller `--size`",
@@ -68,45 +142,62 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<Parameters> {
-        let diffuse = self.diffuse.unwrap_or(DIFFUSE);
-        if diffuse > 1.0 {
-            let (found, help) = (shown(diffuse, Quantity::Exact), "a surface reflects at most all of the light");
-            return Err(Problem::usage(format!("expected a `--diffuse` from 0 to 1, found {found}"), help).into());
-        }
-        ask::require_lights(self)?;
-        let material = ask::material(self)?;
-        let ways = ask::ways(self, &material)?;
-        let reference = ask::all_pairs(self)?;
+        self.options.check()?;
+        self.require_lights()?;
+        let material = self.material()?;
+        let ways = self.options.ways(&material)?;
         let profile = self.card.profile("nv35")?;
         let mesh = model_name::mesh(&self.model)?;
         let camera = self.eye.framing(&mesh, self.size)?;
         Ok(Parameters {
             model: self.model.display().to_string(),
-            lighting: ask::lighting(self, &camera)?,
-            mm_per_unit: self.mm_per_unit,
-            side: self.atlas,
-            tolerance: self.tolerance,
-            stage: self.pass_1.unwrap_or_default(),
-            photons: self.walk,
-            link_table: self.link_table,
-            probes: self.probe.clone(),
+            lighting: lighting(&self.light, self.irradiance.as_deref(), &camera)?,
             switches: self.card.switches(),
             executor: self.card.executor()?,
-            view: ViewKernel {
-                transmittance: self.fresnel,
-                direct: self.direct.unwrap_or(DirectLight::ByFragment),
-                combine: self.combine,
-            },
-            diffuse,
-            exposure: self.exposure,
-            frames: self.frames,
+            options: self.options.clone(),
             material,
             ways,
-            reference,
-            roundings: self.roundings,
             profile,
             mesh,
             camera,
         })
+    }
+}
+
+impl Args {
+    /// A published medium, or coefficients.
+    fn material(&self) -> miette::Result<Material> {
+        match (&self.material, self.sigma_s, self.sigma_a) {
+            (Some(name), ..) => {
+                let published = published(name)?.material();
+                let Some(eta) = self.eta else { return Ok(published) };
+                let made = Material::new(format!("{}, eta {eta}", published.name), published.channels, eta);
+                made.map_err(|error| {
+                    Problem::usage(error.to_string(), "leave out `--eta` for the published one").into()
+                })
+            }
+            (None, Some(s), Some(a)) => {
+                let channel = |c: usize| Coefficients { sigma_s_prime: s[c], sigma_a: a[c] };
+                let made = Material::new("the coefficients given", [0, 1, 2].map(channel), self.eta.unwrap_or(ETA));
+                made.map_err(|error| Problem::usage(error.to_string(), "coefficients are per mm").into())
+            }
+            _ => {
+                let help = "add `--material NAME` (see `crossbar materials`), or `--sigma-s` and `--sigma-a` per mm";
+                Err(Problem::usage("expected a medium", help).into())
+            }
+        }
+    }
+
+    /// Refuses options of lights where the light is a table of faces or an environment map.
+    fn require_lights(&self) -> Result<(), Problem> {
+        let has_map = self.light.iter().any(|light| matches!(light, LightArg::Environment(_)));
+        let of_lights = [("--diffuse", self.options.diffuse.is_some()), ("--frames", self.options.frames > 0)];
+        match of_lights.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) if has_map || self.irradiance.is_some() => {
+                let help = "it is for `--light` of the kinds ambient, directional and point; what enters is known here";
+                Err(Problem::usage(format!("`{option}` changes nothing without lights of pass 1"), help))
+            }
+            _ => Ok(()),
+        }
     }
 }

@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use refsim::event::ReadBackMode;
 use refsim::timing::Level;
 
-use crate::cli::one_of::{OneOf, one_of};
-use crate::cli::size::{BadSize, Size};
+use crate::options::one_of::{OneOf, one_of};
+use crate::options::{BadSize, Size};
 
 const EXAMPLES: &str = "\
 Examples:
   crossbar timeline fixtures/cases/modulate.toml
       both models of a case: what each draw costs, what each unit does, the critical path
-  crossbar timeline --rays 64x64 --device r200 --readback async --double-buffer --trace out.json
+  crossbar timeline --eye-rays 64x64 --device r200 --readback async --double-buffer --perfetto out.json
       the Ray Engine's crossbar on the teapot, as a trace for https://ui.perfetto.dev or chrome://tracing
-  crossbar timeline fixtures/cases/modulate.toml --model pipeline --sensitivity
+  crossbar timeline fixtures/cases/modulate.toml --timing pipeline --sensitivity
       and what each guessed figure does to the total, halved and doubled
 
 The model `rates` knows a fill rate and the rates of the bus (equation 11 of the Ray Engine paper), and commands cost it nothing; \
@@ -29,24 +29,24 @@ Exit codes: 0 done, 2 the case cannot be run, or the device has no time.";
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
     /// The case, a TOML file: see `crossbar run`
-    #[arg(required_unless_present = "rays", conflicts_with = "rays")]
+    #[arg(required_unless_present = "eye_rays", conflicts_with = "eye_rays")]
     pub(super) case: Option<PathBuf>,
 
     /// Instead of a case: the Ray Engine's crossbar with so many eye rays, bucket after bucket on one card
     #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
-    pub(super) rays: Option<Size>,
+    pub(super) eye_rays: Option<Size>,
 
-    /// With --rays: the mesh, a Wavefront OBJ, PLY, STL or glTF file [default: the teapot, 8 x 8 quads per patch]
-    #[arg(long, value_name = "M.obj", requires = "rays", conflicts_with = "case")]
+    /// With --eye-rays: the mesh, a Wavefront OBJ, PLY, STL or glTF file [default: the teapot, 8 x 8 quads per patch]
+    #[arg(long, value_name = "M.obj", requires = "eye_rays", conflicts_with = "case")]
     pub(super) mesh: Option<PathBuf>,
 
-    /// The card [default: the case's; r200 for --rays]
+    /// The card [default: the case's; r200 for --eye-rays]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
-    /// Which model
+    /// The model of time
     #[arg(long, default_value = "both", value_parser = models())]
-    pub(super) model: &'static [Level],
+    pub(super) timing: &'static [Level],
 
     /// Read-back mode: the host waits, or not [default: as the run says]
     #[arg(long, value_name = "MODE", value_parser = readback())]
@@ -66,10 +66,10 @@ pub(in crate::cli) struct Args {
 
     /// Write the timeline as a trace for Perfetto and chrome://tracing
     #[arg(long, value_name = "FILE")]
-    pub(super) trace: Option<PathBuf>,
+    pub(super) perfetto: Option<PathBuf>,
 }
 
-/// The models, for `--model`.
+/// The models, for `--timing`.
 fn models() -> OneOf<&'static [Level]> {
     one_of([
         ("rates", "Fill rate and bus rates", &[Level::Rates][..]),

@@ -19,10 +19,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let log = input.log(args.cache)?;
     drop(bar);
     let mut timed = Vec::new();
-    for level in args.model {
+    for level in args.timing {
         timed.push(TimedLog::new(*level, &input, &log, args)?);
     }
-    if let (Some(path), Some(last)) = (&args.trace, timed.last()) {
+    if let (Some(path), Some(last)) = (&args.perfetto, timed.last()) {
         let trace = trace(input.profile(), last.name(), &input.title(), &last.replay.timeline);
         write_file(path, |file| trace.write(file)).map_err(Problem::from)?;
     }

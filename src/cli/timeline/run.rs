@@ -14,11 +14,11 @@ use super::args::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup, device_named};
 use crate::cli::run::setup_memory;
-use crate::cli::size::Size;
 use crate::cli::{Problem, memory, model_file, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
+use crate::options::Size;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
@@ -41,7 +41,7 @@ pub(super) enum Input {
 impl Input {
     pub(super) fn read(args: &Args) -> miette::Result<Self> {
         let device = args.device.as_deref().map(device_named).transpose()?;
-        match (&args.case, args.rays) {
+        match (&args.case, args.eye_rays) {
             (Some(case), None) => {
                 let overrides = Overrides { device, ..Overrides::default() };
                 let setup = Setup::read_with(case, &overrides)?;
@@ -51,12 +51,12 @@ impl Input {
             (None, Some(size)) => {
                 let profile = device.map_or_else(|| device_named(DEFAULT_DEVICE), Ok)?;
                 let need = memory::of_pixels(size.width, size.height, PER_RAY, 0);
-                memory::require(format_args!("a timeline of {size} rays"), need, "ask for fewer `--rays`")?;
+                memory::require(format_args!("a timeline of {size} rays"), need, "ask for fewer `--eye-rays`")?;
                 let (mesh, camera, name) = scene(args.mesh.as_deref(), size)?;
                 let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
                 Ok(Self::Rays { profile: Box::new(profile), mesh: Box::new(mesh), rays: Box::new(rays), name })
             }
-            _ => Err(Problem::usage("expected a case or `--rays`", "name one of them").into()),
+            _ => Err(Problem::usage("expected a case or `--eye-rays`", "name one of them").into()),
         }
     }
 

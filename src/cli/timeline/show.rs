@@ -57,7 +57,7 @@ pub(super) fn print(
     }
     out.line("")?;
     out.titled_table(&totals(input, log, timed))?;
-    if let Some(path) = &args.trace {
+    if let Some(path) = &args.perfetto {
         out.line(format_args!("wrote {}", path.display()))?;
     }
     Ok(())
@@ -247,7 +247,7 @@ pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[Timed
         "texture_cache": args.cache.then(|| cache(log).json()),
         "events": log.len(),
         "models": timed.iter().map(|one| model(input, log, one)).collect::<Vec<_>>(),
-        "trace": args.trace.as_ref().map(|path| path.display().to_string()),
+        "trace": args.perfetto.as_ref().map(|path| path.display().to_string()),
     })
 }
 

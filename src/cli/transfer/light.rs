@@ -5,9 +5,10 @@ use std::str::FromStr;
 
 use glam::DVec3;
 
-use crate::cli::one_of::variants;
-use crate::cli::{Problem, number, view};
+use crate::cli::{Problem, view};
 use crate::io::{load_cube_table, load_light_sources};
+use crate::options::number;
+use crate::options::one_of::variants;
 use crate::report::digits::{Quantity, shown};
 use crate::sphere::{BandWindow, ClearSky, EnvironmentPicture, HarmonicLight};
 use crate::transfer::grid::LIGHT_SIDE;

@@ -1,10 +1,8 @@
 //! Pictures on an emulated card.
 
-use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use crate::cli::card::CardArgs;
-use crate::cli::one_of::{OneOf, one_of};
 use crate::cli::transfer::picture::ValuesArgs;
 use crate::study::prt::CardSetting;
 
@@ -33,9 +31,4 @@ impl OnCardArgs {
         let (profile, executor) = (card.profile(device)?, card.executor()?);
         Ok(CardSetting { profile, switches: card.switches(), executor, format: *format, sweep: *sweep, values: None })
     }
-}
-
-/// The languages of vertex programs, for `--vertex`.
-pub(in crate::cli) fn vertex_versions() -> OneOf<Version> {
-    one_of([("vs_1_1", "That of Direct3D 8", Version::Vs1_1), ("vs_2_0", "That of Direct3D 9", Version::Vs2_0)])
 }

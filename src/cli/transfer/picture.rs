@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::memory::{self, MemoryNeed};
-use crate::cli::one_of::variants;
+use crate::cli::model_name;
 use crate::cli::scene_name::EyeArgs;
-use crate::cli::size::Size;
 use crate::cli::transfer::vertex_names::VertexNames;
-use crate::cli::{model_name, number};
 use crate::geom::Mesh;
+use crate::options::Size;
+use crate::options::number;
+use crate::options::one_of::variants;
 use crate::study::prt::{LitView, TurnedFrames, Turning, ValuesFormat, VertexValues};
 use crate::transfer::Vertices;
 

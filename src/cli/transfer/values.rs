@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use glam::DVec3;
 
-use crate::cli::number;
+use crate::options::number;
 use crate::transfer::Tangents;
 use crate::transfer::brdf::Brdf;
 

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::model::nearest;
 use super::vertex_names::VertexNames;
-use crate::cli::{Problem, number};
+use crate::cli::Problem;
+use crate::options::number;
 use crate::transfer::Vertices;
 
 /// A vertex by its number or by its place.

@@ -47,6 +47,11 @@ impl StudyError {
         Self(Box::new(ErrorParts { code: Some(code), sentence: Some(sentence.into()), ..ErrorParts::default() }))
     }
 
+    /// An error of options that do not go together, under the code of the program's usage.
+    pub fn usage(sentence: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::new("crossbar::usage", sentence).with_help(help)
+    }
+
     /// A library's error with its own sentence, under a code of the study.
     pub fn coded(code: &'static str, error: impl Error + Send + Sync + 'static) -> Self {
         let cause = Some(Cause::Error(Box::new(error)));

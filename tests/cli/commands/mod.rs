@@ -32,15 +32,15 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("radiosity", "--size", "8x8", true),
     ("radiosity", "--patches", "60", true),
     ("radiosity", "--iterations", "4", true),
-    ("radiosity", "--frames", "1,2", false),
-    ("radiosity", "--sweep", "60", false),
+    ("radiosity", "--picture-after", "1,2", false),
+    ("radiosity", "--sweep-patches", "60", false),
     ("subsurface", "--all-pairs", "no", true),
     ("subsurface", "--size", "8x8", true),
     ("subsurface", "--links", "4", false),
     ("subsurface", "--tolerance", "0.1", true),
     ("subsurface", "--frames", "2", false),
     ("subsurface", "--walk", "64", false),
-    ("timeline", "--rays", "8x8", false),
+    ("timeline", "--eye-rays", "8x8", false),
 ];
 
 /// Commands that do not run here: their beginning, and the reason.

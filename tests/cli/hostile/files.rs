@@ -14,7 +14,7 @@ fn hostile_files() {
         &["run", "IN"],
         &["compare", "IN"],
         &["timeline", "IN"],
-        &["timeline", "--rays", "4x4", "--mesh", "IN"],
+        &["timeline", "--eye-rays", "4x4", "--mesh", "IN"],
         &["render", "IN"],
         &["render", "IN", "--renderer", "eye"],
         &["radiosity", "IN"],
@@ -195,7 +195,7 @@ fn hostile_places_for_results() {
     ];
     let not_folders = ["", "file", "file/x", "/dev/null", "/dev/null/x", "/proc/nowhere", "/dev/stdout"];
     let single: [&[&str]; 2] =
-        [&["intersect", "--mesh", "m.obj", "--rays", "r.csv", "--out"], &["timeline", &case, "--trace"]];
+        [&["intersect", "--mesh", "m.obj", "--rays", "r.csv", "--out"], &["timeline", &case, "--perfetto"]];
     let not_files = ["", ".", "/", "..", "file/x", "/proc/nowhere", "/dev/full"];
     let mut runs: Vec<Vec<OsString>> = Vec::new();
     for (commands, places, option) in

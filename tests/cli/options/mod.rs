@@ -259,17 +259,16 @@ fn inputs() -> &'static Path {
         put("faces.csv", "r,g,b\n1,0.5,0.2\n0.1,1,1\n");
         put("rays.csv", "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0.1\n0.25,-1,0.75,0,1,0\n0.25,2,0.5,0,-1,0\n");
         put("rays_2.csv", "ox,oy,oz,dx,dy,dz\n0.7,-1,0.3,0,1,0\n0.3,-1,0.7,0.1,1,0\n0.25,2,0.5,0,-1,0\n");
-        put("starts.txt", "0\n9\n20\n30\n");
         put("heights.csv", "0,0.1\n0.2,0\n");
         for line in [
             "all-frequency factor --brdf phong --side 4 --supersamples 1x1 --terms 2 --out factors",
             "all-frequency precompute docs/examples/step.obj --ground 3 --out on.prt",
-            "all-frequency precompute square.obj --factors factors --out glossy_sight.prt",
+            "all-frequency precompute square.obj --reflectance factors --out glossy_sight.prt",
             "all-frequency compress glossy_sight.prt --model square.obj --vectors 3 --out glossy.prt",
             "bi-scale precompute docs/examples/court.obj --directions 2 --out court.prt",
             "bi-scale precompute docs/examples/court.obj --directions 2 --part 1/2 --out court_1.part",
             "bi-scale precompute docs/examples/court.obj --directions 2 --part 2/2 --out court_2.part",
-            "bi-scale texture plain --size 2 --directions 4 --views 2 --out plain.npy",
+            "bi-scale texture plain --texels 2 --directions 4 --views 2 --out plain.npy",
         ] {
             let ran = crossbar_in(folder.path(), &line.split(' ').collect::<Vec<_>>(), "");
             assert_eq!(ran.code, Some(0), "{}", ran.transcript());

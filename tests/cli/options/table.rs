@@ -50,11 +50,11 @@ pub(super) const TABLE: &[Tried] = &[
             "alu mul --format e4m3fn:rst < 3B 3B",
         ],
         options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --exhaustive@5 --flags --tininess=before@0,1,4,5 \
-                  --exact --accumulator=fp32 --order=exact --block=mxfp6-e3m2 --seed=1",
+                  --exact --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1",
     },
     Tried {
         bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],
-        options: concat!("--side=16 --out=other --model-up=y --strict@1", eye!()),
+        options: "--side=16 --size=9x7 --out=other --model-up=y --strict@1",
     },
     Tried {
         bases: &["check docs/examples/intersect.psa --device r200"],
@@ -91,7 +91,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --part=1/1 --out=other \
-             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --all-pairs same:--executor=scalar --adapter=x --model-up=y \
+             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --brute-force same:--executor=scalar --adapter=x --model-up=y \
              --strict",
             eye!()
         ),
@@ -99,7 +99,7 @@ pub(super) const TABLE: &[Tried] = &[
     Tried { bases: &["man --out OUT"], options: "--out=other" },
     Tried {
         bases: &["materials", "materials marble", "materials --sigma-s 1 --sigma-a 0.1"],
-        options: "--at=1,2 --sigma-s=2 --sigma-a=0.2 --eta=1.4",
+        options: "--radius=1,2 --sigma-s=2 --sigma-a=0.2 --eta=1.4",
     },
     Tried {
         bases: &[
@@ -108,10 +108,10 @@ pub(super) const TABLE: &[Tried] = &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
         ],
         options: concat!(
-            "--patches=12 --per-side=1 --factors=unoccluded --strata=2 --hemicube=16 --seed=2 --require-closed=1e-6 \
+            "--patches=12 --per-side=1 --factors=unoccluded \
              --enforce=closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv30 \
              --switch=rounding=rtz same:--executor=scalar --adapter=x --tolerance=0.5 --iterations=2 \
-             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --frames=1,2 --atlas=32 --sweep=12,30 --part=1/2 --view=front \
+             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --atlas=32 --sweep-patches=12,30 --part=1/2 --view=front \
              --exposure=0.3 --out=other --model-up=y --strict@1",
             eye!()
         ),
@@ -152,31 +152,32 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
-             --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --half --tolerance=0.5 \
-             --light=sky:1,1,1 --irradiance=faces.csv --pass-1=fragment --direct=vertex --fresnel=mean \
-             --combine=modulated --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --walk=64 --link-table --roundings --device=nv30 \
+             --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --tolerance=0.5 \
+             --light=ambient:1,1,1 --irradiance=faces.csv --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --walk=64 --link-table --roundings --device=nv30 \
              --switch=rounding=rtz same:--executor=scalar --adapter=x --frames=2 --exposure=0.3 --part=1/2 --out=other \
              --model-up=y --strict@1",
             eye!()
         ),
     },
     Tried {
-        bases: &["timeline docs/examples/product.toml", "timeline --rays 4x4 --mesh odd.obj", "timeline --rays 4x4"],
-        options: "--rays=5x4 --mesh=square.obj --device=nv20 --model=rates --readback=async --double-buffer --cache \
-                  --sensitivity --trace=trace.json --model-up=y@0,1 --strict@0,1",
+        bases: &[
+            "timeline docs/examples/product.toml",
+            "timeline --eye-rays 4x4 --mesh odd.obj",
+            "timeline --eye-rays 4x4",
+        ],
+        options: "--eye-rays=5x4 --mesh=square.obj --device=nv20 --timing=rates --readback=async --double-buffer --cache \
+                  --sensitivity --perfetto=trace.json --model-up=y@0,1 --strict@0,1",
     },
     Tried {
         bases: &[
             "cpca precompute docs/examples/room.obj --order 2 --degree 18 --out OUT.prt",
             "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --brdf phong:0.2,0.3,4 --out OUT.prt",
-            "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --incident directions --out OUT.prt",
             "cpca precompute odd.obj --kind glossy --order 2 --rows 4 --degree 18 --bounces 1 --out OUT.prt",
             "cpca precompute square.obj --order 2 --degree 18 --material marble --mm-per-unit 10 --out OUT.prt",
         ],
-        options: "--kind=glossy@0 --order=3 --rows=9 --exit=zero-hemisphere --incident=zero-hemisphere \
-                  --incident-order=2 --brdf=lambert:0.3 --material=marble@4 --mm-per-unit=2@4 --channels=rgb \
-                  --tangents=1,2,3@1,2,3 --degree=20 --bounces=2 --bounce-tolerance=0.9 --part=1/2 --out=other.prt \
-                  --model-up=y --strict@3",
+        options: "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=marble@3 --mm-per-unit=2@3 --channels=rgb \
+                  --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.prt \
+                  --model-up=y --strict@2",
     },
     Tried {
         bases: &[
@@ -187,7 +188,7 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --model odd.obj --reclassify 0.5 --out OUT.prt",
         ],
         options: "--clusters=5@0,1,2 --vectors=1@0,2 --max-error=0.02@0,1,2 --grow=clusters@0,1,2 --method=adaptive@0,1,2 \
-                  --linear@0,1,2 --iterations=1@0,2 --vq-iterations=1@0,1,2 --seed=2@0,1,2 --start=starts.txt@0,1 \
+                  --linear@0,1,2 --iterations=1@0,2 --vq-iterations=1@0,1,2 --seed=2@0,1,2 \
                   --model=white-box@0,1,2 --reclassify=0@0,1,2 --refit@0,1,2 --supercluster-size=2@0,1,2 \
                   --out=other.prt@0,1,2 --model-up=y --strict@3",
     },
@@ -225,7 +226,7 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca card docs/examples/step_small.prt --model odd.obj --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--window=hann@0 --weights=unorm8@0 --map=8@0 --map-format=rgba8s@0 same:--vertex=vs_1_1@0 --alone@0 --out=other@0",
+            "--window=hann@0 --weights=unorm8@0 --map-side=8@0 --map-format=rgba8s@0 --out=other@0",
             card!("r350"),
             picture!("1")
         ),
@@ -240,8 +241,8 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--brdf=phong@0,1,3,4 --merl=nowhere.binary --table=docs/examples/reflectance.csv@0,1,2,3 --roughness=0.3 \
                   --fresnel=0.3 --isotropy=0.5 --exponent=9 --albedo=0.2 --denominators=product \
-                  --fresnel-form=constant --shadowing=none --tangent=half-vector --channel=red --side=5 \
-                  --supersamples=3x3 --outside=rim --clamp=0.05 --clamp-when=before@0,4 --terms=1@0,1,2,4 --sweep-roughness=0.2,0.5 \
+                  --fresnel-form=constant --shadowing=none --channel=red --side=5 \
+                  --supersamples=3x3 --clamp=0.05 --terms=1@0,1,2,4 --sweep-roughness=0.2,0.5 \
                   --out=other",
     },
     Tried {
@@ -252,7 +253,7 @@ pub(super) const TABLE: &[Tried] = &[
              --model docs/examples/step.obj",
             "all-frequency lighting --keep 60 --by transfer --transfer docs/examples/step_all.prt --model odd.obj",
         ],
-        options: "--light=red-and-blue --segments=6 --keep=9 --by=magnitude@1 --decimation=plain --rotate=20 --frames=3 \
+        options: "--light=red-and-blue --segments=6 --keep=9 --by=magnitude@1 --frames=3 \
                   --transfer=docs/examples/step_all_small.prt --model=white-box --coefficients=other.csv \
                   --out=other.csv --model-up=y --strict@3",
     },
@@ -261,7 +262,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency precompute docs/examples/room.obj --out OUT.prt",
             "all-frequency precompute odd.obj --out OUT.prt",
         ],
-        options: "--factors=factors --ground=3 --hats=one --tangents=1,2,3 --part=1/2 --out=other.prt --model-up=y \
+        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.prt --model-up=y \
                   --strict@1",
     },
     Tried {
@@ -271,7 +272,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency compress docs/examples/step_all.prt --model odd.obj --out OUT.prt",
         ],
         options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --method=static@0 --iterations=1@0 --seed=2@0 \
-                  --bits=8@0 --weight-bits=8@0 --scale=segment@0 --resume=kept@0 --part=1/2@0 --out=other.prt@0 \
+                  --bits=8@0 --weight-bits=8@0 --resume=kept@0 --part=1/2@0 --out=other.prt@0 \
                   --model-up=y --strict@1",
     },
     Tried {
@@ -310,7 +311,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--original=glossy_sight.prt@0,2 --keep=9@0,2 --way=sums@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
-             --radiance=fp16@0,2 --pass-per-channel@0,2 --partial@0,2 same:--vertex=vs_1_1@0 --vertex=vs_1_1@2 --out=other@0,2",
+             --partial@0,2 --out=other@0,2",
             card!("nv35"),
             picture!("1")
         ),
@@ -325,35 +326,35 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.prt"],
-        options: "--seed=2 --seeds=3 --no-deletion --drop=0.25 --dump=other.csv --out=other.prt",
+        options: "--seed=2 --seeds=3 --drop=0.25 --csv=other.csv --out=other.prt",
     },
     Tried {
         bases: &[
             "bi-scale multiply docs/examples/court_biclusters.prt",
-            "bi-scale multiply docs/examples/court_biclusters.prt --values OUT.csv --model docs/examples/court.obj",
-            "bi-scale multiply docs/examples/court_biclusters.prt --values OUT.csv --model odd.obj",
+            "bi-scale multiply docs/examples/court_biclusters.prt --csv OUT.csv --model docs/examples/court.obj",
+            "bi-scale multiply docs/examples/court_biclusters.prt --csv OUT.csv --model odd.obj",
         ],
-        options: "--light=red-and-blue@0,1 --rotate=20@0,1 --values=other.csv@0,1 --model=white-box@0,1 --model-up=y \
+        options: "--light=red-and-blue@0,1 --csv=other.csv@0,1 --model=white-box@0,1 --model-up=y \
                   --strict@2",
     },
     Tried {
         bases: &[
-            "bi-scale compare court.prt --clusters 2 --vectors 2 --sample 60 --rounds 1",
-            "bi-scale compare court.prt --model docs/examples/court.obj --clusters 2 --vectors 2 --sample 60 --rounds 1",
+            "bi-scale compare court.prt --clusters 2 --vectors 2 --sample 60",
+            "bi-scale compare court.prt --model docs/examples/court.obj --clusters 2 --vectors 2 --sample 60",
             "bi-scale compare court.prt --model odd.obj",
         ],
-        options: "--model=white-box --light=red-and-blue@0,1 --rotate=20@0,1 --clusters=3@0,1 --vectors=1@0,1 \
-                  --linear@0,1 --sample=40@0,1 --rounds=2@0,1 --seed=2@0,1 --coefficients=5@0,1 --priority=magnitude@0,1 \
-                  --storage=single@0,1 --order=2@0,1 --csv=other.csv@0,1 --model-up=y --strict@2",
+        options: "--model=white-box --light=red-and-blue@0,1 --clusters=3@0,1 --vectors=1@0,1 \
+                  --linear@0,1 --sample=40@0,1 --seed=2@0,1 --wavelets=5@0,1 --priority=magnitude@0,1 \
+                  --wavelet-format=single@0,1 --order=2@0,1 --csv=other.csv@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[
-            "bi-scale texture bumps --size 4 --directions 2 --views 2 --out OUT.npy",
-            "bi-scale texture heights.csv --size 4 --directions 2 --views 2 --sheet OUT.png --out OUT.npy",
-            "bi-scale texture plain --size 4 --directions 2 --views 2 --out OUT.npy",
+            "bi-scale texture bumps --texels 4 --directions 2 --views 2 --out OUT.npy",
+            "bi-scale texture heights.csv --texels 4 --directions 2 --views 2 --sheet OUT.png --out OUT.npy",
+            "bi-scale texture plain --texels 4 --directions 2 --views 2 --out OUT.npy",
         ],
-        options: "--detail=normals --relief=0.5 --color=0.1,0.2,0.3 --brdf=phong:0.2,0.3,4 --size=5 --directions=3 \
-                  --views=3 --samples=2 --out=other.npy --sheet=other.png --sheet-view=3",
+        options: "--relief=0.5 --color=0.1,0.2,0.3 --brdf=phong:0.2,0.3,4 --texels=5 --directions=3 \
+                  --views=3 --samples=2 --out=other.npy --sheet=other.png",
     },
     Tried {
         bases: &[
@@ -384,8 +385,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale card docs/examples/court_biclusters.prt --model odd.obj --texture bumps --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--texture=wall=tiles@0 --repeat=3@0 --texture-size=5@0 --texture-views=3@0 --crease=10 \
-             --texture-format=rgba16f@0 --blocks=touching@0 --light-format=fp16@0 --local-format=fp16@0 --out=other@0",
+            "--texture=wall=tiles@0 --repeat=3@0 --texture-size=5@0 --texture-views=3@0 --crease=10 --texture-format=rgba16f@0 --out=other@0",
             card!("ideal-fp32"),
             picture!("1")
         ),

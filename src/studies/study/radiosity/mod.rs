@@ -9,6 +9,7 @@ mod change;
 mod conclusion;
 mod difference;
 mod method;
+mod options;
 mod outcome;
 mod parameters;
 mod pictures;
@@ -38,8 +39,9 @@ pub use atlas::AtlasPictures;
 pub use change::{Change, Relit};
 pub use difference::SolutionError;
 pub use method::{CardMethod, SolveMethod, StopReason};
+pub use options::{FactorLaw, Factors, RadiosityOptions};
 pub use outcome::{MethodRow, RadiosityOutcome};
-pub use parameters::{FactorRequirements, Factors, Parameters};
+pub use parameters::Parameters;
 pub use pictures::{IterationPicture, Pictures};
 pub use sweep::SweepRow;
 pub use time::{CardFacts, IterationTime};
@@ -82,7 +84,7 @@ impl Study for Parameters {
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
         provenance.profiles.push(self.profile.name.clone());
         provenance.switches.clone_from(&self.switches);
-        if let Factors::Rays(VisibilityParameters { seed, .. }) = self.factors.from {
+        if let Factors::Rays(VisibilityParameters { seed, .. }) = self.options.factors {
             provenance.seed = Some(seed);
         }
         provenance
@@ -102,13 +104,14 @@ fn run(
             StudyError::new("radiosity::dark", what).with_help("give a material an emission: `Ke` in an MTL file")
         );
     }
-    let patches = Patches::new(&parameters.scene, parameters.subdivision)?;
+    let patches = Patches::new(&parameters.scene, parameters.options.subdivision())?;
     let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(how.packing) } else { None };
     for packing in parameters.methods.iter().filter_map(on_card) {
         let require = |fit: Fit| fit.require(&parameters.profile, packing, patches.list().len());
         Fit::of(&parameters.profile, packing).and_then(require).map_err(no_card)?;
     }
-    let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
+    let atlas =
+        parameters.options.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
     let sweep = Sweep::new(parameters)?;
     let known = match split::known(split, &patches, &sweep, progress)? {
         Computed::Whole(known) => known,
@@ -119,7 +122,7 @@ fn run(
         None => room::find(&patches, parameters, progress)?,
     };
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
-    let changed = change::apply(&parameters.changes, &parameters.scene, &patches, &system)?;
+    let changed = change::apply(&parameters.options.changes(), &parameters.scene, &patches, &system)?;
     let mut solved = Vec::new();
     for (at, method) in parameters.methods.iter().enumerate() {
         progress(
@@ -131,7 +134,7 @@ fn run(
     }
     let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
     let reference = direct.map(|s| s.radiosity.clone());
-    let exposure = parameters.exposure.unwrap_or_else(|| {
+    let exposure = parameters.options.exposure.unwrap_or_else(|| {
         let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
         direct.or(solved.first()).map_or(1.0, brightness)
     });

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Factors, Parameters, ProgressFn};
+use super::{FactorLaw, Factors, Parameters, ProgressFn};
 use crate::geom::exact::Sides;
 use crate::radiosity::form_factor::{FormFactorRows, Hemicube, RowSums};
 use crate::radiosity::{FormFactors, Patches};
@@ -24,7 +24,7 @@ pub(super) fn rows(
     progress: &mut ProgressFn<'_>,
 ) -> Result<FormFactorRows, StudyError> {
     let mut done = |done: usize, of: usize| progress("form factors", done as u64, of as u64);
-    Ok(match parameters.factors.from {
+    Ok(match parameters.options.factors {
         Factors::Unoccluded => FormFactorRows::unoccluded(patches, is_wanted)?,
         Factors::Rays(how) => {
             let mut tracer = HostTracer::new(patches.mesh(), Sides::Both);
@@ -39,15 +39,12 @@ pub(super) fn rows(
 
 /// Completes the rows of all patches, and enforces what is asked for.
 pub(super) fn complete(rows: FormFactorRows, patches: &Patches, parameters: &Parameters) -> Result<Room, StudyError> {
-    let (wishes, mut factors) = (&parameters.factors, rows.complete(patches)?);
+    let mut factors = rows.complete(patches)?;
     let (found_sums, reciprocity_error) = (factors.summary(), factors.reciprocity_error());
-    if let Some(tolerance) = wishes.closed {
-        factors.require_closed(tolerance)?;
-    }
-    if wishes.enforce_closure {
-        factors.enforce_closure()?;
-    } else if wishes.enforce_reciprocity {
-        factors.enforce_reciprocity();
+    match parameters.options.enforce {
+        Some(FactorLaw::Closure) => factors.enforce_closure()?,
+        Some(FactorLaw::Reciprocity) => factors.enforce_reciprocity(),
+        None => {}
     }
     Ok(Room { factors, found_sums, reciprocity_error })
 }

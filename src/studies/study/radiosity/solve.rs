@@ -20,7 +20,7 @@ pub(super) struct Solved {
     pub(super) stopped: StopReason,
     pub(super) relit: Option<Relit>,
     pub(super) card: Option<CardSolver>,
-    /// Radiosities after the iterations requested by `--frames`.
+    /// Radiosities after the iterations requested by `--picture-after`.
     pub(super) recorded: Vec<(u32, Vec<[f64; 3]>)>,
 }
 
@@ -41,7 +41,7 @@ pub(super) fn solve(
     parameters: &Parameters,
 ) -> Result<Solved, StudyError> {
     match method {
-        SolveMethod::Host(solver) => on_host(solver, system, changed, &parameters.options),
+        SolveMethod::Host(solver) => on_host(solver, system, changed, &parameters.options.stopping()),
         SolveMethod::Card(how) => on_card(how, system, changed, parameters).map_err(no_card),
     }
 }
@@ -86,11 +86,11 @@ fn on_card(
 ) -> Result<Solved, CardError> {
     let executor = parameters.executor.clone();
     let mut card = CardSolver::new(parameters.profile.clone(), executor, system, how.packing, how.storage)?;
-    let Options { tolerance, most_iterations } = parameters.options;
+    let Options { tolerance, most_iterations } = parameters.options.stopping();
     let options = CardOptions { tolerance, most_iterations, check_every: 1 };
     let mut recorded = Vec::new();
     let found = card.solve(system, &options, &mut |at| {
-        if parameters.frames.contains(&at.number) {
+        if parameters.options.frames.contains(&at.number) {
             recorded.push((at.number, to_f64(at.radiosity)));
         }
     })?;

@@ -70,7 +70,7 @@ impl<'a> Sweep<'a> {
 
     /// Number of settings; 0 without numbers of patches.
     pub(super) fn count(&self) -> usize {
-        if self.parameters.sweep.is_empty() { 0 } else { self.settings.len() }
+        if self.parameters.options.sweep.is_empty() { 0 } else { self.settings.len() }
     }
 
     /// Makes the runs of a range of settings: for each of them one per number of patches.
@@ -81,8 +81,8 @@ impl<'a> Sweep<'a> {
     ) -> Result<Vec<Vec<SweepRun>>, StudyError> {
         let settings = &self.settings[range];
         let mut runs = vec![Vec::new(); settings.len()];
-        let (mut done, all) = (0, (settings.len() * self.parameters.sweep.len()) as u64);
-        let sizes = if settings.is_empty() { &[][..] } else { &self.parameters.sweep };
+        let (mut done, all) = (0, (settings.len() * self.parameters.options.sweep.len()) as u64);
+        let sizes = if settings.is_empty() { &[][..] } else { &self.parameters.options.sweep };
         for &size in sizes {
             let (system, reference) = self.system(size, progress)?;
             for ((how, setting), runs) in settings.iter().zip(&mut runs) {
@@ -104,7 +104,7 @@ impl<'a> Sweep<'a> {
         }
         let factors = room::find(&patches, self.parameters, progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
-        let reference = system.solve(Solver::Direct, &self.parameters.options, None)?.radiosity();
+        let reference = system.solve(Solver::Direct, &self.parameters.options.stopping(), None)?.radiosity();
         Ok((system, reference))
     }
 
@@ -112,7 +112,7 @@ impl<'a> Sweep<'a> {
     /// one method may have the same bits.
     pub(super) fn rows(&self, runs: &[Vec<SweepRun>]) -> Vec<SweepRow> {
         let mut rows = Vec::new();
-        for size in 0..self.parameters.sweep.len() {
+        for size in 0..self.parameters.options.sweep.len() {
             for group in runs.chunks(self.values) {
                 let group: Vec<&SweepRun> = group.iter().filter_map(|runs| runs.get(size)).collect();
                 let first = rows.len();
@@ -136,7 +136,7 @@ fn solved(
     let profile = &setting.profile;
     let executor = parameters.executor.clone();
     let card = CardSolver::new(profile.clone(), executor, system, how.packing, how.storage);
-    let Options { tolerance, most_iterations } = parameters.options;
+    let Options { tolerance, most_iterations } = parameters.options.stopping();
     let options = CardOptions { tolerance, most_iterations, check_every: 1 };
     let solution = card.and_then(|mut card| card.solve(system, &options, &mut |_| ())).map_err(no_card)?;
     let widened: Vec<[f64; 3]> = solution.radiosity.iter().map(|b| b.map(f64::from)).collect();

@@ -1,6 +1,6 @@
 //! Tables of the study.
 
-use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
+use super::{FactorLaw, MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
 /// Tables of the study.
@@ -35,16 +35,15 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns = "patches form_factors least_row_sum largest_row_sum light_escaping partly_covered blind_patches \
          reciprocity_error enforced";
     let mut table = Table::of("The room; sums and errors as found, before anything was enforced", columns);
-    let wishes = &parameters.factors;
-    let enforced = match (wishes.enforce_closure, wishes.enforce_reciprocity) {
-        (true, _) => "closure, reciprocity",
-        (false, true) => "reciprocity",
-        (false, false) => "nothing",
+    let enforced = match parameters.options.enforce {
+        Some(FactorLaw::Closure) => "closure, reciprocity",
+        Some(FactorLaw::Reciprocity) => "reciprocity",
+        None => "nothing",
     };
     let sums = &outcome.found_sums;
     table.push([
         outcome.patches.list().len().into(),
-        wishes.from.to_string().into(),
+        parameters.options.factors.to_string().into(),
         Cell::decimals(sums.least, 7),
         Cell::decimals(sums.most, 7),
         Cell::error(sums.escaping),
@@ -89,7 +88,7 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
             StopReason::Cycle(cycle) if cycle.is_fixed_point() => "at a fixed point".to_owned(),
             StopReason::Cycle(_) => "in a cycle".to_owned(),
             StopReason::Iterations | StopReason::Direct => {
-                format!("no cycle within {} iterations", parameters.options.most_iterations)
+                format!("no cycle within {} iterations", parameters.options.stopping().most_iterations)
             }
         };
         let cycle = if let StopReason::Cycle(cycle) = row.stopped { Some(cycle) } else { None };

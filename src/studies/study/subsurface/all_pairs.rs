@@ -8,11 +8,6 @@ use crate::picture::metrics::{ErrorSums, value_error};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, Reference};
 
-/// Side of an atlas, in texels, up to which `crossbar subsurface` gathers over all pairs unless told otherwise.
-pub const ALL_PAIRS_SIDE: u32 = 32;
-/// Largest side of an atlas for all pairs, which take time by the square of its texels.
-pub const MAX_ALL_PAIRS_SIDE: u32 = 512;
-
 /// Names of the channels.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
@@ -80,7 +75,7 @@ impl AllPairSums<'_> {
     /// Radiosities of all texels out of those of all rows, and of the probes.
     pub(super) fn of_rows(self, rows: [Vec<f64>; 3]) -> Result<AllPairs, StudyError> {
         let texels = vec![[0.0; 3]; self.irradiance.len()];
-        let mut found = AllPairs { texels, probes: vec![[0.0; 3]; self.parameters.probes.len()] };
+        let mut found = AllPairs { texels, probes: vec![[0.0; 3]; self.parameters.options.probes.len()] };
         for (channel, radiosity) in rows.into_iter().enumerate() {
             if let Some(other) = self.like(channel) {
                 found.texels.iter_mut().chain(&mut found.probes).for_each(|b| b[channel] = b[other]);
@@ -88,8 +83,8 @@ impl AllPairSums<'_> {
             }
             found.texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
             let (reference, values) = (self.reference(channel)?, self.values(channel));
-            for (into, &probe) in found.probes.iter_mut().zip(&self.parameters.probes) {
-                let point = glam::DVec3::from(probe) * self.parameters.mm_per_unit;
+            for (into, &probe) in found.probes.iter_mut().zip(&self.parameters.options.probes) {
+                let point = glam::DVec3::from(probe) * self.parameters.options.mm_per_unit;
                 into[channel] = reference.radiosity_at(point, &values)?;
             }
         }
@@ -109,6 +104,6 @@ impl AllPairSums<'_> {
     }
 
     fn reference(&self, channel: usize) -> Result<Reference<'_>, StudyError> {
-        Ok(Reference::new(self.atlas, self.parameters.mm_per_unit, &self.dipoles[channel])?)
+        Ok(Reference::new(self.atlas, self.parameters.options.mm_per_unit, &self.dipoles[channel])?)
     }
 }

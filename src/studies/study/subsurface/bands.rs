@@ -28,8 +28,8 @@ impl GatheredBands {
         progress: &mut ProgressFn<'_>,
     ) -> Result<Self, StudyError> {
         let mut found = Self { bands: range.len(), ..Self::default() };
-        let rows = LinkBands::rows(scene.parameters.side);
-        if scene.parameters.reference {
+        let rows = LinkBands::rows(scene.parameters.options.side);
+        if scene.parameters.options.gathers_all_pairs() {
             found.all_pairs = scene.all_pairs().rows(&(range.start * rows..range.end * rows), progress)?;
         }
         for way in scene.parameters.ways_with_links() {

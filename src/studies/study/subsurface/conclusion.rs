@@ -56,7 +56,7 @@ type ErrorOf = fn((&AngleBin, &AngleBin)) -> f64;
 /// At which angles from the light fixed and adaptive links of the same number are each nearer to all pairs, for the
 /// largest such number.
 fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
-    let count = |row: &WayRow| row.way.choice.per_texel(parameters.side);
+    let count = |row: &WayRow| row.way.choice.per_texel(parameters.options.side);
     let is_fixed = |row: &WayRow| matches!(row.way.choice, LinkChoice::Fixed { .. });
     let alike = |one: &WayRow, other: &WayRow| {
         count(one) == count(other) && GatherWay { choice: one.way.choice, ..other.way } == one.way

@@ -27,15 +27,15 @@ pub struct LinkRow {
 
 /// Checks the number of rows of all ways before links are computed.
 pub(super) fn require_rows(parameters: &Parameters) -> Result<(), StudyError> {
-    let texels = match parameters.probes.len() {
-        0 => u64::from(parameters.side).pow(2),
+    let texels = match parameters.options.probes.len() {
+        0 => u64::from(parameters.options.side).pow(2),
         probes => probes as u64,
     };
     let ways = parameters.ways.iter().enumerate();
     let first = ways.filter(|(at, way)| !parameters.ways[..*at].iter().any(|other| other.has_links_of(way)));
-    let per_texel: u64 = first.map(|(_, way)| way.choice.per_texel(parameters.side)).sum();
+    let per_texel: u64 = first.map(|(_, way)| way.choice.per_texel(parameters.options.side)).sum();
     let rows = texels.saturating_mul(per_texel);
-    if parameters.link_table && rows > MAX_ROWS {
+    if parameters.options.link_table && rows > MAX_ROWS {
         let what = format!("expected at most {MAX_ROWS} links to list, found {rows}");
         let help = "name texels by `--probe`, or ask for fewer `--links` or a smaller `--atlas`";
         return Err(StudyError::new("subsurface::link_rows", what).with_help(help));
@@ -51,14 +51,14 @@ pub(super) fn rows(
     links: &Links,
     probe_texels: &[usize],
 ) -> Vec<LinkRow> {
-    let (name, side) = (way.links_label(parameters.side), atlas.side());
+    let (name, side) = (way.links_label(parameters.options.side), atlas.side());
     let of_texel = |texel: usize| {
         let at = [texel as u32 % side, texel as u32 / side];
         let row = |(cluster, factors): (ClusterId, &[f32])| {
             let ClusterId { level, y, x } = cluster;
             let factor = [0, 1, 2].map(|channel: usize| f64::from(factors[channel % factors.len()]));
             let apart = atlas.cluster(level, x, y).point - atlas.texels()[texel].point;
-            let distance = apart.length() * parameters.mm_per_unit;
+            let distance = apart.length() * parameters.options.mm_per_unit;
             LinkRow { links: name.clone(), texel: at, cluster, factor, distance }
         };
         links.of(at).filter(|(_, factors)| factors.iter().any(|&factor| factor > 0.0)).map(row).collect::<Vec<_>>()

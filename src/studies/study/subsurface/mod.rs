@@ -7,8 +7,10 @@ mod bands;
 mod conclusion;
 mod environment;
 mod error;
+mod gather_way;
 mod link_table;
 mod model;
+mod options;
 mod outcome;
 mod parameters;
 mod pictures;
@@ -29,14 +31,16 @@ use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 use bands::GatheredBands;
 
-pub use all_pairs::{ALL_PAIRS_SIDE, AllPairs, GatherError, MAX_ALL_PAIRS_SIDE};
+pub use all_pairs::{AllPairs, GatherError};
 pub use angles::{AngleBin, BinError};
 pub use error::no_atlas;
 pub(in crate::study) use error::no_card;
+pub use gather_way::{GatherWay, MapBits};
 pub use link_table::LinkRow;
 pub use model::ModelLengths;
+pub use options::{ALL_PAIRS_SIDE, MAX_ALL_PAIRS_SIDE, SubsurfaceOptions};
 pub use outcome::SubsurfaceOutcome;
-pub use parameters::{GatherWay, Lighting, MapBits, Parameters};
+pub use parameters::{Lighting, Parameters};
 pub use roundings::RoundingRow;
 pub use walk::WalkedChannel;
 pub use way::WayRow;
@@ -76,8 +80,8 @@ fn run(
     let [red, green, blue] = parameters.material.channels;
     let dipoles = [Dipole::new(red, eta)?, Dipole::new(green, eta)?, Dipole::new(blue, eta)?];
     progress("atlas", 0, 1);
-    let atlas = Atlas::new(&parameters.mesh, parameters.side).map_err(no_atlas)?;
-    let surface = SurfaceMoments::new(&atlas, parameters.mm_per_unit)?;
+    let atlas = Atlas::new(&parameters.mesh, parameters.options.side).map_err(no_atlas)?;
+    let surface = SurfaceMoments::new(&atlas, parameters.options.mm_per_unit)?;
     let lengths = ModelLengths::of(&atlas, &surface, parameters, &dipoles);
     let probe_texels = model::probe_texels(&atlas, parameters, lengths.diagonal)?;
     let irradiance = match &parameters.lighting {
@@ -109,20 +113,20 @@ fn run(
         truth: None,
     };
     let of_range = |range| GatheredBands::new(&scene, range, progress);
-    let mut known = match split.known("bands of texels", LinkBands::count(parameters.side), of_range)? {
+    let mut known = match split.known("bands of texels", LinkBands::count(parameters.options.side), of_range)? {
         Computed::Whole(known) => known,
         Computed::Part(written) => return Ok(Computed::Part(written)),
     };
-    let truth = if parameters.reference {
+    let truth = if parameters.options.gathers_all_pairs() {
         let rows = match &mut known {
             Some(known) => std::mem::take(&mut known.all_pairs),
-            None => scene.all_pairs().rows(&(0..parameters.side as usize), progress)?,
+            None => scene.all_pairs().rows(&(0..parameters.options.side as usize), progress)?,
         };
         Some(scene.all_pairs().of_rows(rows)?)
     } else {
         None
     };
-    let walked = match parameters.photons {
+    let walked = match parameters.options.photons {
         Some(photons) => Some(walk::walk(&atlas, parameters, (&dipoles, &irradiance), photons, progress)?),
         None => None,
     };
@@ -138,11 +142,11 @@ fn run(
                 None => way::links(&scene, way, progress)?,
             },
         };
-        if parameters.link_table && parameters.has_new_links(at) {
+        if parameters.options.link_table && parameters.has_new_links(at) {
             listed.extend(link_table::rows(&atlas, (parameters, way), &links, &probe_texels));
         }
         let row = way::run(&scene, way, (&links, at == 0), progress)?;
-        if parameters.roundings {
+        if parameters.options.roundings {
             roundings.extend(roundings::roundings(&scene, way, (&links, &row.radiosity), progress)?);
         }
         rows.push(row);

@@ -30,7 +30,7 @@ pub struct ModelLengths {
 
 impl ModelLengths {
     pub(super) fn of(atlas: &Atlas, surface: &SurfaceMoments, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
-        let mm = parameters.mm_per_unit;
+        let mm = parameters.options.mm_per_unit;
         let fitness = dipoles.each_ref().map(|dipole| Fitness::new(surface, dipole));
         let extent = parameters.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| {
             (DVec3::from(high.map(f64::from)) - DVec3::from(low.map(f64::from))) * mm
@@ -72,7 +72,7 @@ pub(super) fn probe_texels(atlas: &Atlas, parameters: &Parameters, diagonal: f64
         let probe = DVec3::new(x, y, z);
         let distance = |texel: usize| atlas.texels()[texel].point.distance_squared(probe);
         let nearest = (0..atlas.texels().len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-        let near = |&texel: &usize| distance(texel).sqrt() * parameters.mm_per_unit <= diagonal;
+        let near = |&texel: &usize| distance(texel).sqrt() * parameters.options.mm_per_unit <= diagonal;
         let far = || {
             let what = format!("the probe {x},{y},{z} is farther from the model than its size");
             let help = "a probe is a point of the surface, in the model's units";
@@ -80,5 +80,5 @@ pub(super) fn probe_texels(atlas: &Atlas, parameters: &Parameters, diagonal: f64
         };
         nearest.filter(near).ok_or_else(far)
     };
-    parameters.probes.iter().map(nearest).collect()
+    parameters.options.probes.iter().map(nearest).collect()
 }

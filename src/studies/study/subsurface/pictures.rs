@@ -13,7 +13,7 @@ const MIDDLE_GREY: f64 = 0.18;
 
 /// Auto-exposure: the model at 18 % grey on average; pixels that show nothing do not count.
 pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
-    if let Some(exposure) = parameters.exposure {
+    if let Some(exposure) = parameters.options.exposure {
         return Ok(exposure);
     }
     let Some(first) = outcome.rows.first() else { return Ok(1.0) };

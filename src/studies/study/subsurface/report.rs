@@ -102,7 +102,7 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
     let mut lines: Vec<Series> = Vec::new();
     for (row, error) in outcome.rows.iter().filter_map(|row| Some((row, row.error?))) {
         let label = line(row);
-        let point = (row.way.choice.per_texel(parameters.side) as f64, 100.0 * error.rms);
+        let point = (row.way.choice.per_texel(parameters.options.side) as f64, 100.0 * error.rms);
         match lines.iter_mut().find(|line| line.label == label) {
             Some(line) => line.points.push(point),
             None => lines.push(Series { label, points: vec![point] }),
@@ -125,5 +125,5 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
 fn line(row: &WayRow) -> String {
     let channels = if row.way.rgb { ", RGB" } else { "" };
     let choice = row.way.choice.word();
-    format!("{choice}{channels}, {} links, {} map", super::parameters::name(row.way.links), row.way.map)
+    format!("{choice}{channels}, {} links, {} map", super::gather_way::name(row.way.links), row.way.map)
 }

@@ -33,7 +33,7 @@ pub(super) fn roundings(
     (links, usual): (&Links, &[[f64; 3]]),
     progress: &mut ProgressFn<'_>,
 ) -> Result<Vec<RoundingRow>, StudyError> {
-    let (parameters, label) = (scene.parameters, way.label(scene.parameters.side));
+    let (parameters, label) = (scene.parameters, way.label(scene.parameters.options.side));
     let switches = parameters.profile.switches().iter().filter(|switch| SWITCHES.contains(&switch.name.as_str()));
     let others = switches.flat_map(|switch| {
         let values = switch.values.iter().filter(|value| **value != switch.current);

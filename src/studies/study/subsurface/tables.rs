@@ -14,10 +14,10 @@ pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Tab
          coarse_texels_%",
     );
     let lengths = &outcome.lengths;
-    let scale = parameters.mm_per_unit * parameters.mm_per_unit;
+    let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
     table.push([
         parameters.mesh.len().into(),
-        format!("{0} x {0}", parameters.side).into(),
+        format!("{0} x {0}", parameters.options.side).into(),
         Cell::measured(outcome.atlas.area() * scale),
         Cell::measured(lengths.diagonal),
         Cell::measured(lengths.shortest_side),
@@ -162,7 +162,7 @@ pub(super) fn roundings(outcome: &SubsurfaceOutcome) -> Table {
 /// B at each probe.
 pub(super) fn probes(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of("B at the probes", "probe x y z way r g b");
-    for (at, (&place, &texel)) in parameters.probes.iter().zip(&outcome.probe_texels).enumerate() {
+    for (at, (&place, &texel)) in parameters.options.probes.iter().zip(&outcome.probe_texels).enumerate() {
         let mut add = |way: &str, value: [f64; 3]| {
             let head: [Cell; 5] = [at.into(), place[0].into(), place[1].into(), place[2].into(), way.into()];
             table.push(head.into_iter().chain(value.map(Cell::measured)));
@@ -186,7 +186,7 @@ pub(super) fn walked(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
     for (channel, walked) in channels.filter_map(|(channel, walked)| Some((channel, walked.as_ref()?))) {
         let Some((name, texels)) = outcome.columns().nth(1) else { continue };
         let (tally, left) = (&walked.tally, walked.tally.total());
-        let scale = parameters.mm_per_unit * parameters.mm_per_unit;
+        let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
         let gathered: f64 =
             outcome.atlas.texels().iter().zip(texels).map(|(texel, b)| texel.area * scale * b[channel]).sum();
         let dipole = gathered / walked.flux;
@@ -220,7 +220,7 @@ pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Tab
     let names = columns.iter().map(|(label, _)| *label).chain(walked.iter().flat_map(|_| ["walk", "walk_error"]));
     headings.extend(names.flat_map(|name| ["r", "g", "b"].map(|c| format!("{name}_{c}"))));
     let mut table = Table::new("Faces", &headings);
-    let scale = parameters.mm_per_unit * parameters.mm_per_unit;
+    let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
     for face in 0..outcome.atlas.places().len() {
         let area = parameters.mesh.area(face as u32) * scale;
         let estimate = |channel: &Option<WalkedChannel>| channel.as_ref().map(|walked| walked.radiosity(face, area));

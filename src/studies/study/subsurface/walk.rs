@@ -34,7 +34,7 @@ pub(super) fn walk(
     photons: u64,
     progress: &mut ProgressFn<'_>,
 ) -> Result<[Option<WalkedChannel>; 3], StudyError> {
-    let scale = parameters.mm_per_unit * parameters.mm_per_unit;
+    let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
     let entered = model::by_face(atlas, irradiance);
     let flux = |channel: usize| -> Vec<f64> {
         (0..).zip(&entered).map(|(face, e)| e[channel] * parameters.mesh.area(face) * scale).collect()
@@ -53,7 +53,7 @@ pub(super) fn walk(
         let total = flux.iter().sum::<f64>();
         if total > 0.0 {
             let walk = PhotonWalk { photons, ..PhotonWalk::new(medium(channel), parameters.material.eta)? };
-            let tally = walk::mesh(&walk, &parameters.mesh, parameters.mm_per_unit, flux, &mut caster)?;
+            let tally = walk::mesh(&walk, &parameters.mesh, parameters.options.mm_per_unit, flux, &mut caster)?;
             found[channel] = Some(WalkedChannel { flux: total, tally });
         }
     }

@@ -17,14 +17,20 @@ use crate::picture::Picture;
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::Dipole;
 use crate::subsurface::factor::SurfaceMoments;
-use crate::subsurface::kernels::{DirectLight, ViewKernel};
+use crate::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
 use crate::subsurface::links::{
     EncodedLinks, IrradianceMeans, LinkBands, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
 };
 use crate::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,
-    pass_times,
+    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, PassTime, SubsurfaceCard,
+    SubsurfaceCardOptions, View, pass_times,
 };
+
+/// Diffuse reflectance for direct light, unless asked for.
+const DIFFUSE: f64 = 0.1;
+/// Pass 3.
+const VIEW: ViewKernel =
+    ViewKernel { transmittance: EyeTransmittance::Exact, direct: DirectLight::ByFragment, combine: Combine::Added };
 
 /// Inputs that all ways of gathering share.
 #[derive(Clone, Copy)]
@@ -95,14 +101,14 @@ pub(super) fn link_bands(
     range: Range<usize>,
     progress: &mut ProgressFn<'_>,
 ) -> Result<LinkBands, StudyError> {
-    progress(&format!("links: {}", way.label(scene.parameters.side)), 0, 2);
-    let (dipoles, tolerance) = (link_dipoles(scene, way), scene.parameters.tolerance);
+    progress(&format!("links: {}", way.label(scene.parameters.options.side)), 0, 2);
+    let (dipoles, tolerance) = (link_dipoles(scene, way), scene.parameters.options.tolerance);
     Ok(LinkBands::new(scene.surface, dipoles, way.choice, tolerance, range, &|_, _| {})?)
 }
 
 /// The links of a way.
 pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
-    links_of(scene, way, link_bands(scene, way, 0..LinkBands::count(scene.parameters.side), progress)?)
+    links_of(scene, way, link_bands(scene, way, 0..LinkBands::count(scene.parameters.options.side), progress)?)
 }
 
 /// The links of a way out of those of all bands.
@@ -123,7 +129,7 @@ pub(super) fn run(
     progress: &mut ProgressFn<'_>,
 ) -> Result<WayRow, StudyError> {
     let parameters = scene.parameters;
-    let label = way.label(parameters.side);
+    let label = way.label(parameters.options.side);
     let host = |weighting| -> Result<Vec<[f64; 3]>, StudyError> {
         Ok(links.gather(&IrradianceMeans::new(scene.surface, scene.irradiance, weighting)?))
     };
@@ -134,7 +140,7 @@ pub(super) fn run(
     let mut card = lit_card(scene, way, parameters.profile.clone(), &textures, true).map_err(no_card)?;
     let radiosity = gathered(&card).map_err(no_card)?;
     drop(textures);
-    let picture = card.view(&view(parameters, parameters.view.direct)).map_err(no_card)?;
+    let picture = card.view(&view(parameters, VIEW.direct)).map_err(no_card)?;
     let events = card.take_log();
     card.record(false);
     let times = match pass_times(&parameters.profile, &events) {
@@ -188,11 +194,11 @@ pub(super) fn lit_card(
 ) -> Result<SubsurfaceCard, CardError> {
     let parameters = scene.parameters;
     let options = SubsurfaceCardOptions {
-        light: parameters.stage,
+        light: LightStage::default(),
         map: map_format(scene, way.map),
         links: way.links,
         scattered: way.links,
-        half: way.half,
+        half: false,
         tiles: None,
         memory: None,
     };
@@ -234,8 +240,8 @@ fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
 }
 
 fn view(parameters: &Parameters, direct: DirectLight) -> View {
-    let kernel = ViewKernel { direct, ..parameters.view };
-    View { kernel, diffuse: [parameters.diffuse; 3], ..View::scattered(parameters.camera) }
+    let kernel = ViewKernel { direct, ..VIEW };
+    View { kernel, diffuse: [parameters.options.diffuse.unwrap_or(DIFFUSE); 3], ..View::scattered(parameters.camera) }
 }
 
 /// E of every texel as the map has it; 0 where a texel has no area.
@@ -256,7 +262,9 @@ fn frames(
     progress: &mut ProgressFn<'_>,
 ) -> Result<Vec<Picture>, CardError> {
     let parameters = scene.parameters;
-    let (count, Lighting::Lights(lights)) = (parameters.frames, &parameters.lighting) else { return Ok(Vec::new()) };
+    let (count, Lighting::Lights(lights)) = (parameters.options.frames, &parameters.lighting) else {
+        return Ok(Vec::new());
+    };
     let middle = parameters
         .mesh
         .bounds()
@@ -269,7 +277,7 @@ fn frames(
         let turn = DQuat::from_vec4((axis * sin).extend(cos));
         let lights: Vec<Light> = lights.iter().map(|light| turned(*light, turn, middle)).collect();
         card.light(&lights)?;
-        frames.push(card.view(&view(parameters, parameters.view.direct))?);
+        frames.push(card.view(&view(parameters, VIEW.direct))?);
     }
     Ok(frames)
 }

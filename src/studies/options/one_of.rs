@@ -9,11 +9,11 @@ use strum::{EnumMessage, IntoEnumIterator};
 
 /// Parser of a value by its name; help and errors are those of clap's own enums.
 #[derive(Clone)]
-pub(super) struct OneOf<T>(Vec<(PossibleValue, T)>);
+pub struct OneOf<T>(Vec<(PossibleValue, T)>);
 
 /// The variants of an enum under the names that `strum` gives them. The help of each is the first paragraph of its
 /// documentation.
-pub(super) fn variants<T: IntoEnumIterator + EnumMessage>() -> OneOf<T> {
+pub fn variants<T: IntoEnumIterator + EnumMessage>() -> OneOf<T> {
     let named = |value: T| {
         let name = value.get_serializations().first()?;
         Some((PossibleValue::new(*name).help(summary(value.get_documentation().unwrap_or_default())), value))
@@ -22,12 +22,12 @@ pub(super) fn variants<T: IntoEnumIterator + EnumMessage>() -> OneOf<T> {
 }
 
 /// The name of a variant on the command line.
-pub(super) fn name<T: EnumMessage>(value: &T) -> &'static str {
+pub fn name<T: EnumMessage>(value: &T) -> &'static str {
     value.get_serializations().first().copied().unwrap_or_default()
 }
 
 /// Values with their names and the help of each.
-pub(super) fn one_of<T>(values: impl IntoIterator<Item = (&'static str, &'static str, T)>) -> OneOf<T> {
+pub fn one_of<T>(values: impl IntoIterator<Item = (&'static str, &'static str, T)>) -> OneOf<T> {
     OneOf(values.into_iter().map(|(name, help, value)| (PossibleValue::new(name).help(help), value)).collect())
 }
 

@@ -1,0 +1,138 @@
+//! `crossbar radiosity`: matrix radiosity on a card and on the host, side by side.
+
+use std::path::{Path, PathBuf};
+
+use super::card::CardArgs;
+use super::given;
+use super::memory::{self, MemoryNeed};
+use super::part::PartArgs;
+use super::scene_name::{self, EyeArgs, Viewpoint};
+use super::study::StudyArgs;
+use crate::atlas::require_side;
+use crate::options::Size;
+use crate::radiosity::Patches;
+use crate::study::radiosity::{Factors, Parameters, RadiosityOptions, SolveMethod, no_atlas};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar radiosity cornell-room
+      the paper's scene on an emulated GeForce FX 5900 Ultra, Gauss-Seidel and the direct solution beside it, as one page
+  crossbar radiosity cornell-room-blocks --packing rgb --packing luminance --storage fp32 --storage fp16 --picture-after 1,2,4,8
+      both packings in both precisions, and how the room looks after some iterations
+  crossbar radiosity cornell-room --emit light=4,12,17 --paint red=0.1,0.1,0.6
+      solve, then change the light and the left wall, and go on from the solution
+  crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
+      a scene of your own, on the host alone
+  crossbar radiosity cornell-room-blocks --solver gauss-seidel --patches 500 --atlas 256
+      the solution as a texture of a meshed atlas, and the room drawn from it
+  crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep-patches 60,240,515,889
+      half floats on a card that truncates, and how dark the room gets with more patches and under every open switch
+
+Written to --out: index.html (self-contained), rows.csv, patches.csv and vertices.csv (radiosities per patch, and \
+between patches per vertex), study.json, residual.svg, with --sweep-patches \
+sweep.csv and sweep.svg, pictures of every method \
+(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --picture-after, with --atlas atlas.csv, \
+atlas.png and atlas-view.png; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
+chrome://tracing. docs/papers/radiosity.md explains all of it.";
+
+/// Solve for diffuse light in a scene: patches, form factors, iterations as fragment programs
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene of the project: see `crossbar scene`
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+
+    #[command(flatten)]
+    options: RadiosityOptions,
+
+    #[command(flatten)]
+    card: CardArgs,
+
+    /// Pixels of the pictures
+    #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
+    size: Size,
+
+    /// A view of the scene, by its name [default: its first]
+    #[arg(long, value_name = "NAME")]
+    view: Option<String>,
+
+    #[command(flatten)]
+    eye: EyeArgs,
+
+    #[command(flatten)]
+    part: PartArgs,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/radiosity")]
+    out: PathBuf,
+}
+
+impl StudyArgs for Args {
+    type Study = Parameters;
+    const QUICKER: &'static str = "fewer `--patches`";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn part(&self) -> Option<PartArgs> {
+        Some(self.part)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        scene_name::named_file(&self.scene)
+    }
+
+    /// By the number of patches that is asked for; faces and parts of sides may make more.
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        // Before memory, which what cannot be has no need of.
+        self.options.atlas.map_or(Ok(()), require_side).map_err(no_atlas)?;
+        let RadiosityOptions { patches, per_side, .. } = self.options;
+        self.need(per_side.map_or(patches as usize, |_| 0)).map(Some)
+    }
+
+    fn memory_of(&self, study: &Parameters) -> Option<MemoryNeed> {
+        // What is wrong with the patches, the study says itself.
+        let patches = Patches::count(&study.scene, study.options.subdivision()).ok()?;
+        self.need(patches).ok()
+    }
+
+    fn study(&self) -> miette::Result<Parameters> {
+        let scene = scene_name::scene(&self.scene)?;
+        let viewpoint = Viewpoint { size: self.size, view: self.view.as_deref(), eye: self.eye };
+        let (camera, methods) = (viewpoint.camera(&scene)?, self.options.methods()?);
+        let is_on_card = methods.iter().any(|method| matches!(method, SolveMethod::Card(_)));
+        if !is_on_card && !matches!(self.options.factors, Factors::Hemicube { .. }) {
+            given::refuse(self.card.given(), "methods on a card", "add `--solver card`, or leave it out")?;
+        }
+        Ok(Parameters {
+            scene,
+            methods,
+            profile: self.card.profile("nv35")?,
+            switches: self.card.switches(),
+            executor: self.card.executor()?,
+            camera,
+            options: self.options.clone(),
+        })
+    }
+}
+
+impl Args {
+    /// Memory of the matrices of that many patches, and of the pictures of every method.
+    fn need(&self, patches: usize) -> miette::Result<MemoryNeed> {
+        // Measured: 83 with the matrices on a card, whose batch executor keeps decoded texels.
+        const PER_PAIR: u64 = 96;
+        const PER_PIXEL_AND_PICTURE: u64 = 100;
+        // What an atlas knows of a texel, its levels, colors and picture.
+        const PER_TEXEL: u64 = 320;
+        let pictures = (self.options.methods()?.len() + self.options.frames.len()) as u64;
+        let texels = self.options.atlas.map_or(0, |side| u64::from(side) * u64::from(side));
+        let matrices = (patches as u64).saturating_mul(patches as u64 * PER_PAIR) + texels * PER_TEXEL;
+        Ok(MemoryNeed {
+            what: format!("radiosity of {patches} patches with {pictures} pictures of {} pixels", self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, matrices),
+            help: "ask for fewer `--patches`, name a scene of fewer faces, or ask for a smaller `--size` or `--atlas`",
+        })
+    }
+}

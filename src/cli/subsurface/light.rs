@@ -1,0 +1,136 @@
+//! The light of `crossbar subsurface`.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use glam::{DMat3, DVec3};
+
+use crate::cli::Problem;
+use crate::cli::transfer::light::DistantLightArg;
+use crate::io::load_irradiances;
+use crate::options::number::three_finite;
+use crate::scene::Camera;
+use crate::study::subsurface::Lighting;
+use crate::subsurface::on_card::Light;
+use crate::transfer::light::{CubeLight, Decimation};
+
+/// A light: one of pass 1, or distant light as the commands on transfer read it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum LightArg {
+    /// `ambient:R,G,B`, `directional:X,Y,Z:R,G,B` or `point:X,Y,Z:R,G,B[:K0,K1,K2]`.
+    OfPass(Light),
+    /// A picture, a table, `disk:...`, `constant...` or `red-and-blue`.
+    Environment(DistantLightArg),
+}
+
+const LIGHT: &str = "ambient:R,G,B (radiance), directional:X,Y,Z:R,G,B (towards the light; irradiance) or \
+     point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, else 0,0,1), or an environment map: a lat-long, angular-probe \
+     or cube-cross picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun), red-and-blue";
+
+impl FromStr for LightArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("expected {LIGHT}, found `{text}`");
+        let three = |part: &str| three_finite(part).ok_or_else(wrong);
+        let color = |part: &str| three(part).ok().filter(|c| c.iter().all(|&value| value >= 0.0)).ok_or_else(wrong);
+        Ok(Self::OfPass(match text.split(':').collect::<Vec<_>>()[..] {
+            ["ambient", radiance] => Light::Sky { radiance: color(radiance)? },
+            ["directional", towards, irradiance] => {
+                let towards = three(towards)?;
+                if towards == [0.0; 3] {
+                    return Err(wrong());
+                }
+                Light::Directional { towards, irradiance: color(irradiance)? }
+            }
+            ["point", place, intensity] => {
+                let (position, intensity) = (three(place)?, color(intensity)?);
+                Light::Point { position, intensity, attenuation: [0.0, 0.0, 1.0] }
+            }
+            ["point", place, intensity, attenuation] => {
+                let (position, intensity, attenuation) = (three(place)?, color(intensity)?, color(attenuation)?);
+                if attenuation == [0.0; 3] {
+                    return Err(wrong());
+                }
+                Light::Point { position, intensity, attenuation }
+            }
+            ["ambient" | "directional" | "point", ..] => return Err(wrong()),
+            // A word that no light begins with; a letter is a drive.
+            [word, _, ..] if word.len() > 1 && !["disk", "constant", "sky"].contains(&word) => return Err(wrong()),
+            _ => return text.parse().map(Self::Environment).map_err(|_| wrong()),
+        }))
+    }
+}
+
+/// A coefficient for all channels, or one for each.
+pub(super) fn coefficient(text: &str) -> Result<[f64; 3], String> {
+    let one = || text.trim().parse().ok().filter(|value: &f64| value.is_finite()).map(|value| [value; 3]);
+    let found = one().or_else(|| three_finite(text)).filter(|values| values.iter().all(|&value| value >= 0.0));
+    found.ok_or_else(|| format!("expected a number of at least 0, or three as R,G,B, per mm, found `{text}`"))
+}
+
+/// The light that was asked for; else a white one from above and beside the eye.
+pub(super) fn lighting(asked: &[LightArg], irradiance: Option<&Path>, camera: &Camera) -> miette::Result<Lighting> {
+    if let Some(path) = irradiance {
+        return Ok(Lighting::ByFace(load_irradiances(path)?));
+    }
+    if let [LightArg::Environment(light)] = asked {
+        return environment(light).map(Lighting::Environment);
+    }
+    if !asked.is_empty() {
+        let of_pass = |light: &LightArg| if let LightArg::OfPass(light) = light { Some(*light) } else { None };
+        let lights: Option<Vec<Light>> = asked.iter().map(of_pass).collect();
+        return Ok(Lighting::Lights(lights.ok_or_else(|| {
+            let help = "lights of pass 1 may be repeated; an environment map takes their place";
+            Problem::usage("expected one environment map alone, found other `--light` beside it", help)
+        })?));
+    }
+    let unit = |v: DVec3| v.normalize_or_zero();
+    let towards = unit(camera.up()) + unit(camera.right()) - 0.5 * unit(camera.forward());
+    Ok(Lighting::Lights(vec![Light::Directional { towards: towards.to_array(), irradiance: [1.0; 3] }]))
+}
+
+/// Distant light in the texels of a cube.
+fn environment(light: &DistantLightArg) -> miette::Result<CubeLight> {
+    let refused = |found: String| Problem::usage(found, "docs/papers/cpca.md says which pictures are lights");
+    let cube = light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle);
+    let cube = cube.map_err(|error| refused(error.to_string()))?;
+    match cube.texels().iter().flatten().find(|&&radiance| radiance < 0.0) {
+        Some(found) => Err(refused(format!("expected radiances of at least 0, found {found}")).into()),
+        None => Ok(cube),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lights_are_read_and_bad_ones_refused() {
+        let light = |text: &str| text.parse::<LightArg>();
+        let of_pass = |light| Ok(LightArg::OfPass(light));
+        assert_eq!(light("ambient:1,0.5,0"), of_pass(Light::Sky { radiance: [1.0, 0.5, 0.0] }));
+        let point = Light::Point { position: [0.0, -1.0, 2.0], intensity: [3.0; 3], attenuation: [0.0, 0.0, 1.0] };
+        assert_eq!(light("point:0,-1,2:3,3,3"), of_pass(point));
+        for map in ["probe.hdr", "disk:0,0,1:30", "constant", "sky:1,0,1", "red-and-blue"] {
+            assert!(matches!(light(map), Ok(LightArg::Environment(_))), "{map}");
+        }
+        let bad = [
+            "ambient",
+            "ambient:1,2",
+            "ambient:-1,0,0",
+            "ambient:inf,0,0",
+            "sky:1",
+            "directional:0,0,0:1,1,1",
+            "point:1,1,1:1,1,1:0,0,0",
+            "sun:1,1,1",
+            "disk:0,0,0:30",
+            "constant:-1,0,0",
+        ];
+        for text in bad {
+            assert!(light(text).is_err(), "{text}");
+        }
+        assert_eq!((coefficient("2"), coefficient("1,2,3")), (Ok([2.0; 3]), Ok([1.0, 2.0, 3.0])));
+        assert!(coefficient("-1").is_err() && coefficient("1,2").is_err() && coefficient("nan").is_err());
+    }
+}

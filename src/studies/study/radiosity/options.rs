@@ -1,0 +1,251 @@
+//! Options of the study, as the program takes them.
+
+use std::str::FromStr;
+
+use super::change::Change;
+use super::method::{CardMethod, SolveMethod};
+use crate::atlas::MAX_SIDE;
+use crate::options::number;
+use crate::options::one_of::variants;
+use crate::radiosity::Subdivision;
+use crate::radiosity::form_factor::VisibilityParameters;
+use crate::radiosity::on_card::Storage;
+use crate::radiosity::packing::Packing;
+use crate::radiosity::solve::{Options, Solver, UnknownSolver};
+use crate::scene::Color;
+use crate::study::StudyError;
+
+/// Options of the study.
+#[derive(Clone, Debug, clap::Args)]
+pub struct RadiosityOptions {
+    /// Cut faces into at most so many patches in all.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    pub patches: u32,
+
+    /// Cut each side of each face into so many parts instead.
+    #[arg(long, value_name = "N", conflicts_with = "patches", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub per_side: Option<u32>,
+
+    /// Where form factors come from: unoccluded (as if nothing stood between any two patches), rays[:N] (closed forms
+    /// and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default), or hemicube[:N]
+    /// (pictures of the scene from each patch, drawn by the emulated card, N pixels wide, 64 by default).
+    #[arg(long, value_name = "HOW", default_value = "rays")]
+    pub factors: Factors,
+
+    /// Enforce reciprocity or closure of form factors; `closure` enforces both.
+    #[arg(long, value_name = "LAW", value_enum)]
+    pub enforce: Option<FactorLaw>,
+
+    /// card, jacobi, gauss-seidel, sor:FACTOR, shooting or direct; may be repeated [default: card, gauss-seidel and
+    /// direct]
+    #[arg(long = "solver", value_name = "S")]
+    solvers: Vec<SolverChoice>,
+
+    /// For the card: one element per texel and all channels at once, or four elements per texel and one channel at a
+    /// time; may be repeated [default: rgb]
+    #[arg(long = "packing", value_name = "P", value_parser = variants::<Packing>())]
+    packings: Vec<Packing>,
+
+    /// For the card: what registers, textures and targets hold; may be repeated [default: fp32]
+    #[arg(long = "storage", value_name = "F", value_parser = variants::<Storage>())]
+    storages: Vec<Storage>,
+
+    /// Stop when the norm of the residual is at most this fraction of the emittance's [default: 1e-4; 0 with
+    /// --iterations]
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    tolerance: Option<f64>,
+
+    /// The most iterations [default: 1000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    iterations: Option<u32>,
+
+    /// After the first solution, the radiance of a material; may be repeated.
+    #[arg(long = "emit", value_name = "MATERIAL=R,G,B", value_parser = light_of)]
+    emissions: Vec<MaterialColor>,
+
+    /// After the first solution, the reflectance of a material; may be repeated.
+    #[arg(long = "paint", value_name = "MATERIAL=R,G,B", value_parser = paint_of)]
+    paints: Vec<MaterialColor>,
+
+    /// Pictures of the first method on the card after so many iterations.
+    #[arg(long = "picture-after", value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true,
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: Vec<u32>,
+
+    /// Resample a solution (the direct one, or the first) into a meshed atlas of so many texels along a side, a power
+    /// of two, and draw the room from it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_SIDE as i64))]
+    pub atlas: Option<u32>,
+
+    /// Solve the room in so many patches too, on the card as it is and with each of its open switches turned.
+    #[arg(long = "sweep-patches", value_name = "N,N", value_delimiter = ',',
+          value_parser = clap::value_parser!(u32).range(1..=16384))]
+    pub sweep: Vec<u32>,
+
+    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, surfaces that
+    /// do not emit at 18 % grey on average]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    pub exposure: Option<f64>,
+}
+
+/// Law that form factors must obey.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum FactorLaw {
+    /// Area times form factor is the same from both sides
+    Reciprocity,
+    /// Form factors of a patch sum to 1
+    Closure,
+}
+
+/// Source of form factors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Factors {
+    /// Without occlusion.
+    Unoccluded,
+    /// Closed forms and contour integrals, times the visible fraction by rays.
+    Rays(VisibilityParameters),
+    /// Hemicubes drawn from each patch by the study's card.
+    Hemicube {
+        /// Pixels along a side of the top face.
+        resolution: u32,
+    },
+}
+
+impl FromStr for Factors {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("expected unoccluded, rays[:N] with N from 1 to 64, or hemicube[:N], found `{text}`");
+        let (name, number) = text.split_once(':').map_or((text, None), |(name, number)| (name, Some(number)));
+        let number = number.map(|number| number.parse::<u32>().map_err(|_| wrong())).transpose()?;
+        match (name, number) {
+            ("unoccluded", None) => Ok(Self::Unoccluded),
+            ("rays", None | Some(1..=64)) => {
+                let usual = VisibilityParameters::default();
+                Ok(Self::Rays(VisibilityParameters { side: number.unwrap_or(usual.side), ..usual }))
+            }
+            ("hemicube", resolution) => Ok(Self::Hemicube { resolution: resolution.unwrap_or(64) }),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+impl std::fmt::Display for Factors {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Unoccluded => f.write_str("unoccluded"),
+            Self::Rays(VisibilityParameters { side, .. }) => write!(f, "{} rays a pair", side * side),
+            Self::Hemicube { resolution } => write!(f, "hemicubes of {resolution}"),
+        }
+    }
+}
+
+/// The card, or a solver of the host.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum SolverChoice {
+    Card,
+    Host(Solver),
+}
+
+impl FromStr for SolverChoice {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        if name == "card" {
+            return Ok(Self::Card);
+        }
+        name.parse()
+            .map(Self::Host)
+            .map_err(|e: UnknownSolver| e.to_string().replacen("expected ", "expected `card`, ", 1))
+    }
+}
+
+/// A color for a material.
+#[derive(Clone, Debug, PartialEq)]
+struct MaterialColor {
+    material: String,
+    rgb: Color,
+}
+
+/// `light=17,12,4`
+fn light_of(text: &str) -> Result<MaterialColor, String> {
+    let color = color_of(text)?;
+    let shines = color.rgb.iter().all(|&c| c >= 0.0);
+    if shines { Ok(color) } else { Err(format!("expected radiances of at least 0, found `{text}`")) }
+}
+
+/// `wall=0.7,0.7,0.6`
+fn paint_of(text: &str) -> Result<MaterialColor, String> {
+    let color = color_of(text)?;
+    let reflects = color.rgb.iter().all(|c| (0.0..1.0).contains(c));
+    if reflects { Ok(color) } else { Err(format!("expected reflectances of at least 0 and below 1, found `{text}`")) }
+}
+
+fn color_of(text: &str) -> Result<MaterialColor, String> {
+    let wrong = || format!("expected MATERIAL=R,G,B as in light=17,12,4; found `{text}`");
+    let (material, channels) = text.split_once('=').ok_or_else(wrong)?;
+    let rgb = number::three(channels, "R,G,B")?;
+    Ok(MaterialColor { material: material.to_owned(), rgb })
+}
+
+impl RadiosityOptions {
+    /// Fineness of the subdivision.
+    pub fn subdivision(&self) -> Subdivision {
+        self.per_side.map_or(Subdivision::AtMost(self.patches as usize), Subdivision::PerSide)
+    }
+
+    /// Stopping criteria.
+    pub fn stopping(&self) -> Options {
+        Options {
+            tolerance: self.tolerance.unwrap_or(if self.iterations.is_some() { 0.0 } else { 1e-4 }),
+            most_iterations: self.iterations.unwrap_or(1000),
+        }
+    }
+
+    /// Changes after the first solution: lights first, then paint.
+    pub fn changes(&self) -> Vec<Change> {
+        let emit = self.emissions.iter().cloned();
+        let emit = emit.map(|c| Change::Emission { material: c.material, radiance: c.rgb });
+        let paint = self.paints.iter().cloned();
+        emit.chain(paint.map(|c| Change::Reflectance { material: c.material, reflectance: c.rgb })).collect()
+    }
+
+    /// Every solver, those on the card in every packing and storage; nothing twice.
+    ///
+    /// # Errors
+    /// If something is asked of the card, and no method runs on it.
+    pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
+        let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
+        let solvers = if self.solvers.is_empty() { &usual[..] } else { &self.solvers };
+        let of_the_card = !self.packings.is_empty() || !self.storages.is_empty();
+        let of_card = [
+            (of_the_card, "`--packing` and `--storage` are for the card", "leave them out"),
+            (!self.frames.is_empty(), "`--picture-after` shows the iterations of the card", "leave it out"),
+            (!self.sweep.is_empty(), "`--sweep-patches` turns the switches of the card", "leave it out"),
+        ];
+        if !solvers.contains(&SolverChoice::Card)
+            && let Some((_, what, or)) = of_card.into_iter().find(|(given, ..)| *given)
+        {
+            return Err(StudyError::usage(what, format!("add `--solver card`, or {or}")));
+        }
+        let packings = if self.packings.is_empty() { &[Packing::Rgb][..] } else { &self.packings };
+        let storages = if self.storages.is_empty() { &[Storage::Fp32][..] } else { &self.storages };
+        let mut methods: Vec<SolveMethod> = Vec::new();
+        let mut add = |method| {
+            if !methods.contains(&method) {
+                methods.push(method);
+            }
+        };
+        for solver in solvers {
+            match *solver {
+                SolverChoice::Host(solver) => add(SolveMethod::Host(solver)),
+                SolverChoice::Card => {
+                    for (&packing, &storage) in packings.iter().flat_map(|p| storages.iter().map(move |s| (p, s))) {
+                        add(SolveMethod::Card(CardMethod { packing, storage }));
+                    }
+                }
+            }
+        }
+        Ok(methods)
+    }
+}

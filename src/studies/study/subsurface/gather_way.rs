@@ -1,0 +1,63 @@
+//! Ways of gathering.
+
+use std::fmt;
+
+use crate::subsurface::links::LinkChoice;
+use crate::subsurface::on_card::FloatTexels;
+
+/// The format of the radiosity map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapBits {
+    /// 8 bits per channel, scaled so that the brightest texel is 1.
+    Eight,
+    /// Floats.
+    Float(FloatTexels),
+}
+
+/// One way of gathering.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GatherWay {
+    /// Links per texel, and which.
+    pub choice: LinkChoice,
+    /// A factor per channel, or green's for all.
+    pub rgb: bool,
+    /// The textures of links.
+    pub links: FloatTexels,
+    /// The radiosity map.
+    pub map: MapBits,
+}
+
+impl GatherWay {
+    /// A name for tables and files.
+    pub fn label(&self, side: u32) -> String {
+        format!("{}-{}-map-{}", self.links_label(side), name(self.links), self.map)
+    }
+
+    /// A name of the links, which formats do not change.
+    pub(super) fn links_label(&self, side: u32) -> String {
+        let channels = if self.rgb { "-rgb" } else { "" };
+        format!("{}-{}{channels}", self.choice.word(), self.choice.per_texel(side))
+    }
+
+    /// Returns `true` if the other way gathers over the same links.
+    pub(super) fn has_links_of(&self, other: &Self) -> bool {
+        (self.choice, self.rgb) == (other.choice, other.rgb)
+    }
+}
+
+impl fmt::Display for MapBits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Eight => f.write_str("8bit"),
+            Self::Float(texels) => f.write_str(name(*texels)),
+        }
+    }
+}
+
+/// The name of a float format.
+pub(super) fn name(texels: FloatTexels) -> &'static str {
+    match texels {
+        FloatTexels::Fp16 => "fp16",
+        FloatTexels::Fp32 => "fp32",
+    }
+}

@@ -1,0 +1,190 @@
+//! Options of the study, as the program takes them.
+
+use super::gather_way::{GatherWay, MapBits};
+use crate::options::number;
+use crate::options::one_of::{OneOf, one_of, variants};
+use crate::report::digits::{Quantity, shown};
+use crate::study::StudyError;
+use crate::subsurface::Material;
+use crate::subsurface::kernels::LinkLayout;
+use crate::subsurface::links::LinkChoice;
+use crate::subsurface::on_card::FloatTexels;
+
+/// Side of an atlas, in texels, up to which `crossbar subsurface` gathers over all pairs unless told otherwise.
+pub const ALL_PAIRS_SIDE: u32 = 32;
+/// Largest side of an atlas for all pairs, which take time by the square of its texels.
+pub const MAX_ALL_PAIRS_SIDE: u32 = 512;
+
+/// Options of the study.
+#[derive(Clone, Debug, clap::Args)]
+pub struct SubsurfaceOptions {
+    /// Millimeters of a unit of the model; never guessed.
+    #[arg(long, value_name = "MM", value_parser = number::positive)]
+    pub mm_per_unit: f64,
+
+    /// Texels along a side of the atlas: a power of two.
+    #[arg(long = "atlas", value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(1..=8192))]
+    pub side: u32,
+
+    /// Links per texel; for fixed ones 1, 4, 16, 64, ...
+    #[arg(long, value_name = "L,L", value_delimiter = ',', default_value = "16", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    pub links: Vec<u32>,
+
+    /// Which links; may be repeated [default: fixed]
+    #[arg(long = "choice", value_name = "HOW", value_parser = choices())]
+    pub choices: Vec<LinkLayout>,
+
+    /// Factors per link; may be repeated [default: rgb, or scalar for a medium of one color]
+    #[arg(long, value_name = "C", value_parser = rgb())]
+    pub channels: Vec<bool>,
+
+    /// Format of link textures; may be repeated [default: fp16]
+    #[arg(long = "link-format", value_name = "F", value_parser = variants::<FloatTexels>())]
+    pub link_formats: Vec<FloatTexels>,
+
+    /// The radiosity map; may be repeated [default: fp16]
+    #[arg(long = "map", value_name = "F", value_parser = maps())]
+    pub maps: Vec<MapBits>,
+
+    /// The largest relative error of factors.
+    #[arg(long, value_name = "X", default_value_t = crate::subsurface::factor::TOLERANCE, value_parser = number::positive)]
+    pub tolerance: f64,
+
+    /// Diffuse reflectance for direct light, 0 to 1 [default: 0.1]
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    pub diffuse: Option<f64>,
+
+    /// A point of the surface at which B is asked for, in units of the model; may be repeated.
+    #[arg(long = "probe", value_name = "X,Y,Z", value_parser = number::place, allow_hyphen_values = true)]
+    pub probes: Vec<[f64; 3]>,
+
+    #[arg(long, value_name = "YES", value_parser = yes_or_no(), help = format!(
+        "Gather over all pairs of texels too [default: yes for atlases up to {ALL_PAIRS_SIDE}]"
+    ))]
+    all_pairs: Option<bool>,
+
+    /// Follow so many photons per channel through the model as well: the dipole's own error.
+    #[arg(long = "walk", value_name = "N", value_parser = clap::value_parser!(u64).range(32..=1_000_000_000))]
+    pub photons: Option<u64>,
+
+    /// List the links of the probes' texels, or of all texels without --probe: cluster, factor, distance.
+    #[arg(long)]
+    pub link_table: bool,
+
+    /// Run every way with each value of the card's rounding switches too.
+    #[arg(long)]
+    pub roundings: bool,
+
+    /// Pictures of the first way with the lights turned round the model in so many steps.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
+    pub frames: u32,
+
+    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// average]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    pub exposure: Option<f64>,
+}
+
+/// The choices of links, for `--choice`.
+fn choices() -> OneOf<LinkLayout> {
+    let fixed = ("fixed", "All clusters of one level: 1, 4, 16, 64, ... links", LinkLayout::Fixed);
+    let help = "Per texel, the cluster with the highest factor gives way to its four children";
+    one_of([fixed, ("adaptive", help, LinkLayout::Adaptive)])
+}
+
+/// Factors per link, for `--channels`: true for one per channel.
+fn rgb() -> OneOf<bool> {
+    one_of([("scalar", "One, that of green", false), ("rgb", "Red, green and blue", true)])
+}
+
+/// The formats of the radiosity map, for `--map`.
+fn maps() -> OneOf<MapBits> {
+    one_of([
+        ("8bit", "8 bits per channel, whose levels the card makes itself", MapBits::Eight),
+        ("fp16", "Half floats, levels by passes", MapBits::Float(FloatTexels::Fp16)),
+        ("fp32", "Single floats, levels by passes", MapBits::Float(FloatTexels::Fp32)),
+    ])
+}
+
+fn yes_or_no() -> OneOf<bool> {
+    one_of([("yes", "Do it", true), ("no", "Do not", false)])
+}
+
+impl SubsurfaceOptions {
+    /// Checks the options that suit any medium.
+    ///
+    /// # Errors
+    /// If one is out of its range.
+    pub fn check(&self) -> Result<(), StudyError> {
+        if let Some(diffuse) = self.diffuse.filter(|&diffuse| diffuse > 1.0) {
+            let (found, help) = (shown(diffuse, Quantity::Exact), "a surface reflects at most all of the light");
+            return Err(StudyError::usage(format!("expected a `--diffuse` from 0 to 1, found {found}"), help));
+        }
+        if self.all_pairs == Some(true) && self.side > MAX_ALL_PAIRS_SIDE {
+            let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
+            return Err(StudyError::usage(format!("all pairs of {0} x {0} texels would take hours", self.side), help));
+        }
+        Ok(())
+    }
+
+    /// Returns `true` if all pairs of texels are gathered.
+    pub fn gathers_all_pairs(&self) -> bool {
+        self.all_pairs.unwrap_or(self.side <= ALL_PAIRS_SIDE)
+    }
+
+    /// The number of ways, at most.
+    pub fn way_count(&self) -> u64 {
+        let kinds =
+            [self.choices.len(), self.channels.len(), self.link_formats.len(), self.maps.len(), self.links.len()];
+        kinds.into_iter().map(|count| count.max(1) as u64).product()
+    }
+
+    /// Every combination of what may be repeated: a row of the table for each.
+    ///
+    /// # Errors
+    /// If no level of the atlas has as many clusters as fixed links are asked for.
+    pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
+        let [r, g, b] = material.channels;
+        let choices = or(&self.choices, LinkLayout::Fixed);
+        let (channels, formats) = (or(&self.channels, r != g || g != b), or(&self.link_formats, FloatTexels::Fp16));
+        let maps = or(&self.maps, MapBits::Float(FloatTexels::Fp16));
+        let mut ways = Vec::new();
+        for &choice in &choices {
+            for &links in &self.links {
+                let choice = link_choice(choice, links, self.side)?;
+                for &rgb in &channels {
+                    for &links in &formats {
+                        ways.extend(maps.iter().map(|&map| GatherWay { choice, rgb, links, map }));
+                    }
+                }
+            }
+        }
+        Ok(ways)
+    }
+}
+
+/// Those that were asked for, each once, or the usual one.
+fn or<T: Copy + PartialEq>(asked: &[T], usual: T) -> Vec<T> {
+    let mut all: Vec<T> = Vec::new();
+    for &one in asked {
+        if !all.contains(&one) {
+            all.push(one);
+        }
+    }
+    if all.is_empty() { vec![usual] } else { all }
+}
+
+fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, StudyError> {
+    match choice {
+        LinkLayout::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
+        LinkLayout::Fixed => {
+            let found = (0..=side.max(1).ilog2())
+                .map(|level| LinkChoice::Fixed { level })
+                .find(|fixed| fixed.per_texel(side) == u64::from(links));
+            found.ok_or_else(|| {
+                let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
+                StudyError::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
+            })
+        }
+    }
+}
