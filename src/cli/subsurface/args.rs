@@ -54,7 +54,7 @@ pub(in crate::cli) struct Args {
     pub(super) sigma_a: Option<[f64; 3]>,
 
     /// Index of refraction, 1 to 3 [default: the published one; 1.3 with --sigma-s and --sigma-a]
-    #[arg(long, value_name = "N", value_parser = number::positive)]
+    #[arg(long, value_name = "N", value_parser = number::finite)]
     pub(super) eta: Option<f64>,
 
     /// Millimeters of a unit of the model; never guessed
