@@ -9,6 +9,7 @@ use miette::{
 };
 
 use refsim::device::DeviceError;
+use textwrap::WordSplitter::NoHyphenation;
 
 use super::memory::MemoryError;
 use super::shown::{MAX_SHOWN, ShownError};
@@ -99,13 +100,13 @@ fn suggested(report: Report) -> Report {
     if outer == inner { suggestion } else { suggestion.wrap_err(outer) }
 }
 
-/// Colours and box drawing on a terminal; plain text of fixed width anywhere else.
+/// Colours and box drawing on a terminal; plain text of fixed width anywhere else. No name is broken at a hyphen.
 fn handler(terminal: bool) -> Box<dyn ReportHandler> {
     if terminal {
-        Box::new(MietteHandlerOpts::new().build())
+        Box::new(MietteHandlerOpts::new().word_splitter(NoHyphenation).build())
     } else {
         let plain = GraphicalReportHandler::new_themed(GraphicalTheme::none());
-        Box::new(plain.with_width(PLAIN_WIDTH).with_links(false))
+        Box::new(plain.with_width(PLAIN_WIDTH).with_links(false).with_word_splitter(NoHyphenation))
     }
 }
 

@@ -15,11 +15,13 @@ use super::words::counted;
 use super::{Out, Problem, Verdict, model_file, study, view};
 use crate::case::device_named;
 use crate::geom::exact::{ExactT, Sides, Tracer};
+use crate::geom::vector::wide;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::io::atomic::write_file;
 use crate::io::rays::{load_rays, write_hits};
 use crate::ray_engine::Crossbar;
 use crate::ray_engine::engine::EngineCounts;
+use crate::ray_engine::reference::intersect as crossing;
 use crate::report::Findings;
 use crate::study::leaky_teapot::FormatLimits;
 
@@ -37,7 +39,7 @@ Examples:
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, a line
 a ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
 the ray's direction, written so that it reads back to the same f32,
-or to the same f64 where the exact t exceeds f32.
+or to the same f64 where t exceeds f32.
 
 `crossbar leaks --mesh M.obj --rays R.csv` judges the same rays on any card: which hits leak, are false or name a wrong triangle.
 
@@ -125,7 +127,7 @@ fn choose(args: &Args) -> miette::Result<HitSource> {
 impl HitSource {
     fn answer(self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> miette::Result<Answer> {
         let start = Instant::now();
-        let of_hit = |h: Option<Hit>| h.map(|h| (h.triangle, f64::from(h.t)));
+        let of_hit = |(ray, hit): (&Ray, Option<Hit>)| hit.map(|hit| (hit.triangle, beyond_single(mesh, ray, hit)));
         let (hits, engine, warning, built): (Vec<Option<(u32, f64)>>, _, _, _) = match self {
             Self::Exact => {
                 let tracer = Tracer::new(mesh);
@@ -137,13 +139,13 @@ impl HitSource {
                 let built = Instant::now();
                 let hits = crossbar.intersect_list(mesh, rays, sides)?;
                 let warning = FormatLimits::new(crossbar.bits_left(mesh, rays, sides)?, &hits).warning();
-                (hits.into_iter().map(of_hit).collect(), None, warning, built)
+                (rays.iter().zip(hits).map(of_hit).collect(), None, warning, built)
             }
             Self::Caster(choice) => {
                 let mut caster = choice.build(mesh, sides)?;
                 let built = Instant::now();
                 let hits = caster.caster().cast(rays).into_diagnostic()?;
-                (hits.into_iter().map(of_hit).collect(), caster.counts(), None, built)
+                (rays.iter().zip(hits).map(of_hit).collect(), caster.counts(), None, built)
             }
         };
         let (build_s, cast_s) = ((built - start).as_secs_f64(), built.elapsed().as_secs_f64());
@@ -155,6 +157,16 @@ impl HitSource {
 fn written(t: &ExactT) -> f64 {
     let single = t.to_f32();
     if single.is_finite() { f64::from(single) } else { t.to_f64() }
+}
+
+/// The t of a caster's hit; where it exceeds f32, in which casters answer, equation (3) of the Ray Engine in f64. An
+/// infinity to which a smaller t overflowed in the format of a card stays.
+fn beyond_single(mesh: &Mesh, ray: &Ray, hit: Hit) -> f64 {
+    let t = mesh
+        .corners(hit.triangle)
+        .filter(|_| hit.t.is_infinite())
+        .map(|corners| crossing(wide(ray.origin()), wide(ray.direction()), corners.map(wide)).t);
+    t.filter(|t| t.is_finite() && (*t as f32).is_infinite()).unwrap_or(f64::from(hit.t))
 }
 
 fn findings(args: &Args, answer: &Answer) -> Findings {

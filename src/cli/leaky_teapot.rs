@@ -1,5 +1,6 @@
 //! `crossbar leaky-teapot`: the main job.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use miette::IntoDiagnostic as _;
@@ -11,7 +12,7 @@ use super::model_name;
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
 use super::study::StudyArgs;
-use super::view;
+use super::{Problem, view};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::io::load_rays;
@@ -218,6 +219,11 @@ fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
                 }
             }
         }
+    }
+    let mut labels = BTreeSet::new();
+    if let Some(row) = all.iter().find(|row| !labels.insert(&row.label)) {
+        let what = format!("expected different rows, found `{}` twice", row.label);
+        return Err(Problem::usage(what, "name each `--device` and each `--format` once").into());
     }
     Ok(all)
 }

@@ -113,7 +113,12 @@ fn tell(path: &Path, notes: &[ModelNote]) {
     static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
     for note in notes {
-        let line = visible_line(&format!("warning: {}: {note}", path.display())).into_owned();
+        let (path, mut note) = (path.display().to_string(), note.to_string());
+        // Some notes begin with their own place, which may be in another file.
+        if !note.starts_with(&format!("{path}:")) {
+            note = format!("{path}: {note}");
+        }
+        let line = visible_line(&format!("warning: {note}")).into_owned();
         if told.insert(line.clone()) {
             // Nothing is to be done if nobody reads this.
             writeln!(std::io::stderr().lock(), "{line}").ok();

@@ -45,7 +45,7 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
             continue;
         }
         for value in values(arg, matches) {
-            let shown = value.as_deref().map(OsStr::to_string_lossy);
+            let shown = value.as_deref().map(quoted);
             // Writing to a string cannot fail.
             let _ = match (arg.get_long(), shown) {
                 (Some(long), Some(value)) => write!(line.text, " --{long} {value}"),
@@ -66,6 +66,17 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
         line.arguments.extend(last);
     }
     line
+}
+
+/// A value as a POSIX shell reads it.
+fn quoted(value: &OsStr) -> String {
+    let text = value.to_string_lossy();
+    let plain = |c: char| c.is_alphanumeric() || "_-+=:,./@%".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        text.into_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
 }
 
 fn joined(before: &str, value: &OsStr) -> OsString {
@@ -118,6 +129,11 @@ mod tests {
             resolved(&["crossbar", "reproduce", "figure-7", "equation-11"]),
             "crossbar reproduce figure-7 equation-11"
         );
+        let quoted = ["crossbar", "leaky-teapot", "--device", "Radeon 8500", "--mesh", "it's.obj"];
+        let line = resolved(&quoted);
+        assert!(line.contains("--device 'Radeon 8500'"), "{line}");
+        let again = shlex::split(&line).expect("a line that a shell reads");
+        assert!(quoted.iter().all(|word| again.iter().any(|found| found == word)), "{line}");
         assert_eq!(
             resolved(&["crossbar", "cpca", "error", "a.prt", "b.prt", "--json", "--csv", "c.csv"]),
             "crossbar cpca error a.prt b.prt --csv c.csv"

@@ -65,7 +65,7 @@ pub enum ShaderError {
         errors: Vec<SyntaxError>,
     },
     /// The program breaks rules of its version or limits of the device.
-    #[error("`{name}` is no legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
+    #[error("`{name}` is not a legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
     #[diagnostic(code("check"))]
     Illegal {
         name: String,

@@ -44,6 +44,7 @@ fn usage() {
         &["alu", "add", "--format", "fp24", "--exhaustive"],
         &["devices", "r2000"],
         &["devices", "ideal-fp17"],
+        &["leaky-teapot", "--size", "4x4", "-d", "r200", "-d", "Radeon 8500"],
         &["nothing-of-the-kind"],
     ] {
         refused(arguments, "");

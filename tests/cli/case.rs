@@ -246,6 +246,7 @@ fn bad_cases() {
         ("raw_too_large", "texels = [[1]]", "raw = true\ntexels = [[1, 2, 3, 256]]"),
         ("raw_below_zero", "texels = [[1]]", "raw = true\ntexels = [[1, 2, 3, -1]]"),
         ("raw_picture", "size = [1, 1]\ntexels = [[1]]", "raw = true\nfile = \"text.png\""),
+        ("fog_unread", "full_screen = true", "full_screen = true\nattributes = { fog = [2] }"),
         ("primitive_of_the_screen", "full_screen = true", "full_screen = true\nprimitive = \"triangles\""),
         ("border_unread", "texels = [[1]]", "texels = [[1]]\nborder = [1, 1, 1, 1]"),
         (

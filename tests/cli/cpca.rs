@@ -176,7 +176,7 @@ fn pictures_that_are_no_lights_are_refused() {
             "expected finite radiance, found NaN in channel green of the pixel in column 3, row 2",
         ),
         ("tall.exr", exr(&Picture::rgb(4, 8, &pixels)).expect("a file"), "found 4x8"),
-        ("cut.hdr", broken, "expected Radiance HDR data, found something else"),
+        ("cut.hdr", broken, "the Radiance HDR data cannot be read"),
         ("words.hdr", b"no picture".to_vec(), "6e 6f 20 70"),
         ("empty.hdr", Vec::new(), "begins with nothing"),
     ] {

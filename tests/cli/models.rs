@@ -106,10 +106,13 @@ fn a_hit_beyond_f32_has_its_distance() {
     fs::write(folder.path().join("far.obj"), far).expect("written");
     let rays = format!("\u{feff}ox,oy,oz,dx,dy,dz\n0,0,0,0,0,{near}\n9,0,0,0,0,1\n");
     fs::write(folder.path().join("far.csv"), rays).expect("written");
-    let ran = run(folder.path(), "intersect --mesh far.obj --rays far.csv --sides both --out h.csv");
-    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-    let hits = fs::read_to_string(folder.path().join("h.csv")).expect("hits");
-    assert_eq!(hits, "ray,triangle,t\n0,0,1.6069380442589903e60\n1,-1,inf\n");
+    for caster in ["", " --device ideal-fp32", " --caster host", " --caster engine"] {
+        let line = format!("intersect --mesh far.obj --rays far.csv --sides both{caster} --out h.csv");
+        let ran = run(folder.path(), &line);
+        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+        let hits = fs::read_to_string(folder.path().join("h.csv")).expect("hits");
+        assert_eq!(hits, "ray,triangle,t\n0,0,1.6069380442589903e60\n1,-1,inf\n", "{caster}");
+    }
 }
 
 /// Leaks of a user's model and rays, with classes, map and page as for the teapot.

@@ -355,7 +355,7 @@ fn a_face_that_stands_twice_is_said() {
         assert_eq!(ran.code, Some(0), "{}", ran.stderr);
         words(&ran.stdout)
     };
-    let said = "1 face of the model has the three corners of another face";
+    let said = "1 face of the model lies on another face";
     assert!(!run(MODEL).contains(said));
     let text = run(&format!("{MODEL}f 3 4 2\n"));
     assert!(text.contains(said), "{text}");

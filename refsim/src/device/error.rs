@@ -11,7 +11,10 @@ pub enum DeviceError {
     #[error("unknown device `{name}`; expected one of {known}")]
     #[diagnostic(
         code(device::unknown),
-        help("`ideal-` takes any number format, for example `ideal-fp32` or `ideal-s3.12:rtz`")
+        help(
+            "words of a card's title name it too, for example `Radeon 8500`; `ideal-` takes any number format, for \
+             example `ideal-fp32` or `ideal-s3.12:rtz`"
+        )
     )]
     UnknownDevice { name: String, known: String },
     /// The part of `ideal-<format>` after the dash is not a number format.

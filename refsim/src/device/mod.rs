@@ -10,6 +10,7 @@
 //! In addition there is `ideal-<format>` for any number format: without limits or timing, and with the rules of r300.
 
 mod accumulator;
+mod cards;
 mod device_file;
 mod error;
 mod figure;

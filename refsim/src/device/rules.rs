@@ -2,7 +2,7 @@
 
 use super::storage_formats::StorageFormats;
 use crate::isa::Version;
-use crate::num::{DotOrder, Format};
+use crate::num::{DotOrder, Format, Specials};
 
 /// Value of a rule, as profiles and switches write it.
 trait RuleValue: Sized {
@@ -389,5 +389,18 @@ impl Rules {
     /// GL_ARB_fragment_program, sections on LRP); Direct3D leaves it to the card.
     pub fn lrp_in(&self, version: Version) -> LrpMode {
         if version.is_fragment_program() { LrpMode::TwoProducts } else { self.lrp }
+    }
+
+    /// Whether MIN and MAX of a language are `a > b ? b : a` and `a > b ? a : b` in a format, of which a NaN is never the
+    /// greater (GL_ARB_fragment_program 3.11.5.16 and .17). NVIDIA's unit has a rule of its own in either language.
+    pub fn compares_in(version: Version, format: &Format) -> bool {
+        version == Version::ArbFp1_0 && format.specials == Specials::Ieee
+    }
+
+    /// The number that FRC of a language gives where `x - floor(x)` rounds to 1, if another: OpenGL's result is below 1
+    /// (GL_NV_fragment_program 3.11.5.10, GL_ARB_fragment_program 3.11.5.11), Direct3D's ranges "from 0.0 through 1.0".
+    /// Fixed point has every fraction, and never rounds one.
+    pub fn frc_instead_of_one(version: Version, format: &Format) -> Option<u32> {
+        (version.is_fragment_program() && !format.is_fixed()).then(|| format.one() - 1)
     }
 }

@@ -20,6 +20,7 @@ mod orient;
 pub mod polygon;
 pub mod random;
 pub mod ray;
+pub mod rounded;
 pub mod teapot;
 mod teapot_table;
 mod unit_frame;

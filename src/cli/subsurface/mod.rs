@@ -61,7 +61,7 @@ pub(super) struct Args {
     sigma_a: Option<[f64; 3]>,
 
     /// Index of refraction, 1 to 3 [default: the published one; 1.3 with --sigma-s and --sigma-a]
-    #[arg(long, value_name = "N", value_parser = number::positive)]
+    #[arg(long, value_name = "N", value_parser = number::finite)]
     eta: Option<f64>,
 
     #[command(flatten)]

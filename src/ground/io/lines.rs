@@ -1,5 +1,8 @@
 //! Lines, words and numbers of text formats.
 
+use std::path::Path;
+
+use super::error::{FilePlace, ModelError};
 use super::{NumberError, parse_f32, parse_f64};
 
 /// Text without the byte order mark that some editors put before UTF-8.
@@ -7,10 +10,34 @@ pub(super) fn unmarked(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
+/// Text of a file that does not say its encoding: UTF-8, or else Latin-1, in which each byte is a character.
+pub(super) fn decoded(text: &[u8]) -> String {
+    std::str::from_utf8(text).map_or_else(|_| text.iter().copied().map(char::from).collect(), str::to_owned)
+}
+
+/// Refuses text in UTF-16, which some editors write.
+pub(super) fn not_utf_16(bytes: &[u8], name: &Path) -> Result<(), ModelError> {
+    let zeros = |at: usize| bytes.get(at..at + 2).map(|pair| [pair[0] == 0, pair[1] == 0]);
+    let unmarked = matches!(zeros(0), Some([low, high]) if low != high) && zeros(0) == zeros(2);
+    if unmarked || bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        let (place, expected) = (FilePlace::from(name), "text in UTF-8 or Latin-1".into());
+        return Err(ModelError::Syntax { place, expected, found: "UTF-16".to_owned() });
+    }
+    Ok(())
+}
+
+/// Lines with their numbers, whether they end in LF, CR LF, or CR alone.
+pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    fn by_cr(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+        line.strip_suffix(b"\r").unwrap_or(line).split(|&byte| byte == b'\r')
+    }
+    (1..).zip(bytes.split(|&byte| byte == b'\n').flat_map(by_cr))
+}
+
 /// Lines with their numbers, without white space around them; a line that ends in `\` outside of a comment goes on in
 /// the next.
 pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> + '_ {
-    let mut lines = (1..).zip(unmarked(bytes).split(|&byte| byte == b'\n'));
+    let mut lines = lines(unmarked(bytes));
     std::iter::from_fn(move || {
         let (number, first) = lines.next()?;
         let mut text = first.trim_ascii().to_vec();

@@ -2,8 +2,8 @@
 //! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
 //!
 //! The fields `integer` and `pattern`, whose entries are 1, and the symmetries `symmetric` and `skew-symmetric` are
-//! read too. Arrays, which are dense, and complex and Hermitian matrices are refused, and so are integers that f64 does
-//! not hold exactly.
+//! read too. Real numbers are rounded to the nearest f64. Arrays, which are dense, and complex and Hermitian matrices
+//! are refused, and so are integers that f64 does not hold exactly, and real numbers that round to 0 or infinity.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::error::ReadError;
-use super::lines::{double, unmarked, words};
+use super::lines::{double, lines, unmarked, words};
 use super::{quoted, read_limited};
 
 /// Longest file that is read, in bytes (4 GiB).
@@ -54,10 +54,12 @@ pub enum MatrixMarketError {
     #[error("{}:{line}: expected the numbers of rows, columns and entries, found {found}", path.display())]
     #[diagnostic(code(crossbar::matrix_market::size))]
     Size { path: PathBuf, line: usize, found: String },
-    /// A symmetric matrix that is not square.
-    #[error("{}:{line}: expected as many rows as columns of a symmetric matrix, found {rows} x {columns}", path.display())]
+    /// A symmetric or skew-symmetric matrix that is not square.
+    #[error(
+        "{}:{line}: expected as many rows as columns of a {symmetry} matrix, found {rows} x {columns}", path.display()
+    )]
     #[diagnostic(code(crossbar::matrix_market::square), help("write the matrix as `general`"))]
-    NotSquare { path: PathBuf, line: usize, rows: usize, columns: usize },
+    NotSquare { path: PathBuf, line: usize, symmetry: &'static str, rows: usize, columns: usize },
     /// More rows or columns than such a short file may have.
     #[error(
         "{}:{line}: expected at most {most} rows and columns in a file of {bytes} bytes, found {rows} x {columns}",
@@ -103,7 +105,7 @@ pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, MatrixMarketE
 /// # Errors
 /// [`MatrixMarketError`].
 pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix, MatrixMarketError> {
-    let mut lines = (1..).zip(unmarked(bytes).split(|&byte| byte == b'\n'));
+    let mut lines = lines(unmarked(bytes));
     let banner = lines.next().map_or(&[][..], |(_, banner)| banner);
     let banner = Banner::parse(banner)
         .ok_or_else(|| MatrixMarketError::Banner { path: name.into(), found: quoted(banner.trim_ascii()) })?;
@@ -121,7 +123,8 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
         return Err(MatrixMarketError::Claim { path, line: size_line, most, bytes, rows, columns });
     }
     if banner.symmetry != Symmetry::General && rows != columns {
-        return Err(MatrixMarketError::NotSquare { path: name.into(), line: size_line, rows, columns });
+        let symmetry = if banner.symmetry == Symmetry::Skew { "skew-symmetric" } else { "symmetric" };
+        return Err(MatrixMarketError::NotSquare { path: name.into(), line: size_line, symmetry, rows, columns });
     }
     let reader = EntryReader { name, banner, size: [rows, columns] };
     // Memory is allocated in proportion to the file's bytes only.
@@ -259,7 +262,14 @@ impl EntryReader<'_> {
             Field::Integer => {
                 integer(value).ok_or_else(|| entry("an integer that a 64-bit float holds exactly", value))?
             }
-            _ => double(value).map_err(|_| entry("a finite number", value))?,
+            _ => {
+                let number = double(value).map_err(|fault| entry(fault.expected(), value))?;
+                let digits = value.split(|byte| byte.eq_ignore_ascii_case(&b'e')).next().unwrap_or_default();
+                if number == 0.0 && digits.iter().any(|digit| (b'1'..=b'9').contains(digit)) {
+                    return Err(entry("a number that a 64-bit float does not round to 0", value));
+                }
+                number
+            }
         };
         if self.banner.symmetry == Symmetry::Skew && row == column {
             return Err(entry("a place off the diagonal, where a skew-symmetric matrix is 0", text.trim_ascii()));
@@ -325,7 +335,7 @@ mod tests {
         assert_eq!(integer("-18014398509481984").unwrap().entries, [(0, 0, -18014398509481984.0)]);
         for symmetry in ["symmetric", "skew-symmetric"] {
             let text = |size: &str| format!("%%MatrixMarket matrix coordinate real {symmetry}\n{size}\n");
-            let square = "t.mtx:2: expected as many rows as columns of a symmetric matrix, found 2 x 3";
+            let square = format!("t.mtx:2: expected as many rows as columns of a {symmetry} matrix, found 2 x 3");
             assert_eq!(parse(&(text("2 3 1") + "2 1 1")).unwrap_err(), square);
             let diagonal = parse(&(text("2 2 1") + "2 2 1"));
             assert_eq!(diagonal.is_err(), symmetry == "skew-symmetric");
@@ -336,7 +346,15 @@ mod tests {
         assert_eq!(real("2 2 1\n3 1 1"), "t.mtx:3: expected a row from 1 to 2, found `3`");
         assert_eq!(real("2 2 1\n1 0 1"), "t.mtx:3: expected a column from 1 to 2, found `0`");
         assert_eq!(real("2 2 1\n1 1"), "t.mtx:3: expected a row, a column and a value, found `1 1`");
-        assert_eq!(real("2 2 1\n1 1 NaN"), "t.mtx:3: expected a finite number, found `NaN`");
+        for (value, expected) in [
+            ("NaN", "a finite number"),
+            ("-1e400", "a number that is not too large for a 64-bit float"),
+            ("-1e-400", "a number that a 64-bit float does not round to 0"),
+        ] {
+            assert_eq!(real(&format!("2 2 1\n1 1 {value}")), format!("t.mtx:3: expected {expected}, found `{value}`"));
+        }
+        let zero = parse("%%MatrixMarket matrix coordinate real general\r1 1 1\r1 1 -0.0e5\r");
+        assert_eq!(zero.expect("lines that end in CR").entries, [(0, 0, 0.0)]);
         let claim = "t.mtx:2: expected at most 16777216 rows and columns in a file of 66 bytes, found 4294967295 x 1";
         assert_eq!(real("4294967295 1 1\n1 1 1"), claim);
         assert_eq!(real("2 2 2\n1 1 1"), "t.mtx: expected 2 entries as line 2 says, found 1");

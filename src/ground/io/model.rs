@@ -11,7 +11,7 @@ use super::obj::{MAX_BYTES, load_model, read_obj};
 use super::ply::read_ply;
 use super::read_limited;
 use super::scene_obj::{plain_scene, read_scene};
-use super::stl::{is_stl, parse_stl};
+use super::stl::{is_stl, read_stl};
 use crate::geom::Mesh;
 use crate::scene::Scene;
 
@@ -129,7 +129,7 @@ fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path, strict: bool) -> Resu
     match format {
         ModelFormat::Obj => read_obj(bytes, path, strict),
         ModelFormat::Ply => read_ply(bytes, path, strict),
-        ModelFormat::Stl => Ok((parse_stl(bytes, path)?, Vec::new())),
+        ModelFormat::Stl => read_stl(bytes, path, strict),
         ModelFormat::Gltf => Ok((parse_gltf(bytes, path, &mut beside(path))?.mesh().clone(), Vec::new())),
     }
 }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::{FilePlace, ModelError, ReadError, read};
 use super::faces::Faces;
-use super::lines::{logical_lines, single, statement};
+use super::lines::{logical_lines, not_utf_16, single, statement};
 use super::model_note::ModelNote;
 use super::quoted;
 use crate::geom::Mesh;
@@ -54,6 +54,7 @@ pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
 /// [`parse_obj`]; unless `strict`, faces with a fault are accepted and noted.
 pub(super) fn read_obj(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
+    not_utf_16(bytes, name)?;
     let mut reader = ObjReader::new(name);
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &statement(&text), &text)?;

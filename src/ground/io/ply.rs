@@ -16,7 +16,7 @@ use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, Pro
 
 use super::error::{FilePlace, ModelError};
 use super::faces::Faces;
-use super::lines::unmarked;
+use super::lines::{not_utf_16, unmarked};
 use super::model_note::ModelNote;
 use super::obj::{load_model, within_limit};
 use super::quoted;
@@ -44,9 +44,11 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     read_ply(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
-/// [`parse_ply`]; unless `strict`, faces with a fault are accepted and noted.
+/// [`parse_ply`]; unless `strict`, faces with a fault are accepted and data after the last element passed over, and
+/// noted.
 pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
+    not_utf_16(bytes, name)?;
     let (header, lines, data) = header(unmarked(bytes), name)?;
     let has = |element: &str, property: &[&str]| {
         header.elements.get(element).is_some_and(|e| property.iter().any(|&name| e.properties.contains_key(name)))
@@ -89,7 +91,15 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
         _ => format!("{}: face {place} (counted from 0)", name.display()),
     };
     let position = |corner: u32| positions_of(&mesh.vertices[corner as usize]);
-    let (triangles, notes) = mesh.faces.triangles(position, named, strict)?;
+    let (triangles, mut notes) = mesh.faces.triangles(position, named, strict)?;
+    let bytes = data.rest.trim_ascii().len();
+    if bytes > 0 {
+        if strict {
+            let (place, expected) = (name.into(), "the end of the file after the last element".into());
+            return Err(ModelError::Syntax { place, expected, found: format!("{bytes} bytes more") });
+        }
+        notes.push(ModelNote::Trailing { bytes, last: "element" });
+    }
     Ok((mesh.finish(triangles, attributes, name)?, notes))
 }
 

@@ -5,8 +5,8 @@
 //!
 //! Hits: the header `ray,triangle,t`, then a line per ray in the order of the rays. `triangle` counts from 0 in the
 //! order of the mesh file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the
-//! same f32, or beyond f32 to the same f64. On a card whose format overflows, a hit has the `inf` that the card
-//! computed.
+//! same f32, or beyond f32 to the same f64. On a card whose format overflows below that, a hit has the `inf` that the
+//! card computed.
 
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};

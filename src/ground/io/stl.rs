@@ -8,7 +8,8 @@
 use std::path::Path;
 
 use super::error::{FilePlace, ModelError};
-use super::lines::{single, unmarked, words};
+use super::lines::{lines, not_utf_16, single, unmarked, words};
+use super::model_note::ModelNote;
 use super::obj::{load_model, within_limit};
 use super::quoted;
 use crate::geom::mesh::{Mesh, Welder};
@@ -34,16 +35,30 @@ pub fn load_stl(path: &Path) -> Result<Mesh, ModelError> {
 /// # Errors
 /// [`ModelError`], with the line or triangle where there is one.
 pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+    read_stl(bytes, name, true).map(|(mesh, _)| mesh)
+}
+
+/// [`parse_stl`]; unless `strict`, bytes after the last triangle are passed over and noted.
+pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
     let syntax = |expected: &'static str, found: String| {
         Err(ModelError::Syntax { place: FilePlace::from(name), expected: expected.into(), found })
     };
-    let soup = match claimed_length(bytes) {
-        Some(claimed) if claimed == bytes.len() as u64 => binary(bytes, name)?,
+    let (length, mut notes) = (bytes.len() as u64, Vec::new());
+    let claimed = claimed_length(bytes);
+    if claimed != Some(length) {
+        not_utf_16(bytes, name)?;
+    }
+    let soup = match claimed {
+        Some(claimed) if claimed == length => binary(bytes, name)?,
         _ if is_text(bytes) => ascii(bytes, name)?,
         // In text these bytes are no number of triangles.
         Some(claimed) if bytes[..HEAD].contains(&0) => {
-            return syntax("as many bytes as its number of triangles takes", format!("{} of {claimed}", bytes.len()));
+            if strict || claimed > length {
+                return syntax("as many bytes as its number of triangles takes", format!("{length} of {claimed}"));
+            }
+            notes.push(ModelNote::Trailing { bytes: (length - claimed) as usize, last: "triangle" });
+            binary(&bytes[..claimed as usize], name)?
         }
         _ => {
             return syntax(
@@ -57,7 +72,8 @@ pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     }
     let mut welder = Welder::default();
     let triangles = soup.into_iter().map(|corners| corners.map(|corner| welder.vertex(corner))).collect();
-    Mesh::new(welder.into_positions(), triangles).map_err(|reason| ModelError::Mesh(name.into(), reason))
+    let mesh = Mesh::new(welder.into_positions(), triangles);
+    mesh.map(|mesh| (mesh, notes)).map_err(|reason| ModelError::Mesh(name.into(), reason))
 }
 
 /// True for the contents of an STL file: binary data with the length that they state, or text that begins as ASCII STL.
@@ -132,15 +148,29 @@ fn ascii(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, ModelError> {
     Ok(soup)
 }
 
-/// The words of a text with their lines, without the names of solids, which run to the end of their line.
+/// The words of a text with their lines, without the names of solids.
 fn text_words(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    (1..).zip(bytes.split(|&byte| byte == b'\n')).flat_map(|(line, text)| {
-        let mut words = words(text);
-        let named = |word: &&[u8]| word.eq_ignore_ascii_case(b"solid") || word.eq_ignore_ascii_case(b"endsolid");
-        let length = words.iter().position(named).map_or(words.len(), |at| at + 1);
-        words.truncate(length);
-        words.into_iter().map(move |word| (line, word))
-    })
+    lines(bytes).flat_map(|(line, text)| without_names(&words(text)).into_iter().map(move |word| (line, word)))
+}
+
+/// The words of a line without the names of solids. A name runs to the end of its line, or to a `facet normal` in the
+/// same line, for a whole file may be one line.
+fn without_names<'a>(mut words: &[&'a [u8]]) -> Vec<&'a [u8]> {
+    let mut kept = Vec::new();
+    while let Some((&word, after)) = words.split_first() {
+        kept.push(word);
+        words = after;
+        let ends = word.eq_ignore_ascii_case(b"endsolid");
+        if ends || word.eq_ignore_ascii_case(b"solid") {
+            let facet =
+                |pair: &[&[u8]]| pair[0].eq_ignore_ascii_case(b"facet") && pair[1].eq_ignore_ascii_case(b"normal");
+            let Some(facet) = after.windows(2).position(facet) else { break };
+            // Another solid begins between the end of this one and the facet.
+            let solid = |word: &&[u8]| ends && word.eq_ignore_ascii_case(b"solid");
+            words = &after[after[..facet].iter().rposition(solid).unwrap_or(facet)..];
+        }
+    }
+    kept
 }
 
 /// Reads a text word by word.

@@ -51,7 +51,7 @@ pub enum PictureError {
     #[diagnostic(code(crossbar::picture::claim))]
     Claim { format: PictureFormat, width: u64, height: u64, least: u64, found: u64 },
     /// The file is damaged, or a variant of its format that is not supported.
-    #[error("expected {format} data, found something else: {reason}")]
+    #[error("the {format} data cannot be read: {reason}")]
     #[diagnostic(code(crossbar::picture::decode))]
     Decode { format: PictureFormat, reason: String },
     /// The picture has no color channels.

@@ -40,7 +40,7 @@ impl PictureSize {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::size(bytes),
             Some(PictureFormat::Png) => size_of(bytes, PictureFormat::Png),
-            Some(PictureFormat::Hdr) => size_of(&with_known_beginning(bytes), PictureFormat::Hdr),
+            Some(PictureFormat::Hdr) => size_of(&with_known_header(bytes), PictureFormat::Hdr),
             None => {
                 let hex: Vec<String> = bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
                 let found = if hex.is_empty() { "nothing".to_owned() } else { hex.join(" ") };
@@ -63,7 +63,7 @@ impl Picture {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::decode(bytes),
             Some(PictureFormat::Hdr) => {
-                let bytes = &with_known_beginning(bytes);
+                let bytes = &with_known_header(bytes);
                 let image = decoded(bytes, PictureFormat::Hdr)?.into_rgb32f();
                 let scale = hdr_scale(bytes)?;
                 let radiance = |pixel: [f32; 3]| [0, 1, 2].map(|channel| pixel[channel] / scale[channel]);
@@ -87,9 +87,23 @@ pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, Pictu
     Ok(decoded(bytes, PictureFormat::Png)?.into_rgba16())
 }
 
-/// Replaces the first line of a Radiance HDR file by the one of two that the decoder accepts.
-fn with_known_beginning(bytes: &[u8]) -> Cow<'_, [u8]> {
-    bytes.strip_prefix(RGBE).map_or(Cow::Borrowed(bytes), |rest| Cow::Owned([RADIANCE, rest].concat()))
+/// A Radiance HDR file as the decoder reads it: with the first line of two that it accepts, and without header lines
+/// that have white space around the name of their variable. Radiance compares from the first column up to `=`, so that
+/// these lines say nothing; the decoder would obey them.
+fn with_known_header(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let spaced = |line: &[u8]| {
+        let name = line.iter().position(|&byte| byte == b'=').map_or(&b""[..], |end| &line[..end]);
+        name.trim_ascii().len() < name.len()
+    };
+    let end = bytes.windows(2).position(|pair| pair == b"\n\n").map_or(bytes.len(), |end| end + 1);
+    let (header, pixels) = bytes.split_at(end);
+    let rest = header.strip_prefix(RGBE).or_else(|| header.strip_prefix(RADIANCE)).unwrap_or(header);
+    let lines = rest.split_inclusive(|&byte| byte == b'\n');
+    let kept: Vec<&[u8]> = lines.filter(|line| !spaced(line)).collect();
+    if header.starts_with(RADIANCE) && kept.concat().len() == rest.len() {
+        return Cow::Borrowed(bytes);
+    }
+    Cow::Owned([RADIANCE, &kept.concat(), pixels].concat())
 }
 
 /// Factors by which radiance was multiplied, per channel, before it was written: the products of all EXPOSURE and
@@ -151,8 +165,14 @@ fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, PictureError> {
     let refused = |reason: String| PictureError::Decode { format: PictureFormat::Png, reason };
     let reader = ::png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|error| refused(error.to_string()))?;
     let info = reader.info();
+    let points = info.coding_independent_code_points;
+    if points.is_some_and(|points| !points.is_video_full_range_image) {
+        return Err(refused(
+            "expected a cICP chunk of full range, found narrow range (video full range flag 0)".into(),
+        ));
+    }
     // Transfer characteristics of ITU-T H.273: 8 is linear, 13 is sRGB.
-    match info.coding_independent_code_points.map(|points| points.transfer_function) {
+    match points.map(|points| points.transfer_function) {
         Some(8) => return Ok(Some(1.0)),
         Some(13) => return Ok(None),
         Some(found) => {

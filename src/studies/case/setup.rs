@@ -224,7 +224,7 @@ impl Binder<'_> {
                 return Err(self.place.wrong(texture.get_ref().slot.span(), format!("slot {slot} is taken"), help));
             }
         }
-        let geometry = vertices::bind(self, &case.geometry, vertex.as_deref())?;
+        let geometry = vertices::bind(self, &case.geometry, vertex.as_deref(), reads_fog(&pixel))?;
         let size = self.size(&case.target.size)?;
         let targets = state::targets(self, &case.target)?;
         for &target in &targets {

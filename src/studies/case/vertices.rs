@@ -52,6 +52,7 @@ pub(super) fn bind(
     binder: &Binder<'_>,
     geometry: &Spanned<schema::Geometry>,
     program: Option<&Program>,
+    pixel_reads_fog: bool,
 ) -> Result<Geometry, CaseError> {
     let written = geometry.get_ref();
     let wrong = |message: &str, help: &str| Err(binder.place.wrong(geometry.span(), message, help));
@@ -64,7 +65,7 @@ pub(super) fn bind(
     if written.vertices.len() > MAX_VERTICES {
         return wrong("the geometry has more than 1048576 vertices", "split the case");
     }
-    let reader = Reader { binder, all: &written.attributes, program };
+    let reader = Reader { binder, all: &written.attributes, program, pixel_reads_fog };
     let vertices = match program {
         Some(_) if written.full_screen => {
             let corners = corners(written.convention).map(|corner| reader.program_corner(corner, geometry));
@@ -112,6 +113,7 @@ struct Reader<'a> {
     /// Default attributes of all vertices.
     all: &'a Attributes,
     program: Option<&'a Program>,
+    pixel_reads_fog: bool,
 }
 
 impl Reader<'_> {
@@ -145,6 +147,12 @@ impl Reader<'_> {
         let bits = self.bits(value)?;
         match (name, name.bytes().next()) {
             ("position", _) => vertex.position = bits,
+            ("fog", _) if !self.pixel_reads_fog => {
+                let message = "`fog`, but the pixel program reads no fog coordinate";
+                let help =
+                    "leave it out, or read it as `f[FOGC]` or `fragment.fogcoord`: fixed-function fog is not emulated";
+                return Err(self.binder.place.wrong(value.span(), message, help));
+            }
             ("fog", _) => vertex.fog = bits[0],
             (_, Some(b'v')) if register(name, 2).is_some() => {
                 vertex.colors[register(name, 2).unwrap_or_default()] = bits;

@@ -99,7 +99,11 @@ fn exposures_of_hdr_files_are_undone() {
         [&plain[..end], lines.as_bytes(), &plain[end..]].concat()
     };
     let read = |lines: &str| Picture::decode(&with(lines));
-    assert_eq!(read(""), Ok(picture));
+    assert_eq!(read(""), Ok(picture.clone()));
+    // Radiance compares lines from their first column up to `=`.
+    for line in [" EXPOSURE=2\n", "\tEXPOSURE=2\n", "EXPOSURE =2\n", " COLORCORR=1 2 2\n", "\tGAMMA=2.2\n"] {
+        assert_eq!(read(line), Ok(picture.clone()), "{line}");
+    }
     let divided = Picture::rgb(2, 1, &[[0.125, 0.25, 0.5], [0.0625, 0.03125, 1.0]]);
     assert_eq!(read("EXPOSURE=2\nEXPOSURE= 4.0\n"), Ok(divided));
     let corrected = Picture::rgb(2, 1, &[[0.5, 0.5, 1.0], [0.25, 0.0625, 2.0]]);
@@ -150,6 +154,8 @@ fn png_files_say_what_light_samples_stand_for() {
     assert_eq!(samples("gama_0.png"), (ChannelUnit::Srgb, fifths), "no gamma");
     let error = fixture("pq.png").expect_err("refused").to_string();
     assert!(error.ends_with("expected a cICP chunk of transfer function 8 or 13, found 16"), "{error}");
+    let error = fixture("narrow.png").expect_err("refused").to_string();
+    assert!(error.ends_with("of full range, found narrow range (video full range flag 0)"), "{error}");
 }
 
 /// Header lines of Radiance HDR files besides exposures.
@@ -195,9 +201,9 @@ fn what_is_wrong_is_said() {
     assert_eq!(said(b""), "expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with nothing");
     let [png, hdr, exr] = files();
     for (bytes, head) in [
-        (&png[..40], "expected PNG data, found something else: "),
-        (&hdr[..20], "expected Radiance HDR data, found something else: "),
-        (&exr[..40], "expected EXR data, found something else: "),
+        (&png[..40], "the PNG data cannot be read: "),
+        (&hdr[..20], "the Radiance HDR data cannot be read: "),
+        (&exr[..40], "the EXR data cannot be read: "),
     ] {
         assert!(said(bytes).starts_with(head), "{}", said(bytes));
     }

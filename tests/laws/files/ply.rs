@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crossbar::geom::Mesh;
-use crossbar::io::{ModelError, load_mesh, load_obj, parse_ply};
+use crossbar::io::{ModelError, ModelOptions, load_mesh, load_mesh_with, load_obj, parse_ply};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
@@ -78,6 +78,16 @@ fn every_encoding_gives_the_same_mesh() {
         assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [4, 2, 1]], "{encoding}");
         assert_eq!(mesh.normals().map(|normals| normals[4]), Some([0.0, 0.6, 0.8]), "{encoding}");
         assert_eq!(mesh.texcoords().map(|uv| uv[1]), Some([1.5, 0.5]), "{encoding}");
+        // Unless it is to be taken as it is, a file may have more than it says.
+        let longer = [encoded(encoding), b"3 0 1 2".to_vec()].concat();
+        let error = parse(&longer).expect_err("longer").to_string();
+        assert_eq!(error, "m.ply: expected the end of the file after the last element, found 7 bytes more");
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.ply");
+        std::fs::write(&path, longer).expect("written");
+        let (read, notes) = load_mesh_with(&path, ModelOptions::default()).expect("a mesh");
+        assert_eq!(read.len(), mesh.len());
+        assert_eq!(notes[0].to_string(), "7 bytes after the last element: passed over");
     }
 }
 

@@ -267,6 +267,14 @@ fn names_run_to_the_end_of_their_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
     write("a.mtl", "\u{feff}# 3ds Max\nnewmtl Material #25\nKd 0.1 0.1 0.1 # dark\nnewmtl Material #26\nKd .2 .2 .2\n");
+    // In Latin-1, in which each of these bytes is a character.
+    let latin_1 = b"# caf\xe9\nnewmtl caf\xe9\nKd .5 0 0\nnewmtl caf\xe8\nKd .6 0 0\n";
+    std::fs::write(folder.path().join("c.mtl"), latin_1).expect("written");
+    let text = b"# caf\xe9\nmtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xe8\ng caf\xe9\nf 1 2 3\n";
+    let latin_1 = folder.path().join("latin_1.obj");
+    std::fs::write(&latin_1, text).expect("written");
+    let scene = load_scene_with(&latin_1, ModelOptions { strict: true, up: None }).expect("a scene").0;
+    assert_eq!(scene.material(0).name, "caf\u{e8}");
     write("my b.mtl", "newmtl red # the main one\nKd 0.3 0 0\nnewmtl blue\nKd 0 0 0.4\n");
     let model = folder.path().join("m.obj");
     let face = "\nf 1 2 3\n";

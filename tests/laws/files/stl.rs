@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crossbar::geom::Mesh;
-use crossbar::io::{ModelError, load_mesh, load_obj, parse_stl};
+use crossbar::io::{ModelError, ModelOptions, load_mesh, load_mesh_with, load_obj, parse_stl};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
@@ -57,13 +57,22 @@ fn stl_is_found_by_ending_and_content() {
         std::fs::write(&path, bytes).expect("written");
         assert_eq!(load_mesh(&path).expect("a mesh").iter_corners().collect::<Vec<_>>(), CORNERS, "{name}");
     }
+    // Unless it is to be taken as it is, a file may be longer than it says.
+    let longer = folder.path().join("longer.stl");
+    std::fs::write(&longer, [binary(b"", 2), b"more".to_vec()].concat()).expect("written");
+    let (mesh, notes) = load_mesh_with(&longer, ModelOptions::default()).expect("a mesh");
+    assert_eq!(mesh.iter_corners().collect::<Vec<_>>(), CORNERS);
+    assert_eq!(
+        notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        ["4 bytes after the last triangle: passed over"]
+    );
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
     let square = load_mesh(&models.join("square.stl")).expect("a mesh");
     assert_eq!(square, load_obj(&models.join("square.obj")).expect("a mesh"));
 }
 
 /// Forms that programs write and readers accept: several solids, no names or names in Latin-1, keywords in capitals,
-/// normals that are no numbers, blank lines, a byte order mark.
+/// normals that are no numbers, blank lines, a byte order mark, lines that end in CR, everything in one line.
 #[test]
 fn text_in_all_its_forms_gives_the_same_mesh() {
     let plain = String::from_utf8(ascii()).expect("text");
@@ -78,6 +87,9 @@ fn text_in_all_its_forms_gives_the_same_mesh() {
         plain.to_uppercase().into_bytes(),
         format!("\n \r\n{plain}").replace('\n', "\r\n").into_bytes(),
         format!("\u{feff}{plain}").into_bytes(),
+        plain.replace('\n', "\r").into_bytes(),
+        plain.replace('\n', " ").into_bytes(),
+        format!("{first}endsolid a solid\nsolid b {second}").replace('\n', " ").into_bytes(),
         plain.replace("normal 0 0 1", "normal nan -nan(ind) 1.#QNAN").into_bytes(),
         plain.replace("normal 0 0 1\n", "normal 0 0 1 ").replace("\nvertex", "  vertex").into_bytes(),
     ] {
@@ -94,6 +106,13 @@ fn broken_files_are_named() {
         message(&binary(b"solid", u32::MAX >> 8)),
         "m.stl: expected as many bytes as its number of triangles takes, found 184 of 838860834"
     );
+    let mut longer = binary(b"", 2);
+    longer.extend(b"\0more");
+    assert_eq!(message(&longer), "m.stl: expected as many bytes as its number of triangles takes, found 189 of 184");
+    let utf_16 = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    for text in ["solid\n", "\u{feff}solid\n"] {
+        assert_eq!(message(&utf_16(&text.repeat(40))), "m.stl: expected text in UTF-8 or Latin-1, found UTF-16");
+    }
     assert_eq!(message(b"solid nothing\nendsolid nothing\n"), "m.stl: expected at least one triangle, found none");
     let text = String::from_utf8(ascii()).expect("text");
     let lines = |count: usize| text.split_inclusive('\n').take(count).collect::<String>();

@@ -84,12 +84,13 @@ impl<'a> Parser<'a> {
 
     fn option(&mut self) -> Parsed<()> {
         let token = self.cursor.next();
-        let help = match token.text {
+        let all = || format!("one of {}, {}", HINTS.join(", "), FogMode::ALL.map(FogMode::name).join(", "));
+        let (expected, help) = match token.text {
             text if HINTS.contains(&text) => {
                 if self.hint.replace(text).is_none_or(|before| before == text) {
                     return Ok(());
                 }
-                "a program asks for one of the two"
+                ("one precision hint".to_owned(), "a program asks for one of the two")
             }
             text => match FogMode::from_name(text) {
                 Some(mode) => {
@@ -97,12 +98,11 @@ impl<'a> Parser<'a> {
                     if self.build.fog.replace(fog).is_none_or(|before| before.mode == mode) {
                         return Ok(());
                     }
-                    "a program asks for one kind of fog"
+                    ("one fog option".to_owned(), "a program asks for one kind of fog")
                 }
-                None => "other options change what a program means",
+                None => (all(), "other options change what a program means"),
             },
         };
-        let expected = format!("one of {}, {}", HINTS.join(", "), FogMode::ALL.map(FogMode::name).join(", "));
         Err(token.error(ErrorKind::UnknownOption, expected, help))
     }
 

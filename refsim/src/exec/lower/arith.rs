@@ -5,7 +5,7 @@ use super::graph::TRUE;
 use super::graph::{Arith, Graph, NodeId, NodeKind};
 use crate::device::{LrpMode, MadMode, PRODUCTS, Rules};
 use crate::isa::Version;
-use crate::num::{self, DotOrder, Format, FormatKind, NumberOperation as Op, Rounding};
+use crate::num::{self, DotOrder, Format, FormatKind, NumberOperation as Op, Rounding, Specials};
 
 /// Four components.
 pub(crate) type NodeVector = [NodeId; 4];
@@ -259,6 +259,17 @@ impl<'a> GraphBuilder<'a> {
                 self.add(k, first, second)
             }
         }
+    }
+
+    /// `_SAT` of OpenGL's programs, which keeps a NaN.
+    pub(crate) fn saturate_number(&mut self, k: Arith, x: NodeId) -> NodeId {
+        let (zero, clamped) = (self.zero(), self.unary(k, Op::Saturate, x));
+        if self.formats.format(k).specials == Specials::Nv {
+            return clamped;
+        }
+        let (above, rest) = (self.holds(k, Op::Less, zero, x), self.holds(k, Op::LessEqual, x, zero));
+        let otherwise = self.select(rest, clamped, x);
+        self.select(above, clamped, otherwise)
     }
 
     /// `condition ? a : b` of a mask.

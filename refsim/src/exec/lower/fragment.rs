@@ -165,7 +165,7 @@ impl Translator<'_> {
         let raw = self.fragment_raw(instruction, k);
         let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
         raw.map(|x| {
-            let clamped = if destination.saturate { self.make.unary(k, Op::Saturate, x) } else { x };
+            let clamped = if destination.saturate { self.make.saturate_number(k, x) } else { x };
             let left = self.make.convert(k, to, clamped);
             self.make.stored(to, storage, left)
         })
@@ -219,7 +219,7 @@ impl Translator<'_> {
         }
         let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
         texel.map(|x| {
-            let clamped = if destination.saturate { self.make.unary(Arith::Main, Op::Saturate, x) } else { x };
+            let clamped = if destination.saturate { self.make.saturate_number(Arith::Main, x) } else { x };
             let left = self.make.convert(Arith::Main, to, clamped);
             self.make.stored(to, storage, left)
         })

@@ -2,8 +2,9 @@
 
 use super::arith::{GraphBuilder, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
+use crate::device::Rules;
 use crate::isa::{Opcode, Version};
-use crate::num::{self, NumberOperation as Op, Specials};
+use crate::num::{self, NumberOperation as Op};
 
 impl GraphBuilder<'_> {
     /// The result of an arithmetic operation of a language; missing operands are zeros.
@@ -41,7 +42,7 @@ impl GraphBuilder<'_> {
             Cmp => std::array::from_fn(|i| self.compute(k, Op::SelectNonNegative, a[i], b[i], c[i])),
             Bem => self.bem(k, &a, &b, bump),
             Abs => a.map(|x| self.unary(k, Op::Abs, x)),
-            Min | Max if version == Version::ArbFp1_0 && self.formats.format(k).specials == Specials::Ieee => {
+            Min | Max if Rules::compares_in(version, &self.formats.format(k)) => {
                 std::array::from_fn(|i| {
                     let above = self.holds(k, Op::Less, b[i], a[i]);
                     let (yes, no) = if opcode == Max { (a[i], b[i]) } else { (b[i], a[i]) };
@@ -53,7 +54,13 @@ impl GraphBuilder<'_> {
             Dsx | Dsy => a.map(|x| self.graph.node(NodeKind::Difference(k, opcode == Dsy, x))),
             Sge => std::array::from_fn(|i| self.flag(k, Op::LessEqual, b[i], a[i])),
             Slt => std::array::from_fn(|i| self.flag(k, Op::Less, a[i], b[i])),
-            Frc => a.map(|x| self.unary(k, Op::Frc, x)),
+            Frc => a.map(|x| {
+                let fraction = self.unary(k, Op::Frc, x);
+                let Some(below) = Rules::frc_instead_of_one(version, &self.formats.format(k)) else { return fraction };
+                let (one, below) = (self.one(k), self.pattern(k, below));
+                let rounded = self.holds(k, Op::Equal, fraction, one);
+                self.select(rounded, below, fraction)
+            }),
             Rcp => [self.unary(k, Op::Rcp, a[0]); 4],
             Rsq => [self.unary(k, Op::Rsq, a[0]); 4],
             Exp => [self.unary(k, Op::Exp2, a[0]); 4],

@@ -3,7 +3,7 @@
 
 use crate::device::{LrpMode, MadMode, ResultRange, Rules};
 use crate::isa::Version;
-use crate::num::{self, Flags, Format, ops};
+use crate::num::{self, Flags, Format, Specials, ops};
 
 /// Operations in `format` under `rules`; accumulates exception flags.
 pub(crate) struct Alu<'r> {
@@ -149,6 +149,13 @@ impl<'r> Alu<'r> {
             Some(accumulator) => ops::dot_accumulated(self.format, accumulator, order, terms),
             None => ops::dot(self.format, order, terms),
         })
+    }
+
+    /// `_SAT` of OpenGL's programs (GL_NV_fragment_program 3.11.4.4, GL_ARB_fragment_program 3.11.4.3): what is below 0
+    /// becomes 0, what is above 1 becomes 1, and a NaN, which is neither, stays.
+    pub(crate) fn saturate_number(&mut self, x: u32) -> u32 {
+        let stays = self.format.specials == Specials::Ieee && !(self.less(0, x) || self.less_or_equal(x, 0));
+        if stays { x } else { self.saturate(x) }
     }
 
     /// `factor * (a - b) + b`, the last two steps as one [`Self::mad`], or `factor * a + (1 - factor) * b` with each

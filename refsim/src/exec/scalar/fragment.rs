@@ -112,7 +112,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         let unit = self.alu(k);
         let mut out = [0; 4];
         for i in destination.mask.components() {
-            let x = if destination.saturate { unit.saturate(raw[i]) } else { raw[i] };
+            let x = if destination.saturate { unit.saturate_number(raw[i]) } else { raw[i] };
             let left = unit.leave(to, x);
             out[i] = unit.stored(to, storage, left);
         }

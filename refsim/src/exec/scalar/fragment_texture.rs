@@ -43,7 +43,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             let texel = self.fetch(stage, lane, &coordinates, &detail);
             let texel = self.through(instruction.format, texel);
             let value = texel.map(|x| {
-                let clamped = if destination.saturate { self.full.saturate(x) } else { x };
+                let clamped = if destination.saturate { self.full.saturate_number(x) } else { x };
                 let left = self.full.leave(to, clamped);
                 self.full.stored(to, storage, left)
             });

@@ -5,8 +5,8 @@
 use super::alu::Alu;
 use super::macros;
 use super::registers::Components;
+use crate::device::Rules;
 use crate::isa::{Mask, Opcode, Version};
-use crate::num::Specials;
 
 /// Inputs of an operation besides its operands.
 #[derive(Clone, Copy, Debug)]
@@ -50,18 +50,23 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Cmp => each(mask, |i| alu.cmp(a[i], b[i], c[i])),
         Bem => macros::bem(alu, &a, &b, &context.bump),
         Abs => each(mask, |i| alu.abs(a[i])),
-        // GL_ARB_fragment_program 3.11.5.16 and .17: `a > b ? a : b` and `a > b ? b : a`. NVIDIA's unit has its own rule.
-        Min if version == Version::ArbFp1_0 && alu.format.specials == Specials::Ieee => {
+        Min if Rules::compares_in(version, &alu.format) => {
             each(mask, |i| if alu.less(b[i], a[i]) { b[i] } else { a[i] })
         }
-        Max if version == Version::ArbFp1_0 && alu.format.specials == Specials::Ieee => {
+        Max if Rules::compares_in(version, &alu.format) => {
             each(mask, |i| if alu.less(b[i], a[i]) { a[i] } else { b[i] })
         }
         Min => each(mask, |i| alu.min(a[i], b[i])),
         Max => each(mask, |i| alu.max(a[i], b[i])),
         Sge => each(mask, |i| if alu.less_or_equal(b[i], a[i]) { alu.one() } else { 0 }),
         Slt => each(mask, |i| if alu.less(a[i], b[i]) { alu.one() } else { 0 }),
-        Frc => each(mask, |i| alu.frc(a[i])),
+        Frc => each(mask, |i| {
+            let fraction = alu.frc(a[i]);
+            match Rules::frc_instead_of_one(version, &alu.format) {
+                Some(below) if alu.equal(fraction, alu.one()) => below,
+                _ => fraction,
+            }
+        }),
         Rcp => [alu.rcp(a[0]); 4],
         Rsq => [alu.rsq(a[0]); 4],
         Exp => [alu.exp2(a[0]); 4],

@@ -23,7 +23,7 @@ pub(super) use reader::plain_scene;
 pub use write::{write_mtl, write_scene};
 
 use super::error::ModelError;
-use super::lines::{logical_lines, statement};
+use super::lines::{logical_lines, not_utf_16, statement};
 use super::model_note::ModelNote;
 use super::obj::within_limit;
 use crate::scene::Scene;
@@ -51,6 +51,7 @@ pub(super) fn read_scene(
     strict: bool,
 ) -> Result<(Scene, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
+    not_utf_16(bytes, name)?;
     let mut reader = SceneReader::new(name, strict);
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &statement(&text), &text, library)?;

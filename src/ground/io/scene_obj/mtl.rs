@@ -1,7 +1,8 @@
 //! Material libraries (MTL).
 //!
 //! Used are `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are ignored. The name of a
-//! material runs to the end of its line. In other lines a word that begins with `#` begins a comment.
+//! material, in UTF-8 or Latin-1, runs to the end of its line. In other lines a word that begins with `#` begins a
+//! comment.
 //!
 //! | `illum` | surface |
 //! |---|---|
@@ -18,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::super::error::{FilePlace, ModelError};
-use super::super::lines::{logical_lines, single, statement};
+use super::super::lines::{decoded, logical_lines, not_utf_16, single, statement};
 use super::super::model_note::ModelNote;
 use super::super::{NumberError, quoted};
 use crate::scene::{Color, Material, Surface};
@@ -46,6 +47,7 @@ pub(super) fn read_mtl(
     name: &Path,
     mut notes: Option<&mut Vec<ModelNote>>,
 ) -> Result<Vec<Material>, ModelError> {
+    not_utf_16(bytes, name)?;
     let mut reader = MtlReader { name, lenient: notes.is_some(), materials: Vec::new(), seen: BTreeSet::new() };
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &text)?;
@@ -111,14 +113,14 @@ impl MtlReader<'_> {
     }
 
     fn material(&mut self, line: usize, name: &[u8]) -> Result<(), ModelError> {
-        let text = std::str::from_utf8(name).ok().filter(|name| !name.is_empty());
-        let Some(text) = text else {
+        if name.is_empty() {
             return Err(self.syntax(line, "the name of a material `newmtl name`", name));
-        };
-        if !self.seen.insert(text.into()) {
-            return Err(ModelError::SecondMaterial(FilePlace::line(self.name, line), text.into()));
         }
-        self.materials.push(MaterialText { line, name: text.into(), values: BTreeMap::new() });
+        let name = decoded(name);
+        if !self.seen.insert(name.clone()) {
+            return Err(ModelError::SecondMaterial(FilePlace::line(self.name, line), name));
+        }
+        self.materials.push(MaterialText { line, name, values: BTreeMap::new() });
         Ok(())
     }
 

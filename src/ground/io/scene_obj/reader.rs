@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::super::error::{FilePlace, ModelError};
-use super::super::lines::before_comment;
+use super::super::lines::{before_comment, decoded};
 use super::super::model_note::ModelNote;
 use super::super::obj::{ObjCorner, ObjReader};
 use super::mtl::read_mtl;
@@ -113,8 +113,8 @@ impl SceneReader {
     }
 
     fn rest_of(&self, line: usize, rest: &[u8], expected: &'static str) -> Result<String, ModelError> {
-        let name = std::str::from_utf8(rest.trim_ascii()).ok().filter(|name| !name.is_empty());
-        name.map(str::to_owned).ok_or_else(|| self.geometry.syntax(line, expected, rest.trim_ascii()))
+        let name = Some(decoded(rest.trim_ascii())).filter(|name| !name.is_empty());
+        name.ok_or_else(|| self.geometry.syntax(line, expected, b""))
     }
 
     /// The scene, once all lines have been read, with notes on changes.

@@ -111,7 +111,7 @@ fn census(atlas: &Atlas) -> Table {
         ("edges of more than two faces", census.crowded_edges),
         ("edges run through the same way twice", census.orientation_conflicts),
         ("faces without area", census.faces_without_area),
-        ("faces that repeat another", census.duplicate_faces),
+        ("faces that lie on another", census.duplicate_faces),
     ] {
         table.push([what.into(), count.into()]);
     }

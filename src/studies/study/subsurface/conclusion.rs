@@ -144,8 +144,8 @@ fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
 fn repeated(outcome: &SubsurfaceOutcome) -> Option<String> {
     let count = outcome.atlas.census().duplicate_faces as u64;
     (count > 0).then(|| {
-        let faces = counted(count, "face of the model has", "faces of the model have");
-        format!("{faces} the three corners of another face: such a place counts twice, and gives back too much light.")
+        let faces = counted(count, "face of the model lies", "faces of the model lie");
+        format!("{faces} on another face: such a place counts twice, and gives back too much light.")
     })
 }
 

@@ -1,0 +1,29 @@
+//! What is uncertain of corners whose coordinates were rounded to f32.
+
+use glam::DVec3;
+
+use super::vector::wide;
+
+/// Largest distance of a corner from its place before it was rounded: each coordinate is off by at most 2^-24 of the
+/// largest one.
+fn reach(corners: &[DVec3]) -> f64 {
+    let largest = corners.iter().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
+    3_f64.sqrt() * f64::from(f32::EPSILON) / 2.0 * largest
+}
+
+/// Returns `true` if a triangle has an area whatever the rounding of its corners was. Corners that were on a line are
+/// now within [`reach`] of it, so that the least height of the triangle is at most twice that.
+pub fn has_certain_area(triangle: &[[f32; 3]; 3]) -> bool {
+    let corners @ [a, b, c] = triangle.map(wide);
+    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+    (b - a).cross(c - a).length() > 2.0 * reach(&corners) * longest
+}
+
+/// Returns `true` if the triangles `a`, `b`, `c` and `a`, `b`, `d` overlap: both are on the same side of their common
+/// edge, and may have been in one plane. A corner that moves changes six times the volume of the four by at most its
+/// way times twice the area of the face opposite.
+pub fn may_overlap([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> bool {
+    let (one, other) = ((b - a).cross(c - a), (b - a).cross(d - a));
+    let faces = [one, other, (c - a).cross(d - a), (c - b).cross(d - b)].map(DVec3::length);
+    one.dot(other) > 0.0 && one.dot(d - a).abs() <= reach(&[a, b, c, d]) * faces.iter().sum::<f64>()
+}
