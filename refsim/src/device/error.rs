@@ -12,8 +12,8 @@ pub enum DeviceError {
     #[diagnostic(
         code(device::unknown),
         help(
-            "words of a card's title name it too, for example `Radeon 8500`; `ideal-` takes any number format, for \
-             example `ideal-fp32` or `ideal-s3.12:rtz`"
+            "words of its title name a card, too: `Radeon 8500`; `ideal-` takes any number format, for example \
+             `ideal-fp32` or `ideal-s3.12:rtz`"
         )
     )]
     UnknownDevice { name: String, known: String },

@@ -318,8 +318,10 @@ mod tests {
 
     #[test]
     fn a_byte_order_mark_hides_no_vertex() {
-        let mesh = parse("\u{feff}v 5 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3").expect("a mesh");
-        assert_eq!(mesh.positions()[0], [5.0, 0.0, 0.0]);
+        for end in ["\n", "\r\n", "\r"] {
+            let text = "\u{feff}v 5 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3".replace('\n', end);
+            assert_eq!(parse(&text).expect("a mesh").positions()[0], [5.0, 0.0, 0.0]);
+        }
     }
 
     #[test]

@@ -49,7 +49,10 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
 pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
-    let (header, lines, data) = header(unmarked(bytes), name)?;
+    let bytes = unmarked(bytes);
+    // As the description of the format has it; nobody writes it any more.
+    let line_end = if bytes.starts_with(b"ply\r") && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
+    let (header, lines, data) = header(bytes, line_end, name)?;
     let has = |element: &str, property: &[&str]| {
         header.elements.get(element).is_some_and(|e| property.iter().any(|&name| e.properties.contains_key(name)))
     };
@@ -61,7 +64,7 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     }
     let vertices = header.elements.get("vertex").map_or(0, |element| element.count);
     let mut mesh = MeshReader::default();
-    let mut data = Data { name, encoding: header.encoding, line: lines, rest: data };
+    let mut data = Data { name, encoding: header.encoding, line: lines, line_end, rest: data };
     for element in header.elements.values() {
         for index in 0..element.count {
             let (record, at) = data.next(element, index)?;
@@ -109,13 +112,13 @@ fn missing(name: &Path, expected: &'static str) -> ModelError {
 }
 
 /// The header, its number of lines, and the data after it.
-fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]), ModelError> {
+fn header<'a>(bytes: &'a [u8], line_end: u8, name: &Path) -> Result<(Header, usize, &'a [u8]), ModelError> {
     let syntax = |line: usize, expected: &str, found: String| {
         let expected = expected.to_owned().into();
         ModelError::Syntax { place: FilePlace::line(name, line), expected, found }
     };
     let (mut lines, mut length, mut text) = (0, 0, "");
-    for line in bytes.split_inclusive(|&byte| byte == b'\n') {
+    for line in bytes.split_inclusive(|&byte| byte == line_end) {
         (lines, length) = (lines + 1, length + line.len());
         let line = line.trim_ascii();
         if lines == 1 && line != b"ply" {
@@ -131,7 +134,10 @@ fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]),
         return Err(syntax(lines.max(1), "`end_header` at the end of the header", "the end of the file".to_owned()));
     }
     let (head, data) = bytes.split_at(length);
-    let head = String::from_utf8_lossy(head);
+    let mut head = String::from_utf8_lossy(head);
+    if line_end == b'\r' {
+        head = head.replace('\r', "\n").into();
+    }
     let header = Parser::<Record>::new().read_header(&mut Reader::new(head.as_bytes())).map_err(|error| {
         let Some(line) = error.line() else {
             let expected = "`format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`";
@@ -153,6 +159,7 @@ struct Data<'a> {
     encoding: Encoding,
     /// Number of lines read so far.
     line: usize,
+    line_end: u8,
     rest: &'a [u8],
 }
 
@@ -211,7 +218,7 @@ impl<'a> Data<'a> {
     /// The next line that is not empty.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         while !self.rest.is_empty() {
-            let end = self.rest.iter().position(|&byte| byte == b'\n').unwrap_or(self.rest.len());
+            let end = self.rest.iter().position(|&byte| byte == self.line_end).unwrap_or(self.rest.len());
             let line = self.rest[..end].trim_ascii();
             self.rest = self.rest.get(end + 1..).unwrap_or_default();
             self.line += 1;
@@ -331,6 +338,8 @@ mod tests {
                     property list uchar float x\nelement face 2\nproperty list uint8 uint vertex_index\nend_header\n\
                     0 0 0 255 0 0\n1 0 0 0 1 0\n\n1 1 0 7 1 1\n0 1 0 8 0 1\n2 0.5 0.25\n4 0 1 2 3\n3 3 2 1\n";
         let mesh = parse_ply(text.as_bytes(), Path::new("m.ply")).expect("a mesh");
+        let by_cr = parse_ply(text.replace('\n', "\r").as_bytes(), Path::new("m.ply")).expect("a mesh");
+        assert_eq!(by_cr, mesh);
         assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [3, 2, 1]]);
         assert_eq!(mesh.positions()[2], [1.0, 1.0, 0.0]);
         assert_eq!((mesh.normals(), mesh.texcoords().map(|uv| uv[3])), (None, Some([0.0, 1.0])));
