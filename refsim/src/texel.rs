@@ -11,7 +11,8 @@ use crate::num::Format;
 pub enum ChannelClass {
     /// `k / (2^n - 1)`
     Unorm,
-    /// Two's complement `k / (2^(n-1) - 1)`; [`crate::device::SignedTexelMinimum`] determines the value of the smallest `k`.
+    /// Two's complement `k / (2^(n-1) - 1)`; [`crate::device::SignedTexelMinimum`] determines the value of the
+    /// smallest `k`.
     Snorm,
     /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` for k < 0, so that -15 is not -1.0 (all
     /// sixteen probes of Wine's test on real cards agree; docs/numbers.md).
