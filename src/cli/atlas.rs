@@ -1,11 +1,11 @@
 //! `crossbar atlas`: a mesh in a square of texels.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::memory::{self, MemoryNeed};
 use super::model_name;
 use super::scene_name::EyeArgs;
-use super::study::StudyArgs;
+use super::study::{StudyArgs, StudyFiles};
 use crate::atlas::{MAX_SIDE, require_side};
 use crate::options::Size;
 use crate::study::atlas::{AtlasStudy, MAX_PICTURE, no_atlas};
@@ -48,12 +48,8 @@ impl StudyArgs for Args {
     type Study = AtlasStudy;
     const QUICKER: &'static str = "a smaller `--side`";
 
-    fn folder(&self) -> Option<&Path> {
-        self.out.as_deref()
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        model_name::named_file(&self.model)
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(self.out.as_deref(), None, model_name::named_file(&self.model))
     }
 
     /// Texels, clusters, and pictures of both.

@@ -3,13 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::memory::{self, MemoryNeed};
-use super::study::{self, StudyArgs};
+use super::study::{self, StudyArgs, StudyFiles};
 use super::{CommandLine, Out, Problem, view};
 use crate::io::PictureFile;
-use crate::options::number;
-use crate::picture::metrics::{DEFAULT_PPD, MAX_PPD, MIN_PPD};
 use crate::report::Verdict;
-use crate::study::picture_difference::{DifferenceBounds, PictureDifference, PictureInput};
+use crate::study::picture_difference::{DifferenceOptions, PictureDifference, PictureInput};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,49 +38,12 @@ pub(super) struct Args {
     #[arg(value_name = "B")]
     second: PathBuf,
 
-    /// Compare only this channel; may be given several times [default: all, which both pictures must have]
-    #[arg(long, value_name = "NAME")]
-    channel: Vec<String>,
-
-    /// For SSIM, FLIP and the pictures: what linear light is multiplied by before a screen shows it; 1 is white
-    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
-    exposure: f64,
-
-    /// For FLIP: pixels per degree that the observer sees, 1 to 1000 [default: 67.02, from 0.7 m in front of a screen
-    /// 0.7 m wide with 3840 pixels across]
-    #[arg(long, value_name = "N", value_parser = ppd)]
-    ppd: Option<f64>,
-
-    /// The difference at the ends of the false colors [default: what one in a hundred of the pixels that differ
-    /// exceeds]
-    #[arg(long, value_name = "X", value_parser = number::positive)]
-    scale: Option<f64>,
-
-    /// The most that any channel's root mean square difference may be
-    #[arg(long, value_name = "X", value_parser = number::not_negative)]
-    max_rmse: Option<f64>,
-
-    /// The most that any sample may differ by
-    #[arg(long, value_name = "X", value_parser = number::not_negative)]
-    max_error: Option<f64>,
-
-    /// The most that FLIP may be in the mean
-    #[arg(long, value_name = "X", value_parser = number::not_negative)]
-    max_flip: Option<f64>,
-
-    /// The least that SSIM may be
-    #[arg(long, value_name = "X", value_parser = number::finite)]
-    min_ssim: Option<f64>,
+    #[command(flatten)]
+    options: DifferenceOptions,
 
     /// Write maps, page and tables to this folder [default: write nothing]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-}
-
-fn ppd(text: &str) -> Result<f64, String> {
-    let number = number::finite(text)?;
-    let fits = (MIN_PPD..=MAX_PPD).contains(&number);
-    if fits { Ok(number) } else { Err(format!("expected {MIN_PPD} to {MAX_PPD} pixels per degree, found `{text}`")) }
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
@@ -93,12 +54,8 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
 impl StudyArgs for Args {
     type Study = PictureDifference;
 
-    fn folder(&self) -> Option<&Path> {
-        self.out.as_deref()
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        vec![&self.first, &self.second]
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(self.out.as_deref(), None, vec![&self.first, &self.second])
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
@@ -113,19 +70,7 @@ impl StudyArgs for Args {
             Ok(PictureInput { name: path.display().to_string(), picture: file.decode()? })
         };
         let pictures = [read(&self.first, &files[0])?, read(&self.second, &files[1])?];
-        let bounds =
-            DifferenceBounds { rmse: self.max_rmse, maximum: self.max_error, flip: self.max_flip, ssim: self.min_ssim };
-        let ppd = self.ppd.unwrap_or(DEFAULT_PPD);
-        let (exposure, scale) = (self.exposure, self.scale);
-        Ok(PictureDifference {
-            pictures,
-            channels: self.channel.clone(),
-            exposure,
-            ppd,
-            scale,
-            bounds,
-            maps: self.out.is_some(),
-        })
+        Ok(PictureDifference { pictures, options: self.options.clone(), maps: self.out.is_some() })
     }
 }
 

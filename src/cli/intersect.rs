@@ -19,6 +19,7 @@ use crate::geom::vector::wide;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::io::atomic::write_file;
 use crate::io::rays::{load_rays, write_hits};
+use crate::options::sides;
 use crate::ray_engine::Crossbar;
 use crate::ray_engine::engine::EngineCounts;
 use crate::ray_engine::reference::intersect as crossing;
@@ -58,7 +59,7 @@ pub(super) struct Args {
     rays: PathBuf,
 
     /// Which faces can be hit
-    #[arg(long, default_value = "front", value_parser = view::sides())]
+    #[arg(long, default_value = "front", value_parser = sides())]
     sides: Sides,
 
     /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]

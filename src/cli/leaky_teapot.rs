@@ -1,7 +1,7 @@
 //! `crossbar leaky-teapot`: the main job.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use miette::IntoDiagnostic as _;
 use refsim::num::Format;
@@ -11,16 +11,15 @@ use super::memory::MemoryNeed;
 use super::model_name;
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
-use super::study::StudyArgs;
+use super::study::{StudyArgs, StudyFiles};
 use super::{Problem, view};
-use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::io::load_rays;
 use crate::options::Size;
 use crate::ray_engine::RayBatch;
 use crate::scene::Camera;
 use crate::study::configuration::Configuration;
-use crate::study::leaky_teapot::Parameters;
+use crate::study::leaky_teapot::{LeakyTeapotOptions, Parameters};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,21 +79,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR", default_value = "out/leaky-teapot")]
     out: PathBuf,
 
-    /// Rays aimed at each edge that two triangles share, for the second table; 0 leaves the table out
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
-    rays_per_edge: u32,
-
-    /// Seed of the points on the edges
-    #[arg(long, value_name = "SEED", default_value_t = 1)]
-    seed: u64,
-
-    /// Which faces can be hit
-    #[arg(long, default_value = "front", value_parser = view::sides())]
-    sides: Sides,
-
-    /// Every ray against every triangle; without it, buckets of 32 x 32 rays meet the triangles near them
-    #[arg(long)]
-    brute_force: bool,
+    #[command(flatten)]
+    options: LeakyTeapotOptions,
 
     /// Which executor computes; the bits are the same
     #[arg(long, value_enum, default_value = "batch")]
@@ -108,17 +94,9 @@ impl StudyArgs for Args {
     type Study = Parameters;
     const QUICKER: &'static str = "a smaller `--size` or `--tessellation`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn part(&self) -> Option<PartArgs> {
-        Some(self.part)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
+    fn files(&self) -> StudyFiles<'_> {
         let model = self.mesh.as_deref().map(model_name::named_file).unwrap_or_default();
-        model.into_iter().chain(self.rays.as_deref()).collect()
+        StudyFiles::new(Some(&self.out), Some(self.part), model.into_iter().chain(self.rays.as_deref()).collect())
     }
 
     /// Of the teapot; what models and lists take is known when they are read.
@@ -154,12 +132,9 @@ impl StudyArgs for Args {
             mesh,
             view,
             listed,
-            sides: self.sides,
             configurations: configurations(self)?,
-            rays_per_edge: self.rays_per_edge,
-            seed: self.seed,
             executor: self.executor.open(&self.gpu)?,
-            all_pairs: self.brute_force,
+            options: self.options,
         })
     }
 }
@@ -173,7 +148,7 @@ impl Args {
         const PER_AIMED_RAY: u64 = 350;
         let rows = configurations(self)?.len() as u64;
         // Two triangles share an edge, and as many rays as three edges have go to corners at most.
-        let aimed = (triangles * 3 / 2).saturating_mul(u64::from(self.rays_per_edge) + 1) * PER_AIMED_RAY;
+        let aimed = (triangles * 3 / 2).saturating_mul(u64::from(self.options.rays_per_edge) + 1) * PER_AIMED_RAY;
         let what = match self.rays {
             Some(_) => format!("a study of {rays} rays in {rows} rows"),
             None => format!("a study of {} pixels in {rows} rows", self.size),

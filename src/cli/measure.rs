@@ -1,9 +1,9 @@
 //! `crossbar measure`: what a card drew, against every setting of a device's switches.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::memory::MemoryNeed;
-use super::study::StudyArgs;
+use super::study::{StudyArgs, StudyFiles};
 use super::switch;
 use crate::study::measure::{Measure, load_measurement};
 
@@ -41,12 +41,8 @@ impl StudyArgs for Args {
     type Study = Measure;
     const QUICKER: &'static str = "`--switch NAME=VALUE` for what is known";
 
-    fn folder(&self) -> Option<&Path> {
-        None
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        vec![&self.file]
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(None, None, vec![&self.file])
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

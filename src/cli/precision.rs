@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::memory::MemoryNeed;
 use super::part::PartArgs;
-use super::study::StudyArgs;
+use super::study::{StudyArgs, StudyFiles};
 use super::{given, run, switch};
 use crate::case::{Overrides, Setup};
 use crate::options::one_of::{OneOf, one_of};
@@ -92,17 +92,10 @@ impl StudyArgs for Args {
     type Study = Precision;
     const QUICKER: &'static str = "`--family`, a smaller `--budget` or smaller targets";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn part(&self) -> Option<PartArgs> {
-        Some(self.part)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
+    fn files(&self) -> StudyFiles<'_> {
         let case = Some(&self.case).filter(|_| self.system().is_none());
-        case.into_iter().chain(&self.held_back).chain(&self.costs).map(PathBuf::as_path).collect()
+        let inputs = case.into_iter().chain(&self.held_back).chain(&self.costs).map(PathBuf::as_path).collect();
+        StudyFiles::new(Some(&self.out), Some(self.part), inputs)
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

@@ -1,13 +1,13 @@
 //! `crossbar radiosity`: matrix radiosity on a card and on the host, side by side.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::card::CardArgs;
 use super::given;
 use super::memory::{self, MemoryNeed};
 use super::part::PartArgs;
 use super::scene_name::{self, EyeArgs, Viewpoint};
-use super::study::StudyArgs;
+use super::study::{StudyArgs, StudyFiles};
 use crate::atlas::require_side;
 use crate::options::Size;
 use crate::radiosity::Patches;
@@ -72,16 +72,8 @@ impl StudyArgs for Args {
     type Study = Parameters;
     const QUICKER: &'static str = "fewer `--patches`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn part(&self) -> Option<PartArgs> {
-        Some(self.part)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        scene_name::named_file(&self.scene)
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(Some(&self.out), Some(self.part), scene_name::named_file(&self.scene))
     }
 
     /// By the number of patches that is asked for; faces and parts of sides may make more.

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use std::time::Instant;
 
 use super::memory::MemoryNeed;
-use super::study::{self, StudyArgs};
+use super::study::{self, StudyArgs, StudyFiles};
 use super::version::{self, COMMIT};
 use super::{CommandLine, Out, Problem, ProgressBar};
 use crate::io::atomic::{FileSet, write_file};
@@ -86,12 +86,8 @@ impl StudyArgs for Args {
     type Study = Parameters;
     const QUICKER: &'static str = "the names of single entries (`crossbar reproduce --list`)";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        Vec::new()
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(Some(&self.out), None, Vec::new())
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

@@ -24,16 +24,8 @@ pub(super) trait StudyArgs {
     /// Options that make it quicker, said if it will take long; empty if there are none.
     const QUICKER: &'static str = "";
 
-    /// Where its files go; `None` if there are to be none.
-    fn folder(&self) -> Option<&Path>;
-
-    /// Its `--part`, if its work can be split.
-    fn part(&self) -> Option<PartArgs> {
-        None
-    }
-
-    /// The files that it reads.
-    fn inputs(&self) -> Vec<&Path>;
+    /// The files that it writes and reads.
+    fn files(&self) -> StudyFiles<'_>;
 
     /// The memory that it takes at most, by the options alone; `None` if that is little.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>>;
@@ -47,6 +39,23 @@ pub(super) trait StudyArgs {
     }
 }
 
+/// Files of a study's command.
+pub(super) struct StudyFiles<'a> {
+    /// Where its files go; `None` if there are to be none.
+    folder: Option<&'a Path>,
+    /// Its `--part`, if its work can be split.
+    part: Option<PartArgs>,
+    /// The files that it reads.
+    inputs: Vec<&'a Path>,
+}
+
+impl<'a> StudyFiles<'a> {
+    /// A folder for output, `--part` of commands that have it, and the files that are read.
+    pub(super) fn new(folder: Option<&'a Path>, part: Option<PartArgs>, inputs: Vec<&'a Path>) -> Self {
+        Self { folder, part, inputs }
+    }
+}
+
 /// Runs a study; `command_line` is what its findings come from.
 pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(need) = args.memory()? {
@@ -56,12 +65,13 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut 
     if let Some(need) = args.memory_of(&study) {
         need.require()?;
     }
-    let split = match (args.part(), args.folder()) {
+    let StudyFiles { folder: out_folder, part, inputs } = args.files();
+    let split = match (part, out_folder) {
         (Some(part), Some(out)) => part.split(command_line, out)?,
         _ => SplitRun::Whole,
     };
     // Before the long work, so that a folder that cannot be written is found out at once.
-    let folder = args.folder().filter(|_| !split.is_part());
+    let folder = out_folder.filter(|_| !split.is_part());
     let folder = folder.map(FileSet::new).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
     let mut found = match study.findings_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
@@ -69,17 +79,17 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut 
         Computed::Part(written) => return show(&part::findings(&written), out),
     };
     drop(bar);
-    let provenance = study.provenance(with_inputs(Provenance::new(&command_line.text), &args.inputs()));
+    let provenance = study.provenance(with_inputs(Provenance::new(&command_line.text), &inputs));
     if let Some(folder) = folder {
         view::write_folder(folder, &found.take_files(&provenance)?)?;
     }
     if out.json() {
         let mut document = found.document(&provenance);
-        document["out"] = json!(args.folder());
+        document["out"] = json!(out_folder);
         out.document(&document)?;
         return Ok(found.verdict());
     }
-    print(&found, args.folder(), out)?;
+    print(&found, out_folder, out)?;
     Ok(found.verdict())
 }
 

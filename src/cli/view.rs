@@ -12,15 +12,8 @@ use crate::geom::{Mesh, Ray};
 use crate::io::PictureFile;
 use crate::io::atomic::FileSet;
 use crate::options::Size;
-use crate::options::one_of::{OneOf, one_of};
 use crate::picture::Picture;
 use crate::scene::Camera;
-
-/// The sides that can be hit, for `--sides`.
-pub(super) fn sides() -> OneOf<Sides> {
-    let front = ("front", "The side from which the corners run counter-clockwise", Sides::Front);
-    one_of([front, ("both", "Both sides", Sides::Both)])
-}
 
 /// The card where none is named.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";

@@ -60,7 +60,7 @@ const CROSSBAR: Law = (
         ("card", "geom scene"),
         ("atlas", "elementary geom"),
         ("report", "elementary picture"),
-        ("options", "io"),
+        ("options", "geom io"),
         ("split", "io report"),
         ("shader", "io report"),
         ("compare", ""),

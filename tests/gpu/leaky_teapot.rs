@@ -13,7 +13,7 @@ pub(crate) fn the_same_study(gpu: &Arc<Gpu>) {
     // A software driver takes minutes for the whole small study.
     let mut small = parameters(16, 1, formats(&["fp16", "fp24", "fp32"]));
     small.configurations.push(Configuration::device("r200").expect("a card"));
-    small.rays_per_edge = 0;
+    small.options.rays_per_edge = 0;
     if is_full() {
         small = small_study().0;
     }

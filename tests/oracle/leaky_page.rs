@@ -136,7 +136,7 @@ fn the_pages_say_what_the_program_prints() {
         configurations.retain(|row| !said.contains(&switch(row)));
     }
     let mut parameters = parameters(512, 8, configurations);
-    parameters.rays_per_edge = 4;
+    parameters.options.rays_per_edge = 4;
     let mut outcome = study(&parameters);
     let (first, others) = outcome.rows.split_first().expect("a row");
     let same: Vec<String> =

@@ -55,9 +55,9 @@ fn cards_of_2003_trace_the_teapot_as_their_formats_do() {
         ["r300", "r350", "nv30", "nv35"].map(|c| Configuration::device(c).expect("a card")).to_vec();
     configurations.push(Configuration::device_in_format("nv35", "fp16").expect("a card"));
     let mut parameters = parameters(96, 6, configurations);
-    parameters.rays_per_edge = 0;
+    parameters.options.rays_per_edge = 0;
     for sides in [Sides::Front, Sides::Both] {
-        parameters.sides = sides;
+        parameters.options.sides = sides;
         let outcome = study(&parameters);
         let wrong: Vec<u64> =
             outcome.rows.iter().map(|r| r.tally.leaks + r.tally.false_hits + r.tally.wrong_triangle).collect();
@@ -73,9 +73,9 @@ fn a_radeon_8500_sees_both_faces() {
     let mut card = Configuration::device("r200").expect("a card");
     card.profile.set_switch("rounding", "rne").expect("a switch of r200");
     let mut parameters = parameters(96, 6, vec![card]);
-    parameters.rays_per_edge = 0;
+    parameters.options.rays_per_edge = 0;
     let front = study(&parameters).rows[0].tally;
-    parameters.sides = Sides::Both;
+    parameters.options.sides = Sides::Both;
     let both = study(&parameters).rows[0].tally;
     assert!(both.surface >= front.surface && both.leaks * 50 < both.surface, "both faces: {both:?}");
     assert!(both.wrong_triangle * 10 < both.surface, "mostly the right triangles: {both:?}");
@@ -87,9 +87,9 @@ fn buckets_lose_nothing_that_the_whole_crossbar_finds() {
     configurations.retain(|c| !c.label.contains("bits") && !c.label.contains("iterator"));
     configurations.extend(formats(&["fp16", "fp32"]));
     let mut parameters = parameters(64, 3, configurations);
-    parameters.rays_per_edge = 0;
+    parameters.options.rays_per_edge = 0;
     let buckets = digest(&study(&parameters));
-    parameters.all_pairs = true;
+    parameters.options.all_pairs = true;
     assert_eq!(buckets, digest(&study(&parameters)), "the same triangles and the same t, to the bit");
 }
 

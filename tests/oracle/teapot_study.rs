@@ -5,7 +5,7 @@ use crossbar::geom::teapot::teapot;
 use crossbar::ray_engine::RayBatch;
 use crossbar::scene::Camera;
 use crossbar::study::configuration::Configuration;
-use crossbar::study::leaky_teapot::{Parameters, TeapotOutcome, run};
+use crossbar::study::leaky_teapot::{LeakyTeapotOptions, Parameters, TeapotOutcome, run};
 use refsim::machine::ExecutorKind;
 
 pub(crate) fn parameters(size: u32, rate: u32, configurations: Vec<Configuration>) -> Parameters {
@@ -13,14 +13,11 @@ pub(crate) fn parameters(size: u32, rate: u32, configurations: Vec<Configuration
     Parameters {
         mesh: teapot(rate).expect("a teapot"),
         view: RayBatch::new(size, size, camera.rays()).expect("a square of rays"),
-        sides: Sides::Front,
         configurations,
         model: None,
         listed: None,
-        rays_per_edge: 2,
-        seed: 1,
         executor: ExecutorKind::Batch.into(),
-        all_pairs: false,
+        options: LeakyTeapotOptions { rays_per_edge: 2, seed: 1, sides: Sides::Front, all_pairs: false },
     }
 }
 

@@ -1,6 +1,6 @@
 //! `crossbar all-frequency card`: coded transfer on an emulated card.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 use refsim::device::Profile;
@@ -10,7 +10,7 @@ use super::file::LitArgs;
 use crate::all_frequency::kernels::MapFilter;
 use crate::all_frequency::on_card::{ProductOptions, ProductPlace, VertexColors};
 use crate::cli::memory::MemoryNeed;
-use crate::cli::study::StudyArgs;
+use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::{Problem, given};
 use crate::options::one_of::variants;
@@ -98,12 +98,8 @@ impl StudyArgs for Args {
     type Study = AllFrequencyOnCard;
     const QUICKER: &'static str = "a smaller `--size`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        self.lit.inputs()
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(Some(&self.out), None, self.lit.inputs())
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

@@ -1,6 +1,6 @@
 //! `crossbar all-frequency factor`: reflectance as a sum of products.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ArgGroup;
 
@@ -10,7 +10,7 @@ use crate::all_frequency::factor::{
     load_product_table,
 };
 use crate::cli::memory::MemoryNeed;
-use crate::cli::study::StudyArgs;
+use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::{Problem, given};
 use crate::options::number;
 use crate::options::one_of::variants;
@@ -190,12 +190,9 @@ impl StudyArgs for Args {
     type Study = BrdfFactors;
     const QUICKER: &'static str = "fewer `--terms`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        [&self.merl, &self.table].into_iter().flatten().map(PathBuf::as_path).collect()
+    fn files(&self) -> StudyFiles<'_> {
+        let inputs = [&self.merl, &self.table].into_iter().flatten().map(PathBuf::as_path).collect();
+        StudyFiles::new(Some(&self.out), None, inputs)
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

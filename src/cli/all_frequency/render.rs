@@ -1,13 +1,13 @@
 //! `crossbar all-frequency render`: pictures of a model from its transfer.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::file::{FileOfModel, LitArgs, color};
 use crate::cli::memory::MemoryNeed;
-use crate::cli::study::StudyArgs;
-use crate::cli::transfer::picture::{FramesArgs, ValuesArgs};
+use crate::cli::study::{StudyArgs, StudyFiles};
+use crate::cli::transfer::picture::ValuesArgs;
 use crate::cli::view;
-use crate::study::prt::{AllFrequencyRendering, RenderedGround};
+use crate::study::prt::{AllFrequencyRendering, RenderedGround, TurnedFrames};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -36,7 +36,7 @@ pub(super) struct Args {
     ground_model: Option<PathBuf>,
 
     #[command(flatten)]
-    frames: FramesArgs,
+    frames: TurnedFrames,
 
     #[command(flatten)]
     values: ValuesArgs,
@@ -50,17 +50,13 @@ impl StudyArgs for Args {
     type Study = AllFrequencyRendering;
     const QUICKER: &'static str = "a smaller `--size`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
+    fn files(&self) -> StudyFiles<'_> {
         let ground = [&self.ground, &self.ground_model].into_iter().flatten().map(PathBuf::as_path);
-        self.lit.inputs().into_iter().chain(ground).collect()
+        StudyFiles::new(Some(&self.out), None, self.lit.inputs().into_iter().chain(ground).collect())
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.frames.memory(&self.lit.picture)))
+        Ok(Some(self.lit.picture.memory(self.frames)))
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
@@ -75,6 +71,6 @@ impl StudyArgs for Args {
         });
         let ground = ground.transpose()?;
         let values = self.values.of(&self.lit.picture.model, &lit.vertices);
-        Ok(AllFrequencyRendering { lit, ground, frames: self.frames.turned(), values })
+        Ok(AllFrequencyRendering { lit, ground, frames: self.frames, values })
     }
 }

@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::file::load;
+use super::file::{histogram, load, value_counts, values_document};
 use crate::bi_scale::bicluster::{BiclusterError, BiclusterOptions, BiclusterResidual, Biclustering, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
-use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::io::write_file;
 use crate::options::number;
@@ -32,9 +31,6 @@ Examples:
 
 The sum of the biclusters equals the matrix bit for bit, whatever its numbers are. Products in single precision, on \
 host and cards, and in double precision round values that they do not hold; the summary counts these.";
-
-/// Values that a table has room for.
-const VALUES: usize = 17;
 
 /// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
 #[derive(Debug, clap::Args)]
@@ -168,15 +164,6 @@ impl Summary<'_> {
         ]
     }
 
-    /// How often each value stands in the matrix.
-    fn values(&self) -> BTreeMap<i32, usize> {
-        let mut counts = BTreeMap::new();
-        for entry in (0..self.matrix.rows()).flat_map(|row| self.matrix.row(row)) {
-            *counts.entry(entry.value).or_insert(0) += 1;
-        }
-        counts
-    }
-
     /// Columns of biclusters whose value products in single precision round; those beyond its range; those whose value
     /// products in double precision round.
     fn rounded(&self) -> [usize; 3] {
@@ -193,17 +180,16 @@ impl Summary<'_> {
     }
 
     fn findings(&self) -> Findings {
-        let value = |(key, count)| json!({ "value": self.matrix.value(key), "count": count });
-        let values: Vec<Value> = self.values().into_iter().map(value).collect();
+        let values = value_counts(self.matrix);
         let rounded = self.rounded();
         let [singles, beyond_singles, doubles] = rounded;
         let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
         let mut found = Findings::new("Biclusters");
         found.table(self.table(rounded));
-        found.table(self.histogram());
+        found.table(histogram(&values));
         found.fields(json!({
             "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
-            "values": values, "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
+            "values": values_document(&values), "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
             "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
             "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
             "unit_bits": self.matrix.values().fraction_bits(), "distinct_values": self.matrix.values().table_len(),
@@ -246,19 +232,6 @@ impl Summary<'_> {
         }
         table.push(["seed".into(), self.seed.into()]);
         table.push(["seconds".into(), Cell::measured(self.seconds)]);
-        table
-    }
-
-    fn histogram(&self) -> Table {
-        let mut table = Table::new("Values", &["value", "count"]);
-        let values = self.values();
-        for (&value, &count) in values.iter().take(VALUES) {
-            table.push([Cell::measured(self.matrix.value(value)), count.into()]);
-        }
-        if let Some(more) = values.len().checked_sub(VALUES).filter(|&more| more > 0) {
-            let count: usize = values.values().skip(VALUES).sum();
-            table.push([format!("{} more", counted(more)).into(), count.into()]);
-        }
         table
     }
 }

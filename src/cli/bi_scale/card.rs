@@ -1,6 +1,6 @@
 //! `crossbar bi-scale card`: biclusters and bidirectional textures on an emulated card.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use refsim::texture::TexelFormat;
 
@@ -9,7 +9,7 @@ use super::textures::TransferOfModel;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, corner_coordinates};
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
-use crate::cli::study::StudyArgs;
+use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::transfer::picture::PictureArgs;
@@ -59,12 +59,8 @@ impl StudyArgs for Args {
     type Study = BiScaleOnCard;
     const QUICKER: &'static str = "a smaller `--size`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        self.textures.inputs(&self.file, &self.picture, &self.light)
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(Some(&self.out), None, self.textures.inputs(&self.file, &self.picture, &self.light))
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

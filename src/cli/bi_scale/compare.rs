@@ -38,6 +38,9 @@ Examples:
 Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
 docs/papers/bi_scale.md says how each way is made.";
 
+/// Order of spherical harmonics, the paper's.
+const HARMONICS_ORDER: usize = 5;
+
 /// Compare biclusters with other ways to store transfer: bytes, and the error of the light that arrives
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
@@ -81,14 +84,6 @@ pub(super) struct Args {
     /// By what they are chosen
     #[arg(long, value_name = "BY", default_value = "area", value_parser = variants::<CoefficientPriority>())]
     priority: CoefficientPriority,
-
-    /// Storage of coefficients, beside two bytes for their numbers
-    #[arg(long, value_name = "AS", default_value = "byte", value_parser = variants::<CoefficientStorage>())]
-    wavelet_format: CoefficientStorage,
-
-    /// Order of spherical harmonics
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
-    order: u8,
 
     /// Write the squared error of each vertex under each way to this table
     #[arg(long, value_name = "E.csv")]
@@ -140,7 +135,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         transfer: transfer.transpose().map_err(|error| refused(&error))?,
         clusters: args.clusters(),
         wavelets: args.wavelets(),
-        order: args.order.into(),
+        order: HARMONICS_ORDER,
     };
     let mut show = |what: &str, done: u64, of: u64| bar.show(what.to_owned(), done, of);
     let mut visit = |way: &str, stored: &dyn StoredTransfer| {
@@ -185,7 +180,7 @@ impl Args {
     }
 
     fn wavelets(&self) -> HaarRowOptions {
-        HaarRowOptions { keep: self.wavelets as usize, priority: self.priority, storage: self.wavelet_format }
+        HaarRowOptions { keep: self.wavelets as usize, priority: self.priority, storage: CoefficientStorage::default() }
     }
 }
 

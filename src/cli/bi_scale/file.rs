@@ -1,8 +1,10 @@
 //! Input and output of the verbs of `crossbar bi-scale`: matrices, biclusters, models.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::DMat3;
+use serde_json::{Value, json};
 
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, load_bi_scale};
@@ -10,9 +12,11 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::model::{load as load_model, vertices};
+use crate::cli::words::counted;
 use crate::cli::{MemoryError, Problem, memory, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::options::number;
+use crate::report::{Cell, Table};
 use crate::study::prt::creased;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::{CubeLight, Decimation};
@@ -96,4 +100,32 @@ pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) ->
         write_matrix_market(size, comment, entries, out)
     })
     .map_err(Problem::from)
+}
+
+/// How often each value stands in a matrix.
+pub(super) fn value_counts(matrix: &SparseMatrix) -> Vec<(f64, u64)> {
+    let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
+    for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {
+        *counts.entry(entry.value).or_insert(0) += 1;
+    }
+    counts.into_iter().map(|(value, count)| (matrix.value(value), count)).collect()
+}
+
+/// Values with their counts, as many as a table has room for.
+pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
+    const MOST: usize = 17;
+    let mut table = Table::new("Values", &["value", "count"]);
+    for &(value, count) in values.iter().take(MOST) {
+        table.push([Cell::measured(value), count.into()]);
+    }
+    if let Some(more @ [_, ..]) = values.get(MOST..) {
+        let count: u64 = more.iter().map(|(_, count)| count).sum();
+        table.push([format!("{} more", counted(more.len())).into(), count.into()]);
+    }
+    table
+}
+
+/// The same for machines.
+pub(super) fn values_document(values: &[(f64, u64)]) -> Vec<Value> {
+    values.iter().map(|(value, count)| json!({ "value": value, "count": count })).collect()
 }

@@ -1,15 +1,15 @@
 //! `crossbar bi-scale render`: pictures of a model from its transfer and bidirectional textures.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::texture_args::TextureArgs;
 use super::textures::TransferOfModel;
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
-use crate::cli::study::StudyArgs;
+use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::transfer::picture::{FramesArgs, PictureArgs, ValuesArgs};
-use crate::study::prt::{BiScaleRendering, TexturedSurface};
+use crate::cli::transfer::picture::{PictureArgs, ValuesArgs};
+use crate::study::prt::{BiScaleRendering, TexturedSurface, TurnedFrames};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,7 +40,7 @@ pub(super) struct Args {
     light: LightArgs,
 
     #[command(flatten)]
-    frames: FramesArgs,
+    frames: TurnedFrames,
 
     #[command(flatten)]
     values: ValuesArgs,
@@ -57,16 +57,12 @@ impl StudyArgs for Args {
     type Study = BiScaleRendering;
     const QUICKER: &'static str = "a smaller `--size`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        self.textures.inputs(&self.file, &self.picture, &self.light)
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(Some(&self.out), None, self.textures.inputs(&self.file, &self.picture, &self.light))
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.textures.memory(self.frames.memory(&self.picture))))
+        Ok(Some(self.textures.memory(self.picture.memory(self.frames))))
     }
 
     fn study(&self) -> miette::Result<BiScaleRendering> {
@@ -83,7 +79,7 @@ impl StudyArgs for Args {
             surface,
             file,
             light: self.light.distant()?,
-            frames: self.frames.turned(),
+            frames: self.frames,
             reference: self.reference,
             values,
         })

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::file::{load, vertices_of, write_matrix};
+use super::file::{histogram, load, value_counts, values_document, vertices_of, write_matrix};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
@@ -17,9 +17,6 @@ use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::grid::{LIGHT_SIDE, face_row_column};
-
-/// Values that a table has room for.
-const VALUES: usize = 17;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -98,24 +95,19 @@ fn rows(file: &BiScaleFile) -> usize {
 
 /// How often each value stands in a matrix, or in the columns of biclusters times their rows.
 fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
-    let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
     match (&file.matrix, &file.biclusters) {
-        (Some(matrix), _) => {
-            for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {
-                *counts.entry(entry.value).or_insert(0) += 1;
-            }
-        }
+        (Some(matrix), _) => value_counts(matrix),
         (None, Some(biclusters)) => {
+            let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
             for number in 0..biclusters.len() {
                 for entry in biclusters.columns_of(number) {
                     *counts.entry(entry.value).or_insert(0) += biclusters.rows_of(number).len() as u64;
                 }
             }
+            counts.into_iter().map(|(value, count)| (biclusters.value(value), count)).collect()
         }
-        (None, None) => {}
+        (None, None) => Vec::new(),
     }
-    let Some(values) = file.values() else { return Vec::new() };
-    counts.into_iter().map(|(value, count)| (values.value(value), count)).collect()
 }
 
 /// Biclusters by how many rows they have: up to 1, 3, 7, 15 and so on; with how many rows and columns they have
@@ -149,16 +141,7 @@ fn all(file: &BiScaleFile, rows: usize, local: usize, found: &mut Findings) {
     if let Some(values) = file.values() {
         found.introduce(format!("values    {values}"));
     }
-    let mut table = Table::new("Values", &["value", "count"]);
-    let values = values(file);
-    for &(value, count) in values.iter().take(VALUES) {
-        table.push([Cell::measured(value), count.into()]);
-    }
-    if values.len() > VALUES {
-        let count: u64 = values[VALUES..].iter().map(|(_, count)| count).sum();
-        table.push([format!("{} more", counted(values.len() - VALUES)).into(), count.into()]);
-    }
-    found.table(table);
+    found.table(histogram(&values(file)));
     if let Some(biclusters) = &file.biclusters {
         let mut table =
             Table::new("Biclusters", &["rows up to", "biclusters", "their rows", "their columns", "operations"]);
@@ -173,8 +156,7 @@ fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
                 "tangents": meaning.mesh.tangents.to_string(), "horizon": meaning.horizon.to_string(),
                 "local_directions": local })
     });
-    let values: Vec<Value> =
-        values(file).into_iter().map(|(value, count)| json!({ "value": value, "count": count })).collect();
+    let values = values_document(&values(file));
     let biclusters = file.biclusters.as_ref().map(|biclusters| {
         let sizes: Vec<Value> = sizes(biclusters)
             .into_iter()

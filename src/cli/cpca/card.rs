@@ -1,12 +1,12 @@
 //! `crossbar cpca card`: compressed transfer on an emulated card.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use refsim::texture::TexelFormat;
 
 use super::file::{FileOfModel, clusters_of, light_order};
 use crate::cli::memory::MemoryNeed;
-use crate::cli::study::StudyArgs;
+use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::HarmonicLightArgs;
 use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::transfer::picture::PictureArgs;
@@ -79,12 +79,10 @@ impl StudyArgs for Args {
     type Study = OnCard;
     const QUICKER: &'static str = "a smaller `--size`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
-        [Some(self.file.as_path()), self.light.file()].into_iter().flatten().chain(self.picture.inputs()).collect()
+    fn files(&self) -> StudyFiles<'_> {
+        let inputs =
+            [Some(self.file.as_path()), self.light.file()].into_iter().flatten().chain(self.picture.inputs()).collect();
+        StudyFiles::new(Some(&self.out), None, inputs)
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

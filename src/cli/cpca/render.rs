@@ -1,14 +1,14 @@
 //! `crossbar cpca render`: pictures of a model from its transfer.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::file::{FileOfModel, light_order};
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
-use crate::cli::study::StudyArgs;
+use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::HarmonicLightArgs;
-use crate::cli::transfer::picture::{FramesArgs, PictureArgs, ValuesArgs};
-use crate::study::prt::Rendering;
+use crate::cli::transfer::picture::{PictureArgs, ValuesArgs};
+use crate::study::prt::{Rendering, TurnedFrames};
 use crate::transfer::file::{PrtFile, load_prt};
 
 const EXAMPLES: &str = "\
@@ -38,7 +38,7 @@ pub(super) struct Args {
     light: HarmonicLightArgs,
 
     #[command(flatten)]
-    frames: FramesArgs,
+    frames: TurnedFrames,
 
     #[command(flatten)]
     values: ValuesArgs,
@@ -55,17 +55,13 @@ impl StudyArgs for Args {
     type Study = Rendering;
     const QUICKER: &'static str = "a smaller `--size`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
+    fn files(&self) -> StudyFiles<'_> {
         let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
-        files.into_iter().flatten().chain(self.picture.inputs()).collect()
+        StudyFiles::new(Some(&self.out), None, files.into_iter().flatten().chain(self.picture.inputs()).collect())
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.frames.memory(&self.picture)))
+        Ok(Some(self.picture.memory(self.frames)))
     }
 
     fn study(&self) -> miette::Result<Rendering> {
@@ -86,7 +82,7 @@ impl StudyArgs for Args {
         Ok(Rendering {
             view: self.picture.view(&model.mesh, self.light.name())?,
             light: self.light.of_order(light_order)?,
-            frames: self.frames.turned(),
+            frames: self.frames,
             values: self.values.of(&self.picture.model, &vertices),
             mesh: model.mesh,
             vertices,

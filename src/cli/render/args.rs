@@ -7,10 +7,10 @@ use clap::ValueEnum;
 use crate::cli::caster::CasterArg;
 use crate::cli::executor::{Decider, GpuArgs};
 use crate::cli::scene_name::EyeArgs;
-use crate::cli::{Problem, given, view};
+use crate::cli::{Problem, given};
 use crate::geom::exact::Sides;
-use crate::options::Size;
 use crate::options::number;
+use crate::options::{Size, sides};
 use crate::renderer::Lens;
 
 const EXAMPLES: &str = "\
@@ -46,7 +46,7 @@ pub(in crate::cli) struct Args {
     pub(super) eye: EyeArgs,
 
     /// Which faces can be hit
-    #[arg(long, default_value = "both", value_parser = view::sides())]
+    #[arg(long, default_value = "both", value_parser = sides())]
     pub(super) sides: Sides,
 
     /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]

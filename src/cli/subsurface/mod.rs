@@ -2,14 +2,14 @@
 
 mod light;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::card::CardArgs;
 use super::materials::published;
 use super::memory::{self, MemoryNeed};
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
-use super::study::StudyArgs;
+use super::study::{StudyArgs, StudyFiles};
 use super::{Problem, model_name};
 use crate::atlas::require_side;
 use crate::options::{Size, number};
@@ -100,20 +100,14 @@ impl StudyArgs for Args {
     type Study = Parameters;
     const QUICKER: &'static str = "a smaller `--atlas`, fewer `--links`, or `--all-pairs no`";
 
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.out)
-    }
-
-    fn part(&self) -> Option<PartArgs> {
-        Some(self.part)
-    }
-
-    fn inputs(&self) -> Vec<&Path> {
+    fn files(&self) -> StudyFiles<'_> {
         let lights = self.light.iter().filter_map(|light| match light {
             LightArg::Environment(light) => light.file(),
             LightArg::OfPass(_) => None,
         });
-        model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).chain(lights).collect()
+        let inputs =
+            model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).chain(lights).collect();
+        StudyFiles::new(Some(&self.out), Some(self.part), inputs)
     }
 
     /// Memory of the atlas, its links, the card's textures and the pictures of every way.

@@ -10,7 +10,7 @@ use crate::geom::Mesh;
 use crate::options::Size;
 use crate::options::number;
 use crate::options::one_of::variants;
-use crate::study::prt::{LitView, TurnedFrames, Turning, ValuesFormat, VertexValues};
+use crate::study::prt::{LitView, TurnedFrames, ValuesFormat, VertexValues};
 use crate::transfer::Vertices;
 
 /// A picture of a model.
@@ -45,6 +45,18 @@ impl PictureArgs {
         Ok(LitView { model: self.model.display().to_string(), light, camera, exposure: self.exposure })
     }
 
+    /// Memory of the picture and of frames.
+    pub(in crate::cli) fn memory(&self, frames: TurnedFrames) -> MemoryNeed {
+        const PER_PIXEL: u64 = 320;
+        const PER_PIXEL_AND_FRAME: u64 = 16;
+        let per_pixel = PER_PIXEL + PER_PIXEL_AND_FRAME * u64::from(frames.count);
+        MemoryNeed {
+            what: format!("{} pictures of {} pixels", 1 + frames.count, self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, per_pixel, 0),
+            help: "ask for a smaller `--size` or fewer `--frames`",
+        }
+    }
+
     /// Memory of pictures on an emulated card.
     pub(in crate::cli) fn memory_on_card(&self) -> MemoryNeed {
         const PER_PIXEL: u64 = 400;
@@ -68,36 +80,5 @@ impl ValuesArgs {
     /// The format and the names of a model's vertices, if their radiance is to be written.
     pub(in crate::cli) fn of(&self, model: &Path, vertices: &Vertices) -> Option<VertexValues> {
         Some(VertexValues { format: self.values?, numbers: VertexNames::new(model, vertices).numbers() })
-    }
-}
-
-/// Pictures in which something turns.
-#[derive(Debug, clap::Args)]
-pub(in crate::cli) struct FramesArgs {
-    /// Pictures with the light turned around z, or the camera carried around the model, in so many steps
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
-    frames: u32,
-
-    /// The object that --frames turns
-    #[arg(long, value_name = "WHAT", default_value = "light", requires = "frames", value_parser = variants::<Turning>())]
-    turn: Turning,
-}
-
-impl FramesArgs {
-    /// The pictures that are asked for.
-    pub(in crate::cli) fn turned(&self) -> TurnedFrames {
-        TurnedFrames { count: self.frames, turning: self.turn }
-    }
-
-    /// Memory of a picture and of these.
-    pub(in crate::cli) fn memory(&self, picture: &PictureArgs) -> MemoryNeed {
-        const PER_PIXEL: u64 = 320;
-        const PER_PIXEL_AND_FRAME: u64 = 16;
-        let per_pixel = PER_PIXEL + PER_PIXEL_AND_FRAME * u64::from(self.frames);
-        MemoryNeed {
-            what: format!("{} pictures of {} pixels", 1 + self.frames, picture.size),
-            bytes: memory::of_pixels(picture.size.width, picture.size.height, per_pixel, 0),
-            help: "ask for a smaller `--size` or fewer `--frames`",
-        }
     }
 }

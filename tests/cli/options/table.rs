@@ -345,7 +345,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--model=white-box --light=red-and-blue@0,1 --clusters=3@0,1 --vectors=1@0,1 \
                   --linear@0,1 --sample=40@0,1 --seed=2@0,1 --wavelets=5@0,1 --priority=magnitude@0,1 \
-                  --wavelet-format=single@0,1 --order=2@0,1 --csv=other.csv@0,1 --model-up=y --strict@2",
+                  --csv=other.csv@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[

@@ -12,7 +12,7 @@ use crossbar::report::{
 use crossbar::scene::Camera;
 use crossbar::study::Study as _;
 use crossbar::study::configuration::Configuration;
-use crossbar::study::leaky_teapot::{Parameters, PixelVerdict};
+use crossbar::study::leaky_teapot::{LeakyTeapotOptions, Parameters, PixelVerdict};
 use crossbar::study::reproduce;
 use refsim::machine::ExecutorKind;
 use strum::VariantArray as _;
@@ -183,14 +183,11 @@ fn every_wrong_pixel_is_shown() {
     let parameters = Parameters {
         mesh: teapot(6).expect("a teapot"),
         view: RayBatch::new(width, height, camera.rays()).expect("rays"),
-        sides: Sides::Front,
         configurations: vec![Configuration::device("r200").expect("a card")],
         model: None,
         listed: None,
-        rays_per_edge: 0,
-        seed: 1,
         executor: ExecutorKind::Batch.into(),
-        all_pairs: false,
+        options: LeakyTeapotOptions { rays_per_edge: 0, seed: 1, sides: Sides::Front, all_pairs: false },
     };
     let mut found = parameters.findings(&mut |_, _, _| ()).expect("the study runs");
     let files = found.take_files(&Provenance::new("crossbar leaky-teapot")).expect("files");

@@ -32,7 +32,7 @@ use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 
 pub use format_limits::FormatLimits;
-pub use outcome::{Parameters, Tally, TeapotOutcome, TeapotRow};
+pub use outcome::{LeakyTeapotOptions, Parameters, Tally, TeapotOutcome, TeapotRow};
 pub use pixel_verdict::PixelVerdict;
 
 library_errors! {
@@ -88,10 +88,10 @@ struct ConfigurationHits {
 
 /// Rays that are aimed at edges and at vertices; none if the rays have no common origin or none are asked for.
 fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
-    let eye = parameters.view.common_origin().filter(|_| parameters.rays_per_edge > 0);
+    let eye = parameters.view.common_origin().filter(|_| parameters.options.rays_per_edge > 0);
     let rays = |aimed: Vec<Aimed>| aimed.into_iter().map(|aimed| aimed.ray).collect();
-    let (mesh, count) = (&parameters.mesh, parameters.rays_per_edge);
-    let edges = eye.map(|eye| rays(aimed_at_edges(mesh, eye, count, parameters.seed)));
+    let (mesh, count) = (&parameters.mesh, parameters.options.rays_per_edge);
+    let edges = eye.map(|eye| rays(aimed_at_edges(mesh, eye, count, parameters.options.seed)));
     let vertices = eye.map(|eye| rays(aimed_at_vertices(mesh, eye)));
     [edges, vertices].map(Option::unwrap_or_default)
 }
@@ -102,7 +102,7 @@ fn hits(
     crossbar: &Crossbar,
     [edges, vertices]: [&[Ray]; 2],
 ) -> Result<ConfigurationHits, EngineError> {
-    let Parameters { mesh, sides, .. } = parameters;
+    let Parameters { mesh, options: LeakyTeapotOptions { sides, .. }, .. } = parameters;
     let list = |rays: &[Ray]| match rays {
         [] => Ok(Vec::new()),
         rays => crossbar.intersect_list(mesh, rays, *sides),
@@ -125,7 +125,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
 }
 
 fn crossbar(parameters: &Parameters, configuration: &Configuration) -> Crossbar {
-    Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.all_pairs)
+    Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.options.all_pairs)
 }
 
 /// The hits of a range of the configurations.
@@ -151,7 +151,7 @@ fn judged(
     found: Vec<ConfigurationHits>,
     progress: &mut ProgressFn<'_>,
 ) -> Result<TeapotOutcome, EngineError> {
-    let Parameters { mesh, sides, .. } = parameters;
+    let Parameters { mesh, options: LeakyTeapotOptions { sides, .. }, .. } = parameters;
     let (width, height) = (parameters.view.width(), parameters.view.height());
     let steps = parameters.configurations.len() as u64;
     progress("exact arithmetic", steps, steps + 1);
@@ -217,7 +217,7 @@ impl Study for Parameters {
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
-        provenance.seed = Some(self.seed);
+        provenance.seed = Some(self.options.seed);
         for configuration in &self.configurations {
             if !provenance.profiles.contains(&configuration.profile.name) {
                 provenance.profiles.push(configuration.profile.name.clone());

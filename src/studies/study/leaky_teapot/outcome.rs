@@ -7,6 +7,7 @@ use super::format_limits::FormatLimits;
 use crate::geom::classify::HitVerdict;
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
+use crate::options::sides;
 use crate::picture::RgbImage;
 use crate::ray_engine::RayBatch;
 use crate::study::configuration::Configuration;
@@ -23,17 +24,31 @@ pub struct Parameters {
     /// Number of rays, if they are a list instead of a view; the pictures show them row by row, and the rest of `view`
     /// is padding that is not traced.
     pub listed: Option<usize>,
-    /// Faces that can be hit.
-    pub sides: Sides,
     /// Configurations, one per row.
     pub configurations: Vec<Configuration>,
-    /// Rays aimed at every shared edge; 0 omits the second table.
-    pub rays_per_edge: u32,
-    /// Seed of the points on the edges.
-    pub seed: u64,
     /// Executor of the cards.
     pub executor: Executor,
-    /// `true` to test every ray against every triangle; otherwise against those near its bucket.
+    /// Options.
+    pub options: LeakyTeapotOptions,
+}
+
+/// Options of the study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::Args)]
+pub struct LeakyTeapotOptions {
+    /// Rays aimed at each edge that two triangles share, for the second table; 0 leaves the table out.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub rays_per_edge: u32,
+
+    /// Seed of the points on the edges.
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    pub seed: u64,
+
+    /// Which faces can be hit.
+    #[arg(long, default_value = "front", value_parser = sides())]
+    pub sides: Sides,
+
+    /// Every ray against every triangle; without it, buckets of 32 x 32 rays meet the triangles near them.
+    #[arg(long = "brute-force")]
     pub all_pairs: bool,
 }
 

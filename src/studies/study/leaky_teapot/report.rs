@@ -66,7 +66,7 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
 
 /// Returns `true` if rays were aimed at edges and vertices: there are some for each edge, and one eye.
 fn aimed(parameters: &Parameters) -> bool {
-    parameters.rays_per_edge > 0 && parameters.view.common_origin().is_some()
+    parameters.options.rays_per_edge > 0 && parameters.view.common_origin().is_some()
 }
 
 /// For each row the first one with bit-identical hits, and the same counts of aimed rays.

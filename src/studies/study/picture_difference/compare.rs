@@ -1,8 +1,9 @@
 //! Comparison of two pictures: samples, SSIM, FLIP, and bounds.
 
+use crate::options::number;
 use crate::picture::metrics::{
-    ChannelDifference, FlipMap, MismatchError, ScreenPicture, channels, flip, luminance_differences,
-    signed_differences, ssim,
+    ChannelDifference, DEFAULT_PPD, FlipMap, MAX_PPD, MIN_PPD, MismatchError, ScreenPicture, channels, flip,
+    luminance_differences, signed_differences, ssim,
 };
 use crate::picture::{Picture, PictureError};
 use crate::study::error::library_errors;
@@ -21,17 +22,60 @@ pub struct PictureInput {
     pub picture: Picture,
 }
 
-/// Bounds on the difference; without any, the pictures must be equal.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DifferenceBounds {
-    /// Maximum root mean square difference of a channel.
-    pub rmse: Option<f64>,
-    /// Maximum difference of a sample.
-    pub maximum: Option<f64>,
-    /// Maximum mean FLIP.
-    pub flip: Option<f64>,
-    /// Minimum structural similarity.
-    pub ssim: Option<f64>,
+/// Options of the comparison. Without bounds, the pictures must be equal.
+#[derive(Clone, Debug, clap::Args)]
+pub struct DifferenceOptions {
+    /// Compare only this channel; may be given several times [default: all, which both pictures must have]
+    #[arg(long = "channel", value_name = "NAME")]
+    pub channels: Vec<String>,
+
+    /// For SSIM, FLIP and the pictures: what linear light is multiplied by before a screen shows it; 1 is white.
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
+    pub exposure: f64,
+
+    /// For FLIP: pixels per degree that the observer sees, 1 to 1000 [default: 67.02, from 0.7 m in front of a screen
+    /// 0.7 m wide with 3840 pixels across]
+    #[arg(long, value_name = "N", value_parser = pixels_per_degree)]
+    pub ppd: Option<f64>,
+
+    /// The difference at the ends of the false colors [default: what one in a hundred of the pixels that differ
+    /// exceeds]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    pub scale: Option<f64>,
+
+    /// The most that any channel's root mean square difference may be.
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    pub max_rmse: Option<f64>,
+
+    /// The most that any sample may differ by.
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    pub max_error: Option<f64>,
+
+    /// The most that FLIP may be in the mean.
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    pub max_flip: Option<f64>,
+
+    /// The least that SSIM may be.
+    #[arg(long, value_name = "X", value_parser = number::finite)]
+    pub min_ssim: Option<f64>,
+}
+
+impl DifferenceOptions {
+    /// Pixels per degree of the observer.
+    pub fn pixels_per_degree(&self) -> f64 {
+        self.ppd.unwrap_or(DEFAULT_PPD)
+    }
+
+    /// Returns `true` if any bound is given.
+    pub fn is_bounded(&self) -> bool {
+        [self.max_rmse, self.max_error, self.max_flip, self.min_ssim].iter().any(Option::is_some)
+    }
+}
+
+fn pixels_per_degree(text: &str) -> Result<f64, String> {
+    let number = number::finite(text)?;
+    let fits = (MIN_PPD..=MAX_PPD).contains(&number);
+    if fits { Ok(number) } else { Err(format!("expected {MIN_PPD} to {MAX_PPD} pixels per degree, found `{text}`")) }
 }
 
 /// Two pictures, with the parameters of their comparison.
@@ -39,16 +83,8 @@ pub struct DifferenceBounds {
 pub struct PictureDifference {
     /// First and second picture; differences are second minus first.
     pub pictures: [PictureInput; 2],
-    /// Channels that are compared; all if empty.
-    pub channels: Vec<String>,
-    /// Factor of linear light before display encoding.
-    pub exposure: f64,
-    /// Pixels per degree of the observer.
-    pub ppd: f64,
-    /// Magnitude at the ends of the false-color scale; `None` for the 99th percentile of the pixels that differ.
-    pub scale: Option<f64>,
-    /// Bounds.
-    pub bounds: DifferenceBounds,
+    /// Options.
+    pub options: DifferenceOptions,
     /// `true` to add maps and a page.
     pub maps: bool,
 }
@@ -75,15 +111,17 @@ impl PictureDifference {
     pub(super) fn compare(&self, progress: &mut ProgressFn<'_>) -> Result<DifferenceOutcome, StudyError> {
         let [first, second] = [&self.pictures[0].picture, &self.pictures[1].picture];
         progress("samples", 0, 3);
-        let found = channels(first, second, &self.channels)?;
-        let signed = signed_differences(first, second, &self.channels)?;
+        let found = channels(first, second, &self.options.channels)?;
+        let signed = signed_differences(first, second, &self.options.channels)?;
         progress("SSIM and FLIP", 1, 3);
         let perceptual = match self.perceptual(first, second) {
             // Depths and ids are compared by samples only.
-            Err(PictureError::NoColor { .. }) if self.bounds.flip.is_none() && self.bounds.ssim.is_none() => None,
+            Err(PictureError::NoColor { .. }) if self.options.max_flip.is_none() && self.options.min_ssim.is_none() => {
+                None
+            }
             other => other?,
         };
-        if self.bounds.ssim.is_some() && perceptual.as_ref().is_some_and(|perceptual| perceptual.ssim.is_none()) {
+        if self.options.min_ssim.is_some() && perceptual.as_ref().is_some_and(|perceptual| perceptual.ssim.is_none()) {
             let found = format!("{}x{}", first.width(), first.height());
             let what = format!("expected pictures of at least 11x11 pixels for SSIM, found {found}");
             return Err(StudyError::new("crossbar::picture::window", what));
@@ -92,18 +130,19 @@ impl PictureDifference {
     }
 
     fn perceptual(&self, first: &Picture, second: &Picture) -> Result<Option<PerceptualDifference>, PictureError> {
-        let [one, other] = [ScreenPicture::new(first, self.exposure)?, ScreenPicture::new(second, self.exposure)?];
-        let Some(flip) = flip(&one, &other, self.ppd) else { return Ok(None) };
+        let exposure = self.options.exposure;
+        let [one, other] = [ScreenPicture::new(first, exposure)?, ScreenPicture::new(second, exposure)?];
+        let Some(flip) = flip(&one, &other, self.options.pixels_per_degree()) else { return Ok(None) };
         let ssim = ssim(&one, &other);
         drop([one, other]);
-        let luminance = luminance_differences(first, second, self.exposure)?;
+        let luminance = luminance_differences(first, second, exposure)?;
         Ok(Some(PerceptualDifference { ssim, flip, luminance }))
     }
 
     /// Returns `true` if all bounds hold.
     pub(super) fn holds(&self, outcome: &DifferenceOutcome) -> bool {
-        let DifferenceBounds { rmse, maximum, flip, ssim } = self.bounds;
-        if self.bounds == DifferenceBounds::default() {
+        let DifferenceOptions { max_rmse: rmse, max_error: maximum, max_flip: flip, min_ssim: ssim, .. } = self.options;
+        if !self.options.is_bounded() {
             return outcome.channels.iter().all(|channel| channel.differing == 0);
         }
         let within = |found: f64, most: Option<f64>| most.is_none_or(|most| found <= most);

@@ -6,7 +6,7 @@ mod report;
 use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study, StudyError};
 
-pub use compare::{DifferenceBounds, PictureDifference, PictureInput};
+pub use compare::{DifferenceOptions, PictureDifference, PictureInput};
 
 impl Study for PictureDifference {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::compare::{DifferenceBounds, DifferenceOutcome, PerceptualDifference, PictureDifference};
+use super::compare::{DifferenceOutcome, PerceptualDifference, PictureDifference};
 use crate::picture::metrics::ChannelDifference;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::report::digits::{Quantity, shown};
@@ -19,7 +19,7 @@ pub(super) fn findings(study: &PictureDifference, outcome: DifferenceOutcome) ->
     let held = study.holds(&outcome);
     found.conclude(Verdict::held(held));
     found.conclusion(conclusion(&outcome.channels));
-    if study.bounds != DifferenceBounds::default() {
+    if study.options.is_bounded() {
         found.conclusion(if held { "Within all bounds." } else { "Out of bounds." });
     }
     found.paragraph(format!(
@@ -76,7 +76,7 @@ fn table(channels: &[ChannelDifference]) -> Table {
 
 /// Adds SSIM and FLIP, in words and for programs.
 fn add_metrics(found: &mut Findings, study: &PictureDifference, perceptual: &PerceptualDifference) {
-    let (flip, ppd) = (&perceptual.flip, shown(study.ppd, Quantity::Measured));
+    let (flip, ppd) = (&perceptual.flip, shown(study.options.pixels_per_degree(), Quantity::Measured));
     let [mean, maximum] = [flip.mean, flip.maximum].map(|value| shown(value, Quantity::Error));
     let similarity = perceptual
         .ssim
@@ -85,8 +85,9 @@ fn add_metrics(found: &mut Findings, study: &PictureDifference, perceptual: &Per
     found.print(line.clone());
     found.paragraph(format!("{line}. {FLIP}"));
     found.field("ssim", json!(perceptual.ssim));
-    found.field("flip", json!({ "mean": flip.mean, "maximum": flip.maximum, "ppd": study.ppd }));
-    found.field("exposure", json!(study.exposure));
+    found
+        .field("flip", json!({ "mean": flip.mean, "maximum": flip.maximum, "ppd": study.options.pixels_per_degree() }));
+    found.field("exposure", json!(study.options.exposure));
 }
 
 /// Adds false-color maps, and all differences as numbers.
@@ -95,7 +96,7 @@ fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOut
     let (width, height) = (first.picture.width(), first.picture.height());
     let mut pictures = Vec::new();
     for (name, input) in [("first", first), ("second", second)] {
-        if let Ok(image) = input.picture.display(study.exposure) {
+        if let Ok(image) = input.picture.display(study.options.exposure) {
             pictures.push(NamedPicture::new(name, image, input.name.clone()));
         }
     }
@@ -103,7 +104,7 @@ fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOut
         Some(perceptual) => ("luminance".to_owned(), perceptual.luminance.clone()),
         None => worst_channel(outcome),
     };
-    let scale = study.scale.unwrap_or_else(|| usual_scale(&values));
+    let scale = study.options.scale.unwrap_or_else(|| usual_scale(&values));
     let ends = shown(scale, Quantity::Error);
     let caption = format!(
         "{what}, second minus first: blue -{ends} or less, white 0, red +{ends} or more; black where not finite"

@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use super::lit_view::LitView;
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
+use crate::options::one_of::variants;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, NamedPicture};
 use crate::scene::Camera;
@@ -23,11 +24,14 @@ pub enum Turning {
 }
 
 /// Pictures with the light or the camera carried all the way round z.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub struct TurnedFrames {
-    /// Number of pictures.
+    /// Pictures with the light turned around z, or the camera carried around the model, in so many steps.
+    #[arg(long = "frames", value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
     pub count: u32,
-    /// The object that is carried.
+
+    /// The object that --frames turns.
+    #[arg(long = "turn", value_name = "WHAT", default_value = "light", requires = "count", value_parser = variants::<Turning>())]
     pub turning: Turning,
 }
 
