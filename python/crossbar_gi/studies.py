@@ -22,7 +22,7 @@ def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
     """The papers' printed values with ours, judged by bounds whose dates are in the rows.
 
     Args:
-        ids: Entries by :func:`entries`; without any all of them, which takes minutes.
+        ids: Entries by :func:`entries`, or papers (``cpca``); without any all entries, which takes minutes.
         full_size: Models as large as the papers': an hour or two.
 
     Returns:

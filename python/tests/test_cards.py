@@ -127,11 +127,11 @@ def test_errors_say_what_was_expected(call, message):
 
 def test_studies_are_records():
     entries = cg.entries()
-    assert {"id", "title"} == set(entries[0]) and "equation-11" in [entry["id"] for entry in entries]
-    rows = cg.reproduce("equation-11")
+    assert {"id", "title"} == set(entries[0]) and "ray-engine-equation-11" in [entry["id"] for entry in entries]
+    rows = cg.reproduce("ray-engine-equation-11")
     assert rows and all(row["verdict"] for row in rows)
-    with pytest.raises(ValueError, match="equation-12"):
-        cg.reproduce("equation-12")
+    with pytest.raises(ValueError, match="ray-engine-equation-12"):
+        cg.reproduce("ray-engine-equation-12")
     curve = cg.precision("docs/examples/lerp.toml", families=["fixed"], budget=200)
     assert curve and all(isinstance(row, dict) for row in curve)
     with pytest.raises(ValueError, match="expected one of the tables"):

@@ -77,7 +77,8 @@ Three things to try:
   crossbar leaky-teapot                  trace the teapot on a Radeon 8500, and in three float formats: which rays leak, where
   crossbar render office --renderer path --samples 4
                                          a picture of an office; `--caster engine` has the Ray Engine cast its rays
-  crossbar reproduce equation-11         what a paper printed, beside what comes out here
+  crossbar reproduce ray-engine-equation-11
+                                         what a paper printed, beside what comes out here
 
 All commands: `crossbar --help`. One of them, with examples: `crossbar leaky-teapot --help`.
 ";

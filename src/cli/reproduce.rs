@@ -21,8 +21,10 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar reproduce
       every entry, in out/reproduce/index.html
-  crossbar reproduce equation-11 figure-7 --json
+  crossbar reproduce ray-engine-equation-11 ray-engine-figure-7 --json
       two of them, as JSON on standard output
+  crossbar reproduce radiosity
+      all of a paper: ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
   crossbar reproduce cpca-table-1 --full-size
       on models of the paper's size
   crossbar reproduce --record out/records
@@ -46,13 +48,14 @@ Interrupted, it leaves nothing half-written; the next run starts from the beginn
 entries that are named. --record goes on: what it has recorded stays, unless it is of another
 program; so do the finished pieces of all-frequency-table-1 and all-frequency-figures, which take
 hours, in FOLDER/ID.pieces.
-Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";
+A missed figure is a finding, and docs/papers lists it with the open question: the exit code is 0. It
+is 1 only if --full-size computes a value that is not as recorded.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// Entries to reproduce [default: everything]
+    /// Entries to reproduce, or papers with all their entries [default: everything]
     #[arg(value_name = "ID")]
     entries: Vec<String>,
 

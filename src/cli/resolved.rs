@@ -126,8 +126,8 @@ mod tests {
             "crossbar leaky-teapot --size 512x512 --tessellation 8 --format fp16 --rays-per-edge 4 --seed 1 --sides front"
         );
         assert_eq!(
-            resolved(&["crossbar", "reproduce", "figure-7", "equation-11"]),
-            "crossbar reproduce figure-7 equation-11"
+            resolved(&["crossbar", "reproduce", "ray-engine-figure-7", "ray-engine-equation-11"]),
+            "crossbar reproduce ray-engine-figure-7 ray-engine-equation-11"
         );
         let quoted = ["crossbar", "leaky-teapot", "--device", "Radeon 8500", "--mesh", "it's.obj"];
         let line = resolved(&quoted);

@@ -27,7 +27,7 @@ fn tables_fit_the_terminal() {
         &["leaky-teapot", "--size", "16x16", "--tessellation", "2", "--rays-per-edge", "1"],
         &["radiosity", "cornell-box", "--patches", "40", "--size", "16x16", "--sweep-patches", "30"],
         &["reproduce", "--list"],
-        &["reproduce", "equation-11"],
+        &["reproduce", "ray-engine-equation-11"],
         &["devices"],
         &["devices", "r200"],
         &["materials"],

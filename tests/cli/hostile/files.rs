@@ -191,7 +191,7 @@ fn hostile_places_for_results() {
         &["render", "white-box", "--size", "2x2"],
         &["scene", "white-box"],
         &["leaky-teapot", "--size", "2x2", "--tessellation", "1", "--format", "fp32"],
-        &["reproduce", "equation-11"],
+        &["reproduce", "ray-engine-equation-11"],
     ];
     let not_folders = ["", "file", "file/x", "/dev/null", "/dev/null/x", "/proc/nowhere", "/dev/stdout"];
     let single: [&[&str]; 2] =

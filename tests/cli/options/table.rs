@@ -135,7 +135,7 @@ pub(super) const TABLE: &[Tried] = &[
         ),
     },
     Tried {
-        bases: &["reproduce equation-11 --out OUT"],
+        bases: &["reproduce ray-engine-equation-11 --out OUT"],
         options: "--list same:--full-size --out=other --record=other",
     },
     Tried {

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 
 use crossbar::report::Table;
 use crossbar::study::reproduce::report::{evidence_line, tables};
-use crossbar::study::reproduce::{PaperRow, Prose, Reproduced, RowVerdict, Standing, number};
+use crossbar::study::reproduce::{Paper, PaperRow, Prose, Reproduced, RowVerdict, number};
 
-use super::{FOUND, file, findings};
+use super::{FOUND, all, file, findings, found, is_all};
 
 /// Figures in sentences are the run's: what is written by hand has digits in names alone.
 #[test]
@@ -54,15 +54,17 @@ fn hold(path: &str, expected: &str) {
     assert!(found == expected, "{path} is out of date: INSTA_UPDATE=always cargo test --test papers writes it");
 }
 
-/// The text with what stands between `<!-- reproduce: NAME -->` and `<!-- /reproduce -->` replaced by what `of` says.
-fn filled(text: &str, of: impl Fn(&str) -> String) -> String {
+/// The text with what stands between `<!-- reproduce: NAME -->` and `<!-- /reproduce -->` replaced by what `of` says, if
+/// it says something.
+fn filled(text: &str, of: impl Fn(&str) -> Option<String>) -> String {
     const END: &str = "<!-- /reproduce -->";
     let mut parts = text.split("<!-- reproduce: ");
     let mut out = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let (name, rest) = part.split_once(" -->").expect("the mark's end");
-        let (_, rest) = rest.split_once(END).expect("an end mark for each mark");
-        out.push_str(&format!("<!-- reproduce: {name} -->{}{END}{rest}", of(name)));
+        let (old, rest) = rest.split_once(END).expect("an end mark for each mark");
+        let new = of(name).unwrap_or_else(|| old.to_owned());
+        out.push_str(&format!("<!-- reproduce: {name} -->{new}{END}{rest}"));
     }
     out
 }
@@ -76,8 +78,9 @@ fn markdown(table: &Table) -> String {
 
 /// Where figures are missed, calibrated ones among them: `Table 1 (2 of 6)`.
 fn missed_by_place() -> String {
-    let mut places: Vec<(&str, &str, [usize; 2])> = Vec::new();
-    for (paper, row) in FOUND.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (paper_of(entry.id), row))) {
+    let mut places: Vec<(Paper, &str, [usize; 2])> = Vec::new();
+    for row in all() {
+        let paper = row.target.paper;
         let found = places.iter().position(|(p, place, _)| (*p, *place) == (paper, row.target.place.as_str()));
         let at = found.unwrap_or_else(|| {
             places.push((paper, &row.target.place, [0, 0]));
@@ -91,31 +94,25 @@ fn missed_by_place() -> String {
     text.collect::<Vec<_>>().join("; ")
 }
 
-fn paper_of(id: &str) -> &'static str {
-    const PAPERS: [(&str, &str); 5] = [
-        ("radiosity", "radiosity"),
-        ("subsurface", "subsurface"),
-        ("cpca", "CPCA"),
-        ("all-frequency", "all-frequency transfer"),
-        ("bi-scale", "bi-scale transfer"),
-    ];
-    PAPERS.iter().find(|(begin, _)| id.starts_with(begin)).map_or("Ray Engine", |(_, paper)| paper)
-}
-
-/// Text of the book for a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
-fn said(name: &str) -> String {
+/// Text of the book for a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`; `None` if the
+/// short form leaves one of the entries out.
+fn said(name: &str) -> Option<String> {
     let words: Vec<&str> = name.split(' ').collect();
-    let of =
-        |ids: &[&str]| -> Reproduced { FOUND.iter().filter(|(entry, _)| ids.contains(&entry.id)).cloned().collect() };
+    let of = |ids: &[&str], calibrated: usize| -> Option<Table> {
+        let entries: Option<Vec<_>> = ids.iter().map(|id| found(id)).collect();
+        entries?;
+        let of: Reproduced = FOUND.iter().filter(|(entry, _)| ids.contains(&entry.id)).cloned().collect();
+        Some(tables(&of)[calibrated].clone())
+    };
     let table = match words[..] {
-        ["tally"] => return evidence_line(&FOUND),
-        ["missed"] => return missed_by_place(),
-        ["rows", ref ids @ ..] => tables(&of(ids))[0].clone(),
-        ["calibrated", ref ids @ ..] => tables(&of(ids))[1].clone(),
-        ["table", id, place] => findings(id).tables[place.parse::<usize>().expect("a place from 0")].clone(),
+        ["tally"] => return is_all().then(|| evidence_line(&FOUND)),
+        ["missed"] => return is_all().then(missed_by_place),
+        ["rows", ref ids @ ..] => of(ids, 0)?,
+        ["calibrated", ref ids @ ..] => of(ids, 1)?,
+        ["table", id, place] => found(id)?.tables[place.parse::<usize>().expect("a place from 0")].clone(),
         _ => panic!("unknown block `{name}`"),
     };
-    format!("\n\n{}\n", markdown(&table))
+    Some(format!("\n\n{}\n", markdown(&table)))
 }
 
 /// The page of what works and those of the papers.
@@ -147,7 +144,7 @@ fn every_row_stands_in_the_book() {
         let begin = format!("<!-- reproduce: {mark} ");
         let blocks = texts.split(begin.as_str()).skip(1).filter_map(|rest| rest.split_once(" -->"));
         let shown: BTreeSet<&str> = blocks.flat_map(|(ids, _)| ids.split(' ')).collect();
-        let stands = |row: &PaperRow| matches!(row.standing, Standing::Calibrated { .. }) == is_calibrated;
+        let stands = |row: &PaperRow| row.is_calibrated() == is_calibrated;
         let judged = FOUND.iter().filter(|(_, found)| found.rows.iter().any(stands)).map(|(entry, _)| entry.id);
         assert_eq!(judged.filter(|id| !shown.contains(id)).collect::<Vec<_>>(), Vec::<&str>::new(), "{mark}");
     }
@@ -169,6 +166,7 @@ fn the_book_draws_what_the_program_draws() {
 #[test]
 fn blocks_are_filled() {
     let text = "a <!-- reproduce: tally -->old<!-- /reproduce --> b";
-    assert_eq!(filled(text, |name| name.to_uppercase()), text.replace("old", "TALLY"));
+    assert_eq!(filled(text, |name| Some(name.to_uppercase())), text.replace("old", "TALLY"));
+    assert_eq!(filled(text, |_| None), text);
     assert_eq!(number(2.5, 1), "2.5");
 }

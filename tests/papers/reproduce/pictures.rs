@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use crossbar::report::{NamedPicture, PictureGrid};
-use crossbar::study::reproduce::RecordStatus;
+use crossbar::study::reproduce::{EntryFindings, RecordStatus};
 
-use super::findings;
+use super::found;
 
-/// The pictures of an entry, without those of its light.
-pub(super) fn pictures(id: &str) -> Vec<&'static NamedPicture> {
-    let all = findings(id).pictures.iter().flat_map(PictureGrid::pictures);
+/// The pictures of findings, without those of its light.
+pub(super) fn pictures(found: &EntryFindings) -> Vec<&NamedPicture> {
+    let all = found.pictures.iter().flat_map(PictureGrid::pictures);
     all.filter(|picture| !picture.name.ends_with("light")).collect()
 }
 
@@ -34,11 +34,12 @@ fn figures_have_their_pictures() {
         ("all-frequency-figures", 49),
     ];
     for (id, count) in counts {
-        let pictures = pictures(id);
+        let Some(found) = found(id) else { continue };
+        let pictures = pictures(found);
         assert_eq!(pictures.len(), count, "{id}");
         for (at, picture) in pictures.iter().enumerate() {
             let pixels = |picture: &NamedPicture| picture.image.pixels().map(|pixel| pixel.0).collect::<Vec<_>>();
-            let full = matches!(findings(id).record, Some(RecordStatus::Computed { .. }));
+            let full = matches!(found.record, Some(RecordStatus::Computed { .. }));
             assert_eq!(picture.image.width(), if full { 640 } else { 320 }, "{}", picture.name);
             let mut seen: BTreeMap<[u8; 3], usize> = BTreeMap::new();
             pixels(picture).into_iter().for_each(|pixel| *seen.entry(pixel).or_default() += 1);

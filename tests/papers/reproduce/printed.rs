@@ -4,13 +4,13 @@ use crossbar::all_frequency::on_card::time::TABLE_1;
 use crossbar::study::reproduce::{PaperRow, RowVerdict, printed};
 use refsim::timing::host::CPU_ONLY_RAYS_PER_SECOND;
 
-use super::{all, findings};
+use super::{findings, row};
 
 /// Print set against print is consistent; what it chose is calibrated; where it disagrees with itself, it is
 /// contradictory, with the computation.
 #[test]
 fn print_is_set_against_print() {
-    let row = |id: &str| all().find(|row| row.target.id == id).expect("a row");
+    let row = |id: &str| row(id).expect("a row");
     use RowVerdict::{Calibrated, Consistent, Contradictory};
     for (id, expected) in [
         ("cpca/computation-saved", Consistent),

@@ -1,5 +1,6 @@
 //! The list of entries.
 
+use super::Paper::{AllFrequency, BiScale, Cpca, Radiosity, RayEngine, Subsurface};
 use super::error::unknown;
 use super::full_size::FullModel::{Flat, Teapot, Transfer};
 use super::{ReproduceEntry, StudyError, all_frequency, bi_scale, cpca, radiosity, ray_engine, subsurface};
@@ -10,190 +11,217 @@ use crate::scene::built::transfer_models::TransferModel::{
 
 /// All entries, in the order of the papers.
 pub const ENTRIES: &[ReproduceEntry] = &[
-    ReproduceEntry::new("radeon-8500", "114 M tests a second on a Radeon 8500 (Ray Engine, section 4.4)", |_| {
-        ray_engine::radeon_8500()
-    }),
-    ReproduceEntry::new("vertex-variant", "4.1 M tests a second in a vertex program (Ray Engine, section 3.4)", |_| {
-        ray_engine::vertex_variant()
-    }),
-    ReproduceEntry::new(
-        "equation-11",
+    RayEngine.entry(
+        "ray-engine-radeon-8500",
+        "114 M tests a second on a Radeon 8500 (Ray Engine, section 4.4)",
+        |_| ray_engine::radeon_8500(),
+    ),
+    RayEngine.entry(
+        "ray-engine-vertex-variant",
+        "4.1 M tests a second in a vertex program (Ray Engine, section 3.4)",
+        |_| ray_engine::vertex_variant(),
+    ),
+    RayEngine.entry(
+        "ray-engine-equation-11",
         "Fill rate, read-back and their worked numbers (Ray Engine, section 6.1)",
         |_| ray_engine::equation_11(),
     ),
-    ReproduceEntry::new("figure-7", "Tests a second by the number of triangles (Ray Engine, figure 7)", |_| {
+    RayEngine.entry("ray-engine-figure-7", "Tests a second by the number of triangles (Ray Engine, figure 7)", |_| {
         ray_engine::figure_7()
     }),
-    ReproduceEntry::new(
+    RayEngine.entry(
         "ray-engine-tables-1-2",
         "Rays a second of five scenes, and the share of them on the card (Ray Engine, tables 1 and 2)",
         ray_engine::table_1,
     ),
-    ReproduceEntry::new(
+    RayEngine.entry(
         "ray-engine-table-3",
         "What the card, asynchronous read-back and an infinitely fast card bring (Ray Engine, table 3)",
         ray_engine::table_3,
     ),
-    ReproduceEntry::new(
+    RayEngine.entry(
         "ray-engine-table-4",
         "The number of triangles that go to the card (Ray Engine, table 4)",
         ray_engine::table_4,
     ),
-    ReproduceEntry::new(
+    RayEngine.entry(
         "ray-engine-table-5",
         "The number of rays that go to the card (Ray Engine, table 5)",
         ray_engine::table_5,
     ),
-    ReproduceEntry::new(
+    Radiosity.entry(
         "radiosity-figure-3",
         "Jacobi and Gauss-Seidel, residual by iteration (radiosity, figure 3)",
         |_| radiosity::figure_3(),
     ),
-    ReproduceEntry::new(
+    Radiosity.entry(
         "radiosity-rates",
         "29.7 iterations and 141 MFLOP a second on a GeForce FX 5900 Ultra (radiosity, section 3.1)",
         |_| radiosity::rates(),
     ),
-    ReproduceEntry::new(
+    Radiosity.entry(
         "radiosity-figure-4",
         "The time of an iteration by the size of the matrix, on card and host (radiosity, figure 4)",
         |_| radiosity::figure_4(),
     ),
-    ReproduceEntry::new(
+    Subsurface.entry(
         "subsurface-counts",
         "Nodes, lookups, textures and instructions (subsurface scattering, sections 2.3 and 4.2)",
         subsurface::counts,
     ),
-    ReproduceEntry::new(
+    Subsurface.entry(
         "subsurface-table-1",
         "The time of pass 2, and frames locked to a display (subsurface scattering, table 1)",
         subsurface::table_1,
     ),
-    ReproduceEntry::new(
+    Subsurface.entry(
         "subsurface-frames",
         "Passes 1 and 3, frames on a display, 40 frames a second, nine seconds of links \
          (subsurface scattering, sections 4.3 and 5, table 1, figure 7)",
         subsurface::frames,
     ),
-    ReproduceEntry::new("cpca-appendix", "How wrong projections onto the hemisphere are (CPCA, appendix)", |_| {
-        cpca::appendix()
+    Cpca.entry("cpca-appendix", "How wrong projections onto the hemisphere are (CPCA, appendix)", |_| cpca::appendix()),
+    Cpca.entry("cpca-section-6", "Numbers, registers and host work of compressed transfer (CPCA, section 6)", |_| {
+        cpca::section_6()
     }),
-    ReproduceEntry::new(
-        "cpca-section-6",
-        "Numbers, registers and host work of compressed transfer (CPCA, section 6)",
-        |_| cpca::section_6(),
-    ),
-    ReproduceEntry::new("cpca-figure-2", "Squared error by storage (CPCA, figure 2)", cpca::figure_2)
+    Cpca.entry("cpca-figure-2", "Squared error by storage (CPCA, figure 2)", cpca::figure_2)
         .sized(&[Transfer(Bird)], cpca::full_size),
-    ReproduceEntry::new(
+    Cpca.entry(
         "cpca-figures-3-4",
         "Static, iterative and adaptive compression (CPCA, figures 3 and 4)",
         cpca::figure_3,
     )
     .sized(&[Transfer(Bird)], cpca::full_size),
-    ReproduceEntry::new("cpca-figure-6", "Light of order 10 on two polygons (CPCA, figure 6)", cpca::figure_6)
+    Cpca.entry("cpca-figure-6", "Light of order 10 on two polygons (CPCA, figure 6)", cpca::figure_6)
         .sized(&[Transfer(Polygons)], cpca::full_size),
-    ReproduceEntry::new(
-        "cpca-figure-7",
-        "Projections of exit radiance under colored lights (CPCA, figure 7)",
-        cpca::figure_7,
-    )
-    .sized(&[Transfer(Bird)], cpca::full_size),
-    ReproduceEntry::new(
+    Cpca.entry("cpca-figure-7", "Projections of exit radiance under colored lights (CPCA, figure 7)", cpca::figure_7)
+        .sized(&[Transfer(Bird)], cpca::full_size),
+    Cpca.entry(
         "cpca-figure-8",
         "Glossy Phong models, their speed and that of a newer card (CPCA, figure 8)",
         cpca::figure_8,
     )
     .sized(&[Transfer(Head), Transfer(FoldedBuddha)], cpca::full_size),
-    ReproduceEntry::new("cpca-figure-9", "A sum of transfer in two environments (CPCA, figure 9)", cpca::figure_9)
+    Cpca.entry("cpca-figure-9", "A sum of transfer in two environments (CPCA, figure 9)", cpca::figure_9)
         .sized(&[Transfer(FoldedBuddha)], cpca::full_size),
-    ReproduceEntry::new(
+    Cpca.entry(
         "cpca-figure-10",
         "Principal components, vector quantization, and both (CPCA, figure 10)",
         cpca::figure_10,
     )
     .sized(&[Transfer(Bird)], cpca::full_size),
-    ReproduceEntry::new("cpca-figure-11", "The number of vectors per cluster (CPCA, figure 11)", cpca::figure_11)
+    Cpca.entry("cpca-figure-11", "The number of vectors per cluster (CPCA, figure 11)", cpca::figure_11)
         .sized(&[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
-    ReproduceEntry::new("cpca-table-1", "Errors and frame rates of seven signals (CPCA, table 1)", cpca::table_1)
+    Cpca.entry("cpca-table-1", "Errors and frame rates of seven signals (CPCA, table 1)", cpca::table_1)
         .sized(&[Transfer(FoldedBuddha), Transfer(Bird), Transfer(Head), Transfer(Polygons)], cpca::full_size),
-    ReproduceEntry::new(
-        "cpca-coherence",
-        "Overdraw of clusters (CPCA, figure 5 and the table of section 7)",
-        cpca::coherence,
-    )
-    .sized(&[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
-    ReproduceEntry::new(
+    Cpca.entry("cpca-coherence", "Overdraw of clusters (CPCA, figure 5 and the table of section 7)", cpca::coherence)
+        .sized(&[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
+    AllFrequency.entry(
         "all-frequency-counts",
         "Sizes, segments, equation 12 and what of Table 1 follows from sizes \
          (all-frequency transfer, sections 1 and 4 to 7)",
         |_| all_frequency::counts(),
     ),
-    ReproduceEntry::new(
+    AllFrequency.entry(
         "all-frequency-factors",
         "Errors of reflectance factors beside spherical harmonics (all-frequency transfer, section 3)",
         all_frequency::factors,
     ),
-    ReproduceEntry::new(
-        "all-frequency-figures",
-        "Baselines, terms, clusters, representatives, truncation and frame rates \
+    AllFrequency
+        .entry(
+            "all-frequency-figures",
+            "Baselines, terms, clusters, representatives, truncation and frame rates \
          (all-frequency transfer, figures 1, 2 and 4 to 7)",
-        all_frequency::figures,
-    )
-    .sized(&[Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
-    ReproduceEntry::new(
-        "all-frequency-table-1",
-        "What clusters and codes leave of transfer (all-frequency transfer, table 1)",
-        all_frequency::table_1,
-    )
-    .sized(&[Transfer(Bunny), Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
-    ReproduceEntry::new(
+            all_frequency::figures,
+        )
+        .sized(&[Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
+    AllFrequency
+        .entry(
+            "all-frequency-table-1",
+            "What clusters and codes leave of transfer (all-frequency transfer, table 1)",
+            all_frequency::table_1,
+        )
+        .sized(&[Transfer(Bunny), Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
+    BiScale.entry(
         "bi-scale-counts",
         "Sizes of matrices and of biclusters (bi-scale transfer, sections III and IV, tables I and II)",
         |_| bi_scale::counts(),
     ),
-    ReproduceEntry::new("bi-scale-figure-8", "More local directions (bi-scale transfer, figure 8)", bi_scale::figure_8)
+    BiScale
+        .entry("bi-scale-figure-8", "More local directions (bi-scale transfer, figure 8)", bi_scale::figure_8)
         .sized(&[Transfer(BiScaleBunny)], bi_scale::full_size),
-    ReproduceEntry::new(
-        "bi-scale-figures",
-        "Pictures by transfer and by rays, errors by cause (bi-scale transfer, figures 1, 3 and 5 to 8)",
-        bi_scale::figures,
-    )
-    .sized(&[Transfer(BiScaleBunny), Transfer(BiScaleArmor), Flat(Chair), Flat(Temple)], bi_scale::full_size),
-    ReproduceEntry::new(
+    BiScale
+        .entry(
+            "bi-scale-figures",
+            "Pictures by transfer and by rays, errors by cause (bi-scale transfer, figures 1, 3 and 5 to 8)",
+            bi_scale::figures,
+        )
+        .sized(&[Transfer(BiScaleBunny), Transfer(BiScaleArmor), Flat(Chair), Flat(Temple)], bi_scale::full_size),
+    BiScale.entry(
         "bi-scale-frames",
         "Frame rates, views alone and light too (bi-scale transfer, tables I and II)",
         bi_scale::frames,
     ),
-    ReproduceEntry::new(
-        "bi-scale-table-1",
-        "Biclusters of an armor, a chair and a temple (bi-scale transfer, table I)",
-        bi_scale::table_1,
-    )
-    .sized(&[Transfer(BiScaleArmor), Flat(Chair), Flat(Temple)], bi_scale::full_size),
-    ReproduceEntry::new("bi-scale-table-2", "Biclusters of bunnies (bi-scale transfer, table II)", bi_scale::table_2),
-    ReproduceEntry::new(
-        "bi-scale-figure-6",
-        "Biclusters beside clusters of rows, wavelets, harmonics and what is rejected \
+    BiScale
+        .entry(
+            "bi-scale-table-1",
+            "Biclusters of an armor, a chair and a temple (bi-scale transfer, table I)",
+            bi_scale::table_1,
+        )
+        .sized(&[Transfer(BiScaleArmor), Flat(Chair), Flat(Temple)], bi_scale::full_size),
+    BiScale.entry("bi-scale-table-2", "Biclusters of bunnies (bi-scale transfer, table II)", bi_scale::table_2),
+    BiScale
+        .entry(
+            "bi-scale-figure-6",
+            "Biclusters beside clusters of rows, wavelets, harmonics and what is rejected \
          (bi-scale transfer, sections II and IV-A, figure 6)",
-        bi_scale::figure_6,
-    )
-    .sized(&[Flat(Chair)], bi_scale::full_size),
+            bi_scale::figure_6,
+        )
+        .sized(&[Flat(Chair)], bi_scale::full_size),
 ];
 
-/// Names of the entries.
-pub fn names() -> Vec<&'static str> {
-    ENTRIES.iter().map(|entry| entry.id).collect()
-}
-
-/// Returns the entries with these names, in the order of [`ENTRIES`]; all entries for no names.
+/// Returns the entries with these names, or of the papers with these names, in the order of [`ENTRIES`]; all entries for
+/// no names.
 ///
 /// # Errors
-/// If no entry has a name.
+/// If neither a paper nor an entry has a name.
 pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, StudyError> {
-    if let Some(found) = wanted.iter().find(|name| !names().contains(&name.as_str())) {
-        return Err(unknown(found, &names()));
+    let names = |name: &String, entry: &ReproduceEntry| [entry.id, entry.paper.id()].contains(&name.as_str());
+    if let Some(found) = wanted.iter().find(|name| !ENTRIES.iter().any(|entry| names(name, entry))) {
+        return Err(unknown(found, &ENTRIES.iter().map(|entry| entry.id).collect::<Vec<_>>()));
     }
-    let chosen = |entry: &&ReproduceEntry| wanted.is_empty() || wanted.iter().any(|name| name == entry.id);
+    let chosen = |entry: &&ReproduceEntry| wanted.is_empty() || wanted.iter().any(|name| names(name, entry));
     Ok(ENTRIES.iter().filter(chosen).copied().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use strum::VariantArray as _;
+
+    use super::super::Paper;
+    use super::*;
+
+    fn chosen(wanted: &[&str]) -> Vec<&'static str> {
+        let wanted: Vec<String> = wanted.iter().map(|&name| name.to_owned()).collect();
+        choose(&wanted).expect("names").iter().map(|entry| entry.id).collect()
+    }
+
+    /// A paper's name chooses its entries, which are those whose names begin with it.
+    #[test]
+    fn papers_and_entries_are_chosen_by_name() {
+        for paper in Paper::VARIANTS {
+            let entries = chosen(&[paper.id()]);
+            let begin = format!("{}-", paper.id());
+            let named: Vec<&str> = ENTRIES.iter().map(|entry| entry.id).filter(|id| id.starts_with(&begin)).collect();
+            assert!(!entries.is_empty());
+            assert_eq!(entries, named);
+        }
+        assert_eq!(chosen(&[]).len(), ENTRIES.iter().map(|entry| entry.id).collect::<BTreeSet<_>>().len());
+        let both = chosen(&["ray-engine-figure-7", "radiosity", "radiosity-rates"]);
+        assert_eq!(both, ["ray-engine-figure-7", "radiosity-figure-3", "radiosity-rates", "radiosity-figure-4"]);
+        let error = choose(&["figure-7".to_owned()]).expect_err("no such name").to_string();
+        assert!(error.contains("found `figure-7`"), "{error}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::full_size::{FullModel, FullSize};
 use super::shared::Shared;
-use super::{PaperRow, Prose, RecordStatus, RowVerdict, StudyError};
+use super::{Paper, PaperRow, Prose, RecordStatus, RowVerdict, StudyError, equations};
 use crate::report::{Chart, PictureGrid, Table};
 
 /// Chart with its file name and caption.
@@ -45,26 +45,37 @@ impl EntryFindings {
 /// Table or figure of a paper.
 #[derive(Clone, Copy, Debug)]
 pub struct ReproduceEntry {
-    /// Name on the command line.
+    /// Paper.
+    pub paper: Paper,
+    /// Name on the command line, which begins with the paper's.
     pub id: &'static str,
     /// Title, with the place where it is printed.
     pub title: &'static str,
-    pub(super) work: EntryWork,
+    work: EntryWork,
     /// For an entry whose rows depend on the size of models.
     pub(super) full_size: Option<FullSize>,
 }
 
 type EntryWork = fn(&Shared) -> Result<EntryFindings, StudyError>;
 
-impl ReproduceEntry {
+impl Paper {
     /// Entry whose rows do not depend on the size of models.
-    pub(super) const fn new(id: &'static str, title: &'static str, work: EntryWork) -> Self {
-        Self { id, title, work, full_size: None }
+    pub(super) const fn entry(self, id: &'static str, title: &'static str, work: EntryWork) -> ReproduceEntry {
+        ReproduceEntry { paper: self, id, title, work, full_size: None }
     }
+}
 
+impl ReproduceEntry {
     /// The same with rows that depend on the size of models: these at full size, and the parameters of such runs.
     pub(super) const fn sized(self, models: &'static [FullModel], parameters: fn() -> String) -> Self {
         Self { full_size: Some(FullSize { models, parameters }), ..self }
+    }
+
+    /// Computes the entry. Rows that are expressions of printed values come before those of its code.
+    pub(super) fn run(&self, shared: &Shared) -> Result<EntryFindings, StudyError> {
+        let (mut rows, found) = (equations(self.id)?, (self.work)(shared)?);
+        rows.extend(found.rows);
+        Ok(EntryFindings { rows, ..found })
     }
 
     /// Returns `true` if the entry's rows depend on the size of models: it can be recorded.

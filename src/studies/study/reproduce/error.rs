@@ -4,17 +4,21 @@ use std::fmt::Display;
 
 use refsim::device::Profile;
 use refsim::timing::TimingError;
+use strum::VariantArray as _;
 
+use super::Paper;
 use crate::names::did_you_mean;
 use crate::study::StudyError;
 
 /// Help of errors that no input causes.
 const BUG: &str = "this is a bug: please report it with the command line";
 
-/// Error of a name that no entry has.
-pub(super) fn unknown(found: &str, known: &[&str]) -> StudyError {
-    let help = format!("{}`crossbar reproduce --list` says what each is", did_you_mean(found, known.iter().copied()));
-    let what = format!("expected the name of an entry ({}), found `{found}`", known.join(", "));
+/// Error of a name that neither a paper nor an entry has.
+pub(super) fn unknown(found: &str, entries: &[&str]) -> StudyError {
+    let papers: Vec<&str> = Paper::VARIANTS.iter().map(|paper| paper.id()).collect();
+    let known = papers.iter().chain(entries).copied();
+    let help = format!("{}`crossbar reproduce --list` says what each entry is", did_you_mean(found, known));
+    let what = format!("expected the name of a paper ({}) or of an entry, found `{found}`", papers.join(", "));
     StudyError::new("reproduce::unknown", what).with_help(help)
 }
 

@@ -1,6 +1,6 @@
 //! Reproduction of the papers' printed values: one file per entry, each a list of rows with tables and charts.
 //!
-//! The papers' values, their origins and the bounds of those that are judged are data with dates ([`papers`]). Every
+//! The papers' values, their origins and the bounds of those that are judged are data with dates ([`figures`]). Every
 //! row has one of them, and ours with the printed values that it depends on, which determine the verdict. A row outside
 //! its bound counts as missed unless a sweep of the same run over something that the paper leaves open reaches the
 //! printed value ([`Sweep`]), or the paper contradicts itself and ours agrees with one of its values
@@ -18,6 +18,7 @@ mod full_size;
 mod model_size;
 mod overview;
 mod paper;
+mod papers;
 mod prose;
 mod radiosity;
 mod ray_engine;
@@ -34,20 +35,20 @@ use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
 
 use crate::study::StudyError;
-pub use entries::{ENTRIES, choose, names};
+pub use entries::{ENTRIES, choose};
 pub use entry::{EntryChart, EntryFindings, ReproduceEntry, Reproduced};
 pub use model_size::ModelSize;
-pub use paper::{Paper, papers, printed};
-use paper::{row as paper_row, value as printed_value};
+use paper::{equations, row as paper_row, value as printed_value};
+pub use paper::{figures, printed};
+pub use papers::Paper;
 pub use prose::{Prose, number};
 pub use ray_engine::{DUAL_TEXTURED, screen_quad};
 pub use record::{EntryRecord, RecordError, RecordMade, RecordStatus, SmokeRun, StaleRecord, recorded};
 pub use row::{
-    Bound, Contradiction, Explanation, Judgement, Method, MissClass, Origin, PaperFigure, PaperRow, RowSource,
-    RowVerdict, Setting, Standing, Sweep,
+    Bound, Contradiction, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure, PaperRow,
+    RowSource, RowVerdict, Setting, Standing, Sweep,
 };
 pub use schedule::reproduce;
-pub use summary::ReproducedPaper;
 
 /// Parameters of the study.
 #[derive(Clone, Debug)]

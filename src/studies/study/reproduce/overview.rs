@@ -2,40 +2,51 @@
 
 use strum::VariantArray as _;
 
-use super::{EntryChart, MissClass, PaperRow, Prose, Reproduced, RowSource, RowVerdict, Standing, number};
-use crate::report::words::listed;
+use super::{EntryChart, MissClass, PaperRow, Reproduced, RowSource, RowVerdict};
+use crate::report::words::{counted, listed};
 use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
-
-const JUDGED: &str = "Of {} figures that chose no constant: {}.";
-const ROUNDED: &str = "{} of those that are met need the rounding of the printed value.";
-const MISSED: &str = "Missed for what is in the way: {}.";
-const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
-const RECORDED: &str = "Of these, {} are recorded at full size, {} of them computed anew with the same bits.";
-const REDUCED: &str = "{} more have reduced models alone and are not judged.";
-const DIFFER: &str = "Not as recorded: {}.";
-const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
 
 /// Adds conclusion and tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
-    let all_rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
+    let every: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
     let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| found.counted()).collect();
     let evidence = chose_none(found);
+    let of = |of: &dyn Fn(&PaperRow) -> bool| count(&evidence, of);
     let sentences = [
-        judged(&evidence),
+        judged(&evidence).map(|judged| format!("{judged}.")),
         differ(&rows),
         classes(&evidence),
-        recorded(&evidence),
-        reduced(&all_rows),
-        rounded(&evidence),
-        calibrated(&rows),
-        farthest(&evidence),
+        counts(&[
+            ("Recorded at full size", of(&is_recorded)),
+            ("computed anew with the same bits", of(&|row| row.source == RowSource::Confirmed)),
+        ]),
+        counts(&[("Met only by the rounding of the print", of(&needs_rounding))]),
+        counts(&[
+            ("Beside these, chose a constant of a model and are no evidence", rows.len() - evidence.len()),
+            ("missed all the same", count(&rows, |row| row.is_calibrated() && row.verdict() == RowVerdict::Missed)),
+        ]),
+        counts(&[("Of reduced models alone, and not judged", every.len() - rows.len())]),
     ];
-    for sentence in sentences.into_iter().flatten() {
-        all.conclusion(sentence.to_string());
-    }
+    sentences.into_iter().flatten().for_each(|sentence| all.conclusion(sentence));
     for entry in tally(&rows) {
         all.tally(entry.count, [&entry.what, &entry.what], entry.tone);
     }
+}
+
+/// Sentence of counts, each behind what it counts; `None` if the first is 0. Other counts of 0 are left out.
+fn counts(parts: &[(&str, usize)]) -> Option<String> {
+    let (_, first) = parts.first()?;
+    let shown = parts.iter().filter(|(_, count)| *count > 0).map(|(what, count)| format!("{what}: {count}"));
+    (*first > 0).then(|| shown.collect::<Vec<_>>().join("; ") + ".")
+}
+
+/// Returns `true` for a row with the value of a recorded run.
+pub(super) const fn is_recorded(row: &PaperRow) -> bool {
+    !matches!(row.source, RowSource::Computed | RowSource::Reduced)
+}
+
+fn needs_rounding(row: &PaperRow) -> bool {
+    row.verdict() != RowVerdict::Contradictory && row.holds_by_rounding()
 }
 
 /// Counts of all verdicts, in their order.
@@ -75,13 +86,9 @@ fn count(rows: &[&PaperRow], of: impl Fn(&PaperRow) -> bool) -> usize {
     rows.iter().filter(|row| of(row)).count()
 }
 
-const fn chose_a_constant(row: &PaperRow) -> bool {
-    matches!(row.standing, Standing::Calibrated { .. })
-}
-
-/// Counted rows that chose no constant: all sentences but that on calibrated rows are of these.
+/// Counted rows that chose no constant.
 pub(super) fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
-    found.iter().flat_map(|(_, found)| found.counted()).filter(|row| !chose_a_constant(row)).collect()
+    found.iter().flat_map(|(_, found)| found.counted()).filter(|row| !row.is_calibrated()).collect()
 }
 
 /// Numbers of rows by verdict, in words, without those that are 0. Their sum is the number of rows.
@@ -91,65 +98,28 @@ pub(super) fn parts(rows: &[&PaperRow]) -> String {
     listed(&counts.map(|(count, verdict)| format!("{count} {}", verdict.of_rows())).collect::<Vec<_>>())
 }
 
-fn judged(rows: &[&PaperRow]) -> Option<Prose> {
-    (!rows.is_empty()).then(|| Prose::new(JUDGED, [rows.len().to_string(), parts(rows)]))
+/// Number of rows that chose no constant, and the numbers by verdict; `None` without such rows.
+pub(super) fn judged(rows: &[&PaperRow]) -> Option<String> {
+    let all = counted(rows.len() as u64, "figure", "figures");
+    (!rows.is_empty()).then(|| format!("{all} chose no constant: {}", parts(rows)))
 }
 
 /// Number of missed rows by class.
-fn classes(rows: &[&PaperRow]) -> Option<Prose> {
+fn classes(rows: &[&PaperRow]) -> Option<String> {
     let of = |class: MissClass| (count(rows, |row| row.missed() == Some(class)), class);
     let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, class)| format!("{class} {count}")).collect();
-    (!counts.is_empty()).then(|| Prose::new(MISSED, [counts.join(", ")]))
-}
-
-/// Numbers of rows by the run that they are from, where one is not this run.
-fn recorded(rows: &[&PaperRow]) -> Option<Prose> {
-    let confirmed = count(rows, |row| row.source == RowSource::Confirmed);
-    let recorded = count(rows, |row| matches!(row.source, RowSource::Recorded { .. } | RowSource::Differs { .. }));
-    let counts = [confirmed + recorded, confirmed];
-    (counts != [0; 2]).then(|| Prose::new(RECORDED, counts.map(|count| count.to_string())))
-}
-
-fn reduced(rows: &[&PaperRow]) -> Option<Prose> {
-    let reduced = count(rows, |row| row.verdict() == RowVerdict::Reduced);
-    (reduced > 0).then(|| Prose::new(REDUCED, [reduced.to_string()]))
+    (!counts.is_empty()).then(|| format!("Missed for what is in the way: {}.", counts.join(", ")))
 }
 
 /// Names of the rows that are not as recorded.
-fn differ(rows: &[&PaperRow]) -> Option<Prose> {
-    let differ = rows.iter().filter(|row| matches!(row.source, RowSource::Differs { .. }));
-    let names: Vec<&str> = differ.map(|row| row.target.id.as_str()).collect();
-    (!names.is_empty()).then(|| Prose::new(DIFFER, [names.join(", ")]))
-}
-
-fn rounded(rows: &[&PaperRow]) -> Option<Prose> {
-    let all = count(rows, |row| row.verdict() != RowVerdict::Contradictory && row.holds_by_rounding());
-    (all > 0).then(|| Prose::new(ROUNDED, [all.to_string()]))
-}
-
-fn calibrated(rows: &[&PaperRow]) -> Option<Prose> {
-    let all = count(rows, chose_a_constant);
-    let missed = count(rows, |row| chose_a_constant(row) && row.verdict() == RowVerdict::Missed);
-    (all > 0).then(|| Prose::new(CALIBRATED, [all, missed].map(|figure| figure.to_string())))
-}
-
-/// Ratio of our value and the printed one, inverted if necessary so that it is at least 1; infinite for a value that
-/// has not the sign of the printed one.
-fn distance(row: &PaperRow) -> f64 {
-    let ratio = ratio(row);
-    if ratio > 0.0 { ratio.max(1.0 / ratio) } else { f64::INFINITY }
+fn differ(rows: &[&PaperRow]) -> Option<String> {
+    let names: Vec<&str> = rows.iter().filter(|row| row.differs()).map(|row| row.target.id.as_str()).collect();
+    (!names.is_empty()).then(|| format!("Not as recorded: {}.", names.join(", ")))
 }
 
 fn ratio(row: &PaperRow) -> f64 {
     row.ours / row.target.value
-}
-
-fn farthest(rows: &[&PaperRow]) -> Option<Prose> {
-    let missed = rows.iter().filter(|row| row.verdict() == RowVerdict::Missed);
-    let row = missed.max_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let figures = [row.target.what.clone(), row.device.to_owned(), row.target.place.clone(), number(ratio(row), 2)];
-    Some(Prose::new(FARTHEST, figures))
 }
 
 /// Verdicts in the order of the chart: the first two have the colors of the tally.
@@ -173,7 +143,8 @@ fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
         label: verdict.to_string(),
         points: rows.iter().enumerate().filter(|(_, row)| row.verdict() == verdict).map(point).collect(),
     };
-    let drawn = rows.iter().filter(|row| row.verdict() != RowVerdict::Reduced && distance(row).is_finite()).count();
+    let is_drawn = |row: &PaperRow| row.verdict() != RowVerdict::Reduced && ratio(row) > 0.0 && ratio(row).is_finite();
+    let drawn = count(rows, is_drawn);
     (drawn > 1).then(|| EntryChart {
         name: "overview",
         chart: Chart {

@@ -2,9 +2,9 @@
 
 use serde_json::json;
 
-use super::overview::{chose_none, overview, overview_chart, parts, tally as counts};
+use super::overview::{chose_none, is_recorded, judged, overview, overview_chart, tally as counts};
 use super::summary::summary_lines;
-use super::{EntryChart, Judgement, Paper, PaperRow, Reproduced, RowSource, RowVerdict, StudyError, papers};
+use super::{EntryChart, Judgement, PaperFigure, PaperRow, Reproduced, RowSource, RowVerdict, StudyError, figures};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
 const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% source \
@@ -66,21 +66,7 @@ fn ends(interval: Option<[f64; 2]>) -> [Cell; 2] {
     [end(interval.map(|[low, _]| low)), end(interval.map(|[_, high]| high))]
 }
 
-const SHOWN: [&str; 13] = [
-    "what",
-    "place",
-    "unit",
-    "paper",
-    "ours",
-    "readings",
-    "difference_%",
-    "verdict",
-    "missed_for",
-    "bound",
-    "source",
-    "device",
-    "method",
-];
+const SHOWN: &str = "what place unit paper ours readings difference_% verdict missed_for bound source device method";
 
 fn shown(row: &PaperRow) -> [Cell; 13] {
     let target = &row.target;
@@ -103,16 +89,12 @@ fn shown(row: &PaperRow) -> [Cell; 13] {
     ]
 }
 
-fn calibrated(row: &PaperRow) -> bool {
-    matches!(row.standing, super::Standing::Calibrated { .. })
-}
-
 /// Tables of the rows for people: predictions and counts; and separately the calibrated values.
 pub fn tables(found: &Reproduced) -> [Table; 2] {
     let of = |title: &str, wanted: bool| {
-        let mut table = Table::new(title, &SHOWN);
+        let mut table = Table::of(title, SHOWN);
         for (entry, found) in found {
-            for (n, row) in found.rows.iter().enumerate().filter(|(_, row)| calibrated(row) == wanted) {
+            for (n, row) in found.rows.iter().enumerate().filter(|(_, row)| row.is_calibrated() == wanted) {
                 table.push_named(format!("{}.{}", entry.id, n + 1), shown(row));
             }
         }
@@ -138,7 +120,7 @@ pub fn notes(found: &Reproduced) -> Table {
         if !row.target.origin.how().is_empty() {
             note(&row.target.origin.to_string(), row.target.origin.how().to_owned(), name.clone());
         }
-        if calibrated(row) {
+        if row.is_calibrated() {
             note(&row.standing.to_string(), row.standing.inputs().to_owned(), name.clone());
         }
         if let Some(explanation) = row.explanation() {
@@ -162,8 +144,8 @@ pub fn notes(found: &Reproduced) -> Table {
 /// Table of the printed figures that no row judges, with the reasons, of the papers that have a row among these.
 fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     let mut table = Table::of("Printed figures without a row", "figure what place value unit reason");
-    let has_row = |paper: &&Paper| all(found).any(|(_, row)| row.target.id.starts_with(&format!("{}/", paper.id)));
-    for figure in papers()?.iter().filter(has_row).flat_map(|paper| &paper.figures) {
+    let has_row = |figure: &&PaperFigure| all(found).any(|(_, row)| row.target.paper == figure.paper);
+    for figure in figures()?.iter().filter(has_row) {
         if let Judgement::Not(reason) = &figure.judgement {
             let texts = [&figure.id, &figure.what, &figure.place].map(|text| Cell::from(text.as_str()));
             let rest = [figure.cell(), figure.unit.as_str().into(), reason.as_str().into()];
@@ -186,21 +168,11 @@ fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
     all(found).filter(|(_, row)| row.verdict() == verdict).count()
 }
 
-/// Formats the tally in one line: the numbers of rows by verdict, calibrated ones among them.
-pub fn tally_line(found: &Reproduced) -> String {
-    let reduced = match count(found, RowVerdict::Reduced) {
-        0 => String::new(),
-        reduced => format!("; {reduced} more are of reduced models, a smoke test, and are not counted"),
-    };
-    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| found.counted()).collect();
-    format!("{} figures: {}{reduced}", rows.len(), parts(&rows))
-}
-
 /// Formats the tally of the rows that chose no constant, and how many of them are recorded.
 pub fn evidence_line(found: &Reproduced) -> String {
     let rows = chose_none(found);
-    let recorded = rows.iter().filter(|row| !matches!(row.source, RowSource::Computed | RowSource::Reduced)).count();
-    format!("of {} figures that chose no constant: {}; {recorded} are recorded at full size", rows.len(), parts(&rows))
+    let recorded = rows.iter().filter(|row| is_recorded(row)).count();
+    format!("{}; recorded at full size: {recorded}", judged(&rows).unwrap_or_default())
 }
 
 /// Open questions about rows outside their bounds: each once, with the first entry that asks it.
@@ -214,10 +186,9 @@ fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
     all
 }
 
-/// Returns `true` if no value is missed, and none is another one than its record has.
-pub fn held(found: &Reproduced) -> bool {
-    let differs = |(_, row): (_, &PaperRow)| matches!(row.source, RowSource::Differs { .. });
-    count(found, RowVerdict::Missed) == 0 && !all(found).any(differs)
+/// Returns `true` if no value is another one than its record has. What is missed is a finding, and no failure.
+fn as_recorded(found: &Reproduced) -> bool {
+    !all(found).any(|(_, row)| row.differs())
 }
 
 const HOW: &str = "The papers' figures beside ours, each figure in one row. A figure is printed, implied by printed ones, or inferred by us. Its bound is \
@@ -267,10 +238,52 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
         }));
     }
     all.field("entries", json!(entries));
-    all.print(tally_line(found));
     for (entry, question) in questions(found) {
         all.print(format!("open ({entry}): {question}"));
     }
-    all.conclude(Verdict::held(held(found)));
+    all.conclude(Verdict::held(as_recorded(found)));
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::row::tests::row;
+    use super::super::{EntryFindings, Paper};
+    use super::*;
+
+    fn found(values: &[(f64, RowSource)]) -> Reproduced {
+        let mut rows: Vec<PaperRow> = values.iter().map(|(value, _)| row(*value)).collect();
+        rows.iter_mut().zip(values).for_each(|(row, (_, source))| row.source = *source);
+        let entry = Paper::RayEngine.entry("ray-engine-figure-7", "Tests", |_| Ok(EntryFindings::default()));
+        vec![(entry, EntryFindings { rows, ..EntryFindings::default() })]
+    }
+
+    /// A missed figure is a finding; a value that is not as recorded fails the command.
+    #[test]
+    fn only_a_difference_from_the_record_fails() {
+        let missed = found(&[(20.0, RowSource::Computed), (30.0, RowSource::Confirmed)]);
+        assert_eq!(count(&missed, RowVerdict::Missed), 2);
+        assert!(as_recorded(&missed));
+        assert!(!as_recorded(&found(&[(15.6, RowSource::Differs { recorded: 15.5 })])));
+    }
+
+    /// A figure, one of another kind, and none.
+    #[test]
+    fn sentences_agree_with_their_numbers() {
+        let of = |values: &[(f64, RowSource)]| {
+            let mut all = Findings::new("");
+            overview(&mut all, &found(values));
+            all.conclusions().join(" ")
+        };
+        assert_eq!(
+            of(&[(20.0, RowSource::Computed)]),
+            "1 figure chose no constant: 1 missed. Missed for what is in the way: model lost 1."
+        );
+        assert_eq!(
+            of(&[(15.6, RowSource::Confirmed), (15.7, RowSource::Recorded { reduced: 1.0 })]),
+            "2 figures chose no constant: 2 predicted within bounds in numbers. Recorded at full size: 2; computed anew \
+             with the same bits: 1."
+        );
+        assert_eq!(of(&[(15.6, RowSource::Reduced)]), "Of reduced models alone, and not judged: 1.");
+    }
 }

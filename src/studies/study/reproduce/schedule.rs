@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 
 use super::shared::Shared;
-use super::{EntryFindings, ModelSize, ReproduceEntry, Reproduced, StudyError, papers, record};
+use super::{EntryFindings, ModelSize, ReproduceEntry, Reproduced, StudyError, record};
 use crate::study::ProgressFn;
 
 /// Stack of a worker thread, in bytes: that of a main thread.
@@ -36,7 +36,7 @@ pub fn reproduce(
     // A thread of a pool must not wait for work that needs its own pool.
     let is_alone = models == ModelSize::Printed || rayon::current_thread_index().is_some();
     let threads = if is_alone { 1 } else { rayon::current_num_threads() };
-    let groups = Mutex::new(groups(entries, threads)?);
+    let groups = Mutex::new(groups(entries, threads));
     let (sender, receiver) = mpsc::channel();
     let work = |sender: mpsc::Sender<EntryEvent>| {
         let next = || groups.lock().unwrap_or_else(PoisonError::into_inner).pop();
@@ -88,15 +88,14 @@ pub fn reproduce(
 }
 
 /// Entries by paper, those of the first paper last; all in one group for one thread.
-fn groups(entries: &[ReproduceEntry], threads: usize) -> Result<Vec<EntryGroup>, StudyError> {
-    let mut groups: Vec<(Option<&str>, EntryGroup)> = Vec::new();
+fn groups(entries: &[ReproduceEntry], threads: usize) -> Vec<EntryGroup> {
+    let mut groups: Vec<EntryGroup> = Vec::new();
     for (at, entry) in entries.iter().enumerate() {
-        // Some names of Ray Engine's entries do not begin with the paper's; these share no result.
-        let paper = papers()?.iter().map(|paper| paper.id).find(|id| threads > 1 && entry.id.starts_with(id));
-        match groups.iter_mut().find(|(known, _)| *known == paper) {
-            Some((_, group)) => group.push((at, *entry)),
-            None => groups.push((paper, vec![(at, *entry)])),
+        let belongs = |group: &&mut EntryGroup| threads == 1 || group[0].1.paper == entry.paper;
+        match groups.iter_mut().find(belongs) {
+            Some(group) => group.push((at, *entry)),
+            None => groups.push(vec![(at, *entry)]),
         }
     }
-    Ok(groups.into_iter().map(|(_, group)| group).collect())
+    groups
 }

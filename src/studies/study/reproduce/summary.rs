@@ -1,44 +1,13 @@
-//! The six papers, and the lines that sum each of them up at the top of the page.
+//! The lines that sum each paper up at the top of the page.
 
 use std::fmt::Write as _;
 
 use strum::VariantArray as _;
 
 use super::overview::tally;
-use super::{EntryFindings, PaperRow, ReproduceEntry, Reproduced, RowVerdict};
+use super::{EntryFindings, Paper, PaperRow, ReproduceEntry, Reproduced, RowVerdict};
 use crate::report::words::listed;
 use crate::report::{PictureGrid, SummaryLine};
-
-/// Paper, named as in the titles of entries; in the order of the systems.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::VariantArray)]
-pub enum ReproducedPaper {
-    /// Carr, Hall and Hart 2002.
-    #[strum(to_string = "Ray Engine")]
-    RayEngine,
-    /// Carr, Hall and Hart 2003, sections 1 to 3.
-    #[strum(to_string = "radiosity")]
-    Radiosity,
-    /// Carr, Hall and Hart 2003, sections 4 and 5.
-    #[strum(to_string = "subsurface scattering")]
-    Subsurface,
-    /// Sloan, Hall, Hart and Snyder 2003.
-    #[strum(to_string = "CPCA")]
-    Cpca,
-    /// Liu, Sloan, Shum and Snyder 2004.
-    #[strum(to_string = "all-frequency transfer")]
-    AllFrequency,
-    /// "Real-time all-frequency bi-scale radiance transfer".
-    #[strum(to_string = "bi-scale transfer")]
-    BiScale,
-}
-
-impl ReproduceEntry {
-    /// Paper of the entry, by its title: `... (PAPER, place)`.
-    pub fn paper(&self) -> Option<ReproducedPaper> {
-        let place = self.title.rsplit_once('(')?.1;
-        ReproducedPaper::VARIANTS.iter().copied().find(|paper| place.starts_with(&format!("{paper},")))
-    }
-}
 
 type Part = (ReproduceEntry, EntryFindings);
 
@@ -49,8 +18,8 @@ const NAMED: usize = 3;
 
 /// One line per paper with an entry, each with the counts of its verdicts.
 pub(super) fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
-    let line = |paper: &ReproducedPaper| {
-        let parts: Vec<&Part> = found.iter().filter(|(entry, _)| entry.paper() == Some(*paper)).collect();
+    let line = |paper: &Paper| {
+        let parts: Vec<&Part> = found.iter().filter(|(entry, _)| entry.paper == *paper).collect();
         let (first, _) = parts.first()?;
         let rows: Vec<&PaperRow> = parts.iter().flat_map(|(_, found)| found.counted()).collect();
         Some(SummaryLine {
@@ -61,7 +30,7 @@ pub(super) fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
             picture: picture(&parts),
         })
     };
-    ReproducedPaper::VARIANTS.iter().filter_map(line).collect()
+    Paper::VARIANTS.iter().filter_map(line).collect()
 }
 
 fn missed(found: &EntryFindings) -> usize {
@@ -121,18 +90,18 @@ mod tests {
             rows: values.iter().map(|value| row(*value)).collect(),
             ..EntryFindings::default()
         };
-        let entry = |id, title| ReproduceEntry::new(id, title, |_| Ok(EntryFindings::default()));
+        let entry = |paper: Paper, id, title| paper.entry(id, title, |_| Ok(EntryFindings::default()));
         let found = vec![
-            (entry("figure-7", "Tests (Ray Engine, figure 7)"), with(&[HIT, MISS, MISS])),
-            (entry("equation-11", "Fill rate (Ray Engine, section 6.1)"), with(&[HIT])),
-            (entry("cpca-figure-2", "Error by storage (CPCA, figure 2)"), with(&[HIT])),
+            (entry(Paper::RayEngine, "ray-engine-figure-7", "Tests"), with(&[HIT, MISS, MISS])),
+            (entry(Paper::RayEngine, "ray-engine-equation-11", "Fill rate"), with(&[HIT])),
+            (entry(Paper::Cpca, "cpca-figure-2", "Error by storage"), with(&[HIT])),
         ];
         let [engine, cpca] = &summary_lines(&found)[..] else { panic!("two papers have entries") };
         let count = |line: &SummaryLine, verdict: RowVerdict| {
             line.tally.iter().find(|counted| counted.what == verdict.to_string()).map(|counted| counted.count)
         };
         assert_eq!([RowVerdict::Predicted, RowVerdict::Missed].map(|of| count(engine, of)), [Some(2), Some(2)]);
-        assert_eq!(engine.text, "No row is missed in 1 of 2 entries; missed in figure-7 (2 of 3).");
+        assert_eq!(engine.text, "No row is missed in 1 of 2 entries; missed in ray-engine-figure-7 (2 of 3).");
         assert_eq!(engine.heading, found[0].0.title);
         assert_eq!((count(cpca, RowVerdict::Missed), cpca.text.as_str()), (Some(0), "No row is missed."));
     }

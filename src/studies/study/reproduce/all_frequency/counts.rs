@@ -1,4 +1,5 @@
-//! Sections 1, 4, 5 and 6, and the columns of Table 1: values that follow from sizes and from the geometry of the cube.
+//! Segments below the horizon by the geometry of the cube, and frame rates of Table 1 by its sizes. What follows from
+//! printed values alone is expressions in `src/studies/papers`.
 
 use refsim::timing::host::HostOperation;
 
@@ -99,36 +100,16 @@ const QUESTION: &str = "why fewer multiplications a second fit diffuse models an
 const RATE: &str = "Table 1: frames without drawing, which chose the constant together";
 
 pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
-    let glossy = (M * LIGHT_TEXELS) as f64;
-    let segment = (M * Segmentation::Quarters.len()) as f64;
     let (least, mean) = below_horizon();
-    let example = 16_000.0 * 2.0 / 3.0;
-    let members = example / 64.0;
     let equation = |id: &str, ours: (f64, Standing)| paper_row(id, (HOST, Method::Equation), ours);
     let count = |(id, ours): (&str, f64)| equation(&format!("all-frequency/{id}"), (ours, Standing::Counted));
     let counts = [
-        ("light-coefficients", LIGHT_TEXELS as f64),
-        ("raw-matrix", glossy),
-        ("segment", segment),
-        ("ground", 192.0 * 192.0),
-        ("times-as-many", glossy / 625.0),
         ("orders", log10(LIGHT_TEXELS as f64 / 25.0)),
-        ("vertices-with-segment", example),
-        ("members", members),
-        ("ratio-64", ratio(members, segment)),
-        ("left-64", 100.0 * 2.0 / 3.0 / ratio(members, segment)),
-        ("ratio-200", ratio(PER_CLUSTER, segment)),
         ("below-least", least),
         ("below-mean", mean),
         ("open-share", 1.0 - mean / 24.0),
-        ("multiplications", 2.0 / 3.0 * (24 * N * M * 3) as f64),
     ];
     let mut rows: Vec<PaperRow> = counts.into_iter().map(count).collect::<Result<_, _>>()?;
-    // "A compression factor of 77 (1.3% of raw size)"; Table 1 has one more digit.
-    let size = printed_value("all-frequency/size-bunny")?;
-    let [factor, of_sentence] = [size, (10.0 * size).round() / 10.0].map(|size| 100.0 / size);
-    let factor = equation("all-frequency/factor-bunny", (factor, Standing::Predicted { from: "size of Table 1" }))?;
-    rows.push(factor.with_readings([of_sentence]));
     let columns = Column::all()?;
     let per_second = |column: &Column, fps: f64| {
         let [clusters, vertices] = column.multiplies();
@@ -145,9 +126,6 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         let [clusters, vertices] = column.multiplies();
         let fps = rate / (clusters + vertices);
         let total = column.nonempty() / PER_CLUSTER;
-        let predicted = |value: f64, from: &'static str| (value, Standing::Predicted { from });
-        rows.push(equation(&column.figure("raw"), predicted(column.raw_gigabytes(), "printed vertices"))?);
-        rows.push(equation(&column.figure("clusters"), predicted(total, "printed vertices and omega"))?);
         rows.push(equation(&column.figure("fps-alone"), (fps, Standing::Calibrated { on: RATE }))?);
         let of_print = |what: &str| printed(&column.figure(what));
         table.push([

@@ -12,13 +12,11 @@ pub(super) struct PrintedScene {
     pub(super) name: &'static str,
     /// Local directions along an edge.
     pub(super) side: usize,
-    /// Numbers of bidirectional textures with patches of 64 x 64 and of 32 x 32 texels; Table I alone.
-    pub(super) textures: Option<[usize; 2]>,
 }
 
 impl PrintedScene {
-    const fn new(id: &'static str, name: &'static str, side: usize, textures: Option<[usize; 2]>) -> Self {
-        Self { id, name, side, textures }
+    const fn new(id: &'static str, name: &'static str, side: usize) -> Self {
+        Self { id, name, side }
     }
 
     /// Name of one of the scene's figures.
@@ -43,12 +41,12 @@ impl PrintedScene {
 }
 
 pub(super) const SCENES: [PrintedScene; 6] = [
-    PrintedScene::new("bunny", "bunny", 8, Some([1, 0])),
-    PrintedScene::new("armor", "armor", 12, Some([1, 0])),
-    PrintedScene::new("chair", "chair", 8, Some([1, 2])),
-    PrintedScene::new("temple", "temple", 8, Some([1, 4])),
-    PrintedScene::new("middle-bunny", "middle bunny", 8, None),
-    PrintedScene::new("fine-bunny", "fine bunny", 8, None),
+    PrintedScene::new("bunny", "bunny", 8),
+    PrintedScene::new("armor", "armor", 12),
+    PrintedScene::new("chair", "chair", 8),
+    PrintedScene::new("temple", "temple", 8),
+    PrintedScene::new("middle-bunny", "middle bunny", 8),
+    PrintedScene::new("fine-bunny", "fine bunny", 8),
 ];
 
 /// Bunnies of Table II, of which the first is that of Table I.

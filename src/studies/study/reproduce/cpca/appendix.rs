@@ -1,7 +1,6 @@
 //! Section 9 and the related part of section 3.2: hemispherical projections.
 
 use super::{EntryFindings, HOST, PaperRow, StudyError, equation, failed};
-use crate::report::{Cell, Table};
 use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function_count, function_index};
 
 /// Order of the projected functions.
@@ -41,7 +40,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     for projected in &PROJECTIONS {
         rows.extend(projection_rows(projected)?);
     }
-    Ok(EntryFindings { text: vec![HOW.into()], rows, tables: vec![orders()?], ..EntryFindings::default() })
+    Ok(EntryFindings { text: vec![HOW.into()], rows, ..EntryFindings::default() })
 }
 
 fn error(projection: HemisphereProjection, [signal, order]: [usize; 2]) -> Result<ProjectionErrors, StudyError> {
@@ -60,25 +59,6 @@ fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<V
         rows.push(row("functions", functions as f64)?);
     }
     Ok(rows)
-}
-
-/// Table for other orders, with functions of an order projected to the same order.
-fn orders() -> Result<Table, StudyError> {
-    let mut table = Table::of(
-        "Projections of functions of an order onto the same order, and what the cheapest function to drop costs",
-        "order functions zero_worst zero_average odd_worst odd_average even_worst even_average drop_cost",
-    );
-    for order in 2..=8 {
-        let mut cells: Vec<Cell> = vec![order.into(), function_count(order).into()];
-        for projection in [ZeroHemisphere, OddReflection, EvenReflection] {
-            let ProjectionErrors { worst, average } = error(projection, [order, order])?;
-            cells.extend([worst, average].map(Cell::measured));
-        }
-        let costs = Hemisphere::new(order).drop_costs();
-        cells.push(Cell::measured(costs.into_iter().fold(f64::INFINITY, f64::min)));
-        table.push(cells);
-    }
-    Ok(table)
 }
 
 #[cfg(test)]

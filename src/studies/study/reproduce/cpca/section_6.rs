@@ -1,7 +1,7 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{EntryFindings, Prose, REGISTERS, StudyError, equation, number};
+use super::{EntryFindings, Prose, REGISTERS, StudyError, number};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
@@ -10,12 +10,8 @@ const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 
     without compression, every vertex's matrix.";
 
 pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
-    let square = TransferSize { vertices: 1, rows: 25, columns: 25, clusters: 1, vectors: 5 };
-    let per_vertex = (square.vectors + 1) * square.rows;
-    let factor = (square.rows * square.columns) as f64 / per_vertex as f64;
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, [number(4.0, 0)])],
-        rows: vec![equation("computation-saved", factor)?],
         tables: vec![sizes()],
         ..EntryFindings::default()
     })

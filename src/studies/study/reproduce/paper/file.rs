@@ -6,13 +6,14 @@
 
 use serde::Deserialize;
 
-use crate::study::reproduce::row::{Bound, Judgement, MissClass, Origin, PaperFigure};
+use super::expression::evaluate;
+use crate::study::reproduce::Paper;
+use crate::study::reproduce::row::{Bound, Judgement, MissClass, Origin, PaperEquation, PaperFigure};
 
 /// File of a paper.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PaperFile {
-    pub(super) title: String,
     /// Dates on which bounds were stated, with a digest of what was stated.
     pub(super) stated: Vec<Stated>,
     pub(super) group: Vec<FigureGroup>,
@@ -34,6 +35,8 @@ pub(super) struct FigureGroup {
     pub(super) place: String,
     #[serde(flatten)]
     pub(super) shared: FigureTerms,
+    #[serde(flatten)]
+    equation: EquationTerms,
     /// Changes of what was stated of all its figures, the oldest first.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
@@ -49,6 +52,21 @@ pub(super) struct FigureTerms {
     pub(super) unjudged: Option<String>,
     /// Reading that our value takes, where the text allows several.
     pub(super) reading: Option<String>,
+}
+
+/// What the rows of expressions say beside their values, of the group or of the figure itself.
+#[derive(Clone, Debug, Default, Deserialize)]
+struct EquationTerms {
+    /// Entry that the row belongs to.
+    entry: Option<String>,
+    /// Card or host; `host` if not given.
+    device: Option<String>,
+    /// Printed values that the expression uses.
+    uses: Option<String>,
+    /// Printed values that chose a constant of the expression.
+    chose: Option<String>,
+    /// The computation in words, where the value may contradict the printed one.
+    contradicts: Option<String>,
 }
 
 /// Figure as the file has it.
@@ -75,8 +93,15 @@ pub(super) struct FileFigure {
     /// Changes of what was stated, the oldest first; those of its group come before them.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
+    /// Expression of printed values that the row has as ours.
+    expression: Option<String>,
+    /// Expressions of other readings.
+    #[serde(default)]
+    readings: Vec<String>,
     #[serde(flatten)]
     pub(super) own: FigureTerms,
+    #[serde(flatten)]
+    equation: EquationTerms,
 }
 
 /// Change of a figure after its statement, with what it had before; an empty reading where it had none.
@@ -111,31 +136,62 @@ impl FileFigure {
     }
 }
 
-/// Parses a file into its title and figures; errors are sentences.
-pub(super) fn parse(paper: &str, text: &str) -> Result<(String, Vec<PaperFigure>), String> {
-    let file: PaperFile = toml::from_str(text).map_err(|error| format!("the file of `{paper}`: {error}"))?;
+/// Parses a file into its figures; errors are sentences.
+pub(super) fn parse(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
+    let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
     let mut figures: Vec<PaperFigure> = Vec::new();
     let first = file.stated.first().map_or("", |stated| &stated.date);
-    for group in &file.group {
-        for entry in &group.figures {
-            let figure = figure((paper, first), group, entry, &figures);
-            figures.push(figure.map_err(|reason| format!("figure `{paper}/{}`: {reason}", entry.id))?);
-        }
+    let entries = || file.group.iter().flat_map(|group| group.figures.iter().map(move |entry| (group, entry)));
+    let in_figure = |entry: &FileFigure, reason: String| format!("figure `{}/{}`: {reason}", paper.id(), entry.id);
+    for (group, entry) in entries() {
+        let figure = figure((paper, first), group, entry, &figures).map_err(|reason| in_figure(entry, reason))?;
+        figures.push(figure);
     }
-    Ok((file.title, figures))
+    for (at, (group, entry)) in entries().enumerate() {
+        let equation = equation(paper, group, entry, &figures).map_err(|reason| in_figure(entry, reason))?;
+        figures[at].equation = equation;
+    }
+    Ok(figures)
+}
+
+/// Value of a figure by its name within the paper.
+fn named(paper: Paper, figures: &[PaperFigure], id: &str) -> Option<f64> {
+    let is_it =
+        |figure: &&PaperFigure| figure.id.strip_prefix(paper.id()).and_then(|id| id.strip_prefix('/')) == Some(id);
+    figures.iter().find(is_it).map(|figure| figure.value)
+}
+
+/// Equation of a figure that has an expression.
+fn equation(
+    paper: Paper,
+    group: &FigureGroup,
+    entry: &FileFigure,
+    figures: &[PaperFigure],
+) -> Result<Option<PaperEquation>, String> {
+    let Some(expression) = &entry.expression else { return Ok(None) };
+    let value = |text: &String| {
+        evaluate(text, &|id| named(paper, figures, id).ok_or_else(|| format!("no figure is named `{id}`")))
+    };
+    let (own, shared) = (entry.equation.clone(), group.equation.clone());
+    Ok(Some(PaperEquation {
+        entry: own.entry.or(shared.entry).ok_or("an expression needs the `entry` of its row")?,
+        device: own.device.or(shared.device).unwrap_or_else(|| "host".to_owned()),
+        ours: value(expression)?,
+        readings: entry.readings.iter().map(value).collect::<Result<_, _>>()?,
+        uses: own.uses.or(shared.uses),
+        chose: own.chose.or(shared.chose),
+        contradicts: own.contradicts.or(shared.contradicts),
+    }))
 }
 
 fn figure(
-    (paper, first): (&str, &str),
+    (paper, first): (Paper, &str),
     group: &FigureGroup,
     entry: &FileFigure,
     above: &[PaperFigure],
 ) -> Result<PaperFigure, String> {
     let terms = entry.terms(group);
-    let find = |id: &str| {
-        let found = above.iter().find(|figure| figure.id.strip_prefix(paper) == Some(&format!("/{id}")));
-        found.ok_or_else(|| format!("no figure above it is named `{id}`"))
-    };
+    let find = |id: &str| named(paper, above, id).ok_or_else(|| format!("no figure above it is named `{id}`"));
     let (value, decimals, formula) = match (&entry.value, &entry.ratio) {
         (Some(text), None) => {
             let value = text.parse().map_err(|_| format!("expected a number, found `{text}`"))?;
@@ -143,8 +199,8 @@ fn figure(
         }
         (None, Some([numerator, denominator])) => {
             let [one, other] = [find(numerator)?, find(denominator)?];
-            let ratio = entry.scale.unwrap_or(1.0) * one.value / other.value;
-            (ratio, entry.decimals.unwrap_or(2), Some(format!("{} / {}", one.value, other.value)))
+            let ratio = entry.scale.unwrap_or(1.0) * one / other;
+            (ratio, entry.decimals.unwrap_or(2), Some(format!("{one} / {other}")))
         }
         _ => return Err("expected one of `value` and `ratio`".to_owned()),
     };
@@ -155,14 +211,15 @@ fn figure(
         _ => return Err("expected one of `implied` and `inferred`".to_owned()),
     };
     let judgement = match (terms.bound, terms.unjudged) {
-        (Some(text), None) => Judgement::Within(bound(&text, |id| Ok(find(id)?.value))?),
+        (Some(text), None) => Judgement::Within(bound(&text, find)?),
         (None, Some(reason)) => Judgement::Not(reason),
         _ => return Err("expected one of `bound` and `unjudged`".to_owned()),
     };
     let changed = entry.changes(group).next_back().map(|change| change.date.as_str());
     let stated = changed.or(entry.stated.as_deref()).unwrap_or(first).to_owned();
     Ok(PaperFigure {
-        id: format!("{paper}/{}", entry.id),
+        paper,
+        id: format!("{}/{}", paper.id(), entry.id),
         what: entry.what.clone(),
         value,
         decimals,
@@ -172,6 +229,7 @@ fn figure(
         judgement,
         stated,
         missed: entry.missed,
+        equation: None,
     })
 }
 
@@ -198,10 +256,10 @@ fn bound(text: &str, value: impl Fn(&str) -> Result<f64, String>) -> Result<Boun
 mod tests {
     use super::*;
 
-    const HEAD: &str = "title = \"T\"\nstated = []\n[[group]]\nplace = \"table 1\"\nunit = \"Hz\"\nbound = \"15 %\"\n";
+    const HEAD: &str = "stated = []\n[[group]]\nplace = \"table 1\"\nunit = \"Hz\"\nbound = \"15 %\"\n";
 
     fn figures(entries: &str) -> Result<Vec<PaperFigure>, String> {
-        parse("p", &format!("{HEAD}figures = [{entries}]")).map(|(_, figures)| figures)
+        parse(Paper::Cpca, &format!("{HEAD}figures = [{entries}]"))
     }
 
     #[test]
@@ -225,6 +283,23 @@ mod tests {
         Judgement::Within(Bound::Relative(share))
     }
 
+    /// An expression may use figures below it, and says which entry has its row.
+    #[test]
+    fn expressions_are_of_printed_values() {
+        let found = figures(
+            r#"{ id = "a", what = "a", value = "3", expression = "100 * b-1 / 8", readings = ["b-1"], entry = "e", uses = "b" },
+               { id = "b-1", what = "b", value = "0.25" }"#,
+        );
+        let found = found.expect("two figures");
+        let equation = found[0].equation.as_ref().expect("an expression");
+        assert_eq!(
+            (equation.ours, equation.readings.as_slice(), equation.device.as_str()),
+            (3.125, &[0.25][..], "host")
+        );
+        assert_eq!((&equation.uses, &equation.chose), (&Some("b".to_owned()), &None));
+        assert_eq!(found[1].equation, None);
+    }
+
     #[test]
     fn malformed_figures_are_refused() {
         for (entry, reason) in [
@@ -233,6 +308,9 @@ mod tests {
             (r#"{ id = "a", what = "a", ratio = ["b", "c"] }"#, "no figure above it is named `b`"),
             (r#"{ id = "a", what = "a", value = "1", bound = "about" }"#, "expected a bound, found `about`"),
             (r#"{ id = "a", what = "a", value = "1", bond = "15 %" }"#, "unknown"),
+            (r#"{ id = "a", what = "a", value = "1", expression = "2 *", entry = "e" }"#, "at the end"),
+            (r#"{ id = "a", what = "a", value = "1", expression = "b", entry = "e" }"#, "no figure is named `b`"),
+            (r#"{ id = "a", what = "a", value = "1", expression = "1" }"#, "needs the `entry`"),
         ] {
             let error = figures(entry).expect_err("malformed");
             assert!(error.contains(reason), "{error}");

@@ -1,53 +1,38 @@
 //! Printed figures of the papers: the data of `src/studies/papers`, one file per paper, each figure once.
 //!
 //! The files lie within the package, so that the program contains them. They state the bound of every judged figure
-//! apart from any result; the program refuses a file whose bounds were changed without a list of the changes.
+//! apart from any result; the program refuses a file whose bounds were changed without a list of the changes. A figure
+//! that follows from other printed ones alone has the expression of its row, too.
 
+mod expression;
 mod file;
 mod statement;
 
 use std::sync::LazyLock;
 
+use strum::VariantArray as _;
+
+use super::Paper;
 use super::error::papers_error;
-use super::row::{Method, PaperFigure, PaperRow, Standing};
+use super::row::{Contradiction, Method, PaperFigure, PaperRow, Standing};
 use crate::study::StudyError;
 
-/// Names and contents of the files.
-const FILES: [(&str, &str); 6] = [
-    ("ray-engine", include_str!("../../../papers/ray_engine.toml")),
-    ("radiosity", include_str!("../../../papers/radiosity.toml")),
-    ("subsurface", include_str!("../../../papers/subsurface.toml")),
-    ("cpca", include_str!("../../../papers/cpca.toml")),
-    ("all-frequency", include_str!("../../../papers/all_frequency.toml")),
-    ("bi-scale", include_str!("../../../papers/bi_scale.toml")),
-];
-
-/// Paper with its figures in the order of its file.
-#[derive(Clone, Debug)]
-pub struct Paper {
-    /// Name, with which the names of its figures begin.
-    pub id: &'static str,
-    /// Title, authors and year.
-    pub title: String,
-    /// Printed, implied and inferred figures.
-    pub figures: Vec<PaperFigure>,
-}
-
-static PAPERS: LazyLock<Result<Vec<Paper>, String>> = LazyLock::new(|| {
-    let paper = |&(id, text): &(&'static str, &str)| {
-        statement::verify(text).map_err(|reason| format!("the file of `{id}`: {reason}"))?;
-        let (title, figures) = file::parse(id, text)?;
-        Ok(Paper { id, title, figures })
-    };
-    FILES.iter().map(paper).collect()
+static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
+    let mut figures = Vec::new();
+    for &paper in Paper::VARIANTS {
+        let in_file = |reason| format!("the file of `{}`: {reason}", paper.id());
+        statement::verify(paper.file()).map_err(in_file)?;
+        figures.extend(file::parse(paper, paper.file()).map_err(in_file)?);
+    }
+    Ok(figures)
 });
 
-/// Returns all papers.
+/// Returns the printed, implied and inferred figures of all papers, in the order of their files.
 ///
 /// # Errors
 /// If a file is malformed, or states other bounds than it did.
-pub fn papers() -> Result<&'static [Paper], StudyError> {
-    PAPERS.as_deref().map_err(|reason| papers_error(reason))
+pub fn figures() -> Result<&'static [PaperFigure], StudyError> {
+    FIGURES.as_deref().map_err(|reason| papers_error(reason))
 }
 
 /// Returns the figure with a name, as in `ray-engine/host-alone`.
@@ -55,7 +40,7 @@ pub fn papers() -> Result<&'static [Paper], StudyError> {
 /// # Errors
 /// If there is none.
 pub fn printed(id: &str) -> Result<&'static PaperFigure, StudyError> {
-    let found = papers()?.iter().flat_map(|paper| &paper.figures).find(|figure| figure.id == id);
+    let found = figures()?.iter().find(|figure| figure.id == id);
     found.ok_or_else(|| papers_error(&format!("no figure is named `{id}`")))
 }
 
@@ -76,6 +61,23 @@ pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Standing)) -
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }
 
+/// Returns the rows of an entry whose values are expressions of printed ones, in the order of the file.
+///
+/// # Errors
+/// As [`row`].
+pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
+    let mut rows = Vec::new();
+    for figure in figures()? {
+        let Some(equation) = figure.equation.as_ref().filter(|equation| equation.entry == entry) else { continue };
+        let by = (equation.device.as_str(), Method::Equation);
+        let row = row(&figure.id, by, (equation.ours, equation.standing()))?;
+        let contradiction =
+            equation.contradicts.as_ref().and_then(|how| Contradiction::between(figure, equation.ours, how));
+        rows.push(row.with_readings(equation.readings.iter().copied()).contradicted(contradiction));
+    }
+    Ok(rows)
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
@@ -85,7 +87,7 @@ mod tests {
 
     #[test]
     fn every_figure_has_a_name_of_its_own_and_a_bound_or_a_reason() {
-        let figures: Vec<&PaperFigure> = papers().expect("the files").iter().flat_map(|paper| &paper.figures).collect();
+        let figures = figures().expect("the files");
         let names: BTreeSet<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
         assert_eq!(names.len(), figures.len());
         for figure in figures {
@@ -97,21 +99,23 @@ mod tests {
     /// No figure of a paper stands twice: a second row with the same value, unit and words is the same figure.
     #[test]
     fn each_printed_figure_stands_once() {
-        for paper in papers().expect("the files") {
-            let mut seen = BTreeSet::new();
-            for figure in &paper.figures {
-                let key = (figure.value.to_bits(), &figure.unit, &figure.what, &figure.place);
-                assert!(seen.insert(key), "{} stands twice", figure.id);
-            }
+        let mut seen = BTreeSet::new();
+        for figure in figures().expect("the files") {
+            let key = (figure.paper.id(), figure.value.to_bits(), &figure.unit, &figure.what, &figure.place);
+            assert!(seen.insert(key), "{} stands twice", figure.id);
         }
     }
 
-    /// Bounds and readings are those that were stated, but for the changes that the files list.
+    /// Every expression belongs to an entry of its paper.
     #[test]
-    fn bounds_are_those_that_were_stated() {
-        let refused =
-            FILES.into_iter().filter_map(|(id, text)| Some(format!("{id}: {}", statement::verify(text).err()?)));
-        assert_eq!(refused.collect::<Vec<_>>(), Vec::<String>::new());
+    fn every_equation_has_its_entry() {
+        use crate::study::reproduce::ENTRIES;
+        let figures = figures().expect("the files");
+        let equations = figures.iter().filter_map(|figure| Some((figure, figure.equation.as_ref()?)));
+        for (figure, equation) in equations {
+            let entry = ENTRIES.iter().find(|entry| entry.id == equation.entry);
+            assert_eq!(entry.map(|entry| entry.paper), Some(figure.paper), "{}: {}", figure.id, equation.entry);
+        }
     }
 
     #[test]

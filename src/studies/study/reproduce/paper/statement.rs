@@ -76,7 +76,7 @@ mod tests {
 
     fn file(figure: &str, digest: &str) -> String {
         format!(
-            "title = \"T\"\nstated = [{{ date = \"2026-11-26\", digest = \"{digest}\" }}]\n[[group]]\n\
+            "stated = [{{ date = \"2026-11-26\", digest = \"{digest}\" }}]\n[[group]]\n\
              place = \"table 1\"\nunit = \"Hz\"\nfigures = [{{ id = \"a\", what = \"a\", {figure} }}]"
         )
     }

@@ -51,11 +51,6 @@ impl Run {
         }
         Ok(means)
     }
-
-    /// Log of the card's commands and the host's work.
-    pub(super) fn log(&self) -> &[Event] {
-        &self.log
-    }
 }
 
 /// Cost model of a run's commands, beside equation 11.

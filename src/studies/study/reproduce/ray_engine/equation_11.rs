@@ -35,8 +35,6 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let mut rows = Vec::new();
     for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {
         let equation = rates("nv20")?.results_per_s(gamma) / MEGA;
-        let ours = (equation, Standing::Predicted { from: READ_BACK });
-        rows.push(paper_row(id, ("nv20", Method::Equation), ours)?);
         worked.push(line(id, "nv20", [equation, pipeline::results_per_s("nv20", gamma)? / MEGA])?);
     }
     for (id, device) in ["ray-engine/fill-geforce3", "ray-engine/fill-geforce4"].into_iter().zip(CARDS) {

@@ -73,7 +73,7 @@ fn chart(gamma: f64, lines: Vec<Series>) -> Result<EntryChart, StudyError> {
     let shown = if gamma == GAMMAS[0] { &TEN_TRIANGLES[..] } else { &[] };
     let printed = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, StudyError>>()?;
     Ok(EntryChart {
-        name: if gamma == GAMMAS[0] { "figure-7-gamma-4" } else { "figure-7-gamma-16" },
+        name: if gamma == GAMMAS[0] { "ray-engine-figure-7-gamma-4" } else { "ray-engine-figure-7-gamma-16" },
         chart: Chart {
             title: format!("Ray-triangle tests, {gamma} bytes read back a ray"),
             x: "triangles T".to_owned(),

@@ -10,10 +10,8 @@
 mod engine_run;
 mod equation_11;
 mod figure_7;
-mod host_work;
 mod pipeline;
 mod radeon_8500;
-mod sensitivity;
 mod shares;
 mod speed_ups;
 mod stated;

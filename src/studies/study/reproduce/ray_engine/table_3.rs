@@ -5,8 +5,7 @@ use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
 use super::teapot::TeapotRoom;
 use super::workload::TIMES;
 use super::{
-    EntryChart, EntryFindings, Method, PaperRow, Prose, QUESTION, RATE, Shared, StudyError, host_work, how, number,
-    paper_row, sensitivity,
+    EntryChart, EntryFindings, Method, PaperRow, Prose, QUESTION, RATE, Shared, StudyError, how, number, paper_row,
 };
 use crate::report::{Chart, Series};
 
@@ -31,8 +30,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         tables: vec![
             table(room, &lines, PLACE)?,
             found.table(&found.host_leaf, "Speed-ups by the leaves of the octree of the host alone"),
-            host_work::table(room, &lines),
-            sensitivity::table(&room.work.alone, &lines)?,
         ],
         charts: vec![EntryChart {
             name: "ray-engine-host-octree",

@@ -43,54 +43,24 @@ impl From<RecordError> for StudyError {
     }
 }
 
-/// Reason why a record is not of this program. Numbers are shown with all digits.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum StaleRecord {
-    /// The paper's figures were others.
-    #[error("the paper's printed figures have digest {found}, and had {recorded}")]
-    Figures {
-        /// Digest in the record.
-        recorded: String,
-        /// Digest of today's figures.
-        found: String,
-    },
-    /// A model of the entry was another one.
-    #[error("the model `{model}` has digest {found}, and had {recorded}")]
-    Model {
-        /// Model.
-        model: String,
-        /// Digest in the record, `none` for a model that it does not have.
-        recorded: String,
-        /// Digest of today's model, `none` if there is none.
-        found: String,
-    },
-    /// Parameters of the run were others.
-    #[error("the parameters of a run at full size have digest {found}, and had {recorded}")]
-    Parameters {
-        /// Digest in the record.
-        recorded: String,
-        /// Digest of today's parameters.
-        found: String,
-    },
-    /// The run on reduced models gives another value.
-    #[error("reduced models give {found:?} for `{figure}`, and gave {recorded:?}")]
-    Value {
-        /// Figure of the row.
-        figure: String,
-        /// Values in the record.
-        recorded: Vec<f64>,
-        /// Values of this run.
-        found: Vec<f64>,
-    },
+/// Reason why a record is not of this program, in words. Numbers have all digits.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct StaleRecord(String);
+
+impl StaleRecord {
+    /// Inputs have another digest; `none` is that of a model that is not there.
+    pub(super) fn of_digests(inputs: &str, recorded: &str, found: &str) -> Self {
+        Self(format!("{inputs} digest {found}, and had {recorded}"))
+    }
+
+    /// The run on reduced models gives other values for a row, ours first.
+    pub(super) fn of_values(figure: &str, recorded: &[f64], found: &[f64]) -> Self {
+        Self(format!("reduced models give {found:?} for `{figure}`, and gave {recorded:?}"))
+    }
+
     /// The entry has other rows, sentences or sweeps.
-    #[error("the entry has {found} {what}, and the record {recorded}")]
-    Structure {
-        /// Rows, for example.
-        what: &'static str,
-        /// Those of the record.
-        recorded: String,
-        /// Those of this run.
-        found: String,
-    },
+    pub(super) fn of_structure(what: &str, recorded: &str, found: &str) -> Self {
+        Self(format!("the entry has {found} {what}, and the record {recorded}"))
+    }
 }

@@ -99,6 +99,11 @@ impl EntryRecord {
         &self.made
     }
 
+    /// Names of the rows' figures.
+    pub fn figures(&self) -> impl Iterator<Item = &str> {
+        self.row.iter().map(|row| row.figure.as_str())
+    }
+
     /// Number of rows.
     pub const fn len(&self) -> usize {
         self.row.len()

@@ -9,7 +9,7 @@ use crate::geom::Mesh;
 use crate::report::sha256;
 use crate::study::reproduce::full_size::{FullModel, FullSize};
 use crate::study::reproduce::shared::{Shared, SharedResult};
-use crate::study::reproduce::{ModelSize, ReproduceEntry, StudyError, papers};
+use crate::study::reproduce::{ModelSize, Paper, PaperFigure, ReproduceEntry, StudyError, figures};
 
 /// Digests of the inputs of a run at full size, as far as reduced models do not show them: 16 hexadecimal digits each.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,34 +30,32 @@ impl RecordInputs {
         let digest_of = |model: &FullModel| Ok((model.name(), shared.get::<ModelDigest>(*model)?.0.clone()));
         let models = models.iter().map(digest_of).collect::<Result<_, StudyError>>()?;
         let parameters = format!("{} {}", parameters(), ModelSize::Printed.picture_side());
-        Ok(Some(Self { figures: figures(entry.id)?, parameters: digest(parameters.as_bytes()), models }))
+        Ok(Some(Self { figures: figures_of(entry.paper)?, parameters: digest(parameters.as_bytes()), models }))
     }
 
     /// First input that is another one now.
     pub(super) fn stale(&self, now: &Self) -> Option<StaleRecord> {
-        let pair = |recorded: &String, found: &String| (recorded.clone(), found.clone());
-        if self.figures != now.figures {
-            let (recorded, found) = pair(&self.figures, &now.figures);
-            return Some(StaleRecord::Figures { recorded, found });
-        }
-        if self.parameters != now.parameters {
-            let (recorded, found) = pair(&self.parameters, &now.parameters);
-            return Some(StaleRecord::Parameters { recorded, found });
-        }
-        let of = |inputs: &Self, model: &String| inputs.models.get(model).map_or("none", String::as_str).to_owned();
-        let mut models = self.models.keys().chain(now.models.keys());
-        let model = models.find(|model| of(self, model) != of(now, model))?;
-        Some(StaleRecord::Model { model: model.clone(), recorded: of(self, model), found: of(now, model) })
+        let of = |inputs: &Self, model: &str| inputs.models.get(model).map_or("none", String::as_str).to_owned();
+        let models = self.models.keys().chain(now.models.keys());
+        let models = models.map(|model| (format!("the model `{model}` has"), of(self, model), of(now, model)));
+        let [figures, parameters] = [
+            ("the paper's printed figures have", &self.figures, &now.figures),
+            ("the parameters of a run at full size have", &self.parameters, &now.parameters),
+        ]
+        .map(|(inputs, recorded, found)| (inputs.to_owned(), recorded.clone(), found.clone()));
+        let mut inputs = [figures, parameters].into_iter().chain(models);
+        let (inputs, recorded, found) = inputs.find(|(_, recorded, found)| recorded != found)?;
+        Some(StaleRecord::of_digests(&inputs, &recorded, &found))
     }
 }
 
-/// Digest of the printed figures of an entry's paper, which has the beginning of the entry's name.
-fn figures(entry: &str) -> Result<String, StudyError> {
-    let all = papers()?.iter().filter(|paper| entry.starts_with(paper.id)).flat_map(|paper| &paper.figures);
-    let line = |figure: &crate::study::reproduce::PaperFigure| {
+/// Digest of the printed figures of a paper.
+fn figures_of(paper: Paper) -> Result<String, StudyError> {
+    let of_paper = figures()?.iter().filter(|figure| figure.paper == paper);
+    let line = |figure: &PaperFigure| {
         format!("{}|{:?}|{}|{}|{}\n", figure.id, figure.value, figure.decimals, figure.unit, figure.place)
     };
-    Ok(digest(all.map(line).collect::<String>().as_bytes()))
+    Ok(digest(of_paper.map(line).collect::<String>().as_bytes()))
 }
 
 /// Digest of a model's mesh at full size.
@@ -93,7 +91,8 @@ mod tests {
     /// Another figure, model or parameter is said; what is the same is not stale.
     #[test]
     fn each_input_is_held() {
-        let entry = ReproduceEntry::new("bi-scale-entry", "A table", |_| Ok(EntryFindings::default()))
+        let entry = Paper::BiScale
+            .entry("bi-scale-entry", "A table", |_| Ok(EntryFindings::default()))
             .sized(&[FullModel::Transfer(TransferModel::Polygons)], || "4 views".to_owned());
         let now =
             RecordInputs::of(&entry, &Shared::new(ModelSize::Reduced)).expect("digests").expect("a choice of size");

@@ -63,11 +63,11 @@ pub fn recorded(entry: &ReproduceEntry) -> Result<Option<EntryRecord>, StudyErro
 /// ones.
 pub(super) fn findings(entry: &ReproduceEntry, shared: &Shared) -> Result<EntryFindings, StudyError> {
     if !entry.is_sized() {
-        return (entry.work)(shared);
+        return entry.run(shared);
     }
     let record = recorded(entry)?;
     if shared.models == ModelSize::Printed {
-        return Ok(smoke::compared(record.as_ref(), (entry.work)(shared)?));
+        return Ok(smoke::compared(record.as_ref(), entry.run(shared)?));
     }
     Ok(SmokeRun::new(entry, shared)?.judged_by(record.as_ref()))
 }

@@ -24,7 +24,7 @@ impl SmokeRun {
     /// Runs an entry on reduced models.
     pub(super) fn new(entry: &ReproduceEntry, shared: &Shared) -> Result<Self, StudyError> {
         let inputs = RecordInputs::of(entry, shared)?.unwrap_or_default();
-        Ok(Self { entry: *entry, inputs, found: (entry.work)(shared)? })
+        Ok(Self { entry: *entry, inputs, found: entry.run(shared)? })
     }
 
     /// Runs an entry alone on reduced models; `None` for an entry whose rows do not depend on the size of models.
@@ -41,27 +41,26 @@ impl SmokeRun {
     /// # Errors
     /// Those of the entry, and of a folder in which pieces cannot be kept.
     pub fn record(&self, kept: Rc<KeptResults>) -> Result<EntryRecord, StudyError> {
-        let full = (self.entry.work)(&Shared::new(ModelSize::Printed).keeping(Some(kept)))?;
+        let full = self.entry.run(&Shared::new(ModelSize::Printed).keeping(Some(kept)))?;
         Ok(EntryRecord::new(self.entry.id, self.inputs.clone(), (&full, &self.found)))
     }
 
     /// Reason why a record is of another program.
     pub fn stale(&self, record: &EntryRecord) -> Option<StaleRecord> {
-        let stale = record.inputs.stale(&self.inputs);
-        stale.or_else(|| judged(record, self.found.clone()).err())
+        record.inputs.stale(&self.inputs).or_else(|| judged(record, self.found.clone()).err())
     }
 
     /// Findings with the values, sentences and tables of a record; without one, or with one of another program, those
     /// of the reduced models, which judge nothing.
     pub fn judged_by(self, record: Option<&EntryRecord>) -> EntryFindings {
-        let restored = record.map(|record| match record.inputs.stale(&self.inputs) {
-            Some(stale) => Err(stale),
-            None => judged(record, self.found.clone()),
+        let restored = record.map(|record| {
+            let stale = record.inputs.stale(&self.inputs);
+            stale.map_or_else(|| judged(record, self.found.clone()), Err)
         });
-        match restored {
-            Some(Ok(found)) => found,
-            Some(Err(stale)) => reduced(self.found, Some(stale)),
-            None => reduced(self.found, None),
+        match restored.transpose() {
+            Ok(Some(found)) => found,
+            Ok(None) => reduced(self.found, None),
+            Err(stale) => reduced(self.found, Some(stale)),
         }
     }
 }
@@ -92,13 +91,12 @@ fn rows(record: &EntryRecord, smaller: &[PaperRow]) -> Result<Vec<PaperRow>, Sta
         names(&mut smaller.iter().map(|row| row.target.id.as_str())),
     ];
     if recorded != found {
-        return Err(StaleRecord::Structure { what: "rows", recorded, found });
+        return Err(StaleRecord::of_structure("rows", &recorded, &found));
     }
     let value = |(row, recorded): (&PaperRow, &RecordedRow)| {
         let found: Vec<f64> = row.values().collect();
         if !same_bits(&found, &recorded.reduced) {
-            let (figure, recorded) = (recorded.figure.clone(), recorded.reduced.clone());
-            return Err(StaleRecord::Value { figure, recorded, found });
+            return Err(StaleRecord::of_values(&recorded.figure, &recorded.reduced, &found));
         }
         let source = RowSource::Recorded { reduced: row.ours };
         Ok(row.clone().with_values(recorded.ours, recorded.readings.clone(), source))
@@ -106,11 +104,8 @@ fn rows(record: &EntryRecord, smaller: &[PaperRow]) -> Result<Vec<PaperRow>, Sta
     let mut rows = smaller.iter().zip(&record.row).map(value).collect::<Result<Vec<_>, _>>()?;
     for recorded in &record.sweep {
         let of_row = |row: &PaperRow| row.swept().iter().find(|applied| applied.name == recorded.name).cloned();
-        let structure = |found: &str| StaleRecord::Structure {
-            what: "sweeps",
-            recorded: format!("{} of {}", recorded.name, recorded.figures.join(", ")),
-            found: found.to_owned(),
-        };
+        let of_record = format!("{} of {}", recorded.name, recorded.figures.join(", "));
+        let structure = |found: &str| StaleRecord::of_structure("sweeps", &of_record, found);
         let applied = smaller.iter().find_map(of_row).ok_or_else(|| structure("none of this name"))?;
         if applied.figures != recorded.figures {
             return Err(structure(&applied.figures.join(", ")));
@@ -132,7 +127,7 @@ fn sentences(record: &EntryRecord, text: &[Prose]) -> Result<Vec<Prose>, StaleRe
         counts(&mut text.iter().map(|paragraph| paragraph.figures().len())),
     ];
     if recorded != found {
-        return Err(StaleRecord::Structure { what: "numbers in its paragraphs", recorded, found });
+        return Err(StaleRecord::of_structure("numbers in its paragraphs", &recorded, &found));
     }
     let numbers = record.text.iter().cloned();
     Ok(text.iter().zip(numbers).map(|(paragraph, numbers)| Prose::new(paragraph.template(), numbers)).collect())
@@ -150,7 +145,7 @@ pub(super) fn compared(record: Option<&EntryRecord>, mut found: EntryFindings) -
         }
     };
     found.rows.iter_mut().for_each(|row| row.source = source(row));
-    let differ = found.rows.iter().filter(|row| matches!(row.source, RowSource::Differs { .. })).count();
+    let differ = found.rows.iter().filter(|row| row.differs()).count();
     EntryFindings { record: Some(RecordStatus::Computed { made: record.made().clone(), differ }), ..found }
 }
 
@@ -167,7 +162,7 @@ mod tests {
     use super::*;
     use crate::report::{Cell, Table};
     use crate::study::reproduce::row::tests::{row, target};
-    use crate::study::reproduce::{RowVerdict, Setting};
+    use crate::study::reproduce::{Paper, RowVerdict, Setting};
 
     /// Findings whose rows are 1 and 2 times `value`, the second explained by a sweep that reaches what is printed.
     fn found(value: f64, points: &str) -> EntryFindings {
@@ -183,7 +178,7 @@ mod tests {
     }
 
     fn entry() -> ReproduceEntry {
-        ReproduceEntry::new("bi-scale-figure-8", "A figure", |_| Ok(EntryFindings::default()))
+        Paper::BiScale.entry("bi-scale-figure-8", "A figure", |_| Ok(EntryFindings::default()))
     }
 
     fn smoke(value: f64) -> SmokeRun {

@@ -4,12 +4,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::error::StaleRecord;
+use crate::report::words::counted;
 use crate::study::reproduce::prose::{Prose, number};
 
 const RECORDED: &str = "Rows and tables are recorded: `{}`, version {} ({}), {}. Pictures and charts are drawn anew on reduced models: a smoke test, whose rows \
     were those of the record to the bit.";
 const CONFIRMED: &str = "All is computed anew at full size, and has the bits of the record: `{}`, version {} ({}), {}.";
-const DIFFERS: &str = "All is computed anew at full size, and {} rows are not as recorded: `{}`, version {} ({}), {}. Either the record is of another program, or this \
+const DIFFERS: &str = "All is computed anew at full size; {} not as recorded: `{}`, version {} ({}), {}. Either the record is of another program, or this \
     program does not compute the same everywhere.";
 const STALE: &str = "The recorded run at full size is of another program: {}.";
 const MISSING: &str = "No run at full size is recorded.";
@@ -62,7 +63,8 @@ impl RecordStatus {
             Self::Recorded(by) => Prose::new(RECORDED, made(by)),
             Self::Computed { made: by, differ: 0 } => Prose::new(CONFIRMED, made(by)),
             Self::Computed { made: by, differ } => {
-                Prose::new(DIFFERS, [differ.to_string()].into_iter().chain(made(by)))
+                let rows = counted(*differ as u64, "row is", "rows are");
+                Prose::new(DIFFERS, [rows].into_iter().chain(made(by)))
             }
             Self::New => return None,
             Self::Reduced(stale) => {

@@ -1,7 +1,8 @@
 //! Printed values of a paper with their origin.
 
-use super::Bound;
+use super::{Bound, Standing};
 use crate::report::Cell;
+use crate::study::reproduce::Paper;
 
 /// Origin of a value.
 #[derive(Clone, Debug, PartialEq, Eq, strum::Display)]
@@ -62,6 +63,8 @@ pub enum MissClass {
 /// Value of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
+    /// Paper.
+    pub paper: Paper,
     /// Name: the paper's and the figure's, as in `ray-engine/host-alone`.
     pub id: String,
     /// Measured quantity.
@@ -82,6 +85,38 @@ pub struct PaperFigure {
     pub stated: String,
     /// Class of its miss, where its row is missed.
     pub missed: Option<MissClass>,
+    /// Row that follows from printed values alone, if it does.
+    pub equation: Option<PaperEquation>,
+}
+
+/// Row whose value is an expression of printed ones: nothing is drawn, solved or counted for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaperEquation {
+    /// Entry that the row belongs to.
+    pub entry: String,
+    /// Card or host.
+    pub device: String,
+    /// Value of the expression, in the unit of the figure.
+    pub ours: f64,
+    /// Values by other readings.
+    pub readings: Vec<f64>,
+    /// Printed values that the expression uses; `None` if all are sizes or other numbers of the text.
+    pub uses: Option<String>,
+    /// Printed values that chose a constant of the expression.
+    pub chose: Option<String>,
+    /// The computation in words, where a value that does not round to the printed one contradicts it.
+    pub contradicts: Option<String>,
+}
+
+impl PaperEquation {
+    /// Dependence of the value on printed ones.
+    pub fn standing(&'static self) -> Standing {
+        match (&self.chose, &self.uses) {
+            (Some(on), _) => Standing::Calibrated { on },
+            (None, Some(from)) => Standing::Predicted { from },
+            (None, None) => Standing::Counted,
+        }
+    }
 }
 
 impl PaperFigure {

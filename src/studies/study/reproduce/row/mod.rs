@@ -17,7 +17,7 @@ mod verdict;
 pub use bound::Bound;
 pub use contradiction::Contradiction;
 pub use explanation::Explanation;
-pub use figure::{Judgement, MissClass, Origin, PaperFigure};
+pub use figure::{Judgement, MissClass, Origin, PaperEquation, PaperFigure};
 pub use method::{Method, Standing};
 pub use setting::Setting;
 pub use source::RowSource;
@@ -200,6 +200,16 @@ impl PaperRow {
         found.is_some_and(|found| agrees(self.target.value) || found.value().is_some_and(agrees))
     }
 
+    /// Returns `true` if the printed value determined a constant of the model: agreement is no evidence.
+    pub const fn is_calibrated(&self) -> bool {
+        matches!(self.standing, Standing::Calibrated { .. })
+    }
+
+    /// Returns `true` if a recorded run has another value than this run at full size.
+    pub const fn differs(&self) -> bool {
+        matches!(self.source, RowSource::Differs { .. })
+    }
+
     /// Class of the miss; `None` for a row that is not missed.
     pub fn missed(&self) -> Option<MissClass> {
         self.target.missed.filter(|_| self.verdict() == RowVerdict::Missed)
@@ -225,6 +235,7 @@ pub(super) mod tests {
 
     pub(in crate::study::reproduce) fn target(value: f64, decimals: u8) -> PaperFigure {
         PaperFigure {
+            paper: crate::study::reproduce::Paper::RayEngine,
             id: "ray-engine/tests".to_owned(),
             what: "tests".to_owned(),
             value,
@@ -235,6 +246,7 @@ pub(super) mod tests {
             judgement: Judgement::Within(Bound::Relative(0.1)),
             stated: "2026-11-26".to_owned(),
             missed: Some(MissClass::ModelLost),
+            equation: None,
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::setting::{AppliedSweep, Setting};
-use super::{Explanation, PaperRow, Standing};
+use super::{Explanation, PaperRow};
 use crate::report::{Cell, Table};
 
 /// Variation of a parameter that a paper does not print, with the resulting values of some rows. The rows themselves
@@ -32,9 +32,9 @@ impl Sweep {
             figures: rows.iter().map(|row| row.target.id.clone()).collect(),
         });
         rows.iter_mut().for_each(|row| row.swept.push(Arc::clone(&applied)));
-        let calibrated = |row: &PaperRow| matches!(row.standing, Standing::Calibrated { .. });
-        let open =
-            |row: &PaperRow| !row.is_contradictory() && !calibrated(row) && !row.holds() && row.explanation.is_none();
+        let open = |row: &PaperRow| {
+            !row.is_contradictory() && !row.is_calibrated() && !row.holds() && row.explanation.is_none()
+        };
         let lost = |row: &PaperRow| !row.is_contradictory() && row.holds();
         let mut best: Option<(&Setting, Vec<bool>, usize)> = None;
         for setting in &self.settings {

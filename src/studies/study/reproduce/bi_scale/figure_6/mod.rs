@@ -9,8 +9,7 @@ use glam::DMat3;
 
 use super::scenes::SCENES;
 use super::{
-    EntryFindings, HOST, Method, ModelSize, PaperRow, Prose, Shared, Standing, StudyError, failed, number, paper_row,
-    printed_value, solved,
+    EntryFindings, HOST, ModelSize, PaperRow, Prose, Shared, StudyError, failed, number, printed_value, solved,
 };
 use crate::bi_scale::baselines::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
@@ -98,5 +97,5 @@ fn rows(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Vec<PaperRow
     let given_back = (0..matrix.rows()).filter(|&row| matrix.row(row) == sum.row(row)).count();
     let share = 100.0 * given_back as f64 / matrix.rows() as f64;
     let lossless = solved("lossless", share)?.confined([100.0; 2], "Algorithm 1 moves values, and rounds none");
-    Ok(vec![sizes::wavelet_row()?, lossless])
+    Ok(vec![lossless])
 }

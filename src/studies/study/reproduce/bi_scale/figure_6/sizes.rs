@@ -1,7 +1,7 @@
 //! Bytes of the chair by each method, from printed numbers alone.
 
 use super::super::scenes::SCENES;
-use super::{HOST, Method, PaperRow, Standing, StudyError, paper_row, printed_value};
+use super::{StudyError, printed_value};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
@@ -16,12 +16,6 @@ const WAVELET_BYTES: usize = 3;
 
 fn wavelets(bytes: usize) -> Result<f64, StudyError> {
     Ok(1e-6 * (SCENES[2].rows()? * WAVELETS * bytes) as f64)
-}
-
-/// Row on the size of wavelets, with a guessed number of bytes that reproduces it.
-pub(super) fn wavelet_row() -> Result<PaperRow, StudyError> {
-    let standing = Standing::Calibrated { on: "this figure, which chose three bytes per wavelet" };
-    paper_row(PRINTED_WAVELETS, (HOST, Method::Equation), (wavelets(WAVELET_BYTES)?, standing))
 }
 
 /// Table of every method with its layouts, beside the printed values; the size of clusters is illegible in the scan.

@@ -1,0 +1,94 @@
+//! Expressions of printed values: numbers, names of figures, `+ - * /` with blanks on both sides, and parentheses.
+
+use std::iter::Peekable;
+
+/// Returns the value of an expression; `figure` has the values of figures by name. Operators of equal rank are taken
+/// from left to right, each rounded to f64.
+///
+/// # Errors
+/// If the text is no expression, in a sentence, or those of `figure`.
+pub(super) fn evaluate(text: &str, figure: &dyn Fn(&str) -> Result<f64, String>) -> Result<f64, String> {
+    // Names have hyphens, so that an operator is a word of its own.
+    let spaced = text.replace('(', " ( ").replace(')', " ) ");
+    let mut words = spaced.split_whitespace().peekable();
+    let value = sum(&mut words, figure)?;
+    words.next().map_or(Ok(value), |word| Err(format!("expected an operator in `{text}`, found `{word}`")))
+}
+
+fn sum<'a>(
+    words: &mut Peekable<impl Iterator<Item = &'a str>>,
+    figure: &dyn Fn(&str) -> Result<f64, String>,
+) -> Result<f64, String> {
+    let mut value = product(words, figure)?;
+    while let Some(operator) = words.next_if(|word| matches!(*word, "+" | "-")) {
+        let term = product(words, figure)?;
+        value = if operator == "+" { value + term } else { value - term };
+    }
+    Ok(value)
+}
+
+fn product<'a>(
+    words: &mut Peekable<impl Iterator<Item = &'a str>>,
+    figure: &dyn Fn(&str) -> Result<f64, String>,
+) -> Result<f64, String> {
+    let mut value = factor(words, figure)?;
+    while let Some(operator) = words.next_if(|word| matches!(*word, "*" | "/")) {
+        let factor = factor(words, figure)?;
+        value = if operator == "*" { value * factor } else { value / factor };
+    }
+    Ok(value)
+}
+
+fn factor<'a>(
+    words: &mut Peekable<impl Iterator<Item = &'a str>>,
+    figure: &dyn Fn(&str) -> Result<f64, String>,
+) -> Result<f64, String> {
+    match words.next() {
+        None => Err("expected a number at the end of an expression".to_owned()),
+        Some("(") => {
+            let value = sum(words, figure)?;
+            words.next_if_eq(&")").map(|_| value).ok_or_else(|| "expected `)`".to_owned())
+        }
+        Some(word) if word.starts_with(|first: char| first.is_ascii_digit()) => {
+            word.parse().map_err(|_| format!("expected a number, found `{word}`"))
+        }
+        Some(name) => figure(name),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> Result<f64, String> {
+        evaluate(text, &|name| if name == "a-b" { Ok(8.0) } else { Err(format!("no `{name}`")) })
+    }
+
+    #[test]
+    fn operators_have_their_ranks() {
+        for (text, expected) in [
+            ("2 + 3 * 4", 14.0),
+            ("(2 + 3) * 4", 20.0),
+            ("a-b / 2 / 2 - 1e-1", 1.9),
+            ("100 * ((a-b - 2) / (1 + 2))", 200.0),
+        ] {
+            assert_eq!(value(text), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn other_texts_are_refused() {
+        for (text, reason) in [
+            ("", "at the end"),
+            ("1 +", "at the end"),
+            ("(1", "expected `)`"),
+            ("1 2", "found `2`"),
+            ("1x", "found `1x`"),
+            ("2*3", "found `2*3`"),
+            ("* 2", "no `*`"),
+            ("1 / c", "no `c`"),
+        ] {
+            assert!(value(text).expect_err(text).contains(reason), "{text}: {:?}", value(text));
+        }
+    }
+}
