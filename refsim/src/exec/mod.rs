@@ -37,14 +37,12 @@ pub use fragment::FragmentFormats;
 pub use observer::{NoObserver, Observer, Step, TextureRead, Trace};
 pub use result::{DepthValue, FragmentResult};
 pub use state::{FixedFunctionState, FogState, LightState, MaterialState, MatrixRows};
-pub use tile::{TILE, TileDraw, output_rules};
+pub use tile::{TILE, TileDraw};
 pub use trace::Shading;
 pub use usage::{colors_written, inputs_read};
 
 use crate::check::Checked;
-use crate::device::Rules;
 use crate::isa::Program;
-use crate::texture::SampleRules;
 
 /// A program that passed the checker. Executors accept no other.
 ///
@@ -55,9 +53,4 @@ pub type CheckedProgram = Checked<Program>;
 /// Returns the program.
 pub(crate) fn program(checked: &CheckedProgram) -> &Program {
     checked
-}
-
-/// The device's sampling rules.
-pub fn sample_rules(rules: &Rules) -> SampleRules {
-    rules.into()
 }

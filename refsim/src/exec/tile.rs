@@ -5,7 +5,7 @@
 
 use super::{CheckedProgram, PixelBindings};
 use crate::device::Rules;
-use crate::output::{OutputRules, OutputState};
+use crate::output::OutputState;
 
 /// Side length of a tile in pixels. Tile positions are multiples of it; tiles at the far edges of the targets are
 /// smaller.
@@ -24,9 +24,4 @@ pub struct TileDraw<'a> {
     pub output: OutputState,
     /// Step budget per fragment.
     pub step_budget: u32,
-}
-
-/// The device's rules for render targets.
-pub fn output_rules(rules: &Rules) -> OutputRules {
-    OutputRules { format: rules.format, target_rounding: rules.target_rounding, depth_rounding: rules.depth_rounding }
 }

@@ -36,7 +36,7 @@ pub enum DestinationRule {
 pub enum ResultKind {
     /// Nothing: flow control, kills, depth, and matrix rows for a later texture read.
     None,
-    /// Numbers of the register format.
+    /// Numbers of the register format, or what is found from such numbers: an address, or masks of a comparison.
     Numbers,
     /// A texel.
     Texel,

@@ -11,7 +11,7 @@ use super::walk::{bytes, load};
 use super::{DrawCall, ExecutorKind, Machine, MachineError};
 use crate::event::{DrawEvents, FragmentCounts, SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
 use crate::exec::scalar::ScalarTiles;
-use crate::exec::{Observer, Overrun, SamplerBinding, Step, TILE, TextureRead, program, sample_rules};
+use crate::exec::{Observer, Overrun, SamplerBinding, Step, TILE, TextureRead, program};
 use crate::output::TargetTile;
 use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::{Layout, Region, SampleRules, TexelMap, touched};
@@ -78,7 +78,7 @@ impl Machine {
             }
         }
         observer.begin();
-        let mut reporter = TexelReporter { bound, rules: sample_rules(&profile.rules), observer: observer.as_mut() };
+        let mut reporter = TexelReporter { bound, rules: (&profile.rules).into(), observer: observer.as_mut() };
         let tiles = ScalarTiles::new(&draw);
         // Vertex programs read no textures, so the batch executor can run them.
         let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, &self.batch), ComponentMask::ALL);

@@ -5,7 +5,7 @@
 
 use super::state::DrawState;
 use super::validate::Plan;
-use super::vertices::{VertexStage, raster_rules};
+use super::vertices::VertexStage;
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
     DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FlowConstants, HostWork, ProgramWork, ReadBackMode,
@@ -15,7 +15,7 @@ use crate::exec::batch::{Instances, Surfaces};
 use crate::exec::{CheckedProgram, Constants, program};
 use crate::isa::{Opcode, RegisterFile};
 use crate::output::DepthSurface;
-use crate::raster::{ComponentMask, Edge, TriangleSetup};
+use crate::raster::{ComponentMask, Edge, RasterRules, TriangleSetup};
 use crate::texture::{Image, MipFilter, Region};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -200,7 +200,7 @@ impl Machine {
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
         let needed = ComponentMask::NONE;
         let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), needed);
-        let rules = raster_rules(&self.profile);
+        let rules = RasterRules::from(&self.profile.rules);
         let mut outlines = BTreeMap::new();
         let mut quads = 0;
         for round in plan.rounds() {

@@ -6,7 +6,7 @@ use super::device::GpuTracer;
 use super::step_budget::StepBudget;
 use super::tiles::tile_draw;
 use super::validate::{Plan, ROUND};
-use super::vertices::{VertexStage, raster_rules};
+use super::vertices::VertexStage;
 use super::walk::load;
 use super::{DrawCall, ExecutorKind, Machine, MachineError, PixelState, validate};
 use crate::exec::batch::BatchExecutor;
@@ -144,7 +144,7 @@ impl Machine {
         mut pass: impl FnMut(&[PlacedSetup]) -> Result<(), MachineError>,
     ) -> Result<(), MachineError> {
         let stage = VertexStage::new(call, &self.profile, self.vertex_executor(), ComponentMask::ALL);
-        let rules = raster_rules(&self.profile);
+        let rules = RasterRules::from(&self.profile.rules);
         for instances in plan.rounds() {
             let (first, count) = (instances.start, instances.len());
             let vertices = stage.run(first, count, plan)?.vertices;

@@ -12,11 +12,11 @@ use crate::exec::wgsl::parts::Parts;
 use crate::exec::wgsl::program::{Microcode, PixelShader, TRACE_WORDS};
 use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::wgsl::texture;
-use crate::exec::{PixelBindings, SamplerBinding, colors_written, inputs_read, output_rules, program, sample_rules};
+use crate::exec::{PixelBindings, SamplerBinding, colors_written, inputs_read, program};
 use crate::isa::OpcodeClass;
-use crate::output::MAX_TARGETS;
+use crate::output::{MAX_TARGETS, OutputRules};
 use crate::raster::TriangleSetup;
-use crate::texture::{Image, TextureKind};
+use crate::texture::{Image, SampleRules, TextureKind};
 
 /// Capacity of a record, in steps, for programs with flow control, whose number of steps is unbounded.
 const FLOW_STEPS: usize = 256;
@@ -45,7 +45,7 @@ pub(super) fn draw_words(
         program: source,
         rules: &profile.rules,
         output: &call.output_state(),
-        output_rules: &output_rules(&profile.rules),
+        output_rules: &OutputRules::from(&profile.rules),
         components: inputs_read(source),
         written: colors_written(source),
         targets,
@@ -72,7 +72,7 @@ impl EncodedProgram {
         words: &mut DrawWords,
         traced: bool,
     ) -> Result<Self, MachineError> {
-        let rules = sample_rules(&profile.rules);
+        let rules = SampleRules::from(&profile.rules);
         let (bump, projections) = (call.bump, call.projections);
         let mut bindings = PixelBindings { bump, projections, ..PixelBindings::new(call.pixel_constants) };
         let mut samplers = Vec::with_capacity(SAMPLERS * texture::SAMPLER_WORDS);

@@ -204,11 +204,6 @@ fn fill_attribute(
     }
 }
 
-/// The device's rasterisation rules.
-pub(super) fn raster_rules(profile: &Profile) -> RasterRules {
-    (&profile.rules).into()
-}
-
 /// Sets up the triangles of `instances` instances with consecutive vertices.
 pub(super) fn set_up(
     vertices: &[Vertex],
@@ -216,7 +211,7 @@ pub(super) fn set_up(
     plan: &Plan,
     profile: &Profile,
 ) -> (Vec<TriangleSetup>, PrimitiveCounts) {
-    let rules = raster_rules(profile);
+    let rules = RasterRules::from(&profile.rules);
     let each = plan.triangles.len();
     let total = each * instances;
     let parts: Vec<_> = (0..total.div_ceil(SETUP_CHUNK))

@@ -3,7 +3,7 @@
 use super::memory::Memory;
 use super::tiles::Tiles;
 use super::validate::{Plan, ROUND};
-use super::vertices::{VertexStage, raster_rules, set_up};
+use super::vertices::{VertexStage, set_up};
 use super::{DrawCall, ExecutorKind, MachineError};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
@@ -11,7 +11,7 @@ use crate::exec::batch::{BatchExecutor, Instances, Surfaces};
 use crate::exec::{Overrun, TILE, program};
 use crate::isa::Stage;
 use crate::output::TargetTile;
-use crate::raster::{ComponentMask, TriangleSetup};
+use crate::raster::{ComponentMask, RasterRules, TriangleSetup};
 use crate::texture::Region;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -75,7 +75,7 @@ pub(super) fn draw(
                 } else {
                     let rows = stage.rows(first, count, plan, needed)?;
                     let instances = Instances { rows: &rows, count, triangles: &plan.triangles };
-                    let rules = raster_rules(profile);
+                    let rules = RasterRules::from(&profile.rules);
                     let (surfaces, primitives) =
                         Surfaces::build(&instances, &plan.raster, &rules, needed, tiles.simd());
                     (surfaces, primitives, rows.executed)

@@ -1,37 +1,13 @@
 //! Operations on arrays against `num`: doubles of any size and patterns, in every layout under every rule, for arrays
 //! of lengths that fill no row.
 
+use crate::lanes::{layout, variants};
 use crate::random::Random;
 use refsim::exec::batch::ArrayOperation;
-use refsim::num::{self, Denormals, Format, FormatKind, NumberOperation as Op, Overflow, Rounding, Specials, from_f64};
+use refsim::num::{self, Format, NumberOperation as Op, from_f64};
 
 const LAYOUTS: &str = "s3.12 s0.1 s0.15 s31.0 s0.31 s15.16 n3.8 n0.8 n2.7 e5m10 e7m16 e8m23 e8m7 e2m1 e6m9 e7m22 e2m23 \
                        e4m3fn e2m1fn e2m3fn e5m2fnuz e7m23fn e7m16fnuz";
-
-/// Every rule of a layout.
-fn variants(text: &str) -> Vec<Format> {
-    use Rounding::{Down, NearestAway, NearestEven, Odd, TowardZero, Up};
-    let base: Format = text.parse().expect("a layout");
-    let mut all = Vec::new();
-    for rounding in [NearestEven, NearestAway, TowardZero, Down, Up, Odd] {
-        if base.with_rounding(rounding).for_registers().is_err() {
-            continue;
-        }
-        let overflows: &[Overflow] = match base.kind {
-            FormatKind::Float { .. } => &[Overflow::Infinity, Overflow::Saturate, Overflow::Nv30],
-            _ => &[Overflow::Saturate, Overflow::Wrap],
-        };
-        for &overflow in overflows {
-            for denormals in [Denormals::Keep, Denormals::Flush] {
-                for specials in [Specials::Ieee, Specials::Nv] {
-                    let own = base.with_rounding(rounding).with_overflow(overflow);
-                    all.push(own.with_denormals(denormals).with_specials(specials));
-                }
-            }
-        }
-    }
-    all
-}
 
 impl Random {
     /// A double: of any bits, at the ends of the format or at a tie with a bit more or less, or of a plain size.
@@ -60,7 +36,7 @@ fn same(a: f64, b: f64) -> bool {
 
 #[test]
 fn doubles_are_rounded_as_the_definition_says() {
-    for (k, f) in LAYOUTS.split(' ').flat_map(variants).enumerate() {
+    for (k, f) in LAYOUTS.split(' ').flat_map(|text| variants(layout(text))).enumerate() {
         let mut random = Random::new(0x9e37_79b9_7f4a_7c15 + k as u64);
         let some: Vec<f64> = (0..600).map(|_| random.double(&f)).collect();
         let mut found = vec![0.0; some.len()];
@@ -80,7 +56,7 @@ fn operations_are_those_of_the_definition() {
     let operations = Op::ALL.into_iter().filter(|&operation| ArrayOperation::new(Format::FP16, operation).is_some());
     let operations: Vec<Op> = operations.collect();
     assert_eq!(operations.len(), 18);
-    for (k, f) in LAYOUTS.split(' ').flat_map(variants).enumerate() {
+    for (k, f) in LAYOUTS.split(' ').flat_map(|text| variants(layout(text))).enumerate() {
         let mut random = Random::new(0x1234_5678_9abc_def1 + k as u64);
         let operands = [0; 3].map(|_| (0..300).map(|_| random.double(&f)).collect::<Vec<f64>>());
         let bits = operands.each_ref().map(|some| some.iter().map(|&x| from_f64(f, x).bits).collect::<Vec<u32>>());

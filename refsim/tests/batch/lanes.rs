@@ -55,13 +55,10 @@ fn same(f: Format, what: &str, [a, b, c]: [&[u32]; 3], batch: &[u32], scalar: im
     }
 }
 
-const ROUNDINGS: [Rounding; 6] =
-    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
-
 /// The layout with every combination of rules of its kind.
-fn variants(base: Format) -> Vec<Format> {
+pub(crate) fn variants(base: Format) -> Vec<Format> {
     let mut out = Vec::new();
-    for rounding in ROUNDINGS {
+    for (_, rounding) in Rounding::ALL {
         let Ok(f) = base.with_rounding(rounding).for_registers() else { continue };
         if f.is_fixed() {
             out.push(f.with_overflow(Overflow::Saturate));
@@ -103,7 +100,7 @@ impl Random {
     }
 }
 
-fn layout(text: &str) -> Format {
+pub(crate) fn layout(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 

@@ -13,16 +13,13 @@ use crate::random::Random;
 use crate::rational::{self, Q};
 use crate::small_ops::Reference;
 
-const ROUNDINGS: [Rounding; 6] =
-    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
-
 /// Every layout with at most 6 bits and every meaningful combination of rules.
 fn formats() -> Vec<Format> {
     let mut all = Vec::new();
     let fixed = (0..6).flat_map(|i| (0..6).filter_map(move |f| Format::fixed(i, f)));
     let normalized = (0..4).flat_map(|i| (2..6).filter_map(move |f| Format::normalized(i, f)));
     for layout in fixed.chain(normalized).filter(|f| f.width() <= 6) {
-        for rounding in ROUNDINGS {
+        for (_, rounding) in Rounding::ALL {
             for overflow in [Overflow::Saturate, Overflow::Wrap] {
                 all.push(layout.with_rounding(rounding).with_overflow(overflow));
             }
@@ -34,7 +31,7 @@ fn formats() -> Vec<Format> {
     // Finite floats have NaN from 7 bits on.
     let seven = [(2, 4), (4, 2), (3, 3)].into_iter().filter_map(|(x, m)| Format::float(x, m));
     for layout in encoded.chain(seven.map(|f| f.with_encoding(Encoding::Finite))) {
-        for rounding in ROUNDINGS {
+        for (_, rounding) in Rounding::ALL {
             for overflow in [Overflow::Infinity, Overflow::Saturate, Overflow::Nv30] {
                 for denormals in [Denormals::Keep, Denormals::Flush] {
                     for specials in [Specials::Ieee, Specials::Nv] {

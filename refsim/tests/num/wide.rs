@@ -9,9 +9,6 @@ use crate::environment::by_form;
 use crate::half::{MODES, agree};
 use crate::random::Random;
 
-const ROUNDINGS: [Rounding; 6] =
-    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down, Rounding::Up, Rounding::Odd];
-
 /// Runs `body` on generators of 64 seeds, in parallel.
 fn seeds(cases: u64, body: impl Fn(&mut Random) + Sync) {
     (0..64u64).into_par_iter().for_each(|seed| {
@@ -107,7 +104,7 @@ fn add_to_odd(a: f64, b: f64) -> f64 {
 #[test]
 fn fp24_equals_double() {
     let cases = by_form(1_000_000, 100_000_000);
-    for rounding in ROUNDINGS {
+    for (_, rounding) in Rounding::ALL {
         let f = Format::FP24.with_rounding(rounding);
         let zero = |bits: u32| bits & 0x7f_ffff == 0;
         seeds(cases, |generator| {

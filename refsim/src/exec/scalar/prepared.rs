@@ -5,7 +5,6 @@ use crate::device::Rules;
 use crate::exec::budget::enforced;
 use crate::exec::{
     BumpStage, Constants, FlowMap, PixelBindings, Projection, ResolvedConstants, SamplerBinding, inputs_read,
-    sample_rules,
 };
 use crate::isa::{Program, RegisterFile, Stage};
 use crate::num::{Format, ops};
@@ -36,7 +35,7 @@ impl<'a> Prepared<'a> {
             flow: FlowMap::new(program),
             constants: ResolvedConstants::pixel(program, rules, bindings.constants),
             format: rules.format,
-            sample_rules: sample_rules(rules),
+            sample_rules: rules.into(),
             reads: inputs_read(program),
             budget: None,
             bindings: Some(*bindings),
@@ -50,7 +49,7 @@ impl<'a> Prepared<'a> {
             flow: FlowMap::new(program),
             constants: ResolvedConstants::vertex(program, rules, constants),
             format: rules.vertex_format,
-            sample_rules: sample_rules(rules),
+            sample_rules: rules.into(),
             reads: ComponentMask::NONE,
             budget: None,
             bindings: None,

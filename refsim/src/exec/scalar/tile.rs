@@ -5,7 +5,7 @@ use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::trace::{as_written, canonical};
 use crate::exec::{
     CheckedProgram, DepthValue, FragmentResult, NoObserver, Observer, Overrun, Shading, TileDraw, Trace,
-    colors_written, output_rules, program,
+    colors_written, program,
 };
 use crate::num::Format;
 use crate::output::{FragmentFate, FragmentOutput, OutputRules, OutputState, TargetTile, merge};
@@ -29,7 +29,7 @@ impl<'a> ScalarTiles<'a> {
             source: draw.program,
             written: colors_written(draw.program),
             output: draw.output,
-            rules: output_rules(draw.rules),
+            rules: draw.rules.into(),
         }
     }
 

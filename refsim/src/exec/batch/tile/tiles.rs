@@ -15,10 +15,10 @@ use crate::exec::batch::run::{BatchTexture, Surroundings, TextureTables, fill_co
 use crate::exec::batch::vertex::Surfaces;
 use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{Arith, Formats, has_flow};
-use crate::exec::{Overrun, ResolvedConstants, TileDraw, colors_written, inputs_read, output_rules, sample_rules};
+use crate::exec::{Overrun, ResolvedConstants, TileDraw, colors_written, inputs_read};
 use crate::output::{DepthFormat, TargetTile};
 use crate::raster::ComponentMask;
-use crate::texture::Region;
+use crate::texture::{Region, SampleRules};
 
 /// Batch tile executor of one draw.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ impl<'a> BatchTiles<'a> {
         }
         let formats = LaneFormats::new(Formats::pixel(program, draw.rules), simd);
         let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
-        let rules = sample_rules(draw.rules);
+        let rules = SampleRules::from(draw.rules);
         let code = decoded(programs, program, draw, &constants);
         if matches!(&code.code, PixelCode::Straight(straight, _) if !straight.fits_slots()) {
             return None;
@@ -61,11 +61,7 @@ impl<'a> BatchTiles<'a> {
         Some(Self {
             textures,
             constants: raw_constants(&constants.float, &formats),
-            output: OutputStage {
-                state: draw.output,
-                rules: output_rules(draw.rules),
-                written: colors_written(program),
-            },
+            output: OutputStage { state: draw.output, rules: draw.rules.into(), written: colors_written(program) },
             inputs: inputs_read(program),
             program: code,
             formats,
