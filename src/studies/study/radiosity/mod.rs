@@ -8,6 +8,7 @@ mod atlas;
 mod change;
 mod conclusion;
 mod difference;
+mod error;
 mod method;
 mod outcome;
 mod parameters;
@@ -21,7 +22,6 @@ mod tables;
 mod time;
 
 use crate::atlas::AtlasError;
-use crate::card::CardError;
 use crate::picture::metrics::value_error;
 use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
@@ -37,6 +37,7 @@ use crate::study::{ProgressFn, Study, StudyError};
 pub use atlas::AtlasPictures;
 pub use change::{Change, Relit};
 pub use difference::SolutionError;
+pub(in crate::study) use error::no_card;
 pub use method::{CardMethod, SolveMethod, StopReason};
 pub use outcome::{MethodRow, RadiosityOutcome};
 pub use parameters::{FactorRequirements, Factors, Parameters};
@@ -54,11 +55,6 @@ library_errors! {
     RateError => "radiosity::rate";
     SolveError => "radiosity::solve";
     SystemError => "radiosity::system";
-}
-
-/// Error of the card.
-pub(in crate::study) fn no_card(error: CardError) -> StudyError {
-    StudyError::coded("radiosity::card", error)
 }
 
 /// Error of a scene without an atlas.
