@@ -146,6 +146,53 @@ pub fn instructions(text: &str) -> usize {
     text.lines().filter(|line| !line.starts_with("//") && line.trim_end().ends_with(';')).count()
 }
 
+/// Instructions of a vertex program that make the position: rows of the projection in c0 to c3.
+pub const TO_CLIP: &str = "dp4 oPos.x, v0, c0\ndp4 oPos.y, v0, c1\ndp4 oPos.z, v0, c2\ndp4 oPos.w, v0, c3\n";
+
+/// Instructions of a vertex program that leave the view vector in r0, and tangent and bitangent in r1 and r2. The eye
+/// is in c4; `tangent` and `normal` are attribute registers.
+pub fn local_view(tangent: usize, normal: usize) -> String {
+    format!(
+        "; the view vector along tangent, bitangent and normal\nadd r0.xyz, c4, -v0\nmov r1.xyz, v{tangent}\n\
+         mul r2.xyz, r1.zxyw, v{normal}.yzxw\nmad r2.xyz, -r1.yzxw, v{normal}.zxyw, r2\n"
+    )
+}
+
+/// Instructions of a pixel program that leave the coordinates of a `view` vector in a parabolic map in r0. c0 is
+/// [`PARABOLIC`].
+pub fn parabolic(view: &str) -> String {
+    format!(
+        "; x and y over |v| + z, from [-1, 1] to [0, 1]\ndp3 r0.w, {view}, {view}\nrsq r0.x, r0.w\n\
+         mad r0.x, r0.w, r0.x, {view}.z\nmax r0.x, r0.x, c0.z\nrcp r0.x, r0.x\nmul r0.x, r0.x, c0.y\n\
+         mad r0.xy, {view}, r0.x, c0.y\n"
+    )
+}
+
+/// The constants of [`parabolic`]: 1, 1/2, and the least denominator.
+pub const PARABOLIC: &str = "def c0, 1, 0.5, 0.00000095367431640625, 0\n";
+
+/// A program that is written out from sizes.
+pub trait WrittenKernel {
+    /// The name used in messages.
+    fn name(&self) -> String;
+
+    /// The program's assembly text.
+    fn text(&self) -> String;
+
+    /// The program, checked for a device.
+    ///
+    /// # Errors
+    /// [`KernelError`] if it breaks a rule of the device.
+    fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
+        checked(profile, format!("`{}`", self.name()), &self.text())
+    }
+
+    /// Name and text.
+    fn listed(&self) -> (String, String) {
+        (self.name(), self.text())
+    }
+}
+
 /// A program text, checked for a device. `kernel` is its name in messages.
 ///
 /// # Errors

@@ -35,6 +35,11 @@ impl Texels {
         &self.texels[y * self.width..(y + 1) * self.width]
     }
 
+    /// Red, green and blue of each texel, row by row.
+    pub fn colors(&self) -> Vec<[f64; 3]> {
+        self.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
+    }
+
     /// A rectangle texture, each value rounded once into the format.
     ///
     /// # Errors

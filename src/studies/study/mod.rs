@@ -43,6 +43,8 @@ pub trait Study {
         self.findings(progress).map(Computed::Whole)
     }
 
-    /// Adds the devices, switches and seed that are used.
-    fn provenance(&self, provenance: Provenance) -> Provenance;
+    /// Adds the devices, switches and seed that are used; by default there are none.
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        provenance
+    }
 }

@@ -85,7 +85,7 @@ fn pixels_show_what_their_rays_meet() {
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
-    let ways = factored_precision(hills.mesh(), &executor, (camera(), 2.5), &mut |_| ()).expect("pictures");
+    let ways = factored_precision(hills.mesh(), &executor, camera(), 2.5, &mut |_| ()).expect("pictures");
     let seen =
         seen_pixels(&Profile::named("r350").expect("a card"), hills.vertices.geometry(), &camera()).expect("pixels");
     let brightest = seen.iter().flatten().flat_map(|seen| {

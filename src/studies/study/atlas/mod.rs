@@ -6,7 +6,7 @@ mod pictures;
 mod report;
 
 use crate::atlas::{Atlas, AtlasQuality};
-use crate::report::{Findings, Provenance};
+use crate::report::Findings;
 use crate::study::{ProgressFn, Study, StudyError};
 
 pub use parameters::{AtlasStudy, no_atlas};
@@ -23,9 +23,5 @@ impl Study for AtlasStudy {
             progress("drawing", 2, steps);
         }
         Ok(report::findings(self, &atlas, &quality))
-    }
-
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }

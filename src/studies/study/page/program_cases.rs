@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 
+use crate::card::WrittenKernel;
 use crate::cpca::kernels::ExitKernel;
 use crate::radiosity::kernels::LUMINANCE_NEXT;
 use crate::ray_engine::kernels::{FLOAT, ONE_ORIGIN_SETUP, ONE_ORIGIN_UNSIGNED, SEVEN_VECTORS_SETUP};

@@ -3,7 +3,7 @@
 mod compare;
 mod report;
 
-use crate::report::{Findings, Provenance};
+use crate::report::Findings;
 use crate::study::{ProgressFn, Study, StudyError};
 
 pub use compare::{DifferenceOptions, PictureDifference, PictureInput};
@@ -12,9 +12,5 @@ impl Study for PictureDifference {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let outcome = self.compare(progress)?;
         report::findings(self, outcome)
-    }
-
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }

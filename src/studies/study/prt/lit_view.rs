@@ -6,7 +6,8 @@ use serde_json::json;
 use super::interpolate::linear_picture;
 use super::light_picture::light_picture;
 use crate::picture::{Picture, PictureError};
-use crate::report::{Findings, NamedPicture};
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Findings, NamedPicture, false_color};
 use crate::scene::Camera;
 
 /// Mean of what is not black under auto-exposure.
@@ -64,6 +65,28 @@ impl LitView {
         found.keep_layers("picture", picture);
         found.field("exposure", json!(exposure));
         Ok((found, exposure))
+    }
+
+    /// The picture from uncompressed transfer, and where `drawn` differs from it; the difference of each pixel's mean
+    /// channel too, with the largest one. `less` names the two.
+    pub(super) fn against_original(
+        &self,
+        drawn: &[[f64; 3]],
+        original: &[[f64; 3]],
+        exposure: f64,
+        less: &str,
+    ) -> Result<(Vec<NamedPicture>, Vec<f64>, f64), PictureError> {
+        let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
+        let difference: Vec<f64> = drawn.iter().zip(original).map(|(a, b)| mean(a) - mean(b)).collect();
+        let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let shown_original = self.picture(original).display(exposure)?;
+        let mut pictures = vec![NamedPicture::new("original", shown_original, "without compression")];
+        if largest > 0.0 {
+            let caption = format!("{less}: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
+            let image = false_color::signed(self.camera.width(), &difference, largest);
+            pictures.push(NamedPicture::new("difference", image, caption));
+        }
+        Ok((pictures, difference, largest))
     }
 
     /// Sentence on the number of pixels that show the model.

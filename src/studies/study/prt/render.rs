@@ -11,7 +11,7 @@ use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
 use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color};
 use crate::scene::Camera;
 use crate::sphere::{HarmonicLight, HarmonicRotation};
 use crate::study::{ProgressFn, Study, StudyError};
@@ -58,12 +58,8 @@ impl Study for Rendering {
         }
         self.clusters(&seen, &mut found);
         let turned = |turned| self.turned(&seen, turned);
-        self.frames.report((&self.view, &self.mesh, exposure), turned, &mut found, (2, progress))?;
+        self.frames.report(&self.view, &self.mesh, exposure, turned, &mut found, 2, progress)?;
         Ok(found)
-    }
-
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }
 
@@ -128,9 +124,9 @@ impl Rendering {
         found: &mut Findings,
     ) -> Result<(), StudyError> {
         let whole = self.colors(seen, (&self.light, &self.view.camera), Some(original))?;
+        let (mut pictures, difference, largest) =
+            self.view.against_original(drawn, &whole, exposure, "compressed less original")?;
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
-        let difference: Vec<f64> = drawn.iter().zip(&whole).map(|(a, b)| mean(a) - mean(b)).collect();
-        let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
         let ratio = (squares(&mut difference.iter().copied()) / squares(&mut whole.iter().map(mean))).sqrt();
         let mut table = Table::new("Compressed against original", &["figure", "value"]);
@@ -139,14 +135,6 @@ impl Rendering {
             Cell::measured(100.0 * ratio),
         ]);
         table.push(["largest difference (radiance)".into(), Cell::measured(largest)]);
-        let mut pictures =
-            vec![NamedPicture::new("original", self.view.picture(&whole).display(exposure)?, "without compression")];
-        let width = self.view.camera.width();
-        if largest > 0.0 {
-            let caption =
-                format!("compressed less original: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
-            pictures.push(NamedPicture::new("difference", false_color::signed(width, &difference, largest), caption));
-        }
         if let Some(clustering) = &self.file.clustering {
             let error = CompressionError::new(original, clustering);
             table.push([
@@ -160,7 +148,8 @@ impl Rendering {
                 let map: Vec<f64> =
                     seen.colors(&of_vertex, [f64::NAN; 3]).into_iter().map(|[value, ..]| value).collect();
                 let caption = "error of each vertex's transfer, of the largest; pale is large";
-                pictures.push(NamedPicture::new("error", false_color::magnitude(width, &map), caption));
+                let image = false_color::magnitude(self.view.camera.width(), &map);
+                pictures.push(NamedPicture::new("error", image, caption));
             }
         }
         found.heading("Against the original");

@@ -52,10 +52,13 @@ impl TurnedFrames {
     /// Adds the pictures; `colors` gives linear radiance of the pixels of a frame. `before` steps are done.
     pub(super) fn report(
         self,
-        (view, mesh, exposure): (&LitView, &Mesh, f64),
+        view: &LitView,
+        mesh: &Mesh,
+        exposure: f64,
         mut colors: impl FnMut(Turned) -> Result<Vec<[f64; 3]>, StudyError>,
         found: &mut Findings,
-        (before, progress): (u64, &mut ProgressFn<'_>),
+        before: u64,
+        progress: &mut ProgressFn<'_>,
     ) -> Result<(), StudyError> {
         let mut frames = Vec::new();
         for frame in 0..self.count {

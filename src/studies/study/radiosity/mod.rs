@@ -8,6 +8,7 @@ mod atlas;
 mod change;
 mod conclusion;
 mod difference;
+mod error;
 mod method;
 mod options;
 mod outcome;
@@ -22,7 +23,6 @@ mod tables;
 mod time;
 
 use crate::atlas::AtlasError;
-use crate::card::CardError;
 use crate::picture::metrics::value_error;
 use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
@@ -38,6 +38,7 @@ use crate::study::{ProgressFn, Study, StudyError};
 pub use atlas::AtlasPictures;
 pub use change::{Change, Relit};
 pub use difference::SolutionError;
+pub(in crate::study) use error::no_card;
 pub use method::{CardMethod, SolveMethod, StopReason};
 pub use options::{FactorLaw, Factors, RadiosityOptions};
 pub use outcome::{MethodRow, RadiosityOutcome};
@@ -56,11 +57,6 @@ library_errors! {
     RateError => "radiosity::rate";
     SolveError => "radiosity::solve";
     SystemError => "radiosity::system";
-}
-
-/// Error of the card.
-pub(in crate::study) fn no_card(error: CardError) -> StudyError {
-    StudyError::coded("radiosity::card", error)
 }
 
 /// Error of a scene without an atlas.

@@ -215,7 +215,7 @@ pub(super) fn lit_card(
 
 /// B of every texel.
 pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, CardError> {
-    Ok(card.read_scattered()?.texels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect())
+    Ok(card.read_scattered()?.colors())
 }
 
 fn format(texels: FloatTexels) -> Format {

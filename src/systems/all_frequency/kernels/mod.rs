@@ -8,6 +8,8 @@ mod vertex;
 
 use refsim::isa::Version;
 
+use crate::card::WrittenKernel;
+
 pub use layout::{SetLayout, ViewNumbers};
 pub use product::{MapFilter, ProductKernel};
 pub use sum::{OF_REPRESENTATIVES, OF_SUM, SUMMED, SumKernel};
@@ -23,18 +25,18 @@ pub fn programs() -> Vec<(String, String)> {
         let layout = SetLayout { terms, channels, view };
         for (computes_view, version) in [(true, Version::Vs2_0), (true, Version::Vs1_1), (false, Version::Vs1_1)] {
             let kernel = TransferredVertexKernel { layout, computes_view, version };
-            all.push((kernel.name(), kernel.text()));
+            all.push(kernel.listed());
         }
         for (terms_per_texel, filter, side) in
             [(4, MapFilter::Sampler, 32), (2, MapFilter::Sampler, 32), (4, MapFilter::Program, 32)]
         {
             for is_partial in [false, true] {
                 let kernel = ProductKernel { layout, terms_per_texel, filter, side, is_partial };
-                all.push((kernel.name(), kernel.text()));
+                all.push(kernel.listed());
             }
         }
     }
-    all.extend([true, false].map(|is_first| SumKernel { is_first }).map(|sum| (sum.name().to_owned(), sum.text())));
+    all.extend([true, false].map(|is_first| SumKernel { is_first }.listed()));
     all
 }
 

@@ -7,11 +7,8 @@
 
 use std::fmt::Write as _;
 
-use refsim::device::Profile;
-use refsim::exec::CheckedProgram;
-
 use super::layout::{COMPONENTS, SetLayout, ViewNumbers};
-use crate::card::{KernelError, checked};
+use crate::card::{PARABOLIC, WrittenKernel, parabolic};
 
 /// The interpolation between texels of G.
 #[non_exhaustive]
@@ -51,50 +48,6 @@ impl ProductKernel {
         self.maps() * if self.filter == MapFilter::Program { 4 } else { 1 }
     }
 
-    /// The name used in messages.
-    pub fn name(&self) -> String {
-        let SetLayout { terms, channels, view } = self.layout;
-        let precision = if self.is_partial { ", partial precision" } else { "" };
-        format!(
-            "product_{terms}x{channels}, {view}, {} maps of {} filtered by the {}{precision}",
-            self.maps(),
-            self.side,
-            self.filter
-        )
-    }
-
-    /// The program's assembly text.
-    pub fn text(&self) -> String {
-        let pp = if self.is_partial { "_pp" } else { "" };
-        let mut text = format!("ps_2_0\n; {}\ndef c0, 1, 0.5, 0.00000095367431640625, 0\n", self.name());
-        if self.filter == MapFilter::Program {
-            let (side, step) = (self.side as f64, 1.0 / self.side as f64);
-            let _ = write!(
-                text,
-                "def c1, {side}, -0.5, {step}, {}\ndef c2, {step}, 0, 0, 0\ndef c3, 0, {step}, 0, 0\n\
-                 def c4, {step}, {step}, 0, 0\n",
-                step / 2.0
-            );
-        }
-        (0..self.layout.sets()).for_each(|set| {
-            let _ = writeln!(text, "dcl t{set}");
-        });
-        (0..self.maps()).for_each(|map| {
-            let _ = writeln!(text, "dcl_2d s{map}");
-        });
-        self.push_coordinates(&mut text);
-        for quad in 0..self.layout.terms.div_ceil(4) {
-            self.push_terms(&mut text, quad, pp);
-            if quad < self.layout.quads() {
-                self.push_dots(&mut text, quad, pp);
-            } else {
-                self.push_loose(&mut text, pp);
-            }
-        }
-        let _ = write!(text, "mov{pp} r11.w, c0.x\nmov oC0, r11\n");
-        text
-    }
-
     /// The register with the map coordinates.
     fn coordinates(&self) -> String {
         match (self.layout.view, self.filter) {
@@ -110,12 +63,7 @@ impl ProductKernel {
         let given = match self.layout.view {
             ViewNumbers::Coordinates => view,
             ViewNumbers::Vector => {
-                let _ = write!(
-                    text,
-                    "; x and y over |v| + z, from [-1, 1] to [0, 1]\ndp3 r0.w, {view}, {view}\nrsq r0.x, r0.w\n\
-                     mad r0.x, r0.w, r0.x, {view}.z\nmax r0.x, r0.x, c0.z\nrcp r0.x, r0.x\nmul r0.x, r0.x, c0.y\n\
-                     mad r0.xy, {view}, r0.x, c0.y\n"
-                );
+                text.push_str(&parabolic(&view));
                 "r0".to_owned()
             }
         };
@@ -179,12 +127,48 @@ impl ProductKernel {
             }
         }
     }
+}
 
-    /// The program, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
-    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
-        checked(profile, format!("`{}`", self.name()), &self.text())
+impl WrittenKernel for ProductKernel {
+    fn name(&self) -> String {
+        let SetLayout { terms, channels, view } = self.layout;
+        let precision = if self.is_partial { ", partial precision" } else { "" };
+        format!(
+            "product_{terms}x{channels}, {view}, {} maps of {} filtered by the {}{precision}",
+            self.maps(),
+            self.side,
+            self.filter
+        )
+    }
+
+    fn text(&self) -> String {
+        let pp = if self.is_partial { "_pp" } else { "" };
+        let mut text = format!("ps_2_0\n; {}\n{PARABOLIC}", self.name());
+        if self.filter == MapFilter::Program {
+            let (side, step) = (self.side as f64, 1.0 / self.side as f64);
+            let _ = write!(
+                text,
+                "def c1, {side}, -0.5, {step}, {}\ndef c2, {step}, 0, 0, 0\ndef c3, 0, {step}, 0, 0\n\
+                 def c4, {step}, {step}, 0, 0\n",
+                step / 2.0
+            );
+        }
+        (0..self.layout.sets()).for_each(|set| {
+            let _ = writeln!(text, "dcl t{set}");
+        });
+        (0..self.maps()).for_each(|map| {
+            let _ = writeln!(text, "dcl_2d s{map}");
+        });
+        self.push_coordinates(&mut text);
+        for quad in 0..self.layout.terms.div_ceil(4) {
+            self.push_terms(&mut text, quad, pp);
+            if quad < self.layout.quads() {
+                self.push_dots(&mut text, quad, pp);
+            } else {
+                self.push_loose(&mut text, pp);
+            }
+        }
+        let _ = write!(text, "mov{pp} r11.w, c0.x\nmov oC0, r11\n");
+        text
     }
 }

@@ -12,11 +12,8 @@
 
 use std::fmt::Write as _;
 
-use refsim::device::Profile;
-use refsim::exec::CheckedProgram;
-
 use super::layout::COMPONENTS;
-use crate::card::{KernelError, checked};
+use crate::card::WrittenKernel;
 
 /// Number of representatives per pass.
 pub const SUMMED: usize = 16;
@@ -37,14 +34,14 @@ impl SumKernel {
     pub const fn samplers(&self) -> usize {
         if self.is_first { OF_SUM } else { OF_SUM + 1 }
     }
+}
 
-    /// The name used in messages.
-    pub const fn name(&self) -> &'static str {
-        if self.is_first { "sum_first" } else { "sum_next" }
+impl WrittenKernel for SumKernel {
+    fn name(&self) -> String {
+        if self.is_first { "sum_first" } else { "sum_next" }.to_owned()
     }
 
-    /// The program's assembly text.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let mut text = format!("!!ARBfp1.0\n# {}\nTEMP base, sum, w0, w1, w2, w3;\n", self.name());
         let names: Vec<String> = (0..SUMMED).map(|k| format!("m{k}")).collect();
         let _ = writeln!(text, "TEMP {};", names.join(", "));
@@ -68,13 +65,5 @@ impl SumKernel {
         }
         text.push_str("MOV result.color, sum;\nEND\n");
         text
-    }
-
-    /// The program, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
-    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
-        checked(profile, format!("`{}`", self.name()), &self.text())
     }
 }

@@ -7,12 +7,10 @@
 
 use std::fmt::Write as _;
 
-use refsim::device::Profile;
-use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
-use super::layout::{COMPONENTS, SetLayout, ViewNumbers};
-use crate::card::{KernelError, checked};
+use super::layout::{SetLayout, ViewNumbers};
+use crate::card::{TO_CLIP, WrittenKernel, local_view};
 
 /// Lower bound of |v| + z, in units of the body's frame, so that views along -z have coordinates.
 pub const LEAST_DENOMINATOR: f64 = 1.0 / 1_048_576.0;
@@ -39,42 +37,6 @@ impl TransferredVertexKernel {
         self.text().lines().filter(|line| !line.starts_with([';', 'v', 'd']) || line.starts_with("dp")).count()
     }
 
-    /// The name used in messages.
-    pub fn name(&self) -> String {
-        let SetLayout { terms, channels, view } = self.layout;
-        let who = if self.computes_view { "program" } else { "host" };
-        format!("transferred_{terms}x{channels}, {view} by the {who}, {}", self.version)
-    }
-
-    /// The program's assembly text.
-    pub fn text(&self) -> String {
-        let sets = self.layout.sets();
-        let mut text = format!("{}\n; {}\n", self.version, self.name());
-        if self.computes_view && self.layout.view == ViewNumbers::Coordinates {
-            text.push_str("def c5, 0.00000095367431640625, 0.5, 0, 0\n");
-        }
-        text.push_str("dcl_position v0\n");
-        for set in 0..sets {
-            let _ = writeln!(text, "dcl_texcoord{set} v{}", 1 + set);
-        }
-        if self.computes_view {
-            let _ = writeln!(text, "dcl_tangent v{}\ndcl_normal v{}", 1 + sets, 2 + sets);
-        }
-        for (row, component) in COMPONENTS.iter().enumerate() {
-            let _ = writeln!(text, "dp4 oPos.{component}, v0, c{row}");
-        }
-        for set in 0..sets {
-            let _ = match self.rest_of(set) {
-                None => Ok(()),
-                Some(mask) => writeln!(text, "mov oT{set}{mask}, v{}", 1 + set),
-            };
-        }
-        if self.computes_view {
-            self.push_view(&mut text);
-        }
-        text
-    }
-
     /// Mask of the components of a set that do not hold the view; `None` if there are none.
     fn rest_of(&self, set: usize) -> Option<&'static str> {
         match self.layout.view {
@@ -90,12 +52,8 @@ impl TransferredVertexKernel {
         let (tangent, normal, set) =
             (1 + self.layout.sets(), 2 + self.layout.sets(), format!("oT{}", self.layout.view_set()));
         let local = if self.layout.view == ViewNumbers::Vector { set.as_str() } else { "r3" };
-        let _ = write!(
-            text,
-            "; the view vector along tangent, bitangent and normal\nadd r0.xyz, c4, -v0\nmov r1.xyz, v{tangent}\n\
-             mul r2.xyz, r1.zxyw, v{normal}.yzxw\nmad r2.xyz, -r1.yzxw, v{normal}.zxyw, r2\n\
-             dp3 {local}.x, r0, r1\ndp3 {local}.y, r0, r2\ndp3 {local}.z, r0, v{normal}\n"
-        );
+        text.push_str(&local_view(tangent, normal));
+        let _ = write!(text, "dp3 {local}.x, r0, r1\ndp3 {local}.y, r0, r2\ndp3 {local}.z, r0, v{normal}\n");
         if self.layout.view == ViewNumbers::Coordinates {
             let _ = write!(
                 text,
@@ -105,12 +63,38 @@ impl TransferredVertexKernel {
             );
         }
     }
+}
 
-    /// The program, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
-    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
-        checked(profile, format!("`{}`", self.name()), &self.text())
+impl WrittenKernel for TransferredVertexKernel {
+    fn name(&self) -> String {
+        let SetLayout { terms, channels, view } = self.layout;
+        let who = if self.computes_view { "program" } else { "host" };
+        format!("transferred_{terms}x{channels}, {view} by the {who}, {}", self.version)
+    }
+
+    fn text(&self) -> String {
+        let sets = self.layout.sets();
+        let mut text = format!("{}\n; {}\n", self.version, self.name());
+        if self.computes_view && self.layout.view == ViewNumbers::Coordinates {
+            text.push_str("def c5, 0.00000095367431640625, 0.5, 0, 0\n");
+        }
+        text.push_str("dcl_position v0\n");
+        for set in 0..sets {
+            let _ = writeln!(text, "dcl_texcoord{set} v{}", 1 + set);
+        }
+        if self.computes_view {
+            let _ = writeln!(text, "dcl_tangent v{}\ndcl_normal v{}", 1 + sets, 2 + sets);
+        }
+        text.push_str(TO_CLIP);
+        for set in 0..sets {
+            let _ = match self.rest_of(set) {
+                None => Ok(()),
+                Some(mask) => writeln!(text, "mov oT{set}{mask}, v{}", 1 + set),
+            };
+        }
+        if self.computes_view {
+            self.push_view(&mut text);
+        }
+        text
     }
 }

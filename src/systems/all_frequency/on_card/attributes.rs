@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::frame::FactoredCounts;
 use super::options::{ProductOptions, RadianceFormat, VertexColors, ViewMaker};
 use super::subject::TransferredMesh;
 use crate::all_frequency::Reflectance;
@@ -11,6 +10,20 @@ use crate::all_frequency::shade::exit_radiance;
 use crate::card::{Attribute, CardError, MeshView, attribute, by_register, check_finite, through_half};
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
+
+/// Counts of clamped colors. Truncated factors have negative lobes, which targets and vertex colors in fractions clamp
+/// to 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FactoredCounts {
+    /// Pixels that show the mesh; `None` if the device has no floating-point target by which to count.
+    pub covered: Option<u64>,
+    /// Covered pixels with a negative channel before clamping.
+    pub below_zero: Option<u64>,
+    /// Vertices with a negative channel; `None` if products are computed per pixel.
+    pub vertices_below_zero: Option<u64>,
+    /// Vertices with a channel above 1, which bytes clamp.
+    pub vertices_above_one: Option<u64>,
+}
 
 /// Step 4 per vertex, for vertex colors.
 pub(super) fn radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {

@@ -1,4 +1,4 @@
-//! A mesh with transferred radiance on an emulated card.
+//! A mesh with transferred radiance on an emulated card, and a picture with its counts of colors out of range.
 
 use std::sync::Arc;
 
@@ -8,8 +8,7 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
-use super::attributes::{RadianceStream, colors, diffuse_radiance, radiance};
-use super::frame::FactoredCounts;
+use super::attributes::{FactoredCounts, RadianceStream, colors, diffuse_radiance, radiance};
 use super::options::{ProductPlace, VertexColors};
 use super::programs::Programs;
 use super::subject::TransferredMesh;
@@ -22,6 +21,21 @@ use crate::geom::UnitFrame;
 
 /// Write masks of the passes of one channel each; alpha marks covered pixels.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
+
+/// A picture, its counts and its log.
+#[derive(Clone, Debug)]
+pub struct FactoredDrawing {
+    /// The texels of the target.
+    pub texels: Texels,
+    /// The same in floating point, which shows negative pixels; `None` if the device has no such target.
+    pub signed: Option<Texels>,
+    /// Counts of clamped colors.
+    pub counts: FactoredCounts,
+    /// Texture reads and arithmetic slots of the pixel program.
+    pub pixel_slots: [u32; 2],
+    /// The log of host and card, for [`frame_time`](crate::card::frame_time::frame_time).
+    pub log: Vec<Event>,
+}
 
 /// A mesh with transferred radiance on a card.
 #[derive(Debug)]
@@ -73,11 +87,6 @@ impl<'a> FactoredCard<'a> {
     /// The emulated card.
     pub fn machine_mut(&mut self) -> &mut Machine {
         self.display.machine_mut()
-    }
-
-    /// Texture reads and arithmetic slots of the pixel program.
-    pub(super) fn pixel_slots(&self) -> [u32; 2] {
-        slots(&self.programs.pixel)
     }
 
     /// The target of a frame. Background pixels are 0, alpha is 1 elsewhere.
@@ -132,12 +141,37 @@ impl<'a> FactoredCard<'a> {
         })?;
         Ok((texels, counts, log))
     }
+}
 
-    /// A floating-point target format of the device, which shows values that other targets clamp.
-    pub(super) fn float_target(&self) -> Option<TexelFormat> {
-        let has = |format: &TexelFormat| self.display.machine().profile().limits.target_formats.contains(format);
-        [TexelFormat::Rgba32f, TexelFormat::Rgba16f].into_iter().find(has)
+/// Draws a mesh on a device. `host` are the multiplications of steps 2 and 3.
+///
+/// # Errors
+/// [`CardError`].
+pub fn draw(
+    profile: impl Into<Arc<Profile>>,
+    executor: impl Into<Executor>,
+    mesh: TransferredMesh<'_>,
+    place: ProductPlace,
+    view: &MeshView,
+    host: Multiplies,
+) -> Result<FactoredDrawing, CardError> {
+    let mut card = FactoredCard::new(profile, executor, mesh, place)?;
+    let (texels, mut counts, log) = card.logged_view(view, host)?;
+    // Floating point shows values that other targets clamp.
+    let formats = &card.display.machine().profile().limits.target_formats;
+    let float = [TexelFormat::Rgba32f, TexelFormat::Rgba16f].into_iter().find(|format| formats.contains(format));
+    let signed = match float {
+        Some(format) if format == view.format => Some(texels.clone()),
+        Some(format) => Some(card.view_texels(&MeshView { format, ..*view })?),
+        None => None,
+    };
+    if let Some(signed) = &signed {
+        let covered = || signed.texels.iter().filter(|texel| texel[3] != 0.0);
+        counts.covered = Some(covered().count() as u64);
+        let is_negative = |texel: &&[f32; 4]| texel[..3].iter().any(|&value| value < 0.0);
+        counts.below_zero = Some(covered().filter(is_negative).count() as u64);
     }
+    Ok(FactoredDrawing { texels, signed, counts, pixel_slots: slots(&card.programs.pixel), log })
 }
 
 /// The attributes between positions and tangents that the host sends for a view, pass by pass, and counts of colors.

@@ -7,7 +7,6 @@
 
 mod attributes;
 mod card;
-mod frame;
 mod options;
 mod programs;
 pub mod reference;
@@ -16,8 +15,8 @@ mod sums;
 mod textures;
 pub mod time;
 
-pub use card::FactoredCard;
-pub use frame::{FactoredCounts, FactoredDrawing, draw};
+pub use attributes::FactoredCounts;
+pub use card::{FactoredCard, FactoredDrawing, draw};
 pub use options::{ProductOptions, ProductPlace, RadianceFormat, VertexColors, ViewMaker};
 pub use subject::TransferredMesh;
 pub use sums::{SumCard, SumLog};

@@ -10,7 +10,7 @@ use super::subject::TransferredMesh;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::kernels::{MapFilter, ProductKernel, TransferredVertexKernel};
 use crate::card::kernels::{COLOR, FLOAT_COLOR, SHADE, SHADE_COLOR};
-use crate::card::{BILINEAR, CardError, KernelText, require_versions, vertex_version};
+use crate::card::{BILINEAR, CardError, KernelText, WrittenKernel, require_versions, vertex_version};
 
 /// Checked programs.
 #[derive(Clone, Debug)]

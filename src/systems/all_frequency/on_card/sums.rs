@@ -22,7 +22,7 @@ use crate::all_frequency::code::{CodedSegment, CodedTransfer};
 use crate::all_frequency::kernels::{OF_SUM, SUMMED, SumKernel};
 use crate::all_frequency::shade::{LightSizeError, Representatives, Shader, TransferredRadiance};
 use crate::card::frame_time::host_work;
-use crate::card::{CardError, FullScreenPass, PingPong, Texels, constants, nearest, require_versions};
+use crate::card::{CardError, FullScreenPass, PingPong, Texels, WrittenKernel, constants, nearest, require_versions};
 
 /// Everything is in single precision: weights are the integers of the code, whose steps are multiplied into T.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;

@@ -13,13 +13,11 @@
 
 use std::fmt::Write as _;
 
-use refsim::device::Profile;
-use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
 use super::blocks::{BlockEdges, BlockGrid};
 use super::layout::LocalLayout;
-use crate::card::{KernelError, checked};
+use crate::card::WrittenKernel;
 
 /// The constant register of the first direction's block origin.
 pub const FIRST_ORIGIN: usize = 8;
@@ -52,38 +50,6 @@ pub struct DisplayKernel {
 }
 
 impl DisplayKernel {
-    /// Texture reads.
-    pub const fn reads(&self) -> usize {
-        4 * self.directions
-    }
-
-    /// A name for messages.
-    pub fn name(&self) -> String {
-        let Self { directions, grid, version, .. } = self;
-        format!(
-            "{directions} directions of {0} x {0} with {1} x {1} views, {2} x {2} texels {3}, {version}",
-            grid.lights, grid.views, grid.size, grid.edges
-        )
-    }
-
-    /// The program.
-    pub fn text(&self) -> String {
-        let mut text = format!("{}\n; {}\n", self.version, self.name());
-        self.push_constants(&mut text);
-        for set in 0..self.layout.sets {
-            let _ = writeln!(text, "dcl t{set}");
-        }
-        text.push_str("dcl_volume s0\n");
-        self.push_square(&mut text);
-        self.push_samples(&mut text);
-        self.push_coordinates(&mut text);
-        for direction in 0..self.directions {
-            self.push_direction(&mut text, direction);
-        }
-        text.push_str("mov r11.w, c0.x\nmov oC0, r11\n");
-        text
-    }
-
     fn push_constants(&self, text: &mut String) {
         let (side, [width, height, layers]) = (self.grid.views as f64, self.grid.extents().map(|side| side as f64));
         let (size, border) = (self.grid.size as f64, self.grid.border() as f64);
@@ -179,12 +145,31 @@ impl DisplayKernel {
             let _ = writeln!(text, "mad r11.{component}, r9.{component}, t{set}.w, r11.{component}");
         }
     }
+}
 
-    /// The program, accepted by a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
-    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
-        checked(profile, format!("`{}`", self.name()), &self.text())
+impl WrittenKernel for DisplayKernel {
+    fn name(&self) -> String {
+        let Self { directions, grid, version, .. } = self;
+        format!(
+            "{directions} directions of {0} x {0} with {1} x {1} views, {2} x {2} texels {3}, {version}",
+            grid.lights, grid.views, grid.size, grid.edges
+        )
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n; {}\n", self.version, self.name());
+        self.push_constants(&mut text);
+        for set in 0..self.layout.sets {
+            let _ = writeln!(text, "dcl t{set}");
+        }
+        text.push_str("dcl_volume s0\n");
+        self.push_square(&mut text);
+        self.push_samples(&mut text);
+        self.push_coordinates(&mut text);
+        for direction in 0..self.directions {
+            self.push_direction(&mut text, direction);
+        }
+        text.push_str("mov r11.w, c0.x\nmov oC0, r11\n");
+        text
     }
 }

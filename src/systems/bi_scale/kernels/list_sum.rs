@@ -16,11 +16,9 @@
 
 use std::fmt::Write as _;
 
-use refsim::device::Profile;
-use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
-use crate::card::{KernelError, checked};
+use crate::card::WrittenKernel;
 
 /// Sampler of the lists.
 pub const LISTS: usize = 0;
@@ -61,38 +59,6 @@ impl ListSumKernel {
         instructions.saturating_sub(BESIDE) / Self::per_texel(is_weighted)
     }
 
-    /// The name used in messages.
-    pub fn name(&self) -> String {
-        let Self { texels, is_weighted, is_first, version } = *self;
-        let what = if is_weighted { "weighted sum" } else { "sum" };
-        let from = if is_first { "from 0" } else { "from the sum so far" };
-        format!("{what} over {texels} texels of lists {from}, {version}")
-    }
-
-    /// The program's assembly text.
-    pub fn text(&self) -> String {
-        let mut text = format!("{}\n; {}\ndef c2, 0, 0, 0, 0\ndcl t0\n", self.version, self.name());
-        if !self.is_first {
-            text.push_str("dcl t1\n");
-        }
-        let _ = write!(text, "dcl_2d s{LISTS}\ndcl_2d s{SOURCE}\n");
-        if self.is_first {
-            text.push_str("mov r0, t0\nmov r10, c2\n");
-        } else {
-            let _ = write!(text, "dcl_2d s{SUM}\nmov r0, t0\ntexld r10, t1, s{SUM}\n");
-        }
-        for _ in 0..self.texels {
-            let _ = write!(text, "texld r1, r0, s{LISTS}\nadd r0, r0, c1\n");
-            if self.is_weighted {
-                self.push_weighted(&mut text);
-            } else {
-                self.push_plain(&mut text);
-            }
-        }
-        text.push_str("mov oC0, r10\n");
-        text
-    }
-
     fn push_plain(&self, text: &mut String) {
         let components = ['x', 'y', 'z', 'w'].into_iter().zip(2..);
         for (component, register) in components.clone() {
@@ -118,12 +84,36 @@ impl ListSumKernel {
             let _ = write!(text, "mul r{register}, r{register}, r1.{value}\nadd r10, r10, r{register}\n");
         }
     }
+}
 
-    /// The program, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
-    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
-        checked(profile, format!("`{}`", self.name()), &self.text())
+impl WrittenKernel for ListSumKernel {
+    fn name(&self) -> String {
+        let Self { texels, is_weighted, is_first, version } = *self;
+        let what = if is_weighted { "weighted sum" } else { "sum" };
+        let from = if is_first { "from 0" } else { "from the sum so far" };
+        format!("{what} over {texels} texels of lists {from}, {version}")
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n; {}\ndef c2, 0, 0, 0, 0\ndcl t0\n", self.version, self.name());
+        if !self.is_first {
+            text.push_str("dcl t1\n");
+        }
+        let _ = write!(text, "dcl_2d s{LISTS}\ndcl_2d s{SOURCE}\n");
+        if self.is_first {
+            text.push_str("mov r0, t0\nmov r10, c2\n");
+        } else {
+            let _ = write!(text, "dcl_2d s{SUM}\nmov r0, t0\ntexld r10, t1, s{SUM}\n");
+        }
+        for _ in 0..self.texels {
+            let _ = write!(text, "texld r1, r0, s{LISTS}\nadd r0, r0, c1\n");
+            if self.is_weighted {
+                self.push_weighted(&mut text);
+            } else {
+                self.push_plain(&mut text);
+            }
+        }
+        text.push_str("mov oC0, r10\n");
+        text
     }
 }

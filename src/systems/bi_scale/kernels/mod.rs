@@ -15,13 +15,15 @@ pub use vertex::LocalVertexKernel;
 
 use refsim::isa::Version;
 
+use crate::card::WrittenKernel;
+
 /// Every program that there is, by name, for a few numbers of reads and of directions.
 pub fn programs() -> Vec<(String, String)> {
     let mut all = Vec::new();
     for (texels, is_weighted) in [(1, true), (3, true), (50, true), (1, false), (7, false), (36, false)] {
         for is_first in [true, false] {
             let kernel = ListSumKernel { texels, is_weighted, is_first, version: Version::Ps2B };
-            all.push((kernel.name(), kernel.text()));
+            all.push(kernel.listed());
         }
     }
     let layout = LocalLayout { sets: 8 };
@@ -29,12 +31,12 @@ pub fn programs() -> Vec<(String, String)> {
         for version in [Version::Ps2A, Version::Ps2B] {
             let grid = BlockGrid { size: 16, lights: 3, views: 4, edges };
             let kernel = DisplayKernel { layout, grid, directions, version };
-            all.push((kernel.name(), kernel.text()));
+            all.push(kernel.listed());
         }
     }
     for version in [Version::Vs1_1, Version::Vs2_0] {
         let kernel = LocalVertexKernel { layout, version };
-        all.push((kernel.name(), kernel.text()));
+        all.push(kernel.listed());
     }
     all
 }

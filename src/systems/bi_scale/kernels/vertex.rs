@@ -6,12 +6,10 @@
 
 use std::fmt::Write as _;
 
-use refsim::device::Profile;
-use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
 use super::layout::LocalLayout;
-use crate::card::{KernelError, checked};
+use crate::card::{TO_CLIP, WrittenKernel, local_view};
 
 /// A vertex program that hands local light on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -32,14 +30,14 @@ impl LocalVertexKernel {
     pub const fn slots(&self) -> usize {
         4 + self.layout.last() + 8
     }
+}
 
-    /// A name for messages.
-    pub fn name(&self) -> String {
+impl WrittenKernel for LocalVertexKernel {
+    fn name(&self) -> String {
         format!("local light of {} directions, {}", self.layout.directions(), self.version)
     }
 
-    /// The program.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let last = self.layout.last();
         let mut text = format!("{}\n; {}\ndcl_position v0\n", self.version, self.name());
         for set in 0..=last {
@@ -47,28 +45,13 @@ impl LocalVertexKernel {
         }
         let (tangent, normal) = (2 + last, 3 + last);
         let _ = write!(text, "dcl_tangent v{tangent}\ndcl_normal v{normal}\n");
-        for (row, component) in ['x', 'y', 'z', 'w'].into_iter().enumerate() {
-            let _ = writeln!(text, "dp4 oPos.{component}, v0, c{row}");
-        }
+        text.push_str(TO_CLIP);
         for set in 0..last {
             let _ = writeln!(text, "mov oT{set}{}, v{}", if set == 0 { ".xyz" } else { "" }, 1 + set);
         }
-        let _ = write!(
-            text,
-            "mov oT{last}.xy, v{}\n; the view vector along tangent, bitangent and normal\nadd r0.xyz, c4, -v0\n\
-             mov r1.xyz, v{tangent}\nmul r2.xyz, r1.zxyw, v{normal}.yzxw\n\
-             mad r2.xyz, -r1.yzxw, v{normal}.zxyw, r2\ndp3 oT{last}.z, r0, r2\ndp3 oT{last}.w, r0, r1\n\
-             dp3 oT0.w, r0, v{normal}\n",
-            1 + last
-        );
+        let _ = writeln!(text, "mov oT{last}.xy, v{}", 1 + last);
+        text.push_str(&local_view(tangent, normal));
+        let _ = write!(text, "dp3 oT{last}.z, r0, r2\ndp3 oT{last}.w, r0, r1\ndp3 oT0.w, r0, v{normal}\n");
         text
-    }
-
-    /// The program, accepted by a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
-    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
-        checked(profile, format!("`{}`", self.name()), &self.text())
     }
 }

@@ -17,8 +17,8 @@ use super::parts::{CardPart, parts};
 use super::subject::{CardVertices, TexturedMesh};
 use crate::bi_scale::kernels::{LocalLayout, LocalVertexKernel};
 use crate::card::{
-    Attribute, BILINEAR, CardError, DepthPrograms, KeptFragments, MeshDisplay, MeshDraw, MeshView, Texels, by_register,
-    slots, vertex_version,
+    Attribute, BILINEAR, CardError, DepthPrograms, KeptFragments, MeshDisplay, MeshDraw, MeshView, Texels,
+    WrittenKernel, by_register, slots, vertex_version,
 };
 
 /// Red, green and blue: later passes leave alpha, which marks covered pixels.
@@ -126,14 +126,14 @@ impl<'a> BiScaleCard<'a> {
 
     /// Counts of a frame.
     pub fn counts(&self) -> DisplayCounts {
-        let whole = self.parts.first().and_then(|part| part.pixels.first());
+        let whole = self.parts.first().and_then(|part| part.pixels.last_key_value());
         let passes = self.layout.passes(self.textured.directions());
         let texels: usize = self.volumes().map(|extents| extents.iter().product::<usize>()).sum();
         DisplayCounts {
             draws: passes * self.parts.len(),
             passes,
-            directions_per_pass: whole.map_or(0, |whole| whole.directions),
-            pixel_slots: whole.map_or([0; 2], |whole| slots(&whole.program)),
+            directions_per_pass: whole.map_or(0, |(&directions, _)| directions),
+            pixel_slots: whole.map_or([0; 2], |(_, program)| slots(program)),
             vertex: self.vertex_counts,
             volume_bytes: texels as u64 * self.options.texture.bytes() as u64,
             vertices: self.vertices.vertices.len(),
@@ -185,7 +185,7 @@ impl<'a> BiScaleCard<'a> {
                         vertex: (&self.vertex, pass.head()),
                         attributes: [pass.positions()].into_iter().chain(&sets).chain(&self.beside).collect(),
                         indices: Some(&part.indices),
-                        pixel: (part.program(count), part.constants(first..first + count)),
+                        pixel: (&part.pixels[&count], part.constants(first..first + count)),
                         textures: vec![(part.volume.id, BILINEAR)],
                         fragments: KeptFragments::Added,
                         mask: if first == 0 { WriteMask::ALL } else { COLORS },

@@ -23,7 +23,7 @@ use super::lists::{ListLimits, ListPass, Lists, check_places, extents};
 use super::options::LightFormat;
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::kernels::ListSumKernel;
-use crate::card::{CardError, FullScreenPass, KernelError, Texels, constants, require_versions};
+use crate::card::{CardError, FullScreenPass, KernelError, Texels, WrittenKernel, constants, require_versions};
 
 /// Lists and sums are in single precision.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;

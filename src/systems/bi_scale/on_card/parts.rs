@@ -1,5 +1,6 @@
 //! Textures with the triangles that show them.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use refsim::exec::CheckedProgram;
@@ -10,31 +11,18 @@ use super::options::DisplayOptions;
 use super::subject::{CardVertices, TexturedMesh};
 use super::textures::VolumeTexture;
 use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
-use crate::card::CardError;
-
-/// The pixel program for a number of directions.
-#[derive(Clone, Debug)]
-pub(super) struct PixelProgram {
-    pub(super) directions: usize,
-    pub(super) program: CheckedProgram,
-}
+use crate::card::{CardError, WrittenKernel};
 
 /// A texture, its triangles and its programs: a place in a volume depends on the volume's size.
 #[derive(Debug)]
 pub(super) struct CardPart {
     pub(super) indices: Vec<u32>,
     pub(super) volume: VolumeTexture,
-    /// Those of a full pass, and of the last one if it has fewer directions.
-    pub(super) pixels: Vec<PixelProgram>,
+    /// By number of directions: of a full pass, and of the last one if it has fewer.
+    pub(super) pixels: BTreeMap<usize, CheckedProgram>,
 }
 
 impl CardPart {
-    /// The pixel program for `directions`, which are those of a full pass or of the last one.
-    pub(super) fn program(&self, directions: usize) -> &CheckedProgram {
-        let known = self.pixels.iter().find(|known| known.directions == directions);
-        &known.expect("a program for each number of directions").program
-    }
-
     /// The constants of the pixel program for directions: where their blocks begin.
     pub(super) fn constants(&self, directions: Range<usize>) -> Vec<[f32; 4]> {
         let grid = &self.volume.grid;
@@ -66,12 +54,10 @@ pub(super) fn parts(
             continue;
         }
         let volume = VolumeTexture::new(machine, texture, options.edges, options.texture)?;
-        let mut pixels = Vec::new();
+        let mut pixels = BTreeMap::new();
         for directions in [whole, left].into_iter().filter(|&directions| directions > 0) {
-            if pixels.iter().all(|known: &PixelProgram| known.directions != directions) {
-                let kernel = DisplayKernel { layout, grid: volume.grid, directions, version };
-                pixels.push(PixelProgram { directions, program: kernel.checked(machine.profile())? });
-            }
+            let kernel = DisplayKernel { layout, grid: volume.grid, directions, version };
+            pixels.insert(directions, kernel.checked(machine.profile())?);
         }
         parts.push(CardPart { indices, volume, pixels });
     }

@@ -6,6 +6,8 @@ mod vertex;
 
 pub use exit::ExitKernel;
 use refsim::isa::Version;
+
+use crate::card::WrittenKernel;
 pub use vertex::{VertexKernel, VertexShading};
 
 /// Programs for a few numbers of vectors and functions, by name.
@@ -16,10 +18,10 @@ pub fn programs() -> Vec<(String, String)> {
         for (vectors, version) in [(0, Version::Vs1_1), (5, Version::Vs1_1), (8, Version::Vs2_0), (20, Version::Vs2_0)]
         {
             let kernel = VertexKernel { shading, vectors, version };
-            all.push((kernel.name(), kernel.text()));
+            all.push(kernel.listed());
         }
     }
-    all.extend([1, 4, 6, 7].map(|registers| ExitKernel { registers }).map(|kernel| (kernel.name(), kernel.text())));
+    all.extend([1, 4, 6, 7].map(|registers| ExitKernel { registers }.listed()));
     all
 }
 

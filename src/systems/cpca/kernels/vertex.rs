@@ -8,11 +8,9 @@
 
 use std::fmt::Write as _;
 
-use refsim::device::Profile;
-use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
-use crate::card::{KernelError, checked};
+use crate::card::{TO_CLIP, WrittenKernel, local_view};
 
 /// The output of a vertex program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -85,49 +83,6 @@ impl VertexKernel {
         matches!(self.shading, VertexShading::Glossy { .. })
     }
 
-    /// The name used in messages.
-    pub fn name(&self) -> String {
-        let what = match self.shading {
-            VertexShading::Diffuse => "diffuse".to_owned(),
-            VertexShading::DiffuseColor => "diffuse_color".to_owned(),
-            VertexShading::Glossy { registers } => format!("glossy_{registers}"),
-        };
-        format!("{what}, {} vectors, {}", self.vectors, self.version)
-    }
-
-    /// The program's assembly text.
-    pub fn text(&self) -> String {
-        let [tangent, normal] = self.frame_registers();
-        let mut text = format!("{}\n; {}\ndcl_position v0\n", self.version, self.name());
-        for register in 0..=self.weight_registers() {
-            let _ = writeln!(text, "dcl_texcoord{register} v{}", 1 + register);
-        }
-        if self.glossy() {
-            let _ = writeln!(text, "dcl_tangent v{tangent}\ndcl_normal v{normal}");
-        }
-        for (row, component) in COMPONENTS.iter().enumerate() {
-            let _ = writeln!(text, "dp4 oPos.{component}, v0, c{row}");
-        }
-        if let VertexShading::Glossy { registers } = self.shading {
-            let _ = write!(
-                text,
-                "; the view vector along tangent, bitangent and normal\nadd r0.xyz, c4, -v0\nmov r1.xyz, v{tangent}\n\
-                 mul r2.xyz, r1.zxyw, v{normal}.yzxw\nmad r2.xyz, -r1.yzxw, v{normal}.zxyw, r2\n\
-                 dp3 oT{registers}.x, r0, r1\ndp3 oT{registers}.y, r0, r2\ndp3 oT{registers}.z, r0, v{normal}\n"
-            );
-        }
-        let address = if self.version == Version::Vs1_1 { "mov" } else { "mova" };
-        let _ = writeln!(text, "; the first constant of the cluster\n{address} a0.x, v1.x");
-        for register in 0..self.per_vector() {
-            let output = match self.shading {
-                VertexShading::DiffuseColor => "oD0".to_owned(),
-                VertexShading::Diffuse | VertexShading::Glossy { .. } => format!("oT{register}"),
-            };
-            self.push_sum(&mut text, register, &output);
-        }
-        text
-    }
-
     /// Writes the weighted sum over vectors for one register.
     fn push_sum(&self, text: &mut String, register: usize, output: &str) {
         for vector in 0..=self.vectors {
@@ -142,12 +97,44 @@ impl VertexKernel {
             };
         }
     }
+}
 
-    /// The program, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
-    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
-        checked(profile, format!("`{}`", self.name()), &self.text())
+impl WrittenKernel for VertexKernel {
+    fn name(&self) -> String {
+        let what = match self.shading {
+            VertexShading::Diffuse => "diffuse".to_owned(),
+            VertexShading::DiffuseColor => "diffuse_color".to_owned(),
+            VertexShading::Glossy { registers } => format!("glossy_{registers}"),
+        };
+        format!("{what}, {} vectors, {}", self.vectors, self.version)
+    }
+
+    fn text(&self) -> String {
+        let [tangent, normal] = self.frame_registers();
+        let mut text = format!("{}\n; {}\ndcl_position v0\n", self.version, self.name());
+        for register in 0..=self.weight_registers() {
+            let _ = writeln!(text, "dcl_texcoord{register} v{}", 1 + register);
+        }
+        if self.glossy() {
+            let _ = writeln!(text, "dcl_tangent v{tangent}\ndcl_normal v{normal}");
+        }
+        text.push_str(TO_CLIP);
+        if let VertexShading::Glossy { registers } = self.shading {
+            text.push_str(&local_view(tangent, normal));
+            let _ = write!(
+                text,
+                "dp3 oT{registers}.x, r0, r1\ndp3 oT{registers}.y, r0, r2\ndp3 oT{registers}.z, r0, v{normal}\n"
+            );
+        }
+        let address = if self.version == Version::Vs1_1 { "mov" } else { "mova" };
+        let _ = writeln!(text, "; the first constant of the cluster\n{address} a0.x, v1.x");
+        for register in 0..self.per_vector() {
+            let output = match self.shading {
+                VertexShading::DiffuseColor => "oD0".to_owned(),
+                VertexShading::Diffuse | VertexShading::Glossy { .. } => format!("oT{register}"),
+            };
+            self.push_sum(&mut text, register, &output);
+        }
+        text
     }
 }

@@ -1,14 +1,14 @@
 //! What vertices hold: the mesh in chunks, one per supercluster with all triangles that have a vertex in it (section
-//! 6.2), and weights. The paper does not say how vertices hold weights; fewer bits make vertices smaller.
+//! 6.2).
 
 use std::mem::take;
 
 use super::products::Products;
 use super::transfer::CompressedTransfer;
-use crate::card::{Attribute, attribute, by_register, through_half};
+use super::weights::CardWeights;
+use crate::card::{Attribute, attribute, by_register};
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::kernels::{VertexKernel, VertexShading};
-use crate::transfer::clustering::Clustering;
 
 /// Triangles that are drawn together, with the attributes of their vertices.
 #[derive(Clone, Debug, Default)]
@@ -113,93 +113,5 @@ impl VertexSourceData<'_> {
             all.extend(self.transfer.vertices.frames()[vertex].attributes());
         }
         all
-    }
-}
-
-/// The format of a weight in a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "lowercase")]
-pub enum WeightFormat {
-    /// Single precision.
-    #[default]
-    Fp32,
-    /// Half precision.
-    Fp16,
-    /// Fractions of 16 bits of the range of the cluster's weights on the vector.
-    Unorm16,
-    /// Fractions of 8 bits of that range.
-    Unorm8,
-}
-
-impl WeightFormat {
-    /// Bytes of a weight.
-    pub fn bytes(self) -> usize {
-        match self {
-            Self::Fp32 => 4,
-            Self::Fp16 | Self::Unorm16 => 2,
-            Self::Unorm8 => 1,
-        }
-    }
-
-    /// The largest code of a fraction; `None` for floats.
-    fn largest_code(self) -> Option<f64> {
-        match self {
-            Self::Fp32 | Self::Fp16 => None,
-            Self::Unorm16 => Some(65535.0),
-            Self::Unorm8 => Some(255.0),
-        }
-    }
-}
-
-/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. Low and extent cost
-/// the card nothing, since they are multiplied into the products: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
-#[derive(Clone, Debug)]
-pub struct CardWeights {
-    format: WeightFormat,
-    /// Per cluster and vector: low and extent.
-    ranges: Vec<Vec<[f64; 2]>>,
-}
-
-impl CardWeights {
-    /// The weights of a clustering in a format.
-    pub fn new(clustering: &Clustering, format: WeightFormat) -> Self {
-        let mut bounds: Vec<Vec<[f64; 2]>> = clustering
-            .subspaces()
-            .iter()
-            .map(|subspace| vec![[f64::INFINITY, f64::NEG_INFINITY]; subspace.len()])
-            .collect();
-        for (point, &cluster) in clustering.of_point().iter().enumerate() {
-            for ([low, high], &weight) in bounds[cluster as usize].iter_mut().zip(clustering.weights(point)) {
-                (*low, *high) = (low.min(weight), high.max(weight));
-            }
-        }
-        let range = |[low, high]: [f64; 2]| match format.largest_code() {
-            Some(_) if low <= high => [low, high - low],
-            _ => [0.0, 1.0],
-        };
-        let ranges = bounds.into_iter().map(|cluster| cluster.into_iter().map(range).collect()).collect();
-        Self { format, ranges }
-    }
-
-    /// Low and extent of each vector of a cluster.
-    ///
-    /// # Panics
-    /// If there is no such cluster.
-    pub fn ranges(&self, cluster: usize) -> &[[f64; 2]] {
-        &self.ranges[cluster]
-    }
-
-    /// A weight on a vector of a cluster, encoded as the attribute that the vertex program reads.
-    ///
-    /// # Panics
-    /// If there is no such cluster or vector.
-    pub fn attribute(&self, cluster: usize, vector: usize, weight: f64) -> f32 {
-        let [low, extent] = self.ranges[cluster][vector];
-        match (self.format, self.format.largest_code()) {
-            (_, Some(largest)) if extent > 0.0 => (((weight - low) / extent * largest).round() / largest) as f32,
-            (_, Some(_)) => 0.0,
-            (WeightFormat::Fp16, None) => through_half(weight as f32),
-            (_, None) => weight as f32,
-        }
     }
 }

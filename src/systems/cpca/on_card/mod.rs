@@ -12,6 +12,7 @@ mod programs;
 mod textures;
 pub mod time;
 mod transfer;
+mod weights;
 
 use std::sync::Arc;
 
@@ -21,10 +22,10 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::timing::host::HostOperation;
 
-pub use attributes::{CardWeights, WeightFormat};
 pub use options::PrtCardOptions;
 pub use products::Products;
 pub use transfer::CompressedTransfer;
+pub use weights::{CardWeights, WeightFormat};
 
 use crate::card::frame_time::host_work;
 use crate::card::{CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, ReadTexture, Texels};

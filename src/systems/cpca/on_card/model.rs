@@ -17,8 +17,6 @@ pub struct TransferSize {
     pub vectors: usize,
 }
 
-/// Bytes per constant register.
-const REGISTER_BYTES: usize = 16;
 /// Channels of light.
 const CHANNELS: usize = 3;
 
@@ -68,11 +66,6 @@ impl TransferSize {
     /// Number of constant registers uploaded for a frame.
     pub fn uploaded_registers(&self) -> usize {
         self.passes() * self.clusters * self.registers_per_cluster()
-    }
-
-    /// Number of bytes uploaded for a frame.
-    pub fn uploaded_bytes(&self) -> usize {
-        self.uploaded_registers() * REGISTER_BYTES
     }
 
     /// Multiplications and additions of the host for a frame: 3 m_c (n' + 1) N_r N_i.
@@ -136,7 +129,7 @@ mod tests {
         assert_eq!((quantised.registers_per_cluster(), quantised.batches(250)), (6, Some(44)));
         assert_eq!(bird(1, 20).registers_per_cluster(), 126);
         assert_eq!(bird(1, 20).batches(91), None, "vs_1_1 has 96 constants");
-        assert_eq!((bird(256, 8).uploaded_registers(), bird(256, 8).uploaded_bytes()), (41_472, 663_552));
+        assert_eq!(bird(256, 8).uploaded_registers(), 41_472);
         assert_eq!(bird(256, 8).host_multiply_adds(), 4_147_200);
         assert_eq!(bird(256, 8).uncompressed_multiply_adds(), 87_638_400);
     }

@@ -3,7 +3,7 @@
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
-use super::attributes::WeightFormat;
+use super::weights::WeightFormat;
 use crate::card::CardError;
 
 /// Options of drawing compressed transfer.

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::attributes::CardWeights;
 use super::transfer::{CompressedTransfer, TransferShape};
+use super::weights::CardWeights;
 use crate::card::CardError;
 use crate::linalg::dot;
 use crate::sphere::HarmonicLight;

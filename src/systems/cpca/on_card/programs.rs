@@ -7,7 +7,7 @@ use refsim::isa::Version;
 use super::options::PrtCardOptions;
 use super::transfer::CompressedTransfer;
 use crate::card::kernels::{SHADE, SHADE_COLOR};
-use crate::card::{CardError, DepthPrograms, KernelError, require_versions, vertex_version};
+use crate::card::{CardError, DepthPrograms, KernelError, WrittenKernel, require_versions, vertex_version};
 use crate::cpca::coherence::ConstantRegisters;
 use crate::cpca::kernels::{ExitKernel, VertexKernel, VertexShading};
 

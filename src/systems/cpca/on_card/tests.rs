@@ -249,5 +249,7 @@ fn what_does_not_fit_is_refused() {
     let order = refused(Products::new(&diffuse.transfer(2), &weights, &dim, 1.0));
     let bright = HarmonicLight::constant(4, [1e30; 3]).expect("a light");
     let finite = refused(Products::new(&diffuse.transfer(2), &weights, &bright, 1e30));
-    insta::assert_snapshot!([shape, order, finite].join("\n"), @"");
+    assert!(shape.starts_with("expected 3 x 1 x n^2 numbers per vertex") && shape.contains("found 16"), "{shape}");
+    assert_eq!(order, "expected light of order 4 or more, found 3");
+    assert!(finite.starts_with("expected products of finite size, found"), "{finite}");
 }

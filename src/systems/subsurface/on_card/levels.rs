@@ -1,6 +1,5 @@
 //! The radiosity map and its levels: made by the card of a map with 8 bits, by passes of a float map.
 
-use refsim::device::Profile;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
 use refsim::output::WriteMask;
@@ -8,7 +7,7 @@ use refsim::raster::Viewport;
 use refsim::texture::{MipFilter, SamplerState};
 
 use super::options::MapFormat;
-use crate::card::{CardError, FullScreenPass, KernelError, Levels, ReadTexture, Texels, nearest, new_target};
+use crate::card::{CardError, FullScreenPass, Levels, ReadTexture, Texels, nearest, new_target};
 use crate::subsurface::kernels::{self, LinkLayout};
 
 /// The map with its levels.
@@ -41,7 +40,8 @@ impl LeveledMap {
             let map = machine.create_target_with_levels(texels, side, side, side.ilog2() + 1)?;
             return Ok(Self { format, side, map, float: None });
         }
-        let [mean, copy] = programs(machine.profile())?;
+        let profile = machine.profile();
+        let (mean, copy) = (kernels::MEAN.checked(profile)?, kernels::COPY.checked(profile)?);
         let size = [side as usize; 2];
         let map = new_target(machine, texels, size)?;
         let levels = Levels::new(machine, texels, size)?;
@@ -114,7 +114,3 @@ impl LeveledMap {
 
 /// The level of fixed links; `None` for adaptive ones.
 pub(super) type FixedLevel = Option<u32>;
-
-fn programs(profile: &Profile) -> Result<[CheckedProgram; 2], KernelError> {
-    Ok([kernels::MEAN.checked(profile)?, kernels::COPY.checked(profile)?])
-}

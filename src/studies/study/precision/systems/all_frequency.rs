@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
+use super::run::{SystemInput, SystemRun, bunny, cameras};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crate::all_frequency::on_card::{FactoredCard, ProductOptions, ProductPlace, TransferredMesh};
@@ -55,7 +55,6 @@ impl SystemRun for FactoredBunny {
         let place = ProductPlace::Pixels(ProductOptions::default());
         let card = FactoredCard::new(profile.clone(), executor.clone(), mesh, place);
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
-        let texels = card.and_then(|mut card| card.view_texels(&view)).map_err(no_all_frequency_card)?.texels;
-        Ok(colors(&texels))
+        Ok(card.and_then(|mut card| card.view_texels(&view)).map_err(no_all_frequency_card)?.colors())
     }
 }

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
+use super::run::{SystemInput, SystemRun, bunny, cameras};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayOptions, TexturedMesh};
 use crate::bi_scale::texture::BidirectionalTexture;
@@ -69,6 +69,6 @@ impl SystemRun for TexturedBunny {
         };
         let mut card = BiScaleCard::new(profile.clone(), executor.clone(), mesh, DisplayOptions::default())?;
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
-        Ok(colors(&card.view_texels(&self.local, &view)?.texels))
+        Ok(card.view_texels(&self.local, &view)?.colors())
     }
 }

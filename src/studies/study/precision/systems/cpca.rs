@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
+use super::run::{SystemInput, SystemRun, bunny, cameras};
 use crate::card::MeshView;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::cpca::transfer::{Bounces, Incident};
@@ -82,9 +82,8 @@ impl SystemRun for GlossyBunny {
         let card = PrtCard::new(profile.clone(), executor.clone(), transfer, &options);
         // The paper's card adds clusters up by blending, which it cannot do with floats.
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Bgra8 };
-        let texels = card.and_then(|mut card| card.view_texels(&self.light, &view)).map_err(no_cpca_card)?.texels;
-        let colors = colors(&texels);
+        let texels = card.and_then(|mut card| card.view_texels(&self.light, &view)).map_err(no_cpca_card)?;
         // Codes of 8 bits, which were read in single precision.
-        Ok(colors.into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
+        Ok(texels.colors().into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
     }
 }

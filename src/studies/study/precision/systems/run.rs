@@ -72,8 +72,3 @@ pub(super) fn cameras(mesh: &Mesh) -> [Camera; 2] {
         Camera::new(eye, middle, [0.0, 0.0, 1.0], 0.42, PICTURE, PICTURE).expect("an eye outside the mesh")
     })
 }
-
-/// Colors of texels, without alpha.
-pub(super) fn colors(texels: &[[f32; 4]]) -> Vec<[f64; 3]> {
-    texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
-}

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::run::{SystemInput, SystemRun, bunny, cameras, colors};
+use super::run::{SystemInput, SystemRun, bunny, cameras};
 use crate::atlas::Atlas;
 use crate::card::MeshView;
 use crate::scene::Camera;
@@ -81,6 +81,6 @@ impl SystemRun for Marble {
         let light = Light::Directional { towards: [1.0, -1.0, 2.0], irradiance: [4.0, 3.8, 3.4] };
         card.light(&[light]).map_err(no_card)?;
         let view = MeshView { camera: self.cameras[input as usize], exposure: 1.0, format: TexelFormat::Rgba32f };
-        Ok(colors(&card.view_texels(&View::scattered(view)).map_err(no_card)?.texels))
+        Ok(card.view_texels(&View::scattered(view)).map_err(no_card)?.colors())
     }
 }

@@ -12,7 +12,7 @@ use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
 use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 use crate::scene::Camera;
 use crate::study::prt::render::cluster_color;
 use crate::study::prt::turned_frames::Turned;
@@ -80,10 +80,6 @@ impl Study for AllFrequencyRendering {
         self.clusters(&seen, &mut found);
         self.frames(&seen, &parts, (&transferred, exposure), &mut found, progress)?;
         Ok(found)
-    }
-
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }
 
@@ -181,9 +177,8 @@ impl AllFrequencyRendering {
         found: &mut Findings,
     ) -> Result<(), StudyError> {
         let picture = seen.colors(exact, [0.0; 3]);
-        let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
-        let difference: Vec<f64> = drawn.iter().zip(&picture).map(|(a, b)| mean(a) - mean(b)).collect();
-        let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let (pictures, _, largest) =
+            self.lit.view.against_original(drawn, &picture, exposure, "coded less uncompressed")?;
         let squares = |a: &[[f64; 3]]| a.iter().flatten().map(|value| value * value).sum::<f64>();
         let apart = |a: &[[f64; 3]], b: &[[f64; 3]]| -> f64 {
             a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum()
@@ -195,14 +190,6 @@ impl AllFrequencyRendering {
         let vertices = share(of_vertex, exact);
         table.push(["the same of vertices (%)".into(), Cell::measured(vertices)]);
         table.push(["largest difference of a pixel (radiance)".into(), Cell::measured(largest)]);
-        let shown_whole = self.lit.view.picture(&picture).display(exposure)?;
-        let mut pictures = vec![NamedPicture::new("original", shown_whole, "without compression")];
-        if largest > 0.0 {
-            let caption =
-                format!("coded less uncompressed: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
-            let image = false_color::signed(self.lit.view.camera.width(), &difference, largest);
-            pictures.push(NamedPicture::new("difference", image, caption));
-        }
         found.heading("Against uncompressed transfer");
         found.pictures(pictures);
         found.table(FoundTable::from(table).csv("comparison").field("comparison"));
@@ -261,6 +248,6 @@ impl AllFrequencyRendering {
                 }
             }
         };
-        self.frames.report((&self.lit.view, &self.lit.mesh, exposure), colors, found, (2, progress))
+        self.frames.report(&self.lit.view, &self.lit.mesh, exposure, colors, found, 2, progress)
     }
 }

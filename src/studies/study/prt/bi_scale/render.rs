@@ -10,7 +10,7 @@ use super::drawing::BiScaleDrawing;
 use super::light::LocalLight;
 use super::subject::{BiScaleRendering, SurfaceTexture};
 use super::surface::SurfacePixel;
-use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
+use crate::report::{Cell, Findings, FoundTable, Table};
 use crate::study::prt::of_texels;
 use crate::study::prt::turned_frames::Turned;
 use crate::study::{ProgressFn, Study, StudyError};
@@ -57,12 +57,8 @@ impl Study for BiScaleRendering {
             // View alone changed: L~ is that of before.
             Turned::Camera(camera) => Ok(drawing.shade_from(&camera, &local.rows)),
         };
-        self.frames.report((&self.view, &self.surface.mesh, exposure), turned, &mut found, (2, progress))?;
+        self.frames.report(&self.view, &self.surface.mesh, exposure, turned, &mut found, 2, progress)?;
         Ok(found)
-    }
-
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }
 

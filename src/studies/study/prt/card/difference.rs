@@ -73,7 +73,8 @@ impl<'a> ComparedPicture<'a> {
     pub(super) fn new(
         seen: &[Option<SeenPixel>],
         drawn: &'a [[f64; 3]],
-        (host, is_clamped): (&'a [[f64; 3]], bool),
+        host: &'a [[f64; 3]],
+        is_clamped: bool,
     ) -> Self {
         Self { drawn, host, is_clamped, errors: PixelErrors::of(seen, drawn, &held(host, is_clamped)) }
     }
@@ -96,7 +97,8 @@ impl<'a> ComparedPicture<'a> {
     pub(super) fn report(
         &self,
         camera: &Camera,
-        (title, from): (String, &str),
+        title: String,
+        from: &str,
         found: &mut Findings,
     ) -> Result<(), PictureError> {
         let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {

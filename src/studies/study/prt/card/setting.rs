@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::difference::ComparedPicture;
 use crate::picture::PictureError;
-use crate::report::{Findings, FoundTable, Provenance, Table};
+use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
 use crate::study::StudyError;
 use crate::study::prt::LitView;
 use crate::study::prt::VertexValues;
@@ -72,7 +72,7 @@ impl PictureStudy<'_> {
         found.taken_from(self.view.camera.world_to_camera());
         found.conclusion(compared.sentence(card, self.from));
         let caption = format!("{} on the {card}", self.view.caption());
-        compared.report(&self.view.camera, (caption, self.from), &mut found)?;
+        compared.report(&self.view.camera, caption, self.from, &mut found)?;
         found.field("exposure", json!(exposure));
         Ok(found)
     }
@@ -92,8 +92,10 @@ impl PictureStudy<'_> {
     /// Adds the time of a frame, with its log as a timeline.
     pub(super) fn report_time(
         &self,
-        (times, explained): (Table, &'static str),
-        (log, frame): (&[Event], &str),
+        times: Table,
+        explained: &'static str,
+        log: &[Event],
+        frame: &str,
         found: &mut Findings,
     ) -> Result<(), StudyError> {
         found.heading("Modelled time");
@@ -105,8 +107,10 @@ impl PictureStudy<'_> {
     }
 }
 
-/// Adds sizes and counts.
-pub(super) fn report_sizes(sizes: Table, found: &mut Findings) {
+/// Adds sizes and counts, by what they are of.
+pub(super) fn report_sizes(sizes: impl IntoIterator<Item = (&'static str, Cell)>, found: &mut Findings) {
+    let mut table = Table::new("Sizes and counts", &["what", "number"]);
+    sizes.into_iter().for_each(|(what, number)| table.push([what.into(), number]));
     found.heading("What is drawn");
-    found.table(FoundTable::from(sizes).field("sizes"));
+    found.table(FoundTable::from(table).field("sizes"));
 }

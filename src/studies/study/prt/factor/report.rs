@@ -10,7 +10,7 @@ use crate::all_frequency::factor::{
 };
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color};
 use crate::sphere::{DirectionRule, function_count};
 use crate::study::{ProgressFn, Study, StudyError};
 
@@ -45,10 +45,6 @@ impl Study for BrdfFactors {
         files::keep(&mut found, &all, &factors)?;
         self.fields(&mut found, &all, &errors);
         Ok(found)
-    }
-
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }
 

@@ -33,14 +33,16 @@ pub(super) fn ways_to_code(coded: &CodedTransfer) -> u64 {
 /// Sums and pixels in f64, so that the code alone differs.
 pub(super) fn coarse_codes(
     study: &AllFrequencyOnCard,
-    (coded, light): (&CodedTransfer, &HaarLight),
-    (seen, exposure): (&[Option<SeenPixel>], f64),
+    coded: &CodedTransfer,
+    light: &HaarLight,
+    seen: &[Option<SeenPixel>],
+    exposure: f64,
     done: &mut dyn FnMut(u64),
 ) -> Result<Vec<PictureVariant>, StudyError> {
     let place = ProductPlace::Pixels(ProductOptions::default());
     let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, StudyError> {
         let transferred = in_double(coded, light)?;
-        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.lit.view.camera.eye(), exposure)))
+        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, study.lit.view.camera.eye(), exposure))
     };
     let expected = pixels(coded)?;
     done(1);

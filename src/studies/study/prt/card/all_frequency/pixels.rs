@@ -17,7 +17,8 @@ pub(super) fn exact_pixels(
     mesh: &TransferredMesh<'_>,
     seen: &[Option<SeenPixel>],
     place: &ProductPlace,
-    (eye, exposure): ([f32; 3], f64),
+    eye: [f32; 3],
+    exposure: f64,
 ) -> Vec<[f64; 3]> {
     let colors = matches!(place, ProductPlace::Vertices(_)).then(|| vertex_radiance(mesh, eye));
     let pixel = |seen: &Option<SeenPixel>| {

@@ -118,7 +118,8 @@ pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
 pub fn factored_precision(
     mesh: TransferredMesh<'_>,
     executor: &Executor,
-    (camera, exposure): (Camera, f64),
+    camera: Camera,
+    exposure: f64,
     done: &mut dyn FnMut(u64),
 ) -> Result<Vec<PictureVariant>, CardError> {
     let view = MeshView { camera, exposure, format: TexelFormat::Rgba32f };
@@ -127,10 +128,8 @@ pub fn factored_precision(
         let profile = Profile::named(device).expect("a device of the project");
         let seen = seen_pixels(&profile, mesh.vertices.geometry(), &camera)?;
         let drawing = draw(profile, executor.clone(), mesh, place, &view, Multiplies::default())?;
-        let expected = exact_pixels(&mesh, &seen, &place, (camera.eye(), exposure));
-        let drawn: Vec<[f64; 3]> =
-            drawing.texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
-        let errors = PixelErrors::of(&seen, &drawn, &expected);
+        let expected = exact_pixels(&mesh, &seen, &place, camera.eye(), exposure);
+        let errors = PixelErrors::of(&seen, &drawing.texels.colors(), &expected);
         let below_zero = Some(drawing.counts.below_zero.unwrap_or(0));
         found.push(PictureVariant { axis, choice, errors, below_zero });
         done(found.len() as u64);

@@ -12,7 +12,7 @@ use crate::all_frequency::on_card::{
     FactoredDrawing, ProductOptions, ProductPlace, TransferredMesh, VertexColors, draw,
 };
 use crate::card::{MeshView, SeenPixel, seen_pixels};
-use crate::report::{Cell, Findings, Provenance, Table};
+use crate::report::{Cell, Findings, Provenance};
 use crate::study::prt::card::blame::{Blame, report_blame};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
@@ -34,7 +34,7 @@ impl Study for AllFrequencyOnCard {
         let mesh = self.mesh_of(&steps.transferred);
         let seen = seen_pixels(&card.profile, lit.vertices.geometry(), &lit.view.camera)?;
         let study = PictureStudy { card, view: &lit.view, from: "the same numbers" };
-        let (exposure, host) = study.exposed(exact_pixels(&mesh, &seen, &self.place, (lit.view.camera.eye(), 1.0)));
+        let (exposure, host) = study.exposed(exact_pixels(&mesh, &seen, &self.place, lit.view.camera.eye(), 1.0));
         progress("card", 1, 2);
         let view = MeshView { camera: lit.view.camera, exposure, format: card.format };
         let (profile, executor) = (card.profile.clone(), card.executor.clone());
@@ -43,24 +43,23 @@ impl Study for AllFrequencyOnCard {
         if let Some(sums) = &steps.sums {
             drawing.log = sums.log.events.iter().cloned().chain(drawing.log).collect();
         }
-        let drawn = drawing.texels.texels.iter();
-        let drawn: Vec<[f64; 3]> = drawn.map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
+        let drawn = drawing.texels.colors();
         let is_clamped = card.is_clamped() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
-        let compared = ComparedPicture::new(&seen, &drawn, (&host, is_clamped));
+        let compared = ComparedPicture::new(&seen, &drawn, &host, is_clamped);
         let mut found = study.findings("All-frequency transfer on a card", &compared, exposure)?;
         study.keep_values(&lit.vertices, || vertex_radiance(&mesh, lit.view.camera.eye()), &mut found);
         conclude(&drawing, &mut found);
         let radiances = steps.cut.light.radiances();
         found.pictures(vec![lit.view.light_picture(of_texels(&radiances))?]);
-        report_blame(&self.blame(&steps, (&seen, exposure), (&mesh, compared.errors))?, &mut found);
+        report_blame(&self.blame(&steps, &seen, exposure, &mesh, compared.errors)?, &mut found);
         report_sizes(self.sizes(&steps, &drawing), &mut found);
         if let Some(time) = frame::modelled(&card.profile, &drawing.log, host_of_table_1())? {
             found.conclusion(format!("{}.", frame::rate(&time, &card.profile.title)));
-            let frame = (&drawing.log[..], "a frame of all-frequency transfer");
-            study.report_time((frame::times(&time), TIME), frame, &mut found)?;
+            let what = "a frame of all-frequency transfer";
+            study.report_time(frame::times(&time), TIME, &drawing.log, what, &mut found)?;
         }
         if card.sweep {
-            report_sweep(&self.variants(&steps, (&seen, exposure), &mesh, progress)?, SWEEP, &mut found);
+            report_sweep(&self.variants(&steps, &seen, exposure, &mesh, progress)?, SWEEP, &mut found);
         }
         found.field("kept", json!(steps.cut.kept));
         found.field("nonzero", json!(steps.cut.nonzero));
@@ -91,17 +90,20 @@ impl AllFrequencyOnCard {
     fn blame(
         &self,
         steps: &HostSteps,
-        (seen, exposure): (&[Option<SeenPixel>], f64),
-        (mesh, of_card): (&TransferredMesh<'_>, PixelErrors),
+        seen: &[Option<SeenPixel>],
+        exposure: f64,
+        mesh: &TransferredMesh<'_>,
+        of_card: PixelErrors,
     ) -> Result<Vec<Blame>, StudyError> {
-        let view = (self.lit.view.camera.eye(), exposure);
+        let eye = self.lit.view.camera.eye();
+        let pixels = |mesh: &TransferredMesh<'_>, place| exact_pixels(mesh, seen, place, eye, exposure);
         let products = ProductPlace::Pixels(ProductOptions::default());
         let mut found = vec![Blame { step: "the card: arithmetic, storage, target", errors: of_card }];
         let mut push =
             |step, a: &[[f64; 3]], b: &[[f64; 3]]| found.push(Blame { step, errors: PixelErrors::of(seen, a, b) });
-        let ours = exact_pixels(mesh, seen, &products, view);
+        let ours = pixels(mesh, &products);
         if self.lit.file.reflectance.terms() > 1 {
-            let colors = exact_pixels(mesh, seen, &ProductPlace::Vertices(VertexColors::Floats), view);
+            let colors = pixels(mesh, &ProductPlace::Vertices(VertexColors::Floats));
             push("colors of vertices interpolated, not products", &colors, &ours);
         }
         if let Some(coded) = &self.lit.file.coded {
@@ -113,13 +115,13 @@ impl AllFrequencyOnCard {
                     "sums over representatives in single precision"
                 },
                 &ours,
-                &exact_pixels(&self.mesh_of(&exact), seen, &products, view),
+                &pixels(&self.mesh_of(&exact), &products),
             );
         }
         let compressed = self.lit.original.as_ref().filter(|_| self.lit.file.coded.is_some());
         if let Some(original) = compressed {
             let raw = self.raw(original, &steps.cut.light)?;
-            let raw = exact_pixels(&self.mesh_of(&raw), seen, &products, view);
+            let raw = pixels(&self.mesh_of(&raw), &products);
             push("compression and coding", &ours, &raw);
         }
         if steps.cut.kept < steps.cut.nonzero {
@@ -128,14 +130,13 @@ impl AllFrequencyOnCard {
                 Some(coded) => in_double(coded, &whole)?,
                 None => self.raw(&self.lit.file, &whole)?,
             };
-            push("light coefficients left out", &ours, &exact_pixels(&self.mesh_of(&whole), seen, &products, view));
+            push("light coefficients left out", &ours, &pixels(&self.mesh_of(&whole), &products));
         }
         Ok(found)
     }
 
-    fn sizes(&self, steps: &HostSteps, drawing: &FactoredDrawing) -> Table {
+    fn sizes(&self, steps: &HostSteps, drawing: &FactoredDrawing) -> Vec<(&'static str, Cell)> {
         let terms = self.lit.file.reflectance.terms();
-        let mut table = Table::new("Sizes and counts", &["what", "number"]);
         let numbers = match &self.place {
             ProductPlace::Pixels(options) if terms > 1 => options.layout(terms).numbers(),
             _ => 3,
@@ -170,29 +171,27 @@ impl AllFrequencyOnCard {
             ("bytes of textures for sums", of_sums(|sums| sums.texture_bytes)),
         ];
         let rows = rows.into_iter().chain(of_sums.into_iter().filter(|_| self.sums_on_card));
-        for (what, number) in rows {
-            table.push([what.into(), number.map_or(Cell::Empty, Cell::from)]);
-        }
-        table
+        rows.map(|(what, number)| (what, number.map_or(Cell::Empty, Cell::from))).collect()
     }
 
     /// Representatives, weights, G, arithmetic and filters, varied one after the other.
     fn variants(
         &self,
         steps: &HostSteps,
-        (seen, exposure): (&[Option<SeenPixel>], f64),
+        seen: &[Option<SeenPixel>],
+        exposure: f64,
         mesh: &TransferredMesh<'_>,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Vec<PictureVariant>, StudyError> {
         let drawn = ways_of_precision(mesh);
         let all = drawn + self.lit.file.coded.as_ref().map_or(0, ways_to_code);
         let mut done = |done| progress("sweep", done, all);
-        let view = (self.lit.view.camera, exposure);
-        let variants = factored_precision(*mesh, &self.card.executor, view, &mut done);
+        let camera = self.lit.view.camera;
+        let variants = factored_precision(*mesh, &self.card.executor, camera, exposure, &mut done);
         let mut variants = variants.map_err(no_all_frequency_card)?;
         if let Some(coded) = &self.lit.file.coded {
             let mut done = |done| progress("sweep", drawn + done, all);
-            variants.extend(coarse_codes(self, (coded, &steps.cut.light), (seen, exposure), &mut done)?);
+            variants.extend(coarse_codes(self, coded, &steps.cut.light, seen, exposure, &mut done)?);
         }
         Ok(variants)
     }

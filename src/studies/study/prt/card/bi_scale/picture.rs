@@ -39,21 +39,22 @@ impl BiScaleOnCard {
     pub(super) fn draw(
         &self,
         local: &[[f32; 3]],
-        (options, format): (DisplayOptions, TexelFormat),
+        options: DisplayOptions,
+        format: TexelFormat,
         exposure: f64,
     ) -> Result<Drawn, StudyError> {
         let mut card = BiScaleCard::new(self.card.profile.clone(), self.card.executor.clone(), self.mesh(), options)?;
         let view = MeshView { camera: self.view.camera, exposure, format };
         let (texels, log) = card.logged_view(local, &view)?;
-        let pixels = texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
-        Ok(Drawn { pixels, counts: card.counts(), log })
+        Ok(Drawn { pixels: texels.colors(), counts: card.counts(), log })
     }
 
     /// Equation 3 in f64, exposed, neither clamped nor quantised. 0 where nothing is seen.
     pub(super) fn exact(
         &self,
         local: &[[f64; 3]],
-        (seen, exposure): (&[Option<SeenPixel>], f64),
+        seen: &[Option<SeenPixel>],
+        exposure: f64,
         edges: BlockEdges,
     ) -> Vec<[f64; 3]> {
         let (mesh, eye) = (self.mesh(), self.view.camera.eye());
@@ -72,7 +73,7 @@ impl BiScaleOnCard {
             Some(SeenPixel { triangle, corners: self.vertices.triangles()[triangle as usize], weights })
         };
         let seen: Vec<Option<SeenPixel>> = self.vertices.first_corners().into_iter().map(at_vertex).collect();
-        self.exact(local, (&seen, 1.0), edges)
+        self.exact(local, &seen, 1.0, edges)
     }
 }
 

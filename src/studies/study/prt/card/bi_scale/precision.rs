@@ -58,11 +58,13 @@ pub(super) fn count() -> u64 {
 /// Draws each way on the study's card. Pixels are compared with equation 3 in f64 from L~ in f64.
 pub(super) fn variants(
     study: &BiScaleOnCard,
-    (light, exact): (&[[f64; 3]], &[[f64; 3]]),
-    (seen, exposure): (&[Option<SeenPixel>], f64),
+    light: &[[f64; 3]],
+    exact: &[[f64; 3]],
+    seen: &[Option<SeenPixel>],
+    exposure: f64,
     done: &mut dyn FnMut(u64),
 ) -> Result<Vec<PictureVariant>, StudyError> {
-    let expected = study.exact(exact, (seen, exposure), BlockEdges::Wrapped);
+    let expected = study.exact(exact, seen, exposure, BlockEdges::Wrapped);
     let mut variants = Vec::new();
     let mut local = study.local(light, FINE.light)?.local;
     let mut light_format = FINE.light;
@@ -70,7 +72,7 @@ pub(super) fn variants(
         if way.light != light_format {
             (light_format, local) = (way.light, study.local(light, way.light)?.local);
         }
-        let drawn = study.draw(&local, (way.options, way.target), exposure)?;
+        let drawn = study.draw(&local, way.options, way.target, exposure)?;
         let expected = held(&expected, !way.target.record().is_float());
         let errors = PixelErrors::of(seen, &drawn.pixels, &expected);
         variants.push(PictureVariant { axis, choice, errors, below_zero: None });

@@ -38,16 +38,16 @@ impl Study for BiScaleOnCard {
         let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.view.camera)?;
         let study = PictureStudy { card, view: &self.view, from: "the same local light" };
         let edges = self.options.edges;
-        let (exposure, host) = study.exposed(self.exact(&doubles(&local.local), (&seen, 1.0), edges));
+        let (exposure, host) = study.exposed(self.exact(&doubles(&local.local), &seen, 1.0, edges));
         progress("card", 2, 3);
-        let drawn = self.draw(&local.local, (self.options, card.format), exposure)?;
-        let compared = ComparedPicture::new(&seen, &drawn.pixels, (&host, card.is_clamped()));
+        let drawn = self.draw(&local.local, self.options, card.format, exposure)?;
+        let compared = ComparedPicture::new(&seen, &drawn.pixels, &host, card.is_clamped());
         let mut found = study.findings("Bi-scale transfer on a card", &compared, exposure)?;
         let of_vertices = || self.radiance_of_vertices(&doubles(&local.local), edges);
         study.keep_values(&self.vertices, of_vertices, &mut found);
         let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
         found.pictures(vec![self.view.light_picture(of_texels(cube.texels()))?]);
-        let whole = self.exact(&exact, (&seen, exposure), edges);
+        let whole = self.exact(&exact, &seen, exposure, edges);
         let blames = [
             Blame { step: "the card: storage, filters, arithmetic, target", errors: compared.errors },
             Blame { step: "light times biclusters by the card", errors: PixelErrors::of(&seen, &host, &whole) },
@@ -61,11 +61,11 @@ impl Study for BiScaleOnCard {
                 card.profile.title
             ));
             let log: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
-            study.report_time((table_of(&times), TIME), (&log, "a frame of bi-scale transfer"), &mut found)?;
+            study.report_time(table_of(&times), TIME, &log, "a frame of bi-scale transfer", &mut found)?;
         }
         if card.sweep {
-            let view = (&seen[..], exposure);
-            let variants = variants(self, (&light, &exact), view, &mut |done| progress("sweep", done, count()))?;
+            let mut done = |done| progress("sweep", done, count());
+            let variants = variants(self, &light, &exact, &seen, exposure, &mut done)?;
             report_sweep(&variants, SWEEP, &mut found);
         }
         Ok(found)
@@ -83,10 +83,9 @@ impl BiScaleOnCard {
         Ok(view.zip(frame::modelled(&self.card.profile, &both, host_of_table_1())?))
     }
 
-    fn sizes(&self, local: &CardLight, drawn: &Drawn) -> Table {
-        let mut table = Table::new("Sizes and counts", &["what", "number"]);
+    fn sizes(&self, local: &CardLight, drawn: &Drawn) -> [(&'static str, Cell); 17] {
         let (gather, display) = (local.counts, drawn.counts);
-        for (what, number) in [
+        [
             ("vertices", self.vertices.len() as u64),
             ("vertices of the card", display.vertices as u64),
             ("triangles", display.triangles as u64),
@@ -104,10 +103,8 @@ impl BiScaleOnCard {
             ("directions of a pass", display.directions_per_pass as u64),
             ("texture reads of a pass's pixel", u64::from(display.pixel_slots[0])),
             ("arithmetic slots of a pass's pixel", u64::from(display.pixel_slots[1])),
-        ] {
-            table.push([what.into(), number.into()]);
-        }
-        table
+        ]
+        .map(|(what, number)| (what, number.into()))
     }
 }
 

@@ -58,7 +58,6 @@ impl CardDrawing<'_> {
         } else {
             (card.view_texels(&study.light, &view)?, Vec::new())
         };
-        let colors = texels.texels.into_iter().map(|[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
         let triangles = transfer.vertices.triangles();
         let groups = card.superclusters();
         let draws = ChunkCounts {
@@ -66,7 +65,7 @@ impl CardDrawing<'_> {
             triangles: triangles.len(),
             drawn: groups.overdraw(transfer.clustering, triangles),
         };
-        Ok(Drawn { colors, log, size: card.size(), draws })
+        Ok(Drawn { colors: texels.colors(), log, size: card.size(), draws })
     }
 }
 

@@ -81,7 +81,8 @@ pub(super) fn pictures(transfer: &CompressedTransfer<'_>) -> u64 {
 /// Draws all choices, and compares them with the reference where pixels show the mesh.
 pub(super) fn variants(
     study: &OnCard,
-    (transfer, exposure): (CompressedTransfer<'_>, f64),
+    transfer: CompressedTransfer<'_>,
+    exposure: f64,
     seen: &[Option<SeenPixel>],
     progress: &mut dyn FnMut(u64),
 ) -> Result<Vec<PictureVariant>, StudyError> {

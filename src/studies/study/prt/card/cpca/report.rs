@@ -30,7 +30,7 @@ impl Study for OnCard {
         progress("card", 1, steps);
         let way = CardDrawing { profile: &card.profile, format: card.format, options: self.options, timed: true };
         let drawn = way.draw(self, transfer, exposure).map_err(no_cpca_card)?;
-        let compared = ComparedPicture::new(&seen, &drawn.colors, (&host, card.is_clamped()));
+        let compared = ComparedPicture::new(&seen, &drawn.colors, &host, card.is_clamped());
         let mut found = study.findings("Compressed transfer on a card", &compared, exposure)?;
         let of_vertices = || lit.radiance(&exit, &self.vertices, wide(self.view.camera.eye()));
         study.keep_values(&self.vertices, of_vertices, &mut found);
@@ -39,12 +39,12 @@ impl Study for OnCard {
         report_sizes(tables::sizes(&drawn.size, &drawn.draws), &mut found);
         if let Some(time) = frame::modelled(&card.profile, &drawn.log, host_of_section_7())? {
             found.conclusion(tables::time_sentence(&time, &card.profile.title));
-            let frame = (&drawn.log[..], "a frame of compressed transfer");
-            study.report_time((frame::times(&time), tables::TIME), frame, &mut found)?;
+            let what = "a frame of compressed transfer";
+            study.report_time(frame::times(&time), tables::TIME, &drawn.log, what, &mut found)?;
         }
         if card.sweep {
             let mut done = |done| progress("sweep", 2 + done, steps);
-            let variants = precision::variants(self, (transfer, exposure), &seen, &mut done)?;
+            let variants = precision::variants(self, transfer, exposure, &seen, &mut done)?;
             report_sweep(&variants, precision::EXPLAINED, &mut found);
         }
         Ok(found)

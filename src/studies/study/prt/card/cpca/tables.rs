@@ -3,7 +3,7 @@
 use super::picture::ChunkCounts;
 use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
-use crate::report::{Cell, Table};
+use crate::report::Cell;
 use crate::study::prt::card::frame;
 
 pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and \
@@ -11,8 +11,8 @@ pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the
     work side by side.";
 
 /// Sizes and counts: the columns of the paper's Table 1 with those that section 6.2 derives.
-pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> Table {
-    let mut table = Table::new("Sizes and counts", &["what", "number"]);
+pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> impl Iterator<Item = (&'static str, Cell)> {
+    let overdraw = draws.drawn as f64 / draws.triangles.max(1) as f64;
     let rows = [
         ("vertices", size.vertices as u64),
         ("clusters", size.clusters as u64),
@@ -27,9 +27,7 @@ pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> Table {
         ("triangles", draws.triangles as u64),
         ("triangles drawn in a pass", draws.drawn),
     ];
-    rows.into_iter().for_each(|(what, number)| table.push([what.into(), number.into()]));
-    table.push(["overdraw".into(), Cell::ratio(draws.drawn as f64 / draws.triangles.max(1) as f64)]);
-    table
+    rows.into_iter().map(|(what, number)| (what, number.into())).chain([("overdraw", Cell::ratio(overdraw))])
 }
 
 /// The rate, what it waits for, and what is drawn.
