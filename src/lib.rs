@@ -64,7 +64,7 @@
 pub mod cli;
 
 #[doc(inline)]
-pub use crossbar_base::{compare, elementary, geom, oracle};
+pub use crossbar_base::{compare, elementary, error, geom, oracle};
 #[cfg(feature = "systems")]
 #[doc(inline)]
 pub use crossbar_ground::{atlas, card, fresnel, io, linalg, names, picture, quadrature, scene, sphere, tracer};

@@ -3,8 +3,9 @@
 use std::str::FromStr;
 
 use crossbar::case::{Setup, device_named};
+use crossbar::error::InputError;
 use crossbar::picture::metrics::{ScreenPicture, flip, ssim};
-use crossbar::picture::{ChannelUnit, Picture, PictureError, Samples};
+use crossbar::picture::{ChannelUnit, Picture, Samples};
 use crossbar::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, KnownRuns, PaperSystem, Precision};
 use crossbar::study::reproduce::{ENTRIES, ModelSize, Parameters, choose};
 use crossbar::study::{Study as _, StudyError};
@@ -87,7 +88,7 @@ pub(crate) fn diff<'py>(
         let screens = [ScreenPicture::new(&pictures[0], exposure)?, ScreenPicture::new(&pictures[1], exposure)?];
         Ok(flip(&screens[0], &screens[1], ppd).map(|map| (ssim(&screens[0], &screens[1]), map)))
     });
-    let refuse = |error: PictureError| value_error(error.to_string());
+    let refuse = |error: InputError| value_error(error.to_string());
     let Some((ssim, map)) = found.map_err(refuse)? else {
         return Err(value_error("expected two pictures of one size, with a positive number of pixels per degree"));
     };
@@ -104,7 +105,7 @@ fn picture(array: &PyReadonlyArray3<'_, f32>, unit: ChannelUnit) -> PyResult<Pic
     let mut picture = Picture::new(side(width), side(height));
     for (place, name) in ["R", "G", "B"].into_iter().enumerate() {
         let samples = view.iter().skip(place).step_by(3).copied().collect();
-        let refuse = |error: PictureError| value_error(error.to_string());
+        let refuse = |error: InputError| value_error(error.to_string());
         picture = picture.with(name, unit, Samples::Float(samples)).map_err(refuse)?;
     }
     Ok(picture)

@@ -3,11 +3,12 @@
 use serde_json::{Value, json};
 
 use super::{Out, Problem, Verdict, study};
+use crate::error::InputError;
 use crate::names::did_you_mean;
 use crate::options::number;
 use crate::report::{Cell, Findings, Table};
 use crate::subsurface::materials::{MATERIALS, PublishedFigure, PublishedMaterial, named};
-use crate::subsurface::{Coefficients, Dipole, Material, MaterialError};
+use crate::subsurface::{Coefficients, Dipole, Material};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -91,7 +92,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
 }
 
-fn refused(error: MaterialError) -> Problem {
+fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "coefficients are per mm; `crossbar materials` shows published ones")
 }
 
@@ -114,7 +115,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn new(material: &Material, at: &[f64]) -> Result<Self, MaterialError> {
+    fn new(material: &Material, at: &[f64]) -> Result<Self, InputError> {
         let [red, green, blue] = material.channels.map(|channel| Dipole::new(channel, material.eta));
         let dipoles = [red?, green?, blue?];
         let longest = dipoles.iter().map(Dipole::mean_free_path).fold(0.0, f64::max);

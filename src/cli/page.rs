@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::{Out, Problem, ProgressBar, Verdict, view};
+use crate::error::InputError;
 use crate::io::atomic::FileSet;
-use crate::io::{ReadError, read_limited};
+use crate::io::read_file;
 use crate::study::page::page;
 
 const EXAMPLES: &str = "\
@@ -52,10 +53,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-fn read_emulator(path: &Path) -> Result<Vec<u8>, ReadError> {
+fn read_emulator(path: &Path) -> Result<Vec<u8>, InputError> {
     /// Largest module, in bytes.
     const LIMIT: u64 = 32 << 20;
-    let what = "WebAssembly module";
-    let read = read_limited(path, LIMIT).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
-    read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit: LIMIT })
+    read_file(path, "WebAssembly module", LIMIT)
 }

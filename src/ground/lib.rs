@@ -1,7 +1,7 @@
 //! Shared ground of Crossbar's systems: linear algebra, quadrature, pictures, functions on the sphere, rays on the
 //! host, meshes in texels, scenes and their files, cards that compute. `crossbar` re-exports these rooms.
 
-use crossbar_base::{elementary, geom};
+use crossbar_base::{elementary, error, geom};
 
 pub mod atlas;
 pub mod card;

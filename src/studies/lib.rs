@@ -1,7 +1,7 @@
 //! The studies of Crossbar, one folder per question, the one writer of what they find, the values of their options, and
 //! case files with the shaders that they name. `crossbar` re-exports these rooms.
 
-use crossbar_base::{compare, elementary, geom};
+use crossbar_base::{compare, elementary, error, geom};
 use crossbar_ground::{atlas, card, io, linalg, names, picture, scene, sphere, tracer};
 use crossbar_systems::{all_frequency, bi_scale, cpca, radiosity, ray_engine, renderer, subsurface, transfer};
 

@@ -1,7 +1,7 @@
 //! Six published systems of global illumination on emulated cards, what systems 4 to 6 share, and renderers on the
 //! host. No system sees another. `crossbar` re-exports these rooms.
 
-use crossbar_base::{elementary, geom};
+use crossbar_base::{elementary, error, geom};
 use crossbar_ground::{atlas, card, fresnel, io, linalg, picture, quadrature, scene, sphere, tracer};
 
 pub mod all_frequency;

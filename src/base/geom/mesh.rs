@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::vector::{unit, wide};
+use crate::error::{InputError, ensure, input_error};
 
 /// Triangles that share vertices. [`Mesh::new`] guarantees that every index is in range and every coordinate finite.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,28 +16,6 @@ pub struct Mesh {
     normals: Vec<[f32; 3]>,
     /// One per vertex, or empty.
     texcoords: Vec<[f32; 2]>,
-}
-
-/// Error of a mesh's data.
-#[non_exhaustive]
-#[derive(Debug, Clone, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MeshError {
-    /// A corner names a vertex that does not exist.
-    #[error("triangle {triangle} uses vertex {index}, expected an index below {vertices} (counted from 0)")]
-    IndexOutOfRange { triangle: usize, index: u32, vertices: usize },
-    /// A coordinate is NaN or infinite.
-    #[error("vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number")]
-    NotFinite { vertex: usize, value: f32 },
-    /// The number of normals or texture coordinates is neither that of the vertices nor 0.
-    #[error("found {found} {what}, expected one per vertex: {vertices}")]
-    AttributeCount { what: &'static str, found: usize, vertices: usize },
-    /// A component of a normal or a texture coordinate is NaN or infinite.
-    #[error("among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers")]
-    AttributeNotFinite { what: &'static str, vertex: usize, value: f32 },
-    /// There are more triangles than 31 bits can number.
-    #[error("found {found} triangles, expected at most {}", i32::MAX)]
-    TooMany { found: usize },
 }
 
 /// Contact of two triangles.
@@ -60,7 +38,7 @@ impl Mesh {
     /// # extern crate crossbar_base as crossbar;
     /// use crossbar::geom::Mesh;
     ///
-    /// # fn main() -> Result<(), crossbar::geom::MeshError> {
+    /// # fn main() -> Result<(), crossbar::error::InputError> {
     /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     /// let square = Mesh::new(corners.clone(), vec![[0, 1, 2], [0, 2, 3]])?;
     /// assert_eq!((square.len(), square.boundary_edge_count()), (2, 4));
@@ -72,20 +50,27 @@ impl Mesh {
     /// ```
     ///
     /// # Errors
-    /// [`MeshError`] names the first index out of range, or the first coordinate that is not finite.
-    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
-        if triangles.len() > i32::MAX as usize {
-            return Err(MeshError::TooMany { found: triangles.len() });
-        }
+    /// [`InputError`] names the first index out of range, or the first coordinate that is not finite.
+    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, InputError> {
+        ensure!(
+            triangles.len() <= i32::MAX as usize,
+            "found {} triangles, expected at most {}",
+            triangles.len(),
+            i32::MAX
+        );
         for (vertex, position) in positions.iter().enumerate() {
             if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
-                return Err(MeshError::NotFinite { vertex, value });
+                return Err(input_error!(
+                    "vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number"
+                ));
             }
         }
         let vertices = positions.len();
         for (triangle, corners) in triangles.iter().enumerate() {
             if let Some(&index) = corners.iter().find(|&&index| index as usize >= vertices) {
-                return Err(MeshError::IndexOutOfRange { triangle, index, vertices });
+                return Err(input_error!(
+                    "triangle {triangle} uses vertex {index}, expected an index below {vertices} (counted from 0)"
+                ));
             }
         }
         Ok(Self { positions, triangles, ..Self::default() })
@@ -94,8 +79,8 @@ impl Mesh {
     /// Adds a normal per vertex, of any length; a zero vector where none is known.
     ///
     /// # Errors
-    /// [`MeshError`] if there is not one finite normal per vertex.
-    pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self, MeshError> {
+    /// [`InputError`] if there is not one finite normal per vertex.
+    pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self, InputError> {
         self.check_attribute("normals", &normals)?;
         self.normals = normals;
         Ok(self)
@@ -104,8 +89,8 @@ impl Mesh {
     /// Adds texture coordinates per vertex.
     ///
     /// # Errors
-    /// [`MeshError`] if there is not one finite pair per vertex.
-    pub fn with_texcoords(mut self, texcoords: Vec<[f32; 2]>) -> Result<Self, MeshError> {
+    /// [`InputError`] if there is not one finite pair per vertex.
+    pub fn with_texcoords(mut self, texcoords: Vec<[f32; 2]>) -> Result<Self, InputError> {
         self.check_attribute("texture coordinates", &texcoords)?;
         self.texcoords = texcoords;
         Ok(self)
@@ -131,14 +116,14 @@ impl Mesh {
         }
     }
 
-    fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), MeshError> {
+    fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), InputError> {
         let vertices = self.positions.len();
-        if values.len() != vertices {
-            return Err(MeshError::AttributeCount { what, found: values.len(), vertices });
-        }
+        ensure!(values.len() == vertices, "found {} {what}, expected one per vertex: {vertices}", values.len());
         for (vertex, value) in values.iter().enumerate() {
             if let Some(&value) = value.iter().find(|value| !value.is_finite()) {
-                return Err(MeshError::AttributeNotFinite { what, vertex, value });
+                return Err(input_error!(
+                    "among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers"
+                ));
             }
         }
         Ok(())

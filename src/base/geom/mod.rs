@@ -28,6 +28,6 @@ pub mod vector;
 
 pub use adjacency::{Adjacency, Edge};
 pub use exact::{ExactT, NearestHit, Sides};
-pub use mesh::{Contact, Mesh, MeshError};
-pub use ray::{Hit, Ray, RayError};
+pub use mesh::{Contact, Mesh};
+pub use ray::{Hit, Ray};
 pub use unit_frame::UnitFrame;

@@ -14,7 +14,7 @@ impl Mesh {
     /// # extern crate crossbar_base as crossbar;
     /// use crossbar::geom::Mesh;
     ///
-    /// # fn main() -> Result<(), crossbar::geom::MeshError> {
+    /// # fn main() -> Result<(), crossbar::error::InputError> {
     /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     /// let square = Mesh::new(corners, vec![[0, 1, 2], [0, 3, 2]])?;
     /// assert_eq!(square.misoriented(), [1]);

@@ -1,7 +1,8 @@
 //! Rays and hits.
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
+
+use crate::error::{InputError, ensure};
 
 /// Half-line `origin + t * direction`, t >= 0, with the f32 values as given: the direction is never renormalised.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,39 +11,18 @@ pub struct Ray {
     direction: [f32; 3],
 }
 
-/// Error of a ray's origin or direction.
-#[non_exhaustive]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum RayError {
-    /// One of the six numbers is NaN or infinite.
-    #[error("expected six finite numbers, found {what} {axis} not finite")]
-    NotFinite {
-        /// `origin` or `direction`.
-        what: &'static str,
-        /// `x`, `y` or `z`.
-        axis: char,
-    },
-    /// All three components of the direction are zero.
-    #[error("expected a direction, found (0, 0, 0)")]
-    ZeroDirection,
-}
-
 impl Ray {
     /// Creates a ray from an origin along a direction of any length but zero.
     ///
     /// # Errors
-    /// [`RayError`] when a number is not finite or the direction is zero.
-    pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Result<Self, RayError> {
+    /// [`InputError`] when a number is not finite or the direction is zero.
+    pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Result<Self, InputError> {
         for (what, vector) in [("origin", origin), ("direction", direction)] {
             for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vector) {
-                if !value.is_finite() {
-                    return Err(RayError::NotFinite { what, axis });
-                }
+                ensure!(value.is_finite(), "expected six finite numbers, found {what} {axis} not finite");
             }
         }
-        if direction == [0.0; 3] {
-            return Err(RayError::ZeroDirection);
-        }
+        ensure!(direction != [0.0; 3], "expected a direction, found (0, 0, 0)");
         Ok(Self { origin, direction })
     }
 
@@ -78,9 +58,12 @@ mod tests {
 
     #[test]
     fn refuses_what_is_no_ray() {
-        assert_eq!(Ray::new([0.0; 3], [0.0, -0.0, 0.0]), Err(RayError::ZeroDirection));
+        assert_eq!(
+            Ray::new([0.0; 3], [0.0, -0.0, 0.0]).unwrap_err().to_string(),
+            "expected a direction, found (0, 0, 0)"
+        );
         let found = Ray::new([0.0, f32::NAN, 0.0], [1.0; 3]);
-        assert_eq!(found, Err(RayError::NotFinite { what: "origin", axis: 'y' }));
+        assert_eq!(found.unwrap_err().to_string(), "expected six finite numbers, found origin y not finite");
         assert!(Ray::new([0.0; 3], [0.0, 0.0, f32::from_bits(1)]).is_ok());
     }
 }

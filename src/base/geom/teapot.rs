@@ -25,11 +25,11 @@
 //! no edge. Front faces (counter-clockwise) face outwards; z is up and the spout points along +x.
 
 use num_bigint::BigUint;
-use thiserror::Error;
 
 use super::exact::{is_degenerate, ratio};
 use super::mesh::{Mesh, Welder};
 use super::teapot_table::{PATCHES, POINTS, UNITS};
+use crate::error::{InputError, ensure};
 
 /// Maximum rate of tessellation (4 million triangles; beyond it the slivers at the poles approach the resolution of
 /// f32).
@@ -37,16 +37,6 @@ pub const MAX_RATE: u32 = 256;
 
 /// Rate at which the teapot has about the 9,000 triangles of a classic test model (9,120).
 pub const DEFAULT_RATE: u32 = 12;
-
-/// Error of the teapot's parameters.
-#[non_exhaustive]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum TeapotError {
-    /// The rate is outside 1..=256.
-    #[error("expected a tessellation of 1 to {MAX_RATE} quads along a patch side, found {found}")]
-    Rate { found: u32 },
-}
 
 /// Part of the teapot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -92,19 +82,20 @@ pub struct Teapot {
 /// ```
 ///
 /// # Errors
-/// [`TeapotError::Rate`] for a rate outside 1 to [`MAX_RATE`].
-pub fn teapot(rate: u32) -> Result<Mesh, TeapotError> {
+/// [`InputError`] for a rate outside 1 to [`MAX_RATE`].
+pub fn teapot(rate: u32) -> Result<Mesh, InputError> {
     tessellate(rate).map(|teapot| teapot.mesh)
 }
 
 /// Like [`teapot`], with the patch of every triangle.
 ///
 /// # Errors
-/// [`TeapotError::Rate`] for a rate outside 1 to [`MAX_RATE`].
-pub fn tessellate(rate: u32) -> Result<Teapot, TeapotError> {
-    if !(1..=MAX_RATE).contains(&rate) {
-        return Err(TeapotError::Rate { found: rate });
-    }
+/// [`InputError`] for a rate outside 1 to [`MAX_RATE`].
+pub fn tessellate(rate: u32) -> Result<Teapot, InputError> {
+    ensure!(
+        (1..=MAX_RATE).contains(&rate),
+        "expected a tessellation of 1 to {MAX_RATE} quads along a patch side, found {rate}"
+    );
     let weights: Vec<[i128; 4]> = (0..=rate).map(|step| bernstein(step, rate)).collect();
     let scale = BigUint::from(rate).pow(6) * UNITS.unsigned_abs();
     let side = rate as usize + 1;
@@ -205,7 +196,7 @@ mod tests {
 
     #[test]
     fn rates_outside_are_refused() {
-        assert_eq!(teapot(0), Err(TeapotError::Rate { found: 0 }));
+        assert!(teapot(0).is_err());
         let found = teapot(257).unwrap_err().to_string();
         assert_eq!(found, "expected a tessellation of 1 to 256 quads along a patch side, found 257");
     }

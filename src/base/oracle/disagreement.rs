@@ -6,7 +6,8 @@ use std::fmt;
 use serde::Serialize;
 
 use super::hard::Aim;
-use crate::geom::{ExactT, Hit, Ray, RayError};
+use crate::error::InputError;
+use crate::geom::{ExactT, Hit, Ray};
 
 /// Kind of a wrong hit; the worst first.
 ///
@@ -186,8 +187,8 @@ impl Disagreement {
     /// Returns the ray, as it was given.
     ///
     /// # Errors
-    /// [`RayError`] if the fields have been changed and are not a valid ray any more.
-    pub fn ray(&self) -> Result<Ray, RayError> {
+    /// [`InputError`] if the fields have been changed and are not a valid ray any more.
+    pub fn ray(&self) -> Result<Ray, InputError> {
         Ray::new(self.origin, self.direction)
     }
 

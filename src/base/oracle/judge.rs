@@ -1,30 +1,16 @@
 //! Judgement of hits against exact arithmetic.
 
 use rayon::prelude::*;
-use thiserror::Error;
 
 use super::disagreement::{Disagreement, DisagreementKind, Expected};
 use super::hard::{Aim, JudgedRay};
 use super::nearby::{moved, passes_contact, passes_corner_at, turned};
 use super::{Report, Tolerance};
 use crate::compare::f32_ulps as ulps;
+use crate::error::{InputError, ensure};
 use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
-
-/// Error: hits cannot be judged.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum OracleError {
-    /// The number of hits is not that of the rays.
-    #[error("expected an answer for each of {rays} rays (`None` for no hit), found {hits}")]
-    Count {
-        /// Number of rays.
-        rays: usize,
-        /// Number of hits.
-        hits: usize,
-    },
-}
 
 /// Judge of first hits by exact arithmetic.
 #[derive(Debug)]
@@ -92,11 +78,14 @@ impl<'a> Oracle<'a> {
     /// Judges one hit per ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
     ///
     /// # Errors
-    /// [`OracleError::Count`] unless there are as many hits as rays.
-    pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, OracleError> {
-        if rays.len() != hits.len() {
-            return Err(OracleError::Count { rays: rays.len(), hits: hits.len() });
-        }
+    /// [`InputError`] unless there are as many hits as rays.
+    pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, InputError> {
+        ensure!(
+            rays.len() == hits.len(),
+            "expected an answer for each of {} rays (`None` for no hit), found {}",
+            rays.len(),
+            hits.len()
+        );
         Ok(self.report(rays, hits))
     }
 

@@ -65,7 +65,7 @@ pub use aims::AimCounts;
 pub use disagreement::{Disagreement, DisagreementKind, Expected};
 pub use equal::{Unequal, assert_bits_eq, assert_hits_eq, assert_within_ulps, bits_equal, hits_equal, within_ulps};
 pub use hard::{Aim, HardRay, JudgedRay, hard_rays};
-pub use judge::{Oracle, OracleError};
+pub use judge::Oracle;
 pub use pictures::{Sample, assert_images_equal, images_equal};
 pub use report::Report;
 pub use tolerance::Tolerance;

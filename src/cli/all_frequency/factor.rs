@@ -12,6 +12,7 @@ use crate::all_frequency::factor::{
 use crate::cli::memory::MemoryNeed;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::{Problem, given};
+use crate::error::InputError;
 use crate::options::number;
 use crate::options::one_of::variants;
 use crate::study::prt::{BrdfFactors, FactorSubject};
@@ -182,7 +183,7 @@ impl Args {
     }
 }
 
-fn refused(error: &crate::transfer::brdf::BrdfError) -> Problem {
+fn refused(error: &InputError) -> Problem {
     Problem::usage(error.to_string(), "see `crossbar all-frequency factor --help`")
 }
 

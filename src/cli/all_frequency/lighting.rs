@@ -10,12 +10,13 @@ use crate::all_frequency::transfer::transfer_of;
 use crate::cli::study::written;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::{Problem, given, view};
+use crate::error::InputError;
 use crate::io::{write_cube_table, write_file};
 use crate::options::one_of::variants;
 use crate::report::{Cell, Findings, Table};
 use crate::sphere::turn_around_z;
 use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
-use crate::transfer::light::{CubeLight, CubeLightError, Decimation, HaarLight, LightTruncation, TruncationPriority};
+use crate::transfer::light::{CubeLight, Decimation, HaarLight, LightTruncation, TruncationPriority};
 use crate::transfer::linear_basis::LinearBasis;
 
 const EXAMPLES: &str = "\
@@ -202,6 +203,6 @@ fn write_coefficients(light: &HaarLight, path: &Path) -> Result<(), Problem> {
     .map_err(Problem::from)
 }
 
-fn refused(error: CubeLightError) -> Problem {
+fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "see `crossbar all-frequency lighting --help`")
 }

@@ -7,11 +7,12 @@ use std::time::Instant;
 use serde_json::json;
 
 use super::file::{histogram, load, value_counts, values_document};
-use crate::bi_scale::bicluster::{BiclusterError, BiclusterOptions, BiclusterResidual, Biclustering, bicluster};
+use crate::bi_scale::bicluster::{BiclusterOptions, BiclusterResidual, Biclustering, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
 use crate::cli::{Problem, ProgressBar};
+use crate::error::InputError;
 use crate::io::write_file;
 use crate::options::number;
 use crate::report::{Cell, Findings, Table};
@@ -86,7 +87,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
 
 impl Args {
     /// The biclusters of the fewest operations, of equals those of the lowest seed, with their seed.
-    fn best(&self, matrix: &SparseMatrix) -> Result<(u64, Biclustering), BiclusterError> {
+    fn best(&self, matrix: &SparseMatrix) -> Result<(u64, Biclustering), InputError> {
         let total = matrix.nonzeros() as u64;
         let bar = ProgressBar::new("non-zeros", total).quicker("fewer `--seeds`");
         let of_seed = |seed: u64| {

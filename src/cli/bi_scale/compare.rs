@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 
 use super::file::{cube_of, load, vertices_of};
 use super::vertex_errors::VertexErrors;
+use crate::bi_scale::baselines::columns_error;
 use crate::bi_scale::baselines::{
-    BaselineError, CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
-    StoredTransfer,
+    CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer,
 };
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
@@ -106,7 +106,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         (None, None) => return Err(Problem::usage("no matrix", "name another file").into()),
     };
     if matrix.columns() != LIGHT_TEXELS {
-        return Err(refused(&BaselineError::Columns { found: matrix.columns() }).into());
+        return Err(refused(&columns_error(matrix.columns())).into());
     }
     // A sample in f32, and of its largest cluster, which may be all of it, two copies and their products in f64.
     let sample = u64::from(args.sample).min(matrix.rows() as u64);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::bi_scale::texture::{HeightField, HeightFieldError, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
+use crate::bi_scale::texture::{HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
 use crate::cli::transfer::values::BrdfArg;
 use crate::cli::{Problem, given, view};
 use crate::io::{PictureFile, load_numbers};
@@ -96,9 +96,7 @@ impl PatchArgs {
         } else {
             let file = PictureFile::open(path)?;
             let [side, rows] = [file.size().width, file.size().height].map(|side| side as usize);
-            if side.max(rows) > HeightField::MOST {
-                return Err(no_heights(path, &HeightFieldError::Side { found: side.max(rows) }).into());
-            }
+            HeightField::check_side(side.max(rows)).map_err(|error| no_heights(path, &error))?;
             view::require_picture(path, &file)?;
             let picture = file.decode()?;
             let linear = picture.linear().map_err(|error| no_heights(path, &error))?;

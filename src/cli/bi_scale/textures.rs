@@ -14,7 +14,8 @@ use crate::names::did_you_mean;
 use crate::options::number;
 use crate::study::prt::SurfaceTexture;
 use crate::transfer::Vertices;
-use crate::transfer::file::{MeshDigest, PrtFileError};
+use crate::transfer::file::MeshDigest;
+use crate::transfer::file::other_mesh_error;
 
 /// How patches are sampled, and where they lie.
 #[derive(Debug, clap::Args)]
@@ -116,7 +117,7 @@ impl TransferOfModel {
         let vertices = vertices(&model, meaning.mesh.tangents)?;
         let (expected, found) = (MeshDigest::new(&vertices), Some(meaning.mesh));
         if found != Some(expected) {
-            return Err(PrtFileError::OtherMesh { path: path.into(), expected, found }.into());
+            return Err(other_mesh_error(path, expected, found).into());
         }
         let light = LocalDirections::new(meaning.side as usize)
             .map_err(|error| Problem::usage(error.to_string(), "name another file"))?;

@@ -7,7 +7,8 @@ use crate::cli::transfer::model::{load, vertices};
 use crate::cli::{Problem, view};
 use crate::transfer::Vertices;
 use crate::transfer::clustering::Clustering;
-use crate::transfer::file::{MeshDigest, PrtFile, PrtFileError, PrtMeaning, load_prt};
+use crate::transfer::file::other_mesh_error;
+use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 
 /// A `.prt` file with the model that it was made from.
 pub(super) struct FileOfModel {
@@ -37,7 +38,7 @@ pub(super) fn model_of(
     let vertices = vertices(&model, tangents)?;
     let digest = MeshDigest::new(&vertices);
     if mesh != Some(digest) {
-        return Err(PrtFileError::OtherMesh { path: path.into(), expected: digest, found: mesh }.into());
+        return Err(other_mesh_error(path, digest, mesh).into());
     }
     Ok((model, vertices, digest))
 }

@@ -14,6 +14,7 @@ use crate::cli::transfer::values::{BrdfArg, TangentsArg};
 use crate::cli::words::{counted, measured};
 use crate::cli::{CommandLine, Problem, ProgressBar, given, memory};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
+use crate::error::InputError;
 use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::report::Findings;
@@ -150,8 +151,7 @@ fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {
     let (Some(name), Some(mm_per_unit)) = (&args.material, args.mm_per_unit) else { return Ok(None) };
     let medium = published(name)?.material();
     let dipole = |channel: usize| Dipole::new(medium.channels[channel], medium.eta);
-    let refused =
-        |error: crate::subsurface::MaterialError| Problem::usage(error.to_string(), "see `crossbar materials`");
+    let refused = |error: InputError| Problem::usage(error.to_string(), "see `crossbar materials`");
     let dipoles = [dipole(0).map_err(refused)?, dipole(1).map_err(refused)?, dipole(2).map_err(refused)?];
     Ok(Some(Scatterer { dipoles, options: ScatteringOptions { mm_per_unit, solid_angle: SOLID_ANGLE } }))
 }

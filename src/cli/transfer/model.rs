@@ -8,9 +8,10 @@ use serde_json::json;
 use crate::cli::model_name::{self, Model};
 use crate::cli::words::counted;
 use crate::cli::{Problem, model_file};
+use crate::error::InputError;
 use crate::report::Findings;
 use crate::scene::Material;
-use crate::transfer::{Tangents, TransferError, Vertices};
+use crate::transfer::{Tangents, Vertices};
 
 /// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
 /// none.
@@ -40,7 +41,7 @@ pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, m
 }
 
 /// Why there is no transfer of a model.
-pub(in crate::cli) fn refused(error: TransferError) -> Problem {
+pub(in crate::cli) fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "see this command's `--help`")
 }
 

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::census::Census;
 use super::drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
-use super::error::AtlasError;
 use super::graph::FaceGraph;
 use super::levels::levels;
 use super::measures::FaceMeasures;
@@ -14,6 +13,7 @@ use super::place::FacePlace;
 use super::surface::AtlasSurface;
 use super::texel::{Cluster, Texel};
 use super::tree::ClusterTree;
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::Mesh;
 
 /// Maximum side of an atlas, in texels.
@@ -53,15 +53,17 @@ impl Atlas {
     /// ```
     ///
     /// # Errors
-    /// [`AtlasError`] if the side is no power of two or above [`MAX_SIDE`], if there are more faces than texels, and if
+    /// [`InputError`] if the side is no power of two or above [`MAX_SIDE`], if there are more faces than texels, and if
     /// the mesh has no face with an area.
-    pub fn new(mesh: &Mesh, side: u32) -> Result<Self, AtlasError> {
+    pub fn new(mesh: &Mesh, side: u32) -> Result<Self, InputError> {
         check(mesh.len(), side)?;
         let welded = mesh.welded();
         let surface = AtlasSurface::new(mesh, &welded);
-        if surface.areas().iter().all(|area| *area == 0.0) {
-            return Err(AtlasError::NoArea { faces: mesh.len() });
-        }
+        ensure!(
+            !surface.areas().iter().all(|area| *area == 0.0),
+            "all of the {} faces have zero area, expected at least one with an area",
+            mesh.len()
+        );
         let adjacency = welded.adjacency();
         let graph = FaceGraph::of_mesh(&surface, &welded, &adjacency);
         let parts = graph.parts(|_| true).1 as usize;
@@ -226,28 +228,32 @@ impl Atlas {
 /// Checks the side of an atlas, whatever its content.
 ///
 /// # Errors
-/// [`AtlasError::Side`].
-pub fn require_side(side: u32) -> Result<(), AtlasError> {
+/// [`InputError`].
+pub fn require_side(side: u32) -> Result<(), InputError> {
     let fits = side.is_power_of_two() && side <= MAX_SIDE;
-    if fits { Ok(()) } else { Err(AtlasError::Side { side, most: MAX_SIDE }) }
+    ensure!(fits, "found an atlas of {side} x {side} texels, expected a side that is a power of two, up to {MAX_SIDE}");
+    Ok(())
 }
 
 /// Checks that `faces` faces fit into an atlas of this side.
-fn check(faces: usize, side: u32) -> Result<(), AtlasError> {
+fn check(faces: usize, side: u32) -> Result<(), InputError> {
     require_side(side)?;
     let texels = |side: u32| u64::from(side) * u64::from(side);
-    if faces == 0 {
-        return Err(AtlasError::NoFaces);
-    }
-    if faces as u64 > texels(MAX_SIDE) {
-        return Err(AtlasError::TooLarge { faces, most: texels(MAX_SIDE) });
-    }
+    ensure!(faces != 0, "the mesh has no faces, expected at least one");
+    ensure!(
+        faces as u64 <= texels(MAX_SIDE),
+        "found {faces} faces, expected at most {}: one for every texel of the largest atlas",
+        texels(MAX_SIDE)
+    );
     if faces as u64 > texels(side) {
         let mut least = side;
         while faces as u64 > texels(least) {
             least *= 2;
         }
-        return Err(AtlasError::TooManyFaces { faces, side, least });
+        return Err(input_error!(
+            "{faces} faces do not fit into an atlas of {side} x {side} texels, expected a side of at \
+         least {least}: every face needs a texel"
+        ));
     }
     Ok(())
 }

@@ -15,7 +15,6 @@
 
 pub mod census;
 pub mod drawn;
-pub mod error;
 mod graph;
 mod levels;
 mod measures;
@@ -32,7 +31,6 @@ pub mod tree;
 
 pub use census::Census;
 pub use drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
-pub use error::AtlasError;
 pub use meshed::{Atlas, MAX_SIDE, require_side};
 pub use part::TexelPart;
 pub use place::FacePlace;

@@ -5,93 +5,48 @@
 //! light may lie below 0.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::error::ReadError;
 use super::{quoted, read_limited};
+use crate::error::{FilePlace, InputError, ensure, input_error};
+use crate::io::error::{too_long_error, unreadable_error};
 
 /// Longest file that is read, in bytes (64 MiB).
 pub const MAX_BYTES: u64 = 1 << 26;
 const HEADER: [&str; 6] = ["face", "row", "column", "r", "g", "b"];
 const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 
-/// Errors of reading a cube map. Lines count from 1, the header's.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum CubeTableError {
-    /// The file is not there, or too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// The first line is not the header.
-    #[error("{}:1: expected the header `face,row,column,r,g,b`, found {found}", path.display())]
-    #[diagnostic(code(crossbar::cube_map::header), help("a line `face,row,column,r,g,b`, then a line per texel"))]
-    Header { path: PathBuf, found: String },
-    /// A line of fewer or more fields.
-    #[error("{}:{line}: expected six fields (face,row,column,r,g,b), found {found}", path.display())]
-    #[diagnostic(code(crossbar::cube_map::fields))]
-    Fields { path: PathBuf, line: u64, found: String },
-    /// A face that is none.
-    #[error("{}:{line}: expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found {found}", path.display())]
-    #[diagnostic(code(crossbar::cube_map::face))]
-    Face { path: PathBuf, line: u64, found: String },
-    /// A row or column that is none.
-    #[error("{}:{line}: expected a {what} from 0 to {}, found {found}", path.display(), side - 1)]
-    #[diagnostic(code(crossbar::cube_map::place), help("the map has six faces of {side} x {side} texels"))]
-    Place { path: PathBuf, line: u64, what: &'static str, side: usize, found: String },
-    /// A radiance that is none.
-    #[error("{}:{line}: expected a finite number for `{channel}`, found {found}", path.display())]
-    #[diagnostic(code(crossbar::cube_map::radiance))]
-    Radiance { path: PathBuf, line: u64, channel: &'static str, found: String },
-    /// A texel that stood on a line before.
-    #[error("{}:{line}: the texel at face {face}, row {row}, column {column} stands on line {first} too", path.display())]
-    #[diagnostic(code(crossbar::cube_map::twice), help("give every texel one line"))]
-    Twice { path: PathBuf, line: u64, first: u64, face: usize, row: usize, column: usize },
-    /// Texels without a line.
-    #[error(
-        "{}: expected {expected} texels, {missing} of them are missing, the first at face {face}, row {row}, column \
-         {column}", path.display()
-    )]
-    #[diagnostic(code(crossbar::cube_map::missing), help("give every texel one line; black ones too"))]
-    Missing { path: PathBuf, expected: usize, missing: usize, face: usize, row: usize, column: usize },
-    /// The table's syntax is broken.
-    #[error("{}: the table cannot be read: {reason}", path.display())]
-    #[diagnostic(code(crossbar::cube_map::syntax))]
-    Syntax { path: PathBuf, reason: String },
-}
-
 /// Reads the texels of a cube map of a side from a file, by face, row and column.
 ///
 /// # Errors
-/// [`CubeTableError`], with the path, and the line where there is one.
-pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, CubeTableError> {
-    let unreadable = |source| ReadError::Unreadable { what: "light", path: path.into(), source };
+/// [`InputError`], with the path, and the line where there is one.
+pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
+    let unreadable = |source| unreadable_error("light", path, source);
     match read_limited(path, MAX_BYTES).map_err(unreadable)? {
         Some(bytes) => parse_cube_table(&bytes, path, side),
-        None => Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into()),
+        None => Err(too_long_error("table", path, MAX_BYTES)),
     }
 }
 
 /// Reads the texels of a cube map from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
-/// [`CubeTableError`], with the line where there is one.
+/// [`InputError`], with the line where there is one.
 ///
 /// # Panics
 /// If the side is 0.
-pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, CubeTableError> {
+pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     assert!(side > 0, "a texel along an edge");
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let syntax = |reason: csv::Error| CubeTableError::Syntax { path: name.into(), reason: reason.to_string() };
+    let syntax = |reason: csv::Error| {
+        input_error!("crossbar::cube_map::syntax" => "the table cannot be read: {reason}").at(name)
+    };
     let mut record = csv::ByteRecord::new();
     let has_header = reader.read_byte_record(&mut record).map_err(syntax)?;
-    if !has_header || !record.iter().eq(HEADER.map(str::as_bytes)) {
-        return Err(CubeTableError::Header { path: name.into(), found: whole(&record) });
-    }
+    ensure!(has_header && record.iter().eq(HEADER.map(str::as_bytes)), "crossbar::cube_map::header" =>
+        "{}:1: expected the header `face,row,column,r,g,b`, found {}", name.display(), whole(&record);
+        help "a line `face,row,column,r,g,b`, then a line per texel");
     // Each texel with its line; 0 while there is none.
     let mut texels = vec![([0.0; 3], 0); 6 * side * side];
     while reader.read_byte_record(&mut record).map_err(syntax)? {
@@ -100,7 +55,10 @@ pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f
         let [face, row, column] = [at / (side * side), at / side % side, at % side];
         let (_, first) = texels[at];
         if first > 0 {
-            return Err(CubeTableError::Twice { path: name.into(), line: line.line, first, face, row, column });
+            return Err(input_error!("crossbar::cube_map::twice" =>
+                "the texel at face {face}, row {row}, column {column} stands on line {first} too";
+                help "give every texel one line")
+            .at(FilePlace::line(name, line.line as usize)));
         }
         texels[at] = (radiance, line.line);
     }
@@ -108,7 +66,10 @@ pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f
     if let Some(at) = texels.iter().position(is_missing) {
         let (expected, missing) = (texels.len(), texels.iter().filter(|texel| is_missing(texel)).count());
         let [face, row, column] = [at / (side * side), at / side % side, at % side];
-        return Err(CubeTableError::Missing { path: name.into(), expected, missing, face, row, column });
+        return Err(input_error!("crossbar::cube_map::missing" =>
+            "expected {expected} texels, {missing} of them are missing, the first at face {face}, row {row}, column \
+             {column}"; help "give every texel one line; black ones too")
+        .at(name));
     }
     Ok(texels.into_iter().map(|(radiance, _)| radiance).collect())
 }
@@ -136,25 +97,38 @@ struct TexelLine<'a> {
 
 impl TexelLine<'_> {
     /// The texel's number and its radiance.
-    fn parse(&self, record: &csv::ByteRecord) -> Result<(usize, [f64; 3]), CubeTableError> {
-        let (path, line) = (|| self.path.to_path_buf(), self.line);
+    fn parse(&self, record: &csv::ByteRecord) -> Result<(usize, [f64; 3]), InputError> {
+        let place = FilePlace::line(self.path, self.line as usize);
         let fields: Vec<&[u8]> = record.iter().collect();
         let [face, row, column, r, g, b] = fields[..] else {
-            return Err(CubeTableError::Fields { path: path(), line, found: whole(record) });
+            return Err(input_error!("crossbar::cube_map::fields" =>
+                "expected six fields (face,row,column,r,g,b), found {}", whole(record))
+            .at(place.clone()));
         };
         let text = |field: &[u8]| std::str::from_utf8(field).unwrap_or_default().to_owned();
         let named = FACES.iter().position(|name| name.as_bytes() == face);
-        let face = named
-            .or_else(|| text(face).parse().ok().filter(|face| *face < 6))
-            .ok_or_else(|| CubeTableError::Face { path: path(), line, found: quoted(face) })?;
-        let place = |what, field: &[u8]| {
-            let refused = || CubeTableError::Place { path: path(), line, what, side: self.side, found: quoted(field) };
+        let face = named.or_else(|| text(face).parse().ok().filter(|face| *face < 6)).ok_or_else(|| {
+            input_error!("crossbar::cube_map::face" =>
+                "expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found {}", quoted(face))
+            .at(place.clone())
+        })?;
+        let number = |what, field: &[u8]| {
+            let refused = || {
+                input_error!("crossbar::cube_map::place" =>
+                    "expected a {what} from 0 to {}, found {}", self.side - 1, quoted(field);
+                    help "the map has six faces of {} x {} texels", self.side, self.side)
+                .at(place.clone())
+            };
             text(field).parse().ok().filter(|at| *at < self.side).ok_or_else(refused)
         };
-        let (row, column): (usize, usize) = (place("row", row)?, place("column", column)?);
+        let (row, column): (usize, usize) = (number("row", row)?, number("column", column)?);
         let radiance = |channel, field: &[u8]| {
             let value = text(field).parse().ok().filter(|value: &f64| value.is_finite());
-            value.ok_or_else(|| CubeTableError::Radiance { path: path(), line, channel, found: quoted(field) })
+            value.ok_or_else(|| {
+                input_error!("crossbar::cube_map::radiance" =>
+                    "expected a finite number for `{channel}`, found {}", quoted(field))
+                .at(place.clone())
+            })
         };
         let at = (face * self.side + row) * self.side + column;
         Ok((at, [radiance("r", r)?, radiance("g", g)?, radiance("b", b)?]))

@@ -1,7 +1,7 @@
 //! Faces of any number of corners, and their triangles.
 
-use super::error::ModelError;
 use super::model_note::ModelNote;
+use crate::error::{InputError, input_error};
 use crate::geom::polygon::{PolygonFault, triangulate};
 
 /// Faces in the order of a file.
@@ -52,7 +52,7 @@ impl<C: Copy> Faces<C> {
         position: impl Fn(C) -> [f32; 3],
         named: impl Fn(usize) -> String,
         strict: bool,
-    ) -> Result<(Vec<[C; 3]>, Vec<ModelNote>), ModelError> {
+    ) -> Result<(Vec<[C; 3]>, Vec<ModelNote>), InputError> {
         let mut triangles = Vec::with_capacity(self.corners.len().saturating_sub(2 * self.faces.len()));
         let (mut notes, mut outline) = (Vec::<(PolygonFault, usize, usize)>::new(), Vec::new());
         for (place, face) in self.iter() {
@@ -61,7 +61,12 @@ impl<C: Copy> Faces<C> {
             let (cut, fault) = triangulate(&outline);
             triangles.extend(cut.into_iter().map(|triangle| triangle.map(|corner| face[corner])));
             match fault {
-                Some(fault) if strict => return Err(ModelError::Polygon { place: named(place), fault }),
+                Some(fault) if strict => {
+                    return Err(input_error!("crossbar::model::polygon" =>
+                            "{}: expected a flat face that does not touch itself, found one {fault}", named(place);
+                            help "cut the face into triangles in the program that wrote it, or read the model \
+                             without `--strict`"));
+                }
                 Some(fault) => match notes.iter_mut().find(|(known, ..)| *known == fault) {
                     Some((.., faces)) => *faces += 1,
                     None => notes.push((fault, place, 1)),

@@ -1,12 +1,11 @@
 //! Irradiances of faces as a comma-separated table: the header `r,g,b`, then a line per face in the order of the mesh.
 //! Numbers are from 0 to [`MAX_IRRADIANCE`].
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::error::ReadError;
 use super::{quoted, read_limited};
+use crate::error::{FilePlace, InputError, input_error};
+use crate::io::error::{too_long_error, unreadable_error};
 
 /// Longest file that is read, in bytes (256 MiB).
 pub const MAX_BYTES: u64 = 1 << 28;
@@ -14,57 +13,40 @@ pub const MAX_BYTES: u64 = 1 << 28;
 /// The largest irradiance: sums of it times any throughput are still far from the range of single floats.
 pub const MAX_IRRADIANCE: f64 = 1e30;
 
-/// Errors of reading a table of irradiances. Lines count from 1, the header's.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum IrradiancesError {
-    /// The file is not there, or too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// The first line is not the header.
-    #[error("{}:1: expected the header `r,g,b`, found {found}", path.display())]
-    #[diagnostic(code(irradiances::header), help("a line `r,g,b`, then a line of three numbers per face"))]
-    Header { path: PathBuf, found: String },
-    /// A line is not three numbers.
-    #[error("{}:{line}: expected three numbers from 0 to {MAX_IRRADIANCE:e} (r,g,b), found {found}", path.display())]
-    #[diagnostic(code(irradiances::numbers))]
-    Numbers { path: PathBuf, line: u64, found: String },
-    /// The table's syntax is broken.
-    #[error("{}: the table cannot be read: {reason}", path.display())]
-    #[diagnostic(code(irradiances::table))]
-    Table { path: PathBuf, reason: String },
+fn header_error(name: &Path, found: &str) -> InputError {
+    input_error!("irradiances::header" =>
+        "expected the header `r,g,b`, found {found}"; help "a line `r,g,b`, then a line of three numbers per face")
+    .at(FilePlace::line(name, 1))
 }
 
 /// Reads irradiances from a file, one per face.
 ///
 /// # Errors
-/// [`IrradiancesError`], with the path, and the line where there is one.
-pub fn load_irradiances(path: &Path) -> Result<Vec<[f64; 3]>, IrradiancesError> {
-    let unreadable = |source| ReadError::Unreadable { what: "irradiances", path: path.into(), source };
+/// [`InputError`], with the path, and the line where there is one.
+pub fn load_irradiances(path: &Path) -> Result<Vec<[f64; 3]>, InputError> {
+    let unreadable = |source| unreadable_error("irradiances", path, source);
     match read_limited(path, MAX_BYTES).map_err(unreadable)? {
         Some(bytes) => parse_irradiances(&bytes, path),
-        None => Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into()),
+        None => Err(too_long_error("table", path, MAX_BYTES)),
     }
 }
 
 /// Reads irradiances from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
-/// [`IrradiancesError`], with the line where there is one.
-pub fn parse_irradiances(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, IrradiancesError> {
+/// [`InputError`], with the line where there is one.
+pub fn parse_irradiances(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, InputError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
     let mut found = Vec::new();
     for (at, record) in reader.byte_records().enumerate() {
-        let record =
-            record.map_err(|reason| IrradiancesError::Table { path: name.into(), reason: reason.to_string() })?;
+        let record = record
+            .map_err(|reason| input_error!("irradiances::table" => "the table cannot be read: {reason}").at(name))?;
         let line = record.position().map_or(0, csv::Position::line);
         let text = || quoted(&record.iter().collect::<Vec<_>>().join(&b','));
         if at == 0 {
             if !record.iter().eq(["r", "g", "b"].map(str::as_bytes)) {
-                return Err(IrradiancesError::Header { path: name.into(), found: text() });
+                return Err(header_error(name, &text()));
             }
             continue;
         }
@@ -75,11 +57,15 @@ pub fn parse_irradiances(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, Irr
         let numbers: Option<Vec<f64>> = record.iter().map(number).collect();
         match numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()) {
             Some(irradiance) => found.push(irradiance),
-            None => return Err(IrradiancesError::Numbers { path: name.into(), line, found: text() }),
+            None => {
+                return Err(input_error!("irradiances::numbers" =>
+                    "expected three numbers from 0 to {MAX_IRRADIANCE:e} (r,g,b), found {}", text())
+                .at(FilePlace::line(name, line as usize)));
+            }
         }
     }
     if found.is_empty() && !bytes.starts_with(b"r") {
-        return Err(IrradiancesError::Header { path: name.into(), found: quoted(bytes) });
+        return Err(header_error(name, &quoted(bytes)));
     }
     Ok(found)
 }

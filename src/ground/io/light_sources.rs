@@ -1,12 +1,11 @@
 //! Lists of small light sources as a comma-separated table: the header `x,y,z,degrees,r,g,b`, then a line per source:
 //! the direction towards it, its angular radius in degrees, its radiance.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::error::ReadError;
 use super::{quoted, read_limited};
+use crate::error::{FilePlace, InputError, ensure, input_error};
+use crate::io::error::{too_long_error, unreadable_error};
 
 /// Longest file that is read, in bytes (16 MiB).
 pub const MAX_BYTES: u64 = 1 << 24;
@@ -23,63 +22,44 @@ pub struct LightSourceRow {
     pub radiance: [f64; 3],
 }
 
-/// Errors of reading a list of sources. Lines count from 1, the header's.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum LightSourcesError {
-    /// The file is not there, or too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// The first line is not the header.
-    #[error("{}:1: expected the header `x,y,z,degrees,r,g,b`, found {found}", path.display())]
-    #[diagnostic(code(crossbar::light_sources::header), help("a line `x,y,z,degrees,r,g,b`, then a line per source"))]
-    Header { path: PathBuf, found: String },
-    /// A line that is not a valid source.
-    #[error(
-        "{}:{line}: expected seven finite numbers (x,y,z,degrees,r,g,b), a direction other than 0, degrees above 0 and \
-         up to 180, radiances of at least 0; found {found}", path.display()
-    )]
-    #[diagnostic(code(crossbar::light_sources::numbers))]
-    Numbers { path: PathBuf, line: u64, found: String },
-    /// The table's syntax is broken.
-    #[error("{}: the table cannot be read: {reason}", path.display())]
-    #[diagnostic(code(crossbar::light_sources::syntax))]
-    Syntax { path: PathBuf, reason: String },
-}
-
 /// Reads sources from a file.
 ///
 /// # Errors
-/// [`LightSourcesError`], with the path, and the line where there is one.
-pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, LightSourcesError> {
-    let unreadable = |source| ReadError::Unreadable { what: "light sources", path: path.into(), source };
+/// [`InputError`], with the path, and the line where there is one.
+pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, InputError> {
+    let unreadable = |source| unreadable_error("light sources", path, source);
     match read_limited(path, MAX_BYTES).map_err(unreadable)? {
         Some(bytes) => parse_light_sources(&bytes, path),
-        None => Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into()),
+        None => Err(too_long_error("table", path, MAX_BYTES)),
     }
 }
 
 /// Reads sources from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
-/// [`LightSourcesError`], with the line where there is one.
-pub fn parse_light_sources(bytes: &[u8], name: &Path) -> Result<Vec<LightSourceRow>, LightSourcesError> {
+/// [`InputError`], with the line where there is one.
+pub fn parse_light_sources(bytes: &[u8], name: &Path) -> Result<Vec<LightSourceRow>, InputError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let syntax = |reason: csv::Error| LightSourcesError::Syntax { path: name.into(), reason: reason.to_string() };
+    let syntax = |reason: csv::Error| {
+        input_error!("crossbar::light_sources::syntax" => "the table cannot be read: {reason}").at(name)
+    };
     let text = |record: &csv::ByteRecord| quoted(&record.iter().collect::<Vec<_>>().join(&b','));
     let mut record = csv::ByteRecord::new();
     let has_header = reader.read_byte_record(&mut record).map_err(syntax)?;
-    if !has_header || !record.iter().eq(HEADER.map(str::as_bytes)) {
-        return Err(LightSourcesError::Header { path: name.into(), found: text(&record) });
-    }
+    ensure!(has_header && record.iter().eq(HEADER.map(str::as_bytes)), "crossbar::light_sources::header" =>
+        "{}:1: expected the header `x,y,z,degrees,r,g,b`, found {}", name.display(), text(&record);
+        help "a line `x,y,z,degrees,r,g,b`, then a line per source");
     let mut found = Vec::new();
     while reader.read_byte_record(&mut record).map_err(syntax)? {
         let line = record.position().map_or(0, csv::Position::line);
         let row = row(&record);
-        found.push(row.ok_or_else(|| LightSourcesError::Numbers { path: name.into(), line, found: text(&record) })?);
+        found.push(row.ok_or_else(|| {
+            input_error!("crossbar::light_sources::numbers" =>
+                "expected seven finite numbers (x,y,z,degrees,r,g,b), a direction other than 0, degrees above 0 and \
+                 up to 180, radiances of at least 0; found {}", text(&record))
+            .at(FilePlace::line(name, line as usize))
+        })?);
     }
     Ok(found)
 }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::error::{FilePlace, ModelError};
+use super::error::syntax_error;
 use super::{NumberError, parse_f32, parse_f64};
+use crate::error::InputError;
 
 /// Text without the byte order mark that some editors put before UTF-8.
 pub(super) fn unmarked(bytes: &[u8]) -> &[u8] {
@@ -16,12 +17,11 @@ pub(super) fn decoded(text: &[u8]) -> String {
 }
 
 /// Refuses text in UTF-16, which some editors write.
-pub(super) fn not_utf_16(bytes: &[u8], name: &Path) -> Result<(), ModelError> {
+pub(super) fn not_utf_16(bytes: &[u8], name: &Path) -> Result<(), InputError> {
     let zeros = |at: usize| bytes.get(at..at + 2).map(|pair| [pair[0] == 0, pair[1] == 0]);
     let unmarked = matches!(zeros(0), Some([low, high]) if low != high) && zeros(0) == zeros(2);
     if unmarked || bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        let (place, expected) = (FilePlace::from(name), "text in UTF-8 or Latin-1".into());
-        return Err(ModelError::Syntax { place, expected, found: "UTF-16".to_owned() });
+        return Err(syntax_error(name, "text in UTF-8 or Latin-1", "UTF-16"));
     }
     Ok(())
 }

@@ -6,13 +6,12 @@
 //! are refused, and so are integers that f64 does not hold exactly, and real numbers that round to 0 or infinity.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::error::ReadError;
 use super::lines::{double, lines, unmarked, words};
 use super::{quoted, read_limited};
+use crate::error::{FilePlace, InputError, input_error};
+use crate::io::error::{too_long_error, unreadable_error};
 
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
@@ -34,97 +33,53 @@ pub struct CoordinateMatrix {
     pub entries: Vec<(u32, u32, f64)>,
 }
 
-/// Errors of reading a matrix. Lines, rows and columns count from 1.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MatrixMarketError {
-    /// The file is not there, or too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// The first line is not the banner of such a file.
-    #[error(
-        "{}:1: expected `%%MatrixMarket matrix coordinate` with `real`, `integer` or `pattern`, then `general`, \
-         `symmetric` or `skew-symmetric`, which no `pattern` is; found {found}", path.display()
-    )]
-    #[diagnostic(code(crossbar::matrix_market::banner), help("write the matrix by its entries, in real numbers"))]
-    Banner { path: PathBuf, found: String },
-    /// No line of sizes, or a wrong one.
-    #[error("{}:{line}: expected the numbers of rows, columns and entries, found {found}", path.display())]
-    #[diagnostic(code(crossbar::matrix_market::size))]
-    Size { path: PathBuf, line: usize, found: String },
-    /// A symmetric or skew-symmetric matrix that is not square.
-    #[error(
-        "{}:{line}: expected as many rows as columns of a {symmetry} matrix, found {rows} x {columns}", path.display()
-    )]
-    #[diagnostic(code(crossbar::matrix_market::square), help("write the matrix as `general`"))]
-    NotSquare { path: PathBuf, line: usize, symmetry: &'static str, rows: usize, columns: usize },
-    /// More rows or columns than such a short file may have.
-    #[error(
-        "{}:{line}: expected at most {most} rows and columns in a file of {bytes} bytes, found {rows} x {columns}",
-        path.display()
-    )]
-    #[diagnostic(
-        code(crossbar::matrix_market::claim),
-        help("leave out empty rows and columns: beyond {ANY_SIZE} there may be one per byte of the file")
-    )]
-    Claim { path: PathBuf, line: usize, most: usize, bytes: usize, rows: usize, columns: usize },
-    /// A line that is not a valid entry.
-    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
-    #[diagnostic(code(crossbar::matrix_market::entry), help("a line `row column value` per entry, counted from 1"))]
-    Entry { path: PathBuf, line: usize, expected: &'static str, found: String },
-    /// A place outside of the matrix.
-    #[error("{}:{line}: expected a {what} from 1 to {most}, found {found}", path.display())]
-    #[diagnostic(code(crossbar::matrix_market::place), help("rows and columns count from 1"))]
-    Place { path: PathBuf, line: usize, what: &'static str, most: usize, found: String },
-    /// The number of entries differs from the line of sizes.
-    #[error("{}: expected {expected} entries as line {line} says, found {found}", path.display())]
-    #[diagnostic(code(crossbar::matrix_market::count), help("is the file cut?"))]
-    Count { path: PathBuf, line: usize, expected: usize, found: usize },
-    /// Two entries for one place.
-    #[error("{}: expected one entry for row {row}, column {column}, found two", path.display())]
-    #[diagnostic(code(crossbar::matrix_market::twice), help("add the entries up, or leave one out"))]
-    Twice { path: PathBuf, row: u32, column: u32 },
-}
-
 /// Reads a matrix from a file.
 ///
 /// # Errors
-/// [`MatrixMarketError`].
-pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, MatrixMarketError> {
-    let unreadable = |source| ReadError::Unreadable { what: "matrix", path: path.into(), source };
+/// [`InputError`].
+pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, InputError> {
+    let unreadable = |source| unreadable_error("matrix", path, source);
     match read_limited(path, MAX_BYTES).map_err(unreadable)? {
         Some(bytes) => parse_matrix_market(&bytes, path),
-        None => Err(ReadError::TooLong { what: "matrix", path: path.into(), limit: MAX_BYTES }.into()),
+        None => Err(too_long_error("matrix", path, MAX_BYTES)),
     }
 }
 
 /// Reads a matrix from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
-/// [`MatrixMarketError`].
-pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix, MatrixMarketError> {
+/// [`InputError`].
+pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix, InputError> {
     let mut lines = lines(unmarked(bytes));
     let banner = lines.next().map_or(&[][..], |(_, banner)| banner);
-    let banner = Banner::parse(banner)
-        .ok_or_else(|| MatrixMarketError::Banner { path: name.into(), found: quoted(banner.trim_ascii()) })?;
+    let banner = Banner::parse(banner).ok_or_else(|| {
+        input_error!("crossbar::matrix_market::banner" =>
+            "{}:1: expected `%%MatrixMarket matrix coordinate` with `real`, `integer` or `pattern`, then `general`, \
+             `symmetric` or `skew-symmetric`, which no `pattern` is; found {}", name.display(),
+            quoted(banner.trim_ascii()); help "write the matrix by its entries, in real numbers")
+    })?;
     // Comments may follow the banner, and empty lines may be anywhere.
     let mut lines = lines.filter(|(_, text)| !text.trim_ascii().is_empty());
     let (size_line, size) = lines.by_ref().find(|(_, text)| !text.starts_with(b"%")).unwrap_or((2, &b""[..]));
-    let [rows, columns, count] = sizes(size).ok_or_else(|| MatrixMarketError::Size {
-        path: name.into(),
-        line: size_line,
-        found: quoted(size.trim_ascii()),
+    let [rows, columns, count] = sizes(size).ok_or_else(|| {
+        input_error!("crossbar::matrix_market::size" =>
+            "expected the numbers of rows, columns and entries, found {}", quoted(size.trim_ascii()))
+        .at(FilePlace::line(name, size_line))
     })?;
     let most = bytes.len().max(ANY_SIZE);
     if rows.max(columns) > most {
-        let (path, bytes) = (name.into(), bytes.len());
-        return Err(MatrixMarketError::Claim { path, line: size_line, most, bytes, rows, columns });
+        let bytes = bytes.len();
+        return Err(input_error!("crossbar::matrix_market::claim" =>
+            "expected at most {most} rows and columns in a file of {bytes} bytes, found {rows} x {columns}";
+            help "leave out empty rows and columns: beyond {ANY_SIZE} there may be one per byte of the file")
+        .at(FilePlace::line(name, size_line)));
     }
     if banner.symmetry != Symmetry::General && rows != columns {
         let symmetry = if banner.symmetry == Symmetry::Skew { "skew-symmetric" } else { "symmetric" };
-        return Err(MatrixMarketError::NotSquare { path: name.into(), line: size_line, symmetry, rows, columns });
+        return Err(input_error!("crossbar::matrix_market::square" =>
+            "expected as many rows as columns of a {symmetry} matrix, found {rows} x {columns}";
+            help "write the matrix as `general`")
+        .at(FilePlace::line(name, size_line)));
     }
     let reader = EntryReader { name, banner, size: [rows, columns] };
     // Memory is allocated in proportion to the file's bytes only.
@@ -135,11 +90,16 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
         found += 1;
     }
     if found != count {
-        return Err(MatrixMarketError::Count { path: name.into(), line: size_line, expected: count, found });
+        return Err(input_error!("crossbar::matrix_market::count" =>
+            "expected {count} entries as line {size_line} says, found {found}"; help "is the file cut?")
+        .at(name));
     }
     entries.sort_unstable_by_key(|&(row, column, _)| (row, column));
     if let Some(pair) = entries.windows(2).find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
-        return Err(MatrixMarketError::Twice { path: name.into(), row: pair[0].0 + 1, column: pair[0].1 + 1 });
+        return Err(input_error!("crossbar::matrix_market::twice" =>
+            "expected one entry for row {}, column {}, found two", pair[0].0 + 1, pair[0].1 + 1;
+            help "add the entries up, or leave one out")
+        .at(name));
     }
     Ok(CoordinateMatrix { rows, columns, entries })
 }
@@ -241,12 +201,12 @@ struct EntryReader<'a> {
 }
 
 impl EntryReader<'_> {
-    fn read(&self, line: usize, text: &[u8], into: &mut Vec<(u32, u32, f64)>) -> Result<(), MatrixMarketError> {
-        let entry = |expected: &'static str, found: &[u8]| MatrixMarketError::Entry {
-            path: self.name.into(),
-            line,
-            expected,
-            found: quoted(found),
+    fn read(&self, line: usize, text: &[u8], into: &mut Vec<(u32, u32, f64)>) -> Result<(), InputError> {
+        let entry = |expected: &'static str, found: &[u8]| {
+            input_error!("crossbar::matrix_market::entry" =>
+                "expected {expected}, found {}", quoted(found);
+                help "a line `row column value` per entry, counted from 1")
+            .at(FilePlace::line(self.name, line))
         };
         let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let (row, column) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
@@ -282,9 +242,13 @@ impl EntryReader<'_> {
     }
 
     /// A place along an edge, from 0.
-    fn place(&self, line: usize, what: &'static str, found: &[u8], most: usize) -> Result<u32, MatrixMarketError> {
+    fn place(&self, line: usize, what: &'static str, found: &[u8], most: usize) -> Result<u32, InputError> {
         let place = whole(found).filter(|place| (1..=most).contains(place));
-        let wrong = || MatrixMarketError::Place { path: self.name.into(), line, what, most, found: quoted(found) };
+        let wrong = || {
+            input_error!("crossbar::matrix_market::place" =>
+                "expected a {what} from 1 to {most}, found {}", quoted(found); help "rows and columns count from 1")
+            .at(FilePlace::line(self.name, line))
+        };
         place.map(|place| (place - 1) as u32).ok_or_else(wrong)
     }
 }

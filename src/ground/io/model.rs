@@ -3,7 +3,6 @@
 use std::io;
 use std::path::Path;
 
-use super::error::ModelError;
 use super::gltf::parse_gltf;
 use super::lines::unmarked;
 use super::model_note::ModelNote;
@@ -12,6 +11,7 @@ use super::ply::read_ply;
 use super::read_limited;
 use super::scene_obj::{plain_scene, read_scene};
 use super::stl::{is_stl, read_stl};
+use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::scene::Scene;
 
@@ -63,8 +63,8 @@ pub struct ModelOptions {
 /// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs.
 ///
 /// # Errors
-/// [`ModelError`], with the path, and the line, element or part where there is one.
-pub fn load_mesh(path: &Path) -> Result<Mesh, ModelError> {
+/// [`InputError`], with the path, and the line, element or part where there is one.
+pub fn load_mesh(path: &Path) -> Result<Mesh, InputError> {
     let bytes = load_model(path)?;
     mesh_of(&bytes, ModelFormat::of(&bytes, path), path, true).map(|(mesh, _)| mesh)
 }
@@ -73,8 +73,8 @@ pub fn load_mesh(path: &Path) -> Result<Mesh, ModelError> {
 /// from a PLY or STL file, which gets one grey material. It has no views and no point lights.
 ///
 /// # Errors
-/// [`ModelError`], with the path, and the line, element or part where there is one.
-pub fn load_scene(path: &Path) -> Result<Scene, ModelError> {
+/// [`InputError`], with the path, and the line, element or part where there is one.
+pub fn load_scene(path: &Path) -> Result<Scene, InputError> {
     load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }
 
@@ -83,7 +83,7 @@ pub fn load_scene(path: &Path) -> Result<Scene, ModelError> {
 ///
 /// # Errors
 /// As [`load_mesh`].
-pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
+pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     let bytes = load_model(path)?;
     let format = ModelFormat::of(&bytes, path);
     let (mut mesh, mut notes) = mesh_of(&bytes, format, path, options.strict)?;
@@ -103,7 +103,7 @@ pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<M
 ///
 /// # Errors
 /// As [`load_scene`].
-pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), ModelError> {
+pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), InputError> {
     let bytes = load_model(path)?;
     let format = ModelFormat::of(&bytes, path);
     let (mut scene, mut notes) = match format {
@@ -125,7 +125,7 @@ pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec
     Ok((scene, notes))
 }
 
-fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
+fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     match format {
         ModelFormat::Obj => read_obj(bytes, path, strict),
         ModelFormat::Ply => read_ply(bytes, path, strict),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::error::FilePlace;
+use crate::error::FilePlace;
 use crate::geom::polygon::PolygonFault;
 
 /// A repair or a defect of a model file of which the user should know.

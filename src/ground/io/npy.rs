@@ -2,46 +2,23 @@
 //! first axis gives the rows, and all others together the columns. Where f32 is read, f8 is rounded to the nearest.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-
-use thiserror::Error;
+use std::path::Path;
 
 use super::number_table::NumberTable;
 use super::{NumberError, quoted, to_f32};
+use crate::error::{InputError, input_error};
 
 /// The first bytes of such a file.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Reasons for which a file cannot be read as an array.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum NpyError {
-    /// The file ends too early.
-    #[error("{}: expected {expected} bytes of {what}, found {found}", path.display())]
-    #[diagnostic(code(crossbar::npy::truncated), help("the file is cut; write it again"))]
-    Truncated { path: PathBuf, what: &'static str, expected: usize, found: usize },
-    /// A part of the file is invalid.
-    #[error("{}: {what}: expected {expected}, found {found}", path.display())]
-    #[diagnostic(code(crossbar::npy::header), help("write it with numpy.save"))]
-    Header { path: PathBuf, what: &'static str, expected: &'static str, found: String },
-    /// Numbers of an unsupported type.
-    #[error("{}: expected numbers of type <f4, <f8, >f4 or >f8, found {found}", path.display())]
-    #[diagnostic(code(crossbar::npy::dtype), help("convert the array: a.astype('<f4')"))]
-    Type { path: PathBuf, found: String },
-    /// An array in Fortran order.
-    #[error("{}: expected an array in C order, found Fortran order", path.display())]
-    #[diagnostic(code(crossbar::npy::order), help("convert the array: numpy.ascontiguousarray(a)"))]
-    FortranOrder { path: PathBuf },
-    /// The number of values differs from the shape, or is 0.
-    #[error("{}: expected {expected} of numbers, found {found}", path.display())]
-    #[diagnostic(code(crossbar::npy::size))]
-    Size { path: PathBuf, expected: String, found: String },
-    /// A number that overflows f32.
-    #[error("{}: number {index} (counted from 0) is too large for a 32-bit float: {value:e}", path.display(),
-        value = f64::from_bits(*bits))]
-    #[diagnostic(code(crossbar::npy::range))]
-    TooLarge { path: PathBuf, index: usize, bits: u64 },
+fn header_error(name: &Path, what: &str, expected: &str, found: String) -> InputError {
+    input_error!("crossbar::npy::header" =>
+        "{what}: expected {expected}, found {found}"; help "write it with numpy.save")
+    .at(name)
+}
+
+fn size_error(name: &Path, expected: &str, found: String) -> InputError {
+    input_error!("crossbar::npy::size" => "expected {expected} of numbers, found {found}").at(name)
 }
 
 /// Numbers along any number of axes, in C order.
@@ -62,24 +39,24 @@ impl<T> From<NumberArray<T>> for NumberTable<T> {
 /// Reads an array from bytes as a table of f64; `name` is the file's name in messages.
 ///
 /// # Errors
-/// [`NpyError`].
-pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, NpyError> {
+/// [`InputError`].
+pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, InputError> {
     array(bytes, name, f64::from, Ok).map(NumberTable::from)
 }
 
 /// As [`parse_npy`], as a table of f32.
 ///
 /// # Errors
-/// [`NpyError`].
-pub fn parse_single_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyError> {
+/// [`InputError`].
+pub fn parse_single_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, InputError> {
     parse_npy_array(bytes, name).map(NumberTable::from)
 }
 
 /// Reads an array of f32 from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
-/// [`NpyError`].
-pub fn parse_npy_array(bytes: &[u8], name: &Path) -> Result<NumberArray, NpyError> {
+/// [`InputError`].
+pub fn parse_npy_array(bytes: &[u8], name: &Path) -> Result<NumberArray, InputError> {
     array(bytes, name, |number| number, to_f32)
 }
 
@@ -88,18 +65,20 @@ fn array<T>(
     name: &Path,
     of_single: fn(f32) -> T,
     of_double: fn(f64) -> Result<T, NumberError>,
-) -> Result<NumberArray<T>, NpyError> {
+) -> Result<NumberArray<T>, InputError> {
     let (text, data) = split(bytes, name)?;
-    let header = Header::parse(text).map_err(|(what, expected)| NpyError::Header {
-        path: name.into(),
-        what,
-        expected,
-        found: quoted(text),
-    })?;
+    let header = Header::parse(text).map_err(|(what, expected)| header_error(name, what, expected, quoted(text)))?;
     if header.fortran_order {
-        return Err(NpyError::FortranOrder { path: name.into() });
+        return Err(input_error!("crossbar::npy::order" =>
+            "expected an array in C order, found Fortran order"; help "convert the array: numpy.ascontiguousarray(a)")
+        .at(name));
     }
-    let unknown = || NpyError::Type { path: name.into(), found: quoted(header.descr.as_bytes()) };
+    let unknown = || {
+        input_error!("crossbar::npy::dtype" =>
+            "expected numbers of type <f4, <f8, >f4 or >f8, found {}", quoted(header.descr.as_bytes());
+            help "convert the array: a.astype('<f4')")
+        .at(name)
+    };
     let (is_big, size) = match header.descr.as_str() {
         "<f4" => (false, 4),
         "<f8" => (false, 8),
@@ -107,14 +86,14 @@ fn array<T>(
         ">f8" => (true, 8),
         _ => return Err(unknown()),
     };
-    let wrong = |expected: String| NpyError::Size { path: name.into(), expected, found: format!("{:?}", header.shape) };
+    let wrong = |expected: String| size_error(name, &expected, format!("{:?}", header.shape));
     let count = header.shape.iter().try_fold(1_usize, |product, &axis| product.checked_mul(axis));
     let Some(count) = count.filter(|&count| count > 0 && !header.shape.is_empty()) else {
         return Err(wrong("a shape".to_owned()));
     };
     if count.checked_mul(size) != Some(data.len()) {
         let found = format!("{} bytes", data.len());
-        return Err(NpyError::Size { path: name.into(), expected: format!("{count} x {size} bytes"), found });
+        return Err(size_error(name, &format!("{count} x {size} bytes"), found));
     }
     let values = match size {
         4 => data
@@ -123,10 +102,10 @@ fn array<T>(
             .iter()
             .map(|&b| of_single(if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) }))
             .collect(),
-        _ => doubles(data, is_big, of_double).map_err(|(index, bits)| NpyError::TooLarge {
-            path: name.into(),
-            index,
-            bits,
+        _ => doubles(data, is_big, of_double).map_err(|(index, bits)| {
+            input_error!("crossbar::npy::range" =>
+                "number {index} (counted from 0) is too large for a 32-bit float: {:e}", f64::from_bits(bits))
+            .at(name)
         })?,
     };
     Ok(NumberArray { shape: header.shape, values })
@@ -139,13 +118,16 @@ fn doubles<T>(data: &[u8], is_big: bool, read: fn(f64) -> Result<T, NumberError>
 }
 
 /// The text of the header, and the bytes that follow it.
-fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), NpyError> {
-    let path = || name.to_path_buf();
+fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), InputError> {
     let Some(rest) = bytes.strip_prefix(MAGIC) else {
         let found = quoted(&bytes[..bytes.len().min(MAGIC.len())]);
-        return Err(NpyError::Header { path: path(), what: "the first bytes", expected: "\\x93NUMPY", found });
+        return Err(header_error(name, "the first bytes", "\\x93NUMPY", found));
     };
-    let cut = |what, expected, found| NpyError::Truncated { path: path(), what, expected, found };
+    let cut = |what, expected, found| {
+        input_error!("crossbar::npy::truncated" =>
+            "expected {expected} bytes of {what}, found {found}"; help "the file is cut; write it again")
+        .at(name)
+    };
     let [major, _minor, rest @ ..] = rest else { return Err(cut("its version", 2, rest.len())) };
     let (length, rest) = match (major, rest) {
         (1, [a, b, rest @ ..]) => (usize::from(u16::from_le_bytes([*a, *b])), rest),
@@ -153,7 +135,7 @@ fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), NpyEr
         (1..=3, _) => return Err(cut("the header's length", if *major == 1 { 2 } else { 4 }, rest.len())),
         _ => {
             let found = major.to_string();
-            return Err(NpyError::Header { path: path(), what: "its version", expected: "1, 2 or 3", found });
+            return Err(header_error(name, "its version", "1, 2 or 3", found));
         }
     };
     rest.split_at_checked(length).ok_or_else(|| cut("the header", length, rest.len()))

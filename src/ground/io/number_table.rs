@@ -4,13 +4,11 @@
 //! read as f64 where they are computed with as such, and as f32 where they are stored so: signals, as `.prt` files hold
 //! them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::error::ReadError;
 use super::lines::{double, single};
 use super::{NumberError, quoted};
+use crate::error::{FilePlace, InputError, input_error};
 
 /// Longest file that is read, in bytes (2 GiB).
 pub const MAX_BYTES: u64 = 1 << 31;
@@ -24,47 +22,20 @@ pub struct NumberTable<T = f32> {
     pub values: Vec<T>,
 }
 
-/// Errors of reading a table of numbers. Lines and fields count from 1.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum NumberTableError {
-    /// The file is not there, or too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// A line has more or fewer fields than the first.
-    #[error("{}:{line}: expected {expected} numbers as in the first row, found {found} {}", path.display(), if *found == 1 { "field" } else { "fields" })]
-    #[diagnostic(code(crossbar::table::ragged), help("give every row the same number of fields"))]
-    Ragged { path: PathBuf, line: u64, expected: usize, found: usize },
-    /// A field is not a number of the precision that is read.
-    #[error("{}:{line}: expected {} in field {field}, found {found}", path.display(), reason.expected())]
-    #[diagnostic(code(crossbar::table::number))]
-    Number { path: PathBuf, line: u64, field: usize, reason: NumberError, found: String },
-    /// No row.
-    #[error("{}: expected at least one row of numbers, found none", path.display())]
-    #[diagnostic(code(crossbar::table::empty))]
-    Empty { path: PathBuf },
-    /// The table's syntax is broken.
-    #[error("{}: the table cannot be read: {reason}", path.display())]
-    #[diagnostic(code(crossbar::table::syntax))]
-    Syntax { path: PathBuf, reason: String },
-}
-
 /// Reads a comma-separated table from bytes, each number rounded to the nearest f64; `name` is the file's name in
 /// messages.
 ///
 /// # Errors
-/// [`NumberTableError`], with the line where there is one.
-pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, NumberTableError> {
+/// [`InputError`], with the line where there is one.
+pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, InputError> {
     rows(bytes, name, double)
 }
 
 /// As [`parse_number_table`], with each number rounded to the nearest f32.
 ///
 /// # Errors
-/// [`NumberTableError`].
-pub fn parse_single_table(bytes: &[u8], name: &Path) -> Result<NumberTable, NumberTableError> {
+/// [`InputError`].
+pub fn parse_single_table(bytes: &[u8], name: &Path) -> Result<NumberTable, InputError> {
     rows(bytes, name, single)
 }
 
@@ -72,10 +43,11 @@ fn rows<T>(
     bytes: &[u8],
     name: &Path,
     number: fn(&[u8]) -> Result<T, NumberError>,
-) -> Result<NumberTable<T>, NumberTableError> {
+) -> Result<NumberTable<T>, InputError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let broken = |reason: csv::Error| NumberTableError::Syntax { path: name.into(), reason: reason.to_string() };
+    let broken =
+        |reason: csv::Error| input_error!("crossbar::table::syntax" => "the table cannot be read: {reason}").at(name);
     let (mut columns, mut values, mut record) = (0, Vec::new(), csv::ByteRecord::new());
     let mut is_first = true;
     while reader.read_byte_record(&mut record).map_err(broken)? {
@@ -83,24 +55,26 @@ fn rows<T>(
         if std::mem::take(&mut is_first) && header {
             continue;
         }
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |position| position.line() as usize);
         if columns != 0 && record.len() != columns {
-            return Err(NumberTableError::Ragged { path: name.into(), line, expected: columns, found: record.len() });
+            return Err(input_error!("crossbar::table::ragged" =>
+                "expected {columns} numbers as in the first row, found {} {}", record.len(),
+                if record.len() == 1 { "field" } else { "fields" }; help "give every row the same number of fields")
+            .at(FilePlace::line(name, line)));
         }
         columns = record.len();
         for (field, text) in (1..).zip(&record) {
-            let path = || name.to_path_buf();
-            values.push(number(text).map_err(|reason| NumberTableError::Number {
-                path: path(),
-                line,
-                field,
-                reason,
-                found: quoted(text),
+            values.push(number(text).map_err(|reason| {
+                input_error!("crossbar::table::number" =>
+                    "expected {} in field {field}, found {}", reason.expected(), quoted(text))
+                .at(FilePlace::line(name, line))
             })?);
         }
     }
     if values.is_empty() {
-        return Err(NumberTableError::Empty { path: name.into() });
+        return Err(
+            input_error!("crossbar::table::empty" => "expected at least one row of numbers, found none").at(name)
+        );
     }
     Ok(NumberTable { columns, values })
 }

@@ -2,67 +2,48 @@
 
 use std::path::Path;
 
-use thiserror::Error;
-
-use super::error::{ReadError, read};
-use super::npy::{self, NpyError, NumberArray, parse_npy, parse_npy_array, parse_single_npy};
-use super::number_table::{NumberTable, NumberTableError, parse_number_table, parse_single_table};
-
-/// Errors of reading numbers.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-pub enum NumbersError {
-    /// The file is not there, or too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// It is an array of NumPy's that cannot be read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Npy(#[from] NpyError),
-    /// It is a table that cannot be read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Table(#[from] NumberTableError),
-}
+use super::error::read_file;
+use super::npy::{self, NumberArray, parse_npy, parse_npy_array, parse_single_npy};
+use super::number_table::{NumberTable, parse_number_table, parse_single_table};
+use crate::error::InputError;
 
 /// The numbers of a NumPy array or of comma-separated values, rounded to the nearest f64; `name` is the file's name in
 /// messages.
 ///
 /// # Errors
-/// [`NumbersError::Npy`] and [`NumbersError::Table`].
-pub fn parse_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, NumbersError> {
+/// [`InputError`].
+pub fn parse_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, InputError> {
     if bytes.starts_with(npy::MAGIC) {
-        return Ok(parse_npy(bytes, name)?);
+        return parse_npy(bytes, name);
     }
-    Ok(parse_number_table(bytes, name)?)
+    parse_number_table(bytes, name)
 }
 
 /// As [`parse_numbers`], rounded to the nearest f32.
 ///
 /// # Errors
-/// [`NumbersError::Npy`] and [`NumbersError::Table`].
-pub fn parse_single_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable, NumbersError> {
+/// [`InputError`].
+pub fn parse_single_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable, InputError> {
     if bytes.starts_with(npy::MAGIC) {
-        return Ok(parse_single_npy(bytes, name)?);
+        return parse_single_npy(bytes, name);
     }
-    Ok(parse_single_table(bytes, name)?)
+    parse_single_table(bytes, name)
 }
 
 /// [`parse_numbers`] from a file of at most `limit` bytes, which is a `what`.
 ///
 /// # Errors
-/// [`NumbersError`].
-pub fn load_numbers(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<f64>, NumbersError> {
-    parse_numbers(&read(path, what, limit)?, path)
+/// [`InputError`].
+pub fn load_numbers(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<f64>, InputError> {
+    parse_numbers(&read_file(path, what, limit)?, path)
 }
 
 /// The numbers of an array of NumPy's with its shape, from a file of at most `limit` bytes, which is a `what`.
 ///
 /// # Errors
-/// [`NumbersError::Read`] and [`NumbersError::Npy`].
-pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<NumberArray, NumbersError> {
-    Ok(parse_npy_array(&read(path, what, limit)?, path)?)
+/// [`InputError`].
+pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<NumberArray, InputError> {
+    Ok(parse_npy_array(&read_file(path, what, limit)?, path)?)
 }
 
 #[cfg(test)]
@@ -82,10 +63,10 @@ mod tests {
             assert_eq!(parse_numbers(bytes, name).expect("numbers"), wide);
         }
         let error = parse_numbers(b"1,2\n3\n", name).expect_err("ragged");
-        assert!(matches!(error, NumbersError::Table(_)), "{error}");
+        assert_eq!(error.code(), "crossbar::table::ragged");
         let cut = parse_numbers(&array[..array.len() - 1], name).expect_err("cut");
-        assert!(matches!(cut, NumbersError::Npy(_)), "{cut}");
+        assert_eq!(cut.code(), "crossbar::npy::size");
         let missing = load_numbers(Path::new("no/such/file.csv"), "table", 8).expect_err("missing");
-        assert!(matches!(missing, NumbersError::Read(_)), "{missing}");
+        assert_eq!(missing.code(), "crossbar::file::unreadable");
     }
 }

@@ -14,45 +14,47 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::error::{FilePlace, ModelError, ReadError, read};
+use super::error::read_file;
 use super::faces::Faces;
 use super::lines::{logical_lines, not_utf_16, single, statement};
 use super::model_note::ModelNote;
 use super::quoted;
+use crate::error::{FilePlace, InputError, input_error};
 use crate::geom::Mesh;
+use crate::io::error::{mesh_error, syntax_error, too_long_error};
 
 /// Largest size of a file that is read, in bytes (256 MiB).
 pub const MAX_BYTES: u64 = 256 << 20;
 
 /// The bytes of a model.
-pub(super) fn load_model(path: &Path) -> Result<Vec<u8>, ReadError> {
-    read(path, "model", MAX_BYTES)
+pub(super) fn load_model(path: &Path) -> Result<Vec<u8>, InputError> {
+    read_file(path, "model", MAX_BYTES)
 }
 
 /// Refuses input that [`load_model`] would refuse by its length.
-pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), ReadError> {
+pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), InputError> {
     let fits = bytes.len() as u64 <= MAX_BYTES;
-    if fits { Ok(()) } else { Err(ReadError::TooLong { what: "model", path: name.into(), limit: MAX_BYTES }) }
+    if fits { Ok(()) } else { Err(too_long_error("model", name, MAX_BYTES)) }
 }
 
 /// Reads a mesh from a file.
 ///
 /// # Errors
-/// [`ModelError`], with the path, and the line where there is one.
-pub fn load_obj(path: &Path) -> Result<Mesh, ModelError> {
+/// [`InputError`], with the path, and the line where there is one.
+pub fn load_obj(path: &Path) -> Result<Mesh, InputError> {
     parse_obj(&load_model(path)?, path)
 }
 
 /// Reads a mesh from bytes; `name` is the file's name in messages. Never panics.
 ///
 /// # Errors
-/// [`ModelError`], with the line where there is one.
-pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+/// [`InputError`], with the line where there is one.
+pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_obj(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
 /// [`parse_obj`]; unless `strict`, faces with a fault are accepted and noted.
-pub(super) fn read_obj(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
+pub(super) fn read_obj(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
     let mut reader = ObjReader::new(name);
@@ -114,7 +116,7 @@ impl ObjReader {
     }
 
     /// Checks one line, given as words and as text.
-    pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), ModelError> {
+    pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), InputError> {
         match words.split_first() {
             Some((&b"v", numbers)) => self.vertex(line, text, numbers),
             Some((&b"vt", numbers)) => self.texcoord(line, text, numbers),
@@ -124,7 +126,7 @@ impl ObjReader {
         }
     }
 
-    fn vertex(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
+    fn vertex(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), InputError> {
         // x y z, then optionally a weight, or a color of three or four numbers.
         if !matches!(numbers.len(), 3 | 4 | 6 | 7) {
             return Err(self.syntax(line, "a vertex `v x y z`", text));
@@ -139,7 +141,7 @@ impl ObjReader {
         Ok(())
     }
 
-    fn texcoord(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
+    fn texcoord(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), InputError> {
         // A third number is the depth of a volume texture.
         let (&[u, v] | &[u, v, _]) = numbers else {
             return Err(self.syntax(line, "a texture coordinate `vt u v`", text));
@@ -148,7 +150,7 @@ impl ObjReader {
         Ok(())
     }
 
-    fn normal(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
+    fn normal(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), InputError> {
         let &[x, y, z] = numbers else {
             return Err(self.syntax(line, "a normal `vn x y z`", text));
         };
@@ -156,7 +158,7 @@ impl ObjReader {
         Ok(())
     }
 
-    fn numbers<const N: usize>(&self, line: usize, words: [&[u8]; N]) -> Result<[f32; N], ModelError> {
+    fn numbers<const N: usize>(&self, line: usize, words: [&[u8]; N]) -> Result<[f32; N], InputError> {
         let mut numbers = [0.0; N];
         for (number, word) in numbers.iter_mut().zip(words) {
             *number = self.number(line, word)?;
@@ -164,11 +166,11 @@ impl ObjReader {
         Ok(numbers)
     }
 
-    fn number(&self, line: usize, word: &[u8]) -> Result<f32, ModelError> {
+    fn number(&self, line: usize, word: &[u8]) -> Result<f32, InputError> {
         single(word).map_err(|fault| self.syntax(line, fault.expected(), word))
     }
 
-    fn face(&mut self, line: usize, text: &[u8], corners: &[&[u8]]) -> Result<(), ModelError> {
+    fn face(&mut self, line: usize, text: &[u8], corners: &[&[u8]]) -> Result<(), InputError> {
         if corners.len() < 3 {
             return Err(self.syntax(line, "a face of at least three corners `f 1 2 3`", text));
         }
@@ -190,7 +192,7 @@ impl ObjReader {
 
     /// An index of the file, negative ones counted back from the last element, as one from 1. Indices to elements that
     /// have not been read yet are accepted and remembered.
-    fn place(&mut self, line: usize, target: usize, index: i64) -> Result<u32, ModelError> {
+    fn place(&mut self, line: usize, target: usize, index: i64) -> Result<u32, InputError> {
         let count = self.count(target);
         let place = match index {
             0 => None,
@@ -221,7 +223,7 @@ impl ObjReader {
     }
 
     /// The triangles of all faces, after the forward indices have been checked; unless `strict`, with notes on faces.
-    pub(super) fn triangles(&self, strict: bool) -> Result<(Vec<[ObjCorner; 3]>, Vec<ModelNote>), ModelError> {
+    pub(super) fn triangles(&self, strict: bool) -> Result<(Vec<[ObjCorner; 3]>, Vec<ModelNote>), InputError> {
         for &(line, target, index) in &self.forward {
             let count = self.count(target);
             // Some exporters omit the coordinates but keep their indices.
@@ -233,8 +235,7 @@ impl ObjReader {
             }
         }
         if self.faces.corners().is_empty() {
-            let (place, expected) = (self.name.as_path().into(), "at least one face (a line `f 1 2 3`)".into());
-            return Err(ModelError::Syntax { place, expected, found: "none".to_owned() });
+            return Err(syntax_error(self.name.as_path(), "at least one face (a line `f 1 2 3`)", "none"));
         }
         let named = |line: usize| FilePlace::line(&self.name, line).to_string();
         self.faces.triangles(|corner| self.positions[corner[0] as usize - 1], named, strict)
@@ -242,7 +243,7 @@ impl ObjReader {
 
     /// The mesh of these triangles; if `attributes`, with texture coordinates and normals where all corners have them,
     /// otherwise with positions alone.
-    pub(super) fn mesh(&self, triangles: &[[ObjCorner; 3]], attributes: bool) -> Result<Mesh, ModelError> {
+    pub(super) fn mesh(&self, triangles: &[[ObjCorner; 3]], attributes: bool) -> Result<Mesh, InputError> {
         let all = |target: usize| attributes && self.faces.corners().iter().all(|corner| corner[target] > 0);
         let (texcoords, normals) = (!self.texcoords.is_empty() && all(1), all(2));
         let (mut vertices, mut index_of) = (Vec::<ObjCorner>::new(), BTreeMap::<ObjCorner, u32>::new());
@@ -264,17 +265,20 @@ impl ObjReader {
         if texcoords {
             mesh = mesh.and_then(|mesh| mesh.with_texcoords(of(&self.texcoords, &vertices, 1)));
         }
-        mesh.map_err(|reason| ModelError::Mesh(self.name.as_path().into(), reason))
+        mesh.map_err(|reason| mesh_error(&self.name, reason))
     }
 
-    pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ModelError {
+    pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> InputError {
         let place = FilePlace::line(&self.name, line);
-        ModelError::Syntax { place, expected: expected.into(), found: quoted(found) }
+        syntax_error(place, expected, quoted(found))
     }
 
-    fn out_of_range(&self, line: usize, target: usize, index: i64) -> ModelError {
+    fn out_of_range(&self, line: usize, target: usize, index: i64) -> InputError {
         let (place, count) = (FilePlace::line(&self.name, line), self.count(target));
-        ModelError::IndexOutOfRange { place, what: TARGETS[target], index, count }
+        input_error!("crossbar::model::index" =>
+            "{} {index}, expected 1 to {count} (or -1 to -{count})", TARGETS[target];
+            help "faces count from 1, or from -1 backwards: is a part of the file missing?")
+        .at(place)
     }
 }
 
@@ -298,7 +302,7 @@ fn corner_indices(corner: &[u8]) -> Option<[Option<i64>; 3]> {
 mod tests {
     use super::*;
 
-    fn parse(text: &str) -> Result<Mesh, ModelError> {
+    fn parse(text: &str) -> Result<Mesh, InputError> {
         parse_obj(text.as_bytes(), Path::new("m.obj"))
     }
 

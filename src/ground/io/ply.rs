@@ -9,18 +9,20 @@
 //! count in the header alone.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::path::Path;
 
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
 
-use super::error::{FilePlace, ModelError};
 use super::faces::Faces;
 use super::lines::{not_utf_16, unmarked};
 use super::model_note::ModelNote;
 use super::obj::{load_model, within_limit};
 use super::quoted;
+use crate::error::{FilePlace, InputError};
 use crate::geom::Mesh;
+use crate::io::error::{element_error, mesh_error, syntax_error};
 
 /// Names of the used numbers of a vertex.
 const NUMBERS: [&[&str]; 8] =
@@ -31,22 +33,22 @@ const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 /// Reads a mesh from a file.
 ///
 /// # Errors
-/// [`ModelError`], with the path, and the line or element where there is one.
-pub fn load_ply(path: &Path) -> Result<Mesh, ModelError> {
+/// [`InputError`], with the path, and the line or element where there is one.
+pub fn load_ply(path: &Path) -> Result<Mesh, InputError> {
     parse_ply(&load_model(path)?, path)
 }
 
 /// Reads a mesh from bytes; `name` is the file's name in messages. Never panics.
 ///
 /// # Errors
-/// [`ModelError`], with the line or element where there is one.
-pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+/// [`InputError`], with the line or element where there is one.
+pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_ply(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
 /// [`parse_ply`]; unless `strict`, faces with a fault are accepted and data after the last element passed over, and
 /// noted.
-pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
+pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
     let bytes = unmarked(bytes);
@@ -98,8 +100,8 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     let bytes = data.rest.trim_ascii().len();
     if bytes > 0 {
         if strict {
-            let (place, expected) = (name.into(), "the end of the file after the last element".into());
-            return Err(ModelError::Syntax { place, expected, found: format!("{bytes} bytes more") });
+            let expected = "the end of the file after the last element";
+            return Err(syntax_error(name, expected, format!("{bytes} bytes more")));
         }
         notes.push(ModelNote::Trailing { bytes, last: "element" });
     }
@@ -107,16 +109,14 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
 }
 
 /// The error for a file without a required part.
-fn missing(name: &Path, expected: &'static str) -> ModelError {
-    ModelError::Syntax { place: name.into(), expected: expected.into(), found: "none".to_owned() }
+fn missing(name: &Path, expected: &'static str) -> InputError {
+    syntax_error(name, expected, "none")
 }
 
 /// The header, its number of lines, and the data after it.
-fn header<'a>(bytes: &'a [u8], line_end: u8, name: &Path) -> Result<(Header, usize, &'a [u8]), ModelError> {
-    let syntax = |line: usize, expected: &str, found: String| {
-        let expected = expected.to_owned().into();
-        ModelError::Syntax { place: FilePlace::line(name, line), expected, found }
-    };
+fn header<'a>(bytes: &'a [u8], line_end: u8, name: &Path) -> Result<(Header, usize, &'a [u8]), InputError> {
+    let syntax =
+        |line: usize, expected: &str, found: String| syntax_error(FilePlace::line(name, line), expected, found);
     let (mut lines, mut length, mut text) = (0, 0, "");
     for line in bytes.split_inclusive(|&byte| byte == line_end) {
         (lines, length) = (lines + 1, length + line.len());
@@ -173,21 +173,17 @@ struct ElementPlace<'a> {
 }
 
 impl ElementPlace<'_> {
-    fn error(self, expected: impl Into<Cow<'static, str>>, found: impl Into<Cow<'static, str>>) -> ModelError {
-        let (expected, place) = (expected.into(), self.name.into());
+    fn error(self, expected: impl Display, found: impl Display) -> InputError {
         match self.line {
-            Some((line, found)) => ModelError::Syntax { place: FilePlace::line(self.name, line), expected, found },
-            None => {
-                let (element, found) = (visible(self.element), found.into());
-                ModelError::Element { place, element, index: self.index, expected, found }
-            }
+            Some((line, found)) => syntax_error(FilePlace::line(self.name, line), expected, found),
+            None => element_error(self.name, &visible(self.element), self.index, expected, found),
         }
     }
 }
 
 impl<'a> Data<'a> {
     /// The next element, which has this index among those of its kind.
-    fn next<'b>(&mut self, element: &'b ElementDef, index: usize) -> Result<(Record, ElementPlace<'b>), ModelError>
+    fn next<'b>(&mut self, element: &'b ElementDef, index: usize) -> Result<(Record, ElementPlace<'b>), InputError>
     where
         'a: 'b,
     {
@@ -305,7 +301,7 @@ impl MeshReader {
         triangles: Vec<[u32; 3]>,
         [normals, texcoords]: [bool; 2],
         name: &Path,
-    ) -> Result<Mesh, ModelError> {
+    ) -> Result<Mesh, InputError> {
         if triangles.is_empty() {
             return Err(missing(name, "at least one face"));
         }
@@ -316,7 +312,7 @@ impl MeshReader {
             if texcoords { mesh.with_texcoords(pairs()) } else { Ok(mesh) }
         };
         let positions = self.vertices.iter().map(positions_of).collect();
-        Mesh::new(positions, triangles).and_then(of).map_err(|reason| ModelError::Mesh(name.into(), reason))
+        Mesh::new(positions, triangles).and_then(of).map_err(|reason| mesh_error(name, reason))
     }
 }
 

@@ -9,14 +9,13 @@
 //! card computed.
 
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::error::ReadError;
 use super::lines::single;
 use super::{NumberError, open_limited, quoted};
-use crate::geom::{Ray, RayError};
+use crate::error::{FilePlace, InputError, input_error};
+use crate::geom::Ray;
+use crate::io::error::{too_long_error, unreadable_error};
 
 /// Longest file that is read, in bytes (1 GiB).
 pub const MAX_BYTES: u64 = 1 << 30;
@@ -27,102 +26,81 @@ const MAX_HEADER_BYTES: u64 = 4096;
 /// The columns of a ray table.
 const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
-/// Errors of reading a table of rays. Lines count from 1, the header's.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum RaysError {
-    /// The file is not there, or too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// The first line is not the header.
-    #[error("{}:1: expected the header `ox,oy,oz,dx,dy,dz`, found {found}", path.display())]
-    Header { path: PathBuf, found: String },
-    /// A line does not have six fields.
-    #[error("{}:{line}: expected 6 numbers (ox,oy,oz,dx,dy,dz), found {found} {}", path.display(), if *found == 1 { "field" } else { "fields" })]
-    Fields { path: PathBuf, line: u64, found: usize },
-    /// A field is not a number of single precision.
-    #[error("{}:{line}: expected {} for {column}, found {found}", path.display(), reason.expected())]
-    Number { path: PathBuf, line: u64, column: &'static str, reason: NumberError, found: String },
-    /// Six numbers that are not a valid ray.
-    #[error("{}:{line}: {reason}", path.display())]
-    Ray { path: PathBuf, line: u64, reason: RayError },
-    /// The table's syntax is broken.
-    #[error("{}: the table cannot be read: {reason}", path.display())]
-    Table { path: PathBuf, reason: String },
-    /// No memory for more rays.
-    #[error("{}: no memory for more than {rays} rays", path.display())]
-    Memory { path: PathBuf, rays: usize },
+fn header_error(name: &Path, found: &str) -> InputError {
+    input_error!("expected the header `ox,oy,oz,dx,dy,dz`, found {found}").at(FilePlace::line(name, 1))
 }
 
 /// Reads rays from a file.
 ///
 /// # Errors
-/// [`RaysError`], with the path, and the line where there is one.
-pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
+/// [`InputError`], with the path, and the line where there is one.
+pub fn load_rays(path: &Path) -> Result<Vec<Ray>, InputError> {
     let mut limited = open_limited(path, MAX_BYTES).map_err(|source| unreadable(path, source))?;
     let rays = read_rays(&mut limited, path);
     // A table that was cut may be broken where it was cut.
-    if limited.limit() == 0 {
-        Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into())
-    } else {
-        rays
-    }
+    if limited.limit() == 0 { Err(too_long_error("table", path, MAX_BYTES)) } else { rays }
 }
 
-fn unreadable(path: &Path, source: io::Error) -> ReadError {
-    ReadError::Unreadable { what: "rays", path: path.into(), source }
+fn unreadable(path: &Path, source: io::Error) -> InputError {
+    unreadable_error("rays", path, source)
 }
 
 /// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid.
 ///
 /// # Errors
-/// [`RaysError`], with the line where there is one.
-pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, RaysError> {
+/// [`InputError`], with the line where there is one.
+pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, InputError> {
     read_rays(bytes, name)
 }
 
-fn read_rays(mut input: impl Read, name: &Path) -> Result<Vec<Ray>, RaysError> {
+fn read_rays(mut input: impl Read, name: &Path) -> Result<Vec<Ray>, InputError> {
     let mut head = Vec::new();
     input.by_ref().take(MAX_HEADER_BYTES).read_to_end(&mut head).map_err(|source| unreadable(name, source))?;
     // A file of another kind may be a single line of any length.
     if head.len() as u64 == MAX_HEADER_BYTES && !head.contains(&b'\n') {
-        return Err(RaysError::Header { path: name.into(), found: quoted(&head) });
+        return Err(header_error(name, &quoted(&head)));
     }
     let input = io::Cursor::new(head).chain(input);
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(input);
     let broken = |reason: csv::Error| match reason.into_kind() {
-        csv::ErrorKind::Io(source) => unreadable(name, source).into(),
-        other => RaysError::Table { path: name.into(), reason: format!("{other:?}") },
+        csv::ErrorKind::Io(source) => unreadable(name, source),
+        other => input_error!("the table cannot be read: {other:?}").at(name),
     };
     let mut record = csv::ByteRecord::new();
     reader.read_byte_record(&mut record).map_err(broken)?;
     if !record.iter().eq(HEADER.map(str::as_bytes)) {
         let found = record.iter().collect::<Vec<_>>().join(&b',');
-        return Err(RaysError::Header { path: name.into(), found: quoted(&found) });
+        return Err(header_error(name, &quoted(&found)));
     }
     let mut rays: Vec<Ray> = Vec::new();
     while reader.read_byte_record(&mut record).map_err(broken)? {
-        rays.try_reserve(1).map_err(|_| RaysError::Memory { path: name.into(), rays: rays.len() })?;
+        rays.try_reserve(1).map_err(|_| input_error!("no memory for more than {} rays", rays.len()).at(name))?;
         rays.push(ray(&record, name)?);
     }
     Ok(rays)
 }
 
-fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, RaysError> {
-    let line = record.position().map_or(0, csv::Position::line);
+fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, InputError> {
+    let line = record.position().map_or(0, |position| position.line() as usize);
     if record.len() != HEADER.len() {
-        return Err(RaysError::Fields { path: name.into(), line, found: record.len() });
+        return Err(input_error!(
+            "expected 6 numbers (ox,oy,oz,dx,dy,dz), found {} {}",
+            record.len(),
+            if record.len() == 1 { "field" } else { "fields" }
+        )
+        .at(FilePlace::line(name, line)));
     }
     let mut numbers = [0.0_f32; 6];
     for ((number, field), column) in numbers.iter_mut().zip(record).zip(HEADER) {
-        let wrong = |reason| RaysError::Number { path: name.into(), line, column, reason, found: quoted(field) };
+        let wrong = |reason: NumberError| {
+            input_error!("expected {} for {column}, found {}", reason.expected(), quoted(field))
+                .at(FilePlace::line(name, line))
+        };
         *number = single(field).map_err(wrong)?;
     }
     let [ox, oy, oz, dx, dy, dz] = numbers;
-    Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|reason| RaysError::Ray { path: name.into(), line, reason })
+    Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|reason| reason.at(FilePlace::line(name, line)))
 }
 
 /// Writes rays in the form that [`parse_rays`] reads back bit for bit.

@@ -22,63 +22,18 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use thiserror::Error;
 
-use super::error::ModelError;
 use super::model::{ModelOptions, load_scene_with};
 use super::model_note::ModelNote;
 use super::number::Single;
 use super::read_limited;
 use super::scene_obj::{write_mtl, write_scene};
+use crate::error::{FilePlace, InputError, input_error};
 use crate::names::did_you_mean_field;
-use crate::scene::{CameraError, PointLight, Scene, View};
+use crate::scene::{PointLight, Scene, View};
 
 /// Longest scene file that is read, in bytes (1 MiB); its mesh may be longer.
 const LONGEST: u64 = 1 << 20;
-
-/// Errors of reading a scene.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum SceneFileError {
-    /// The file cannot be opened or read.
-    #[error("cannot read the scene {}", path.display())]
-    #[diagnostic(
-        code(crossbar::scene::unreadable),
-        help("check the path; `crossbar scene` lists the scenes that need no file")
-    )]
-    Read { path: PathBuf, source: io::Error },
-    /// The file is longer than 1 MiB, or not UTF-8.
-    #[error("{}: expected a scene file of at most {LONGEST} bytes of UTF-8", path.display())]
-    #[diagnostic(code(crossbar::scene::text), help("a scene file is TOML that names its mesh: docs/scenes.md"))]
-    NoText { path: PathBuf },
-    /// The file is not valid TOML, or not a valid scene file.
-    #[error("{}:{line}: {message}", path.display())]
-    #[diagnostic(
-        code(crossbar::scene::toml),
-        help("{}docs/scenes.md describes what a scene file may say", did_you_mean_field(message))
-    )]
-    Toml { path: PathBuf, line: usize, message: String },
-    /// A view makes no picture.
-    #[error("{}: view {view:?}: {reason}", path.display())]
-    #[diagnostic(code(crossbar::scene::view), help("a view needs an eye apart from its target, and another way up"))]
-    View { path: PathBuf, view: String, reason: CameraError },
-    /// Two views of one name.
-    #[error("{}: expected views of different names, found {view:?} twice", path.display())]
-    #[diagnostic(code(crossbar::scene::same_name), help("rename one of the two"))]
-    SameName { path: PathBuf, view: String },
-    /// A light's figures are not finite, or its intensity is negative.
-    #[error(
-        "{}: point light {light} (counted from 1): expected a finite position, and an intensity of at least 0",
-        path.display()
-    )]
-    #[diagnostic(code(crossbar::scene::light), help("docs/scenes.md describes point lights"))]
-    Light { path: PathBuf, light: usize },
-    /// Something about the mesh or its materials.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Mesh(#[from] ModelError),
-}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -130,18 +85,28 @@ fn is_model(path: &Path) -> bool {
 }
 
 /// Reads a scene: a model by the name's ending, else a scene file.
-pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
+pub fn load(path: &Path) -> Result<Scene, InputError> {
     load_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }
 
 /// [`load`] with options for the model, and what the user should know of it. Views and point lights stay as they are.
-pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), SceneFileError> {
+pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), InputError> {
     if is_model(path) {
         return Ok(load_scene_with(path, options)?);
     }
-    let read = read_limited(path, LONGEST).map_err(|source| SceneFileError::Read { path: path.into(), source })?;
+    let read = read_limited(path, LONGEST).map_err(|source| {
+        input_error!("crossbar::scene::unreadable" =>
+            "cannot read the scene {}", path.display();
+            help "check the path; `crossbar scene` lists the scenes that need no file")
+        .with_source(source)
+    })?;
     let text = read.and_then(|bytes| String::from_utf8(bytes).ok());
-    let text = text.ok_or_else(|| SceneFileError::NoText { path: path.into() })?;
+    let text = text.ok_or_else(|| {
+        input_error!("crossbar::scene::text" =>
+            "expected a scene file of at most {LONGEST} bytes of UTF-8";
+            help "a scene file is TOML that names its mesh: docs/scenes.md")
+        .at(path)
+    })?;
     let (mesh, views, point_lights) = parse(&text, path)?;
     let (mut scene, notes) = load_scene_with(&path.parent().unwrap_or(Path::new("")).join(mesh), options)?;
     scene.views = views;
@@ -152,22 +117,29 @@ pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<Model
 /// The mesh's path, the views and the lights of a scene file's text.
 ///
 /// # Errors
-/// [`SceneFileError`], without those of the mesh.
-pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLight>), SceneFileError> {
+/// [`InputError`], without those of the mesh.
+pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLight>), InputError> {
     let file: File = toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
         let line = before.matches('\n').count() + 1;
-        SceneFileError::Toml { path: name.into(), line, message: error.message().to_owned() }
+        input_error!("crossbar::scene::toml" =>
+            "{}", error.message();
+            help "{}docs/scenes.md describes what a scene file may say", did_you_mean_field(error.message()))
+        .at(FilePlace::line(name, line))
     })?;
     let mut views: Vec<View> = Vec::with_capacity(file.view.len());
     for ViewEntry { name: view, eye, target, up, tan_half_height } in file.view {
         if views.iter().any(|known| known.name == view) {
-            return Err(SceneFileError::SameName { path: name.into(), view });
+            return Err(input_error!("crossbar::scene::same_name" =>
+                "expected views of different names, found {view:?} twice"; help "rename one of the two")
+            .at(name));
         }
         let [eye, target, up] = [eye, target, up].map(plain);
         let view = View { name: view, eye, target, up, tan_half_height: tan_half_height.0 };
         if let Err(reason) = view.camera(1, 1) {
-            return Err(SceneFileError::View { path: name.into(), view: view.name, reason });
+            return Err(input_error!("crossbar::scene::view" =>
+                "view {:?}: {reason}", view.name; help "a view needs an eye apart from its target, and another way up")
+            .at(name));
         }
         views.push(view);
     }
@@ -181,7 +153,10 @@ pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLi
             && light.intensity.iter().all(|value| value.is_finite() && *value >= 0.0)
     };
     if let Some(place) = lights.iter().position(|light| !sound(light)) {
-        return Err(SceneFileError::Light { path: name.into(), light: place + 1 });
+        return Err(input_error!("crossbar::scene::light" =>
+            "point light {} (counted from 1): expected a finite position, and an intensity of at least 0", place + 1;
+            help "docs/scenes.md describes point lights")
+        .at(name));
     }
     Ok((file.mesh, views, lights))
 }

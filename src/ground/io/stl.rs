@@ -7,12 +7,13 @@
 
 use std::path::Path;
 
-use super::error::{FilePlace, ModelError};
 use super::lines::{lines, not_utf_16, single, unmarked, words};
 use super::model_note::ModelNote;
 use super::obj::{load_model, within_limit};
 use super::quoted;
+use crate::error::{FilePlace, InputError};
 use crate::geom::mesh::{Mesh, Welder};
+use crate::io::error::{element_error, mesh_error, syntax_error};
 
 /// Bytes before the triangles of binary data: a header, and their number.
 const HEAD: usize = 84;
@@ -24,8 +25,8 @@ type Corners = [[f32; 3]; 3];
 /// Reads a mesh from a file.
 ///
 /// # Errors
-/// [`ModelError`], with the path, and the line or triangle where there is one.
-pub fn load_stl(path: &Path) -> Result<Mesh, ModelError> {
+/// [`InputError`], with the path, and the line or triangle where there is one.
+pub fn load_stl(path: &Path) -> Result<Mesh, InputError> {
     parse_stl(&load_model(path)?, path)
 }
 
@@ -33,17 +34,15 @@ pub fn load_stl(path: &Path) -> Result<Mesh, ModelError> {
 /// the file's length only.
 ///
 /// # Errors
-/// [`ModelError`], with the line or triangle where there is one.
-pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+/// [`InputError`], with the line or triangle where there is one.
+pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_stl(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
 /// [`parse_stl`]; unless `strict`, bytes after the last triangle are passed over and noted.
-pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
+pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
-    let syntax = |expected: &'static str, found: String| {
-        Err(ModelError::Syntax { place: FilePlace::from(name), expected: expected.into(), found })
-    };
+    let syntax = |expected: &'static str, found: String| Err(syntax_error(name, expected, found));
     let (length, mut notes) = (bytes.len() as u64, Vec::new());
     let claimed = claimed_length(bytes);
     if claimed != Some(length) {
@@ -73,7 +72,7 @@ pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     let mut welder = Welder::default();
     let triangles = soup.into_iter().map(|corners| corners.map(|corner| welder.vertex(corner))).collect();
     let mesh = Mesh::new(welder.into_positions(), triangles);
-    mesh.map(|mesh| (mesh, notes)).map_err(|reason| ModelError::Mesh(name.into(), reason))
+    mesh.map(|mesh| (mesh, notes)).map_err(|reason| mesh_error(name, reason))
 }
 
 /// True for the contents of an STL file: binary data with the length that they state, or text that begins as ASCII STL.
@@ -95,7 +94,7 @@ fn is_text(bytes: &[u8]) -> bool {
     word.eq_ignore_ascii_case(b"solid") && !bytes[..bytes.len().min(HEAD)].contains(&0)
 }
 
-fn binary(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, ModelError> {
+fn binary(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, InputError> {
     let triangles = bytes[HEAD..].as_chunks::<TRIANGLE>().0;
     let read = triangles.iter().enumerate().map(|(index, bytes)| {
         let number = |at: usize| f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
@@ -103,19 +102,13 @@ fn binary(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, ModelError> {
         let corners: Corners = [12, 24, 36].map(|at| [number(at), number(at + 4), number(at + 8)]);
         match corners.as_flattened().iter().find(|coordinate| !coordinate.is_finite()) {
             None => Ok(corners),
-            Some(odd) => Err(ModelError::Element {
-                place: name.into(),
-                element: "triangle".to_owned(),
-                index,
-                expected: "finite coordinates".into(),
-                found: odd.to_string().into(),
-            }),
+            Some(odd) => Err(element_error(name, "triangle", index, "finite coordinates", odd)),
         }
     });
     read.collect()
 }
 
-fn ascii(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, ModelError> {
+fn ascii(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, InputError> {
     let mut text = Text { name, line: 1, words: Box::new(text_words(unmarked(bytes))) };
     let mut soup = Vec::new();
     while let Some(word) = text.word() {
@@ -189,22 +182,19 @@ impl<'a> Text<'a> {
     }
 
     /// The index of the next word among the expected ones.
-    fn keyword(&mut self, expected: &[&str]) -> Result<usize, ModelError> {
+    fn keyword(&mut self, expected: &[&str]) -> Result<usize, InputError> {
         let word = self.word();
         self.known(word, expected)
     }
 
-    fn known(&self, word: Option<&[u8]>, expected: &[&str]) -> Result<usize, ModelError> {
+    fn known(&self, word: Option<&[u8]>, expected: &[&str]) -> Result<usize, InputError> {
         let is_word = |known: &&str| word.is_some_and(|word| word.eq_ignore_ascii_case(known.as_bytes()));
         let wrong = || self.wrong(&format!("`{}`", expected.join("` or `")), word);
         expected.iter().position(is_word).ok_or_else(wrong)
     }
 
-    fn wrong(&self, expected: &str, found: Option<&[u8]>) -> ModelError {
-        ModelError::Syntax {
-            place: FilePlace::line(self.name, self.line),
-            expected: expected.to_owned().into(),
-            found: found.map_or("the end of the file".to_owned(), quoted),
-        }
+    fn wrong(&self, expected: &str, found: Option<&[u8]>) -> InputError {
+        let found = found.map_or("the end of the file".to_owned(), quoted);
+        syntax_error(FilePlace::line(self.name, self.line), expected, found)
     }
 }

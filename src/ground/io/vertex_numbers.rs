@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use super::error::ReadError;
 use super::lines::{logical_lines, single, statement};
 use super::model::{ModelOptions, is_obj, rotation_of_obj};
 use super::obj::{ObjReader, load_model};
+use crate::error::InputError;
 use crate::geom::vector::place_bits;
 
 /// Vertices of a model file, as its faces name them.
@@ -47,8 +47,8 @@ impl VertexNumbers {
 /// `None` for another format, whose vertices have no numbers that their user knows.
 ///
 /// # Errors
-/// [`ReadError`].
-pub fn load_vertex_numbers(path: &Path, options: ModelOptions) -> Result<Option<VertexNumbers>, ReadError> {
+/// [`InputError`].
+pub fn load_vertex_numbers(path: &Path, options: ModelOptions) -> Result<Option<VertexNumbers>, InputError> {
     let bytes = load_model(path)?;
     Ok(if is_obj(&bytes, path) { VertexNumbers::of_obj(&bytes, rotation_of_obj(options)) } else { None })
 }

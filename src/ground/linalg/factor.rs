@@ -1,37 +1,33 @@
 //! Orthogonal factorisations, with a fixed choice of the arbitrary signs.
 
 use nalgebra::{DMatrix, DVector, Dyn};
-use thiserror::Error;
 
-use super::{Matrix, MatrixError};
+use super::Matrix;
+use crate::error::{InputError, input_error};
 
 /// Maximum iterations per row or column before an eigenvalue or singular value counts as not converged.
 const MAX_ITERATIONS: usize = 100;
 
-/// Error of a factorisation.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum FactorError {
-    /// An element is infinite or NaN.
-    #[error("expected finite elements, found {found} that are not")]
-    NotFinite { found: usize },
-    /// The iteration did not converge.
-    #[error(
-        "expected eigenvalues or singular values of {rows} x {columns} elements within {MAX_ITERATIONS} iterations each"
-    )]
-    NoConvergence { rows: usize, columns: usize },
-    /// The columns are linearly dependent, or there are more columns than rows.
-    #[error(
-        "expected {columns} independent columns, found column {column} (counted from 0) to depend on those before it"
-    )]
-    RankDeficient { columns: usize, column: usize },
-    /// The residual of an eigenpair is too large: rounding errors have spoilt the factorisation.
-    #[error("expected eigenvectors with A v = lambda v, found some of {size} x {size} elements that are not")]
-    Residual { size: usize },
-    /// An intermediate matrix is too large.
-    #[error(transparent)]
-    Matrix(#[from] MatrixError),
+pub(super) fn not_finite_error(found: usize) -> InputError {
+    input_error!("expected finite elements, found {found} that are not")
+}
+
+pub(super) fn no_convergence_error(rows: usize, columns: usize) -> InputError {
+    input_error!(
+        "expected eigenvalues or singular values of {rows} x {columns} elements within \
+         {MAX_ITERATIONS} iterations each"
+    )
+}
+
+fn rank_deficient_error(columns: usize, column: usize) -> InputError {
+    input_error!(
+        "expected {columns} independent columns, found column {column} (counted from 0) to depend on \
+         those before it"
+    )
+}
+
+pub(super) fn residual_error(size: usize) -> InputError {
+    input_error!("expected eigenvectors with A v = lambda v, found some of {size} x {size} elements that are not")
 }
 
 /// Eigenvalues and eigenvectors of a symmetric matrix.
@@ -47,15 +43,15 @@ impl SymmetricEigen {
     /// Decomposes a symmetric matrix, of which only the lower triangle is read.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, or the iteration does not converge.
+    /// [`InputError`] if an element is not finite, or the iteration does not converge.
     ///
     /// # Panics
     /// If the matrix is not square.
-    pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
+    pub fn new(matrix: &Matrix) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");
         let (size, most) = (matrix.row_count(), iterations(matrix));
         let eigen = nalgebra::SymmetricEigen::try_new(finite(matrix)?, f64::EPSILON, most);
-        let eigen = eigen.ok_or(FactorError::NoConvergence { rows: size, columns: size })?;
+        let eigen = eigen.ok_or_else(|| no_convergence_error(size, size))?;
         let mut order: Vec<usize> = (0..size).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
         let vectors = DMatrix::from_fn(size, size, |row, column| {
@@ -82,8 +78,8 @@ impl Svd {
     /// Decomposes a matrix.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, or the iteration does not converge.
-    pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
+    /// [`InputError`] if an element is not finite, or the iteration does not converge.
+    pub fn new(matrix: &Matrix) -> Result<Self, InputError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         let values = finite(matrix)?;
         if rows.min(columns) == 0 {
@@ -91,9 +87,8 @@ impl Svd {
             return Ok(Self { left: empty(rows, 0), values: Vec::new(), right: empty(0, columns) });
         }
         let svd = nalgebra::SVD::try_new(values, true, true, f64::EPSILON, iterations(matrix));
-        let unfinished = FactorError::NoConvergence { rows, columns };
-        let (mut left, values, mut right) =
-            svd.and_then(|svd| Some((svd.u?, svd.singular_values, svd.v_t?))).ok_or(unfinished)?;
+        let svd = svd.and_then(|svd| Some((svd.u?, svd.singular_values, svd.v_t?)));
+        let (mut left, values, mut right) = svd.ok_or_else(|| no_convergence_error(rows, columns))?;
         for k in 0..values.len() {
             let sign = right[(k, right.row(k).iamax_full().1)].signum();
             left.column_mut(k).scale_mut(sign);
@@ -112,18 +107,18 @@ impl Qr {
     /// Factors a matrix with at least as many rows as columns.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, or the columns are linearly dependent.
-    pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
+    /// [`InputError`] if an element is not finite, or the columns are linearly dependent.
+    pub fn new(matrix: &Matrix) -> Result<Self, InputError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         let values = finite(matrix)?;
         if rows < columns {
-            return Err(FactorError::RankDeficient { columns, column: rows });
+            return Err(rank_deficient_error(columns, rows));
         }
         let qr = values.qr();
         let diagonal = qr.r().diagonal().abs();
         let least = diagonal.max() * f64::EPSILON * rows as f64;
         match diagonal.iter().position(|&pivot| pivot <= least) {
-            Some(column) => Err(FactorError::RankDeficient { columns, column }),
+            Some(column) => Err(rank_deficient_error(columns, column)),
             None => Ok(Self(qr)),
         }
     }
@@ -141,10 +136,10 @@ impl Qr {
     }
 }
 
-fn finite(matrix: &Matrix) -> Result<DMatrix<f64>, FactorError> {
+fn finite(matrix: &Matrix) -> Result<DMatrix<f64>, InputError> {
     match matrix.rows().flatten().filter(|value| !value.is_finite()).count() {
         0 => Ok(matrix.to_nalgebra()),
-        found => Err(FactorError::NotFinite { found }),
+        found => Err(not_finite_error(found)),
     }
 }
 

@@ -6,7 +6,9 @@
 
 use super::reflection::{NEGLIGIBLE_SQUARE, Reflection, inverse_power_of_two};
 use super::tridiagonal::{diagonalise, rotated};
-use super::{FactorError, Matrix, dot};
+use super::{Matrix, dot};
+use crate::error::InputError;
+use crate::linalg::factor::{not_finite_error, residual_error};
 
 /// Maximum accepted residual |A v - lambda v| of an eigenpair, relative to the infinity norm of A.
 pub(super) const MAX_RESIDUAL: f64 = 1e-10;
@@ -26,13 +28,13 @@ impl LeadingEigen {
     /// vector instructions, which change no bit.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, the iteration does not converge, or a pair does not satisfy A v =
+    /// [`InputError`] if an element is not finite, the iteration does not converge, or a pair does not satisfy A v =
     /// lambda v.
     ///
     /// # Panics
     /// If the matrix is not square.
     #[inline(always)]
-    pub fn new(matrix: &Matrix, count: usize) -> Result<Self, FactorError> {
+    pub fn new(matrix: &Matrix, count: usize) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");
         let size = matrix.row_count();
         let lower = Lower::new(matrix)?;
@@ -53,7 +55,7 @@ impl LeadingEigen {
             make_largest_positive(vector);
             let residual = original.residual(vector, value) / norm;
             if residual.is_nan() || residual > MAX_RESIDUAL {
-                return Err(FactorError::Residual { size });
+                return Err(residual_error(size));
             }
         }
         let scale = original.scale;
@@ -95,11 +97,11 @@ struct Tridiagonal {
 }
 
 impl Lower {
-    fn new(matrix: &Matrix) -> Result<Self, FactorError> {
+    fn new(matrix: &Matrix) -> Result<Self, InputError> {
         let lower = || matrix.rows().enumerate().map(|(i, row)| &row[..=i]);
         let found = lower().flatten().filter(|value| !value.is_finite()).count();
         if found > 0 {
-            return Err(FactorError::NotFinite { found });
+            return Err(not_finite_error(found));
         }
         let largest = lower().flatten().fold(0.0_f64, |largest, value| largest.max(value.abs()));
         let scale = inverse_power_of_two(largest);
@@ -247,6 +249,9 @@ mod tests {
             assert_abs_diff_eq!(all.values[0] / scale, leading.values[0] / scale, epsilon = 1e-12);
         }
         let nan = matrix(3, |i, j| if i == 2 && j == 1 { f64::NAN } else { 1.0 });
-        assert_eq!(LeadingEigen::new(&nan, 1), Err(FactorError::NotFinite { found: 1 }));
+        assert_eq!(
+            LeadingEigen::new(&nan, 1).unwrap_err().to_string(),
+            "expected finite elements, found 1 that are not"
+        );
     }
 }

@@ -12,7 +12,9 @@ use super::bidiagonal::Bidiagonal;
 use super::leading::{MAX_RESIDUAL, make_largest_positive};
 use super::reflection::inverse_power_of_two;
 use super::tridiagonal::{diagonalise, rotated};
-use super::{FactorError, Matrix, dot};
+use super::{Matrix, dot};
+use crate::error::InputError;
+use crate::linalg::factor::{not_finite_error, residual_error};
 
 /// All singular values of a matrix, and the vectors of the largest.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,9 +36,9 @@ impl LeadingSvd {
     /// [`Self::rank`] if these are fewer. The bits do not depend on the number of threads.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, the iteration does not converge, or a pair of vectors does not
+    /// [`InputError`] if an element is not finite, the iteration does not converge, or a pair of vectors does not
     /// satisfy A v = sigma u.
-    pub fn new(matrix: &Matrix, count: usize) -> Result<Self, FactorError> {
+    pub fn new(matrix: &Matrix, count: usize) -> Result<Self, InputError> {
         if matrix.row_count() < matrix.column_count() {
             let Self { values, rank, left, right } = Self::of_tall(&matrix.transposed(), count)?;
             return Ok(Self { values, rank, left: right, right: left }.with_signs());
@@ -45,10 +47,10 @@ impl LeadingSvd {
     }
 
     /// Decomposes a matrix with at least as many rows as columns.
-    fn of_tall(matrix: &Matrix, count: usize) -> Result<Self, FactorError> {
+    fn of_tall(matrix: &Matrix, count: usize) -> Result<Self, InputError> {
         let found = matrix.rows().flatten().filter(|value| !value.is_finite()).count();
         if found > 0 {
-            return Err(FactorError::NotFinite { found });
+            return Err(not_finite_error(found));
         }
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         let largest = matrix.rows().flatten().fold(0.0_f64, |largest, value| largest.max(value.abs()));
@@ -87,7 +89,7 @@ impl LeadingSvd {
         scale: f64,
         bidiagonal: &Bidiagonal,
         vectors: &[f64],
-    ) -> Result<(), FactorError> {
+    ) -> Result<(), InputError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         let (mut lefts, mut rights) = (Vec::new(), Vec::new());
         for (vector, &value) in vectors.chunks_exact(2 * columns).zip(&self.values) {
@@ -107,7 +109,7 @@ impl LeadingSvd {
             let residual =
                 differences.fold(0.0, |most: f64, difference| if difference <= most { most } else { difference });
             if residual.is_nan() || residual > MAX_RESIDUAL * self.values[0] {
-                return Err(FactorError::Residual { size: rows.max(columns) });
+                return Err(residual_error(rows.max(columns)));
             }
             lefts.extend(left);
             rights.extend(right);
@@ -248,6 +250,6 @@ mod tests {
             assert_abs_diff_eq!(all.values[0] / scale, leading.values[0] / scale, epsilon = 1e-12);
         }
         let nan = matrix([3, 3], |i, j| if i == 2 && j == 1 { f64::NAN } else { 1.0 });
-        assert_eq!(LeadingSvd::new(&nan, 1), Err(FactorError::NotFinite { found: 1 }));
+        assert_eq!(LeadingSvd::new(&nan, 1).unwrap_err().to_string(), "expected finite elements, found 1 that are not");
     }
 }

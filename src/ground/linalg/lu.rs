@@ -5,9 +5,9 @@
 //! what elimination column by column, as nalgebra's, gives.
 
 use rayon::prelude::*;
-use thiserror::Error;
 
 use super::Matrix;
+use crate::error::{InputError, input_error};
 
 /// Number of columns of a panel.
 const PANEL: usize = 64;
@@ -26,23 +26,19 @@ pub struct Lu {
     order: Vec<usize>,
 }
 
-/// Error: the matrix is singular to f64 precision.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("expected an invertible matrix, found no pivot in column {column} (counted from 0)")]
-pub struct Singular {
-    /// First column without a pivot.
-    pub column: usize,
+pub(super) fn singular(column: usize) -> InputError {
+    input_error!("expected an invertible matrix, found no pivot in column {column} (counted from 0)")
 }
 
 impl Lu {
     /// Factors a matrix.
     ///
     /// # Errors
-    /// [`Singular`].
+    /// [`InputError`].
     ///
     /// # Panics
     /// If the matrix is not square.
-    pub fn new(matrix: &Matrix) -> Result<Self, Singular> {
+    pub fn new(matrix: &Matrix) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");
         let size = matrix.row_count();
         let values = matrix.rows().flatten().copied().collect();
@@ -56,7 +52,7 @@ impl Lu {
     }
 
     /// Factors the columns from `first` to `end`, and exchanges whole rows.
-    fn factor_panel(&mut self, first: usize, end: usize) -> Result<(), Singular> {
+    fn factor_panel(&mut self, first: usize, end: usize) -> Result<(), InputError> {
         let size = self.size;
         for column in first..end {
             let magnitude = |row: usize| self.values[row * size + column].abs();
@@ -66,7 +62,7 @@ impl Lu {
             let pivot_row = &above[column * size..];
             let pivot = pivot_row[column];
             if pivot == 0.0 || !pivot.is_finite() {
-                return Err(Singular { column });
+                return Err(singular(column));
             }
             let inverse = 1.0 / pivot;
             for row in below.chunks_exact_mut(size) {
@@ -163,9 +159,9 @@ mod tests {
     #[test]
     fn a_matrix_without_inverse_is_refused() {
         let m = Matrix::new([2, 2], vec![1.0, 2.0, 2.0, 4.0]).expect("a matrix");
-        assert_eq!(Lu::new(&m).err(), Some(Singular { column: 1 }));
+        assert_eq!(Lu::new(&m).err(), Some(singular(1)));
         let nan = Matrix::new([1, 1], vec![f64::NAN]).expect("a matrix");
-        assert_eq!(Lu::new(&nan).err(), Some(Singular { column: 0 }));
+        assert_eq!(Lu::new(&nan).err(), Some(singular(0)));
     }
 
     /// Sizes on both sides of a panel's, a tile's and a piece's.

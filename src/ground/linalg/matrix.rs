@@ -2,9 +2,9 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use thiserror::Error;
 
 use super::dot;
+use crate::error::{InputError, input_error};
 
 /// Maximum number of rows of a square matrix.
 pub const MAX_SQUARE: usize = 16_384;
@@ -22,29 +22,18 @@ pub struct Matrix {
     values: Vec<f64>,
 }
 
-/// Error of creating a matrix.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MatrixError {
-    /// There are too many elements.
-    #[error(
-        "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found {rows} x {columns}"
-    )]
-    TooLarge { rows: usize, columns: usize },
-    /// The number of values is not rows times columns.
-    #[error("expected {rows} x {columns} values, found {values}")]
-    Count { rows: usize, columns: usize, values: usize },
+pub(super) fn count_error(rows: usize, columns: usize, values: usize) -> InputError {
+    input_error!("expected {rows} x {columns} values, found {values}")
 }
 
 impl Matrix {
     /// Creates a matrix from rows, columns and values.
     ///
     /// # Errors
-    /// [`MatrixError`] if it is too large, or the number of values is wrong.
-    pub fn new([rows, columns]: [usize; 2], values: Vec<f64>) -> Result<Self, MatrixError> {
+    /// [`InputError`] if it is too large, or the number of values is wrong.
+    pub fn new([rows, columns]: [usize; 2], values: Vec<f64>) -> Result<Self, InputError> {
         if elements([rows, columns])? != values.len() {
-            return Err(MatrixError::Count { rows, columns, values: values.len() });
+            return Err(count_error(rows, columns, values.len()));
         }
         Ok(Self { rows, columns, values })
     }
@@ -52,8 +41,8 @@ impl Matrix {
     /// Creates a matrix of zeros.
     ///
     /// # Errors
-    /// [`MatrixError::TooLarge`].
-    pub fn zeros([rows, columns]: [usize; 2]) -> Result<Self, MatrixError> {
+    /// [`InputError`].
+    pub fn zeros([rows, columns]: [usize; 2]) -> Result<Self, InputError> {
         Ok(Self { rows, columns, values: vec![0.0; elements([rows, columns])?] })
     }
 
@@ -123,11 +112,11 @@ impl Matrix {
     /// Product with a matrix, one [`dot`] per element.
     ///
     /// # Errors
-    /// [`MatrixError::TooLarge`].
+    /// [`InputError`].
     ///
     /// # Panics
     /// If the other does not have as many rows as this one has columns.
-    pub fn product(&self, other: &Self) -> Result<Self, MatrixError> {
+    pub fn product(&self, other: &Self) -> Result<Self, InputError> {
         assert_eq!(self.columns, other.rows, "as many rows as columns");
         let (mut product, columns) = (Self::zeros([self.rows, other.columns])?, other.transposed());
         product.par_rows_mut().zip(0..self.rows).for_each(|(into, i)| {
@@ -161,9 +150,14 @@ impl Matrix {
     }
 }
 
-fn elements([rows, columns]: [usize; 2]) -> Result<usize, MatrixError> {
+fn elements([rows, columns]: [usize; 2]) -> Result<usize, InputError> {
     let elements = rows.checked_mul(columns).filter(|&elements| elements <= MAX_ELEMENTS);
-    elements.ok_or(MatrixError::TooLarge { rows, columns })
+    elements.ok_or_else(|| {
+        input_error!(
+            "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found \
+         {rows} x {columns}"
+        )
+    })
 }
 
 #[cfg(test)]
@@ -183,9 +177,16 @@ mod tests {
     #[test]
     fn what_makes_no_matrix_is_refused() {
         let [rows, columns] = [2, 2];
-        assert_eq!(Matrix::new([2, 2], vec![0.0; 3]), Err(MatrixError::Count { rows, columns, values: 3 }));
+        assert_eq!(Matrix::new([2, 2], vec![0.0; 3]), Err(count_error(rows, columns, 3)));
         for size in [[MAX_SQUARE + 1, MAX_SQUARE], [usize::MAX, 2]] {
-            assert_eq!(Matrix::zeros(size), Err(MatrixError::TooLarge { rows: size[0], columns: size[1] }));
+            assert_eq!(
+                Matrix::zeros(size),
+                Err(input_error!(
+                    "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found {} x {}",
+                    size[0],
+                    size[1]
+                ))
+            );
         }
     }
 }

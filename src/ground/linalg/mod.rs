@@ -18,8 +18,8 @@ mod reflection;
 mod tridiagonal;
 
 pub use dot::dot;
-pub use factor::{FactorError, Qr, Svd, SymmetricEigen};
+pub use factor::{Qr, Svd, SymmetricEigen};
 pub use leading::{LeadingEigen, make_largest_positive};
 pub use leading_svd::LeadingSvd;
-pub use lu::{Lu, Singular};
-pub use matrix::{MAX_ELEMENTS, MAX_SQUARE, Matrix, MatrixError};
+pub use lu::Lu;
+pub use matrix::{MAX_ELEMENTS, MAX_SQUARE, Matrix};

@@ -1,6 +1,7 @@
 //! Symmetric tridiagonal matrices: all eigenvalues by implicit QL, and selected eigenvectors.
 
-use super::FactorError;
+use crate::error::InputError;
+use crate::linalg::factor::no_convergence_error;
 
 /// Maximum QL sweeps per eigenvalue before it counts as not converged.
 const MAX_SWEEPS: usize = 100;
@@ -13,7 +14,7 @@ pub(super) struct Rotation {
 }
 
 /// Diagonalises a tridiagonal matrix; returns the rotations in the order of their application.
-pub(super) fn diagonalise(diagonal: &mut [f64], beside: &mut [f64]) -> Result<Vec<Rotation>, FactorError> {
+pub(super) fn diagonalise(diagonal: &mut [f64], beside: &mut [f64]) -> Result<Vec<Rotation>, InputError> {
     let size = diagonal.len();
     let norm = diagonal.iter().chain(beside.iter()).fold(0.0_f64, |norm, value| norm.max(value.abs()));
     let negligible = norm * f64::EPSILON;
@@ -25,7 +26,7 @@ pub(super) fn diagonalise(diagonal: &mut [f64], beside: &mut [f64]) -> Result<Ve
                 break;
             }
             if sweep == MAX_SWEEPS {
-                return Err(FactorError::NoConvergence { rows: size, columns: size });
+                return Err(no_convergence_error(size, size));
             }
             sweep_once(diagonal, beside, first..last, &mut rotations);
         }

@@ -3,8 +3,9 @@
 use image::RgbImage;
 
 use super::display;
-use super::error::PictureError;
 use super::png::rgb8;
+use crate::error::InputError;
+use crate::picture::error::{no_color_error, samples_error};
 
 /// Meaning of a channel's samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,12 +85,12 @@ impl Picture {
     /// Adds a channel.
     ///
     /// # Errors
-    /// [`PictureError::Samples`] unless it has one sample per pixel, and at least one.
-    pub fn with(mut self, name: &str, unit: ChannelUnit, samples: Samples) -> Result<Self, PictureError> {
+    /// [`InputError`] unless it has one sample per pixel, and at least one.
+    pub fn with(mut self, name: &str, unit: ChannelUnit, samples: Samples) -> Result<Self, InputError> {
         let (width, height, found) = (self.width, self.height, samples.len() as u64);
         let expected = u64::from(width) * u64::from(height);
         if found != expected || expected == 0 {
-            return Err(PictureError::Samples { width, height, expected, found });
+            return Err(samples_error(width, height, expected, found));
         }
         self.channels.push(PictureChannel { name: name.to_owned(), unit, samples });
         Ok(self)
@@ -121,12 +122,12 @@ impl Picture {
     /// Returns linear red, green and blue per pixel; for a picture with only the channel `Y`, three times that.
     ///
     /// # Errors
-    /// [`PictureError::NoColor`] if it has neither.
-    pub fn linear(&self) -> Result<Vec<[f32; 3]>, PictureError> {
+    /// [`InputError`] if it has neither.
+    pub fn linear(&self) -> Result<Vec<[f32; 3]>, InputError> {
         let found = || self.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ");
         let color = |names: [&str; 3]| Some([self.floats(names[0])?, self.floats(names[1])?, self.floats(names[2])?]);
         let channels = color(["R", "G", "B"]).or_else(|| color(["Y"; 3]));
-        let channels = channels.ok_or_else(|| PictureError::NoColor { found: found() })?;
+        let channels = channels.ok_or_else(|| no_color_error(&found()))?;
         let linear = |(unit, samples): (ChannelUnit, &[f32]), pixel: usize| match unit {
             ChannelUnit::Srgb => display::decode(f64::from(samples[pixel])) as f32,
             _ => samples[pixel],
@@ -139,7 +140,7 @@ impl Picture {
     ///
     /// # Errors
     /// As [`Picture::linear`].
-    pub fn display(&self, exposure: f64) -> Result<RgbImage, PictureError> {
+    pub fn display(&self, exposure: f64) -> Result<RgbImage, InputError> {
         let pixels = self.linear()?;
         let shown = pixels.iter().map(|pixel| pixel.map(|channel| display::encode(f64::from(channel) * exposure)));
         Ok(rgb8(self.width, self.height, shown))

@@ -1,5 +1,7 @@
 //! Errors of pictures, with the formats and limits that they name.
 
+use crate::error::{InputError, input_error};
+
 /// Maximum side of a picture that is read, in pixels.
 pub const MAX_SIDE: u32 = 16384;
 /// Maximum memory of a decoded picture, in bytes (1 GiB).
@@ -20,42 +22,23 @@ pub enum PictureFormat {
     Exr,
 }
 
-/// Error of creating, writing or reading a picture.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum PictureError {
-    /// The number of samples does not match the picture's size.
-    #[error("expected {expected} samples for a picture of {width}x{height}, found {found}")]
-    #[diagnostic(code(crossbar::picture::samples))]
-    Samples { width: u32, height: u32, expected: u64, found: u64 },
-    /// The encoder failed.
-    #[error("the {format} file cannot be encoded: {reason}")]
-    #[diagnostic(code(crossbar::picture::encode))]
-    Encode { format: PictureFormat, reason: String },
-    /// The first bytes, given in hexadecimal, belong to no supported format.
-    #[error("expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with {found}")]
-    #[diagnostic(code(crossbar::picture::format))]
-    Unrecognized { found: String },
-    /// The picture is too large to be read.
-    #[error(
-        "expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found {width}x{height} with {channels} channels"
-    )]
-    #[diagnostic(code(crossbar::picture::size))]
-    TooLarge { width: u64, height: u64, channels: usize },
-    /// The header claims more pixels than the file's bytes can hold.
-    #[error(
-        "expected at least {least} bytes of a {format} file for the {width}x{height} pixels that its header says, found \
-         {found}: is it cut?"
-    )]
-    #[diagnostic(code(crossbar::picture::claim))]
-    Claim { format: PictureFormat, width: u64, height: u64, least: u64, found: u64 },
-    /// The file is damaged, or a variant of its format that is not supported.
-    #[error("the {format} data cannot be read: {reason}")]
-    #[diagnostic(code(crossbar::picture::decode))]
-    Decode { format: PictureFormat, reason: String },
-    /// The picture has no color channels.
-    #[error("expected channels R, G and B, or Y; found {}", if found.is_empty() { "none" } else { found })]
-    #[diagnostic(code(crossbar::picture::color))]
-    NoColor { found: String },
+pub(super) fn samples_error(width: u32, height: u32, expected: u64, found: u64) -> InputError {
+    input_error!("crossbar::picture::samples" =>
+        "expected {expected} samples for a picture of {width}x{height}, found {found}")
+}
+
+pub(super) fn encode_error(format: PictureFormat, reason: String) -> InputError {
+    input_error!("crossbar::picture::encode" => "the {format} file cannot be encoded: {reason}")
+}
+
+pub(super) fn decode_error(format: PictureFormat, reason: String) -> InputError {
+    input_error!("crossbar::picture::decode" => "the {format} data cannot be read: {reason}")
+}
+
+/// Code of the error of a picture without color channels.
+pub const NO_COLOR: &str = "crossbar::picture::color";
+
+pub(super) fn no_color_error(found: &str) -> InputError {
+    input_error!("crossbar::picture::color" =>
+        "expected channels R, G and B, or Y; found {}", if found.is_empty() { "none" } else { found })
 }

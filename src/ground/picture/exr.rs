@@ -11,16 +11,18 @@ use exr::prelude::{
 };
 
 use super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
-use super::error::{PictureError, PictureFormat};
+use super::error::PictureFormat;
 use super::limits::{PictureSize, require_length, require_size};
 use super::notes::PictureNotes;
+use crate::error::InputError;
+use crate::picture::error::{decode_error, encode_error};
 
 /// Encodes a picture as an EXR file with its named channels, losslessly compressed. The same picture gives the same
 /// bytes.
 ///
 /// # Errors
-/// [`PictureError::Encode`] if it has no channels, or a name cannot be represented.
-pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
+/// [`InputError`] if it has no channels, or a name cannot be represented.
+pub fn exr(picture: &Picture) -> Result<Vec<u8>, InputError> {
     exr_with_notes(picture, &PictureNotes::default())
 }
 
@@ -28,8 +30,8 @@ pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
 ///
 /// # Errors
 /// As [`exr()`].
-pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>, PictureError> {
-    let refused = |reason: String| PictureError::Encode { format: PictureFormat::Exr, reason };
+pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>, InputError> {
+    let refused = |reason: String| encode_error(PictureFormat::Exr, reason);
     let channel = |channel: &PictureChannel| {
         let name = Text::new_or_none(&channel.name)
             .ok_or_else(|| refused("a channel's name must be plain ASCII".to_owned()))?;
@@ -39,7 +41,7 @@ pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>
         };
         Ok(AnyChannel::new(name, samples))
     };
-    let list: SmallVec<_> = picture.channels().iter().map(channel).collect::<Result<_, PictureError>>()?;
+    let list: SmallVec<_> = picture.channels().iter().map(channel).collect::<Result<_, InputError>>()?;
     if list.is_empty() || picture.width() == 0 || picture.height() == 0 {
         return Err(refused("the picture has no samples".to_owned()));
     }
@@ -67,12 +69,12 @@ fn text(text: &str) -> Option<Text> {
     Text::new_or_none(text.chars().map(escaped).collect::<String>()).filter(|_| !text.is_empty())
 }
 
-fn broken(error: exr::error::Error) -> PictureError {
-    PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() }
+fn broken(error: exr::error::Error) -> InputError {
+    decode_error(PictureFormat::Exr, error.to_string())
 }
 
 /// Returns the size of the window that takes the most memory, of pixels or of display, from the headers.
-pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, PictureError> {
+pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, InputError> {
     /// Bytes of a chunk besides its data: entry in the offset table, coordinate and length.
     const PER_CHUNK: u64 = 16;
     let meta = MetaData::read_from_buffered(bytes, true).map_err(broken)?;
@@ -96,7 +98,7 @@ pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, PictureError> {
 /// The first layer of an EXR file whose [`size`] is right, in its largest resolution: the reader takes memory for what
 /// the header says. Halves become singles. The picture is the display window: where the data window has no pixels,
 /// samples are 0, and pixels outside the display window are left out.
-pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
+pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -116,7 +118,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
             format!("{}x{} at {}, {}", size.width(), size.height(), position.x(), position.y())
         });
         let reason = format!("no pixel of the data window ({data}) lies in the display window ({display})");
-        return Err(PictureError::Decode { format: PictureFormat::Exr, reason });
+        return Err(decode_error(PictureFormat::Exr, reason));
     }
     // Within the limit, which is below 2^32.
     let mut picture = Picture::new(windows.display.size.width() as u32, windows.display.size.height() as u32);

@@ -4,18 +4,20 @@ use image::codecs::hdr::HdrEncoder;
 use image::{ExtendedColorType, ImageEncoder as _};
 
 use super::channels::Picture;
-use super::error::{PictureError, PictureFormat};
+use super::error::PictureFormat;
+use crate::error::InputError;
+use crate::picture::error::encode_error;
 
 /// Encodes the color of a picture as a Radiance HDR file. Values below 0 become 0.
 ///
 /// # Errors
-/// [`PictureError::NoColor`], or [`PictureError::Encode`] if the encoder fails.
-pub fn hdr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
+/// [`InputError`] if the encoder fails.
+pub fn hdr(picture: &Picture) -> Result<Vec<u8>, InputError> {
     let pixels = picture.linear()?;
     let bytes: Vec<u8> = pixels.as_flattened().iter().flat_map(|sample| sample.max(0.0).to_ne_bytes()).collect();
     let mut file = Vec::new();
     HdrEncoder::new(&mut file)
         .write_image(&bytes, picture.width(), picture.height(), ExtendedColorType::Rgb32F)
-        .map_err(|error| PictureError::Encode { format: PictureFormat::Hdr, reason: error.to_string() })?;
+        .map_err(|error| encode_error(PictureFormat::Hdr, error.to_string()))?;
     Ok(file)
 }

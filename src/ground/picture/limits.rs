@@ -2,7 +2,8 @@
 
 use image::Limits;
 
-use super::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureError, PictureFormat};
+use super::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureFormat};
+use crate::error::{InputError, ensure, input_error};
 
 /// The size of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,11 +33,11 @@ pub(super) fn limits() -> Limits {
 }
 
 /// Rejects a size that would take too much memory.
-pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_bytes: u64) -> Result<(), PictureError> {
+pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_bytes: u64) -> Result<(), InputError> {
     let bytes = width.saturating_mul(height).saturating_mul(channels as u64).saturating_mul(sample_bytes);
-    if width.max(height) > u64::from(MAX_SIDE) || bytes > MAX_DECODED_BYTES {
-        return Err(PictureError::TooLarge { width, height, channels });
-    }
+    ensure!(width.max(height) <= u64::from(MAX_SIDE) && bytes <= MAX_DECODED_BYTES, "crossbar::picture::size" =>
+        "expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found \
+         {width}x{height} with {channels} channels");
     Ok(())
 }
 
@@ -47,7 +48,13 @@ pub(super) fn require_length(
     [width, height]: [u64; 2],
     least: u64,
     found: usize,
-) -> Result<(), PictureError> {
+) -> Result<(), InputError> {
     let found = found as u64;
-    if found < least { Err(PictureError::Claim { format, width, height, least, found }) } else { Ok(()) }
+    if found < least {
+        Err(input_error!("crossbar::picture::claim" =>
+            "expected at least {least} bytes of a {format} file for the {width}x{height} pixels that its header \
+             says, found {found}: is it cut?"))
+    } else {
+        Ok(())
+    }
 }

@@ -17,7 +17,7 @@ mod png;
 mod read;
 
 pub use self::channels::{ChannelUnit, Picture, PictureChannel, Samples};
-pub use self::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureError, PictureFormat};
+pub use self::error::{MAX_DECODED_BYTES, MAX_SIDE, NO_COLOR, PictureFormat};
 pub use self::exr::{exr, exr_with_notes};
 pub use self::hdr::hdr;
 pub use self::limits::PictureSize;

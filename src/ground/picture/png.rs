@@ -5,21 +5,23 @@ use std::ops::Deref;
 
 use image::{EncodableLayout, ImageBuffer, ImageFormat, Pixel, PixelWithColorType, Rgb, RgbImage};
 
-use super::error::{PictureError, PictureFormat};
+use super::error::PictureFormat;
 use super::notes::PictureNotes;
+use crate::error::InputError;
+use crate::picture::error::{encode_error, samples_error};
 
 /// Creates an image from its samples, pixel by pixel, rows from the top.
 ///
 /// # Errors
-/// [`PictureError::Samples`] if their number does not match the size, or there are none.
+/// [`InputError`] if their number does not match the size, or there are none.
 pub fn buffer<P: Pixel>(
     width: u32,
     height: u32,
     samples: Vec<P::Subpixel>,
-) -> Result<ImageBuffer<P, Vec<P::Subpixel>>, PictureError> {
+) -> Result<ImageBuffer<P, Vec<P::Subpixel>>, InputError> {
     let (pixels, found) = (u64::from(width) * u64::from(height), samples.len() as u64);
     let expected = pixels.saturating_mul(u64::from(P::CHANNEL_COUNT));
-    let refused = PictureError::Samples { width, height, expected, found };
+    let refused = samples_error(width, height, expected, found);
     if found == expected && expected > 0 {
         ImageBuffer::from_vec(width, height, samples).ok_or(refused)
     } else {
@@ -37,16 +39,15 @@ pub fn rgb8(width: u32, height: u32, pixels: impl IntoIterator<Item = [u8; 3]>) 
 /// Encodes an image as a PNG file.
 ///
 /// # Errors
-/// [`PictureError::Encode`] if it has no pixels.
-pub fn png<P, C>(image: &ImageBuffer<P, C>) -> Result<Vec<u8>, PictureError>
+/// [`InputError`] if it has no pixels.
+pub fn png<P, C>(image: &ImageBuffer<P, C>) -> Result<Vec<u8>, InputError>
 where
     P: Pixel + PixelWithColorType,
     [P::Subpixel]: EncodableLayout,
     C: Deref<Target = [P::Subpixel]>,
 {
     let mut file = Cursor::new(Vec::new());
-    let refused =
-        |error: image::ImageError| PictureError::Encode { format: PictureFormat::Png, reason: error.to_string() };
+    let refused = |error: image::ImageError| encode_error(PictureFormat::Png, error.to_string());
     image.write_to(&mut file, ImageFormat::Png).map_err(refused)?;
     Ok(file.into_inner())
 }
@@ -54,11 +55,10 @@ where
 /// Encodes an image as a PNG file with notes as international text.
 ///
 /// # Errors
-/// [`PictureError::Encode`] if it has no pixels.
-pub fn png_with_notes(image: &RgbImage, notes: &PictureNotes) -> Result<Vec<u8>, PictureError> {
+/// [`InputError`] if it has no pixels.
+pub fn png_with_notes(image: &RgbImage, notes: &PictureNotes) -> Result<Vec<u8>, InputError> {
     let mut file = Vec::new();
-    let refused =
-        |error: ::png::EncodingError| PictureError::Encode { format: PictureFormat::Png, reason: error.to_string() };
+    let refused = |error: ::png::EncodingError| encode_error(PictureFormat::Png, error.to_string());
     let mut encoder = ::png::Encoder::new(&mut file, image.width(), image.height());
     encoder.set_color(::png::ColorType::Rgb);
     encoder.set_depth(::png::BitDepth::Eight);

@@ -7,10 +7,12 @@ use image::codecs::hdr::HdrDecoder;
 use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageFormat, ImageReader, Rgba};
 
 use super::channels::{ChannelUnit, Picture, Samples};
-use super::error::{PictureError, PictureFormat};
+use super::error::PictureFormat;
 use super::exr;
 use super::limits::{PictureSize, limits, require_length, require_size};
 use crate::elementary::pow;
+use crate::error::{InputError, input_error};
+use crate::picture::error::decode_error;
 
 /// First bytes of Radiance HDR files, and the variant that other programs write.
 const RADIANCE: &[u8] = b"#?RADIANCE";
@@ -34,9 +36,9 @@ impl PictureSize {
     /// is that of the largest layer.
     ///
     /// # Errors
-    /// [`PictureError`] for a header that is broken, for more than the limits, and for more pixels than so many bytes
+    /// [`InputError`] for a header that is broken, for more than the limits, and for more pixels than so many bytes
     /// can stand for.
-    pub fn of(bytes: &[u8]) -> Result<Self, PictureError> {
+    pub fn of(bytes: &[u8]) -> Result<Self, InputError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::size(bytes),
             Some(PictureFormat::Png) => size_of(bytes, PictureFormat::Png),
@@ -44,7 +46,8 @@ impl PictureSize {
             None => {
                 let hex: Vec<String> = bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
                 let found = if hex.is_empty() { "nothing".to_owned() } else { hex.join(" ") };
-                Err(PictureError::Unrecognized { found })
+                Err(input_error!("crossbar::picture::format" =>
+                    "expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with {found}"))
             }
         }
     }
@@ -57,8 +60,8 @@ impl Picture {
     /// read, as large as the display window, and 0 where the layer has no pixels.
     ///
     /// # Errors
-    /// [`PictureError`], those of [`PictureSize::of`] before any pixel is decoded.
-    pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
+    /// [`InputError`], those of [`PictureSize::of`] before any pixel is decoded.
+    pub fn decode(bytes: &[u8]) -> Result<Self, InputError> {
         PictureSize::of(bytes)?;
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::decode(bytes),
@@ -81,8 +84,8 @@ impl Picture {
 /// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, whatever light they stand for.
 ///
 /// # Errors
-/// [`PictureError`], those of [`PictureSize::of`] before any pixel is decoded.
-pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, PictureError> {
+/// [`InputError`], those of [`PictureSize::of`] before any pixel is decoded.
+pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, InputError> {
     size_of(bytes, PictureFormat::Png)?;
     Ok(decoded(bytes, PictureFormat::Png)?.into_rgba16())
 }
@@ -108,8 +111,8 @@ fn with_known_header(bytes: &[u8]) -> Cow<'_, [u8]> {
 
 /// Factors by which radiance was multiplied, per channel, before it was written: the products of all EXPOSURE and
 /// COLORCORR lines of a Radiance HDR file.
-fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
-    let refused = |reason: String| PictureError::Decode { format: PictureFormat::Hdr, reason };
+fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], InputError> {
+    let refused = |reason: String| decode_error(PictureFormat::Hdr, reason);
     let header = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| refused(error.to_string()))?.metadata();
     // Ward's tools write none; others say with it that pixels are not linear, each by a rule of its own.
     let is_curve = |value: &str| value.trim().parse() != Ok(1.0);
@@ -125,8 +128,8 @@ fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
     }
 }
 
-fn refused(format: PictureFormat) -> impl Fn(image::ImageError) -> PictureError {
-    move |error| PictureError::Decode { format, reason: error.to_string() }
+fn refused(format: PictureFormat) -> impl Fn(image::ImageError) -> InputError {
+    move |error| decode_error(format, error.to_string())
 }
 
 fn reader(bytes: &[u8], format: PictureFormat) -> ImageReader<Cursor<&[u8]>> {
@@ -136,7 +139,7 @@ fn reader(bytes: &[u8], format: PictureFormat) -> ImageReader<Cursor<&[u8]>> {
 
 /// Reads and checks the size of a PNG or HDR file: a decoder may work long before it fails, and does not report the
 /// size.
-fn size_of(bytes: &[u8], format: PictureFormat) -> Result<PictureSize, PictureError> {
+fn size_of(bytes: &[u8], format: PictureFormat) -> Result<PictureSize, InputError> {
     /// Maximum expansion of Deflate, in bytes per byte.
     const DEFLATE: u64 = 1032;
     /// Bytes of the shortest row of a Radiance HDR file: one repeated pixel.
@@ -152,7 +155,7 @@ fn size_of(bytes: &[u8], format: PictureFormat) -> Result<PictureSize, PictureEr
 }
 
 /// Decodes a file whose size has been checked.
-fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, PictureError> {
+fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, InputError> {
     let mut reader = reader(bytes, format);
     reader.limits(limits());
     reader.decode().map_err(refused(format))
@@ -161,8 +164,8 @@ fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, PictureE
 /// Exponent by which samples of a PNG file become linear light; `None` for sRGB's curve, which also holds for files
 /// that do not say. Of the chunks that say it, cICP goes before sRGB, and that before gAMA. ICC profiles and
 /// chromaticities are not looked at.
-fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, PictureError> {
-    let refused = |reason: String| PictureError::Decode { format: PictureFormat::Png, reason };
+fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, InputError> {
+    let refused = |reason: String| decode_error(PictureFormat::Png, reason);
     let reader = ::png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|error| refused(error.to_string()))?;
     let info = reader.info();
     let points = info.coding_independent_code_points;
@@ -186,7 +189,7 @@ fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, PictureError> {
 }
 
 /// Converts codes k of n bits to k / (2^n - 1), and colors to its power where there is an exponent.
-fn from_png(image: &DynamicImage, exponent: Option<f64>) -> Result<Picture, PictureError> {
+fn from_png(image: &DynamicImage, exponent: Option<f64>) -> Result<Picture, InputError> {
     // k / 255 is 257 k / 65535, to the bit.
     let (alpha, image) = (image.color().has_alpha(), image.to_rgba16());
     let color = if exponent.is_some() { ChannelUnit::Linear } else { ChannelUnit::Srgb };

@@ -1,8 +1,8 @@
 //! Pinhole camera.
 
 use glam::{DMat3, DVec3};
-use thiserror::Error;
 
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Ray, UnitFrame};
 
@@ -32,23 +32,11 @@ pub struct Camera {
     up: DVec3,
 }
 
-/// Error of a camera's parameters.
-#[non_exhaustive]
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum CameraError {
-    /// A component of `eye`, `target` or `up` is not finite.
-    #[error("expected finite figures for {what}, found {found:?}")]
-    NotFinite { what: &'static str, found: [f32; 3] },
-    /// Eye and target are one point, or `up` is zero or runs along the view.
-    #[error("eye, target and up span no picture: expected a target other than the eye, and an up not along the view")]
-    Flat,
-    /// The tangent of half the field of view is not in (0, 1e6].
-    #[error("expected a tangent of half the vertical field of view above 0 and up to 1000000, found {found}")]
-    FieldOfView { found: f32 },
-    /// The picture has no pixels, or more than 2^30.
-    #[error("expected a picture of 1 to 2^30 pixels, found {width}x{height}")]
-    Size { width: u32, height: u32 },
+fn flat_error() -> InputError {
+    input_error!(
+        "eye, target and up span no picture: expected a target other than the eye, and an up not \
+         along the view"
+    )
 }
 
 impl Camera {
@@ -56,7 +44,7 @@ impl Camera {
     /// tangent of half the vertical field of view; pixels are square.
     ///
     /// # Errors
-    /// [`CameraError`] for parameters out of range.
+    /// [`InputError`] for parameters out of range.
     pub fn new(
         eye: [f32; 3],
         target: [f32; 3],
@@ -64,26 +52,27 @@ impl Camera {
         tan_half_height: f32,
         width: u32,
         height: u32,
-    ) -> Result<Self, CameraError> {
+    ) -> Result<Self, InputError> {
         // Checked first, because callers derive the eye from it.
         if !(tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT) {
-            return Err(CameraError::FieldOfView { found: tan_half_height });
+            return Err(input_error!(
+                "expected a tangent of half the vertical field of view above 0 and up to 1000000, found \
+         {tan_half_height}"
+            ));
         }
         for (what, found) in [("eye", eye), ("target", target), ("up", up)] {
-            if !found.iter().all(|value| value.is_finite()) {
-                return Err(CameraError::NotFinite { what, found });
-            }
+            ensure!(found.iter().all(|value| value.is_finite()), "expected finite figures for {what}, found {found:?}");
         }
         if width == 0 || height == 0 || u64::from(width) * u64::from(height) > 1 << 30 {
-            return Err(CameraError::Size { width, height });
+            return Err(input_error!("expected a picture of 1 to 2^30 pixels, found {width}x{height}"));
         }
         let [from, to, up] = [eye, target, up].map(wide);
-        let forward = unit(to - from).ok_or(CameraError::Flat)?;
-        let sideways = forward.cross(unit(up).ok_or(CameraError::Flat)?);
+        let forward = unit(to - from).ok_or_else(flat_error)?;
+        let sideways = forward.cross(unit(up).ok_or_else(flat_error)?);
         if sideways.length() < MIN_SINE {
-            return Err(CameraError::Flat);
+            return Err(flat_error());
         }
-        let right = unit(sideways).ok_or(CameraError::Flat)?;
+        let right = unit(sideways).ok_or_else(flat_error)?;
         let up = right.cross(forward);
         let half_height = f64::from(tan_half_height);
         let half_width = half_height * f64::from(width) / f64::from(height);
@@ -94,8 +83,8 @@ impl Camera {
     /// to the right. The teapot fills a square picture.
     ///
     /// # Errors
-    /// [`CameraError::Size`] for a picture without pixels or beyond 2^30.
-    pub fn teapot(width: u32, height: u32) -> Result<Self, CameraError> {
+    /// [`InputError`] for a picture without pixels or beyond 2^30.
+    pub fn teapot(width: u32, height: u32) -> Result<Self, InputError> {
         Self::new([2.125, -5.625, 3.875], [0.625, 0.0, 1.3125], [0.0, 0.0, 1.0], 0.5625, width, height)
     }
 
@@ -251,11 +240,19 @@ mod tests {
     #[test]
     fn what_makes_no_picture_is_refused() {
         let camera = |target, up, tangent, width| Camera::new([1.0; 3], target, up, tangent, width, 8);
-        assert_eq!(camera([1.0; 3], [0.0, 0.0, 1.0], 0.5, 8), Err(CameraError::Flat));
-        assert_eq!(camera([1.0, 1.0, 2.0], [0.0, 0.0, 1.0], 0.5, 8), Err(CameraError::Flat));
-        assert_eq!(camera([0.0; 3], [0.0; 3], 0.5, 8), Err(CameraError::Flat));
-        assert!(matches!(camera([0.0; 3], [0.0, 0.0, 1.0], 0.0, 8), Err(CameraError::FieldOfView { .. })));
-        assert!(matches!(camera([0.0; 3], [0.0, 0.0, 1.0], 0.5, 0), Err(CameraError::Size { .. })));
-        assert!(matches!(camera([0.0; 3], [f32::NAN; 3], 0.5, 8), Err(CameraError::NotFinite { what: "up", .. })));
+        assert_eq!(camera([1.0; 3], [0.0, 0.0, 1.0], 0.5, 8), Err(flat_error()));
+        assert_eq!(camera([1.0, 1.0, 2.0], [0.0, 0.0, 1.0], 0.5, 8), Err(flat_error()));
+        assert_eq!(camera([0.0; 3], [0.0; 3], 0.5, 8), Err(flat_error()));
+        assert!(camera([0.0; 3], [0.0, 0.0, 1.0], 0.0, 8).is_err_and(|error| {
+            error.to_string().contains("expected a tangent of half the vertical field of view above 0 and up")
+        }));
+        assert!(
+            camera([0.0; 3], [0.0, 0.0, 1.0], 0.5, 0)
+                .is_err_and(|error| error.to_string().contains("expected a picture of 1 to 2^30 pixels, found "))
+        );
+        assert!(
+            camera([0.0; 3], [f32::NAN; 3], 0.5, 8)
+                .is_err_and(|error| error.to_string().contains("expected finite figures for up, found "))
+        );
     }
 }

@@ -10,6 +10,6 @@ pub mod camera;
 pub mod material;
 pub mod model;
 
-pub use camera::{Camera, CameraError};
+pub use camera::Camera;
 pub use material::{Color, Material, Surface};
-pub use model::{PointLight, Scene, SceneError, View};
+pub use model::{PointLight, Scene, View};

@@ -1,8 +1,7 @@
 //! Scenes: triangles with materials and normals, lights, and named views.
 
-use thiserror::Error;
-
-use super::{Camera, CameraError, Color, Material};
+use super::{Camera, Color, Material};
+use crate::error::{InputError, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
 
@@ -35,23 +34,14 @@ impl View {
     /// Creates the camera of this view for a picture of `width` x `height` pixels.
     ///
     /// # Errors
-    /// [`CameraError`] for parameters out of range.
-    pub fn camera(&self, width: u32, height: u32) -> Result<Camera, CameraError> {
+    /// [`InputError`] for parameters out of range.
+    pub fn camera(&self, width: u32, height: u32) -> Result<Camera, InputError> {
         Camera::new(self.eye, self.target, self.up, self.tan_half_height, width, height)
     }
 }
 
-/// Error of a scene's parts.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum SceneError {
-    /// The number of materials or normals is not that of the triangles.
-    #[error("expected {triangles} {what}, one a triangle, found {found}")]
-    Count { what: &'static str, triangles: usize, found: usize },
-    /// A triangle's material index is out of range.
-    #[error("triangle {triangle} has material {material}, expected one below {materials} (counted from 0)")]
-    Material { triangle: usize, material: u32, materials: usize },
+fn count_error(what: &'static str, triangles: usize, found: usize) -> InputError {
+    input_error!("expected {triangles} {what}, one a triangle, found {found}")
 }
 
 /// Triangles with materials, normals, lights and views.
@@ -73,23 +63,26 @@ impl Scene {
     /// zero for the triangle's own; an empty list makes all triangles flat.
     ///
     /// # Errors
-    /// [`SceneError`] if the lists are inconsistent.
+    /// [`InputError`] if the lists are inconsistent.
     pub fn new(
         mesh: Mesh,
         materials: Vec<Material>,
         material_of: Vec<u32>,
         normals: Vec<[[f32; 3]; 3]>,
-    ) -> Result<Self, SceneError> {
+    ) -> Result<Self, InputError> {
         let triangles = mesh.len();
         if material_of.len() != triangles {
-            return Err(SceneError::Count { what: "materials", triangles, found: material_of.len() });
+            return Err(count_error("materials", triangles, material_of.len()));
         }
         if !normals.is_empty() && normals.len() != triangles {
-            return Err(SceneError::Count { what: "normals", triangles, found: normals.len() });
+            return Err(count_error("normals", triangles, normals.len()));
         }
         if let Some(triangle) = material_of.iter().position(|&m| m as usize >= materials.len()) {
             let material = material_of[triangle];
-            return Err(SceneError::Material { triangle, material, materials: materials.len() });
+            return Err(input_error!(
+                "triangle {triangle} has material {material}, expected one below {} (counted from 0)",
+                materials.len()
+            ));
         }
         // One representation for scenes without smooth normals.
         let normals = if normals.iter().all(|corners| *corners == [[0.0; 3]; 3]) { Vec::new() } else { normals };
@@ -185,9 +178,9 @@ mod tests {
         let white = vec![Material::diffuse("white", [0.5; 3])];
         let scene = |material_of, normals| Scene::new(mesh.clone(), white.clone(), material_of, normals);
         assert!(scene(vec![0], Vec::new()).is_ok());
-        let count = SceneError::Count { what: "materials", triangles: 1, found: 2 };
+        let count = count_error("materials", 1, 2);
         assert_eq!(scene(vec![0, 0], Vec::new()), Err(count));
-        let wrong = SceneError::Material { triangle: 0, material: 1, materials: 1 };
+        let wrong = input_error!("triangle 0 has material 1, expected one below 1 (counted from 0)");
         assert_eq!(scene(vec![1], Vec::new()), Err(wrong));
         assert!(scene(vec![0], vec![[[0.0; 3]; 3]; 2]).is_err());
     }

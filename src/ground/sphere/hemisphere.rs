@@ -3,25 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::harmonics::{function_band, function_count, function_index, harmonics};
 use super::singular::singular_values;
+use crate::error::{InputError, ensure};
 use crate::linalg::{Matrix, SymmetricEigen, dot};
 use crate::quadrature;
-
-/// Error of building a Gram matrix.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum HemisphereError {
-    /// A dropped function does not exist, or was dropped twice.
-    #[error("expected distinct functions below {functions} to drop, found {found}")]
-    Dropped { functions: usize, found: usize },
-    /// No functions are left.
-    #[error("expected functions that are kept, found all {functions} dropped")]
-    Empty { functions: usize },
-}
 
 /// Gram matrix A of harmonics over the hemisphere, A_ik the integral of y_i y_k, with its inverse and spectrum.
 ///
@@ -51,23 +38,21 @@ impl Hemisphere {
     /// index 2, of order 5.
     ///
     /// # Errors
-    /// [`HemisphereError`] if a dropped function is unknown or named twice, or nothing is left.
+    /// [`InputError`] if a dropped function is unknown or named twice, or nothing is left.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
-    pub fn without(order: usize, dropped: &[usize]) -> Result<Self, HemisphereError> {
+    pub fn without(order: usize, dropped: &[usize]) -> Result<Self, InputError> {
         let count = function_count(order);
         let mut kept = vec![true; count];
         for &found in dropped {
-            if !kept.get(found).is_some_and(|&kept| kept) {
-                return Err(HemisphereError::Dropped { functions: count, found });
-            }
+            ensure!(kept.get(found).is_some_and(|&kept| kept), "crossbar::prt::functions" =>
+                "expected distinct functions below {count} to drop, found {found}");
             kept[found] = false;
         }
         let functions: Vec<usize> = (0..count).filter(|&index| kept[index]).collect();
-        if functions.is_empty() {
-            return Err(HemisphereError::Empty { functions: count });
-        }
+        ensure!(!functions.is_empty(), "crossbar::prt::functions" =>
+            "expected functions that are kept, found all {count} dropped");
         Ok(Self::of(order, functions))
     }
 
@@ -195,8 +180,8 @@ mod tests {
     #[test]
     fn what_cannot_be_dropped_is_refused() {
         let error = |dropped: &[usize]| Hemisphere::without(2, dropped).map(|_| ()).expect_err("refused");
-        assert_eq!(error(&[4]), HemisphereError::Dropped { functions: 4, found: 4 });
-        assert_eq!(error(&[1, 1]), HemisphereError::Dropped { functions: 4, found: 1 });
-        assert_eq!(error(&[0, 1, 2, 3]), HemisphereError::Empty { functions: 4 });
+        assert_eq!(error(&[4]).to_string(), "expected distinct functions below 4 to drop, found 4");
+        assert_eq!(error(&[1, 1]).to_string(), "expected distinct functions below 4 to drop, found 1");
+        assert_eq!(error(&[0, 1, 2, 3]).to_string(), "expected functions that are kept, found all 4 dropped");
     }
 }

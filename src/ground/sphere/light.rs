@@ -3,35 +3,13 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::extremes::Extremes;
 use super::harmonics::{MAX_ORDER, function_count, harmonics, order_of};
 use super::rotation::HarmonicRotation;
 use super::window::BandWindow;
 use crate::elementary::sin_cos;
-
-/// Error of a light's parameters.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum LightError {
-    /// The direction is zero or not finite.
-    #[error("expected a direction of finite length above 0, found {found}")]
-    Direction { found: DVec3 },
-    /// The radius of a disk is out of range.
-    #[error("expected an angular radius above 0 and up to pi radians, found {found}")]
-    Radius { found: f64 },
-    /// A color is not finite.
-    #[error("expected finite red, green and blue, found {found:?}")]
-    Color { found: [f64; 3] },
-    /// The sun is not above the horizon.
-    #[error("expected a sun above the horizon, z > 0, found {found}")]
-    Sunset { found: DVec3 },
-    /// The number of coefficients is not that of an order.
-    #[error("expected n^2 coefficients in each of three channels, n from 1 to {MAX_ORDER}, found {found:?}")]
-    Coefficients { found: [usize; 3] },
-}
+use crate::error::{InputError, ensure, input_error};
 
 /// Distant radiance as coefficients of an order: red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,11 +29,12 @@ impl HarmonicLight {
     /// Creates a light from coefficients by channel.
     ///
     /// # Errors
-    /// [`LightError::Coefficients`] unless all channels have the n^2 of an order.
-    pub fn new(channels: [Vec<f64>; 3]) -> Result<Self, LightError> {
+    /// [`InputError`] unless all channels have the n^2 of an order.
+    pub fn new(channels: [Vec<f64>; 3]) -> Result<Self, InputError> {
         let found = channels.each_ref().map(Vec::len);
         let fits = (1..=MAX_ORDER).any(|order| found == [order * order; 3]);
-        if fits { Ok(Self { channels }) } else { Err(LightError::Coefficients { found }) }
+        ensure!(fits, "expected n^2 coefficients in each of three channels, n from 1 to {MAX_ORDER}, found {found:?}");
+        Ok(Self { channels })
     }
 
     /// Creates a light from coefficients whose number is that of an order.
@@ -64,22 +43,23 @@ impl HarmonicLight {
     }
 
     /// Creates a light from a function times a color.
-    pub(super) fn colored(function: &[f64], color: [f64; 3]) -> Result<Self, LightError> {
+    pub(super) fn colored(function: &[f64], color: [f64; 3]) -> Result<Self, InputError> {
         let found = color;
-        if !color.iter().all(|channel| channel.is_finite()) {
-            return Err(LightError::Color { found });
-        }
+        ensure!(
+            color.iter().all(|channel| channel.is_finite()),
+            "expected finite red, green and blue, found {found:?}"
+        );
         Ok(Self { channels: color.map(|channel| function.iter().map(|value| channel * value).collect()) })
     }
 
     /// Creates a light with constant radiance.
     ///
     /// # Errors
-    /// [`LightError::Color`] if a channel is not finite.
+    /// [`InputError`] if a channel is not finite.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
-    pub fn constant(order: usize, radiance: [f64; 3]) -> Result<Self, LightError> {
+    pub fn constant(order: usize, radiance: [f64; 3]) -> Result<Self, InputError> {
         let mut function = vec![0.0; function_count(order)];
         function[0] = (4.0 * PI).sqrt();
         Self::colored(&function, radiance)
@@ -89,13 +69,13 @@ impl HarmonicLight {
     /// `radius` radians; black elsewhere. In closed form.
     ///
     /// # Errors
-    /// [`LightError`] if the direction is zero, the radius is not above 0 and up to pi, or a channel is not finite.
+    /// [`InputError`] if the direction is zero, the radius is not above 0 and up to pi, or a channel is not finite.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
-    pub fn disk(order: usize, direction: DVec3, radius: f64, radiance: [f64; 3]) -> Result<Self, LightError> {
+    pub fn disk(order: usize, direction: DVec3, radius: f64, radiance: [f64; 3]) -> Result<Self, InputError> {
         if !(radius > 0.0 && radius <= PI) {
-            return Err(LightError::Radius { found: radius });
+            return Err(input_error!("expected an angular radius above 0 and up to pi radians, found {radius}"));
         }
         let mut function = vec![0.0; function_count(order)];
         harmonics(order, unit(direction)?, &mut function);
@@ -176,13 +156,10 @@ impl HarmonicLight {
 }
 
 /// Normalises a direction.
-pub(super) fn unit(direction: DVec3) -> Result<DVec3, LightError> {
+pub(super) fn unit(direction: DVec3) -> Result<DVec3, InputError> {
     let length = direction.length();
-    if length > 0.0 && length.is_finite() {
-        Ok(direction / length)
-    } else {
-        Err(LightError::Direction { found: direction })
-    }
+    ensure!(length > 0.0 && length.is_finite(), "expected a direction of finite length above 0, found {direction}");
+    Ok(direction / length)
 }
 
 /// Integrals of P_0 to P_(n-1) from cos(radius) to 1.
@@ -230,14 +207,32 @@ mod tests {
     #[test]
     fn what_is_no_light_is_refused() {
         let disk = |direction, radius, color| HarmonicLight::disk(3, direction, radius, color).expect_err("refused");
-        assert!(matches!(disk(DVec3::ZERO, 1.0, [1.0; 3]), LightError::Direction { .. }));
-        assert!(matches!(disk(DVec3::NAN, 1.0, [1.0; 3]), LightError::Direction { .. }));
+        assert!(
+            disk(DVec3::ZERO, 1.0, [1.0; 3])
+                .to_string()
+                .contains("expected a direction of finite length above 0, found ")
+        );
+        assert!(
+            disk(DVec3::NAN, 1.0, [1.0; 3])
+                .to_string()
+                .contains("expected a direction of finite length above 0, found ")
+        );
         for radius in [0.0, 3.2, f64::NAN] {
-            assert!(matches!(disk(DVec3::Z, radius, [1.0; 3]), LightError::Radius { .. }));
+            assert!(
+                disk(DVec3::Z, radius, [1.0; 3])
+                    .to_string()
+                    .contains("expected an angular radius above 0 and up to pi radians, found ")
+            );
         }
-        assert!(matches!(disk(DVec3::Z, 1.0, [f64::NAN; 3]), LightError::Color { .. }));
+        assert!(disk(DVec3::Z, 1.0, [f64::NAN; 3]).to_string().contains("expected finite red, green and blue, found "));
         let ragged = HarmonicLight::new([vec![0.0; 4], vec![0.0; 4], vec![0.0; 9]]);
-        assert_eq!(ragged, Err(LightError::Coefficients { found: [4, 4, 9] }));
+        assert_eq!(
+            ragged,
+            Err(input_error!(
+                "expected n^2 coefficients in each of three channels, n from 1 to {MAX_ORDER}, found {:?}",
+                [4, 4, 9]
+            ))
+        );
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::environment::{EnvironmentError, read};
+use super::environment::read;
 use super::layout::LayoutGrid;
+use crate::error::InputError;
 use crate::picture::Picture;
 
 /// Picture of the whole sphere for lookups of radiance by direction: constant over each pixel.
@@ -22,8 +23,8 @@ impl EnvironmentPicture {
     /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read.
     ///
     /// # Errors
-    /// [`EnvironmentError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
-    pub fn new(picture: &Picture) -> Result<Self, EnvironmentError> {
+    /// [`InputError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
+    pub fn new(picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self { grid, pixels })
     }

@@ -30,19 +30,18 @@ mod texels;
 mod window;
 
 pub use cube::{CUBE_FACES, CubeMap, FaceAxes};
-pub use environment::EnvironmentError;
 pub use extremes::Extremes;
 pub use harmonics::{
     MAX_ORDER, evaluate, function_band, function_count, function_index, harmonics, order_of, order_with,
     swap_d3dx_signs,
 };
-pub use hemisphere::{Hemisphere, HemisphereError};
+pub use hemisphere::Hemisphere;
 pub use layout::EnvironmentLayout;
-pub use light::{HarmonicLight, LightError};
+pub use light::HarmonicLight;
 pub use lookup::EnvironmentPicture;
 pub use parabolic::ParabolicMap;
 pub use projection::{HemisphereProjection, ProjectionErrors};
-pub use rotation::{HarmonicRotation, MAX_SKEW, RotationError, check_rotation, turn_around_z};
+pub use rotation::{HarmonicRotation, MAX_SKEW, check_rotation, turn_around_z};
 pub use rule::{DirectionRule, MAX_DEGREE};
 pub use sky::{ClearSky, SUN_RADIUS};
 pub use window::BandWindow;

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::harmonics::{coupling, function_band, function_count, function_index, harmonics};
 use super::hemisphere::Hemisphere;
 use super::rule::DirectionRule;
-use crate::linalg::{FactorError, Matrix, SymmetricEigen};
+use crate::error::InputError;
+use crate::linalg::{Matrix, SymmetricEigen};
 
 /// Projection of functions on the hemisphere z >= 0 to harmonics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::EnumIter)]
@@ -71,11 +72,11 @@ impl HemisphereProjection {
     /// With P the matrix of the projection, E_1 and E_2 of the paper are c^T Q c with Q = (P - I)^T A (P - I).
     ///
     /// # Errors
-    /// [`FactorError`] if the eigenvalues do not converge.
+    /// [`InputError`] if the eigenvalues do not converge.
     ///
     /// # Panics
     /// If an order is not 1 to 10.
-    pub fn error(self, signal_order: usize, order: usize) -> Result<ProjectionErrors, FactorError> {
+    pub fn error(self, signal_order: usize, order: usize) -> Result<ProjectionErrors, InputError> {
         let rule = DirectionRule::hemisphere(signal_order + order - 1);
         let larger = signal_order.max(order);
         let [rows, columns] = [function_count(larger), function_count(signal_order)];

@@ -3,31 +3,16 @@
 use std::sync::OnceLock;
 
 use glam::{DMat3, DVec3};
-use thiserror::Error;
 
 use super::harmonics::{MAX_ORDER, function_count, harmonics};
 use super::rule::DirectionRule;
 use crate::elementary::on_circle;
+use crate::error::{InputError, ensure, input_error};
 use crate::linalg::dot;
 
 /// Maximum deviation of an element of R^T R from the identity: frames computed in f64 pass, those rounded to f32 do
 /// not.
 pub const MAX_SKEW: f64 = 1e-9;
-
-/// Error: a matrix is not a rotation.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum RotationError {
-    /// The columns are not orthonormal, or not finite.
-    #[error(
-        "expected a rotation matrix with orthonormal columns (to {MAX_SKEW}), found columns {columns:?} (counted from 0) with product {found}; orthonormalize them in double precision"
-    )]
-    NotOrthonormal { columns: [usize; 2], found: f64 },
-    /// The matrix is a reflection, for which rotation of harmonics is not defined.
-    #[error("expected a rotation matrix, found a reflection (determinant -1); exchange two columns, or negate one")]
-    Reflection,
-}
 
 /// Directions of a rule for one order, with weight times harmonics of each.
 struct RotationRule {
@@ -52,11 +37,11 @@ impl HarmonicRotation {
     /// Creates the rotation of an order from a matrix R: (R f)(R v) = f(v).
     ///
     /// # Errors
-    /// [`RotationError`] if the columns are not orthonormal, or the matrix is a reflection.
+    /// [`InputError`] if the columns are not orthonormal, or the matrix is a reflection.
     ///
     /// # Panics
     /// If the order is not 1 to [`MAX_ORDER`].
-    pub fn new(order: usize, rotation: &DMat3) -> Result<Self, RotationError> {
+    pub fn new(order: usize, rotation: &DMat3) -> Result<Self, InputError> {
         check_rotation(rotation)?;
         let count = function_count(order);
         let rule = RULES[order - 1].get_or_init(|| rotation_rule(order));
@@ -141,17 +126,22 @@ fn rotation_rule(order: usize) -> RotationRule {
 /// Checks that a matrix is a rotation.
 ///
 /// # Errors
-/// [`RotationError`] if the columns are not orthonormal to [`MAX_SKEW`], or the matrix is a reflection.
-pub fn check_rotation(rotation: &DMat3) -> Result<(), RotationError> {
+/// [`InputError`] if the columns are not orthonormal to [`MAX_SKEW`], or the matrix is a reflection.
+pub fn check_rotation(rotation: &DMat3) -> Result<(), InputError> {
     for columns in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
         let found = rotation.col(columns[0]).dot(rotation.col(columns[1]));
         let expected = if columns[0] == columns[1] { 1.0 } else { 0.0 };
         let off = (found - expected).abs();
-        if off.is_nan() || off > MAX_SKEW {
-            return Err(RotationError::NotOrthonormal { columns, found });
-        }
+        ensure!(!off.is_nan() && off <= MAX_SKEW, "crossbar::prt::turn" =>
+            "expected a rotation matrix with orthonormal columns (to {MAX_SKEW}), found columns {columns:?} (counted \
+             from 0) with product {found}; orthonormalize them in double precision");
     }
-    if rotation.determinant() < 0.0 { Err(RotationError::Reflection) } else { Ok(()) }
+    if rotation.determinant() < 0.0 {
+        Err(input_error!("crossbar::prt::turn" =>
+            "expected a rotation matrix, found a reflection (determinant -1); exchange two columns, or negate one"))
+    } else {
+        Ok(())
+    }
 }
 
 /// Rotation around +z by a number of full turns, from x to y.
@@ -167,9 +157,15 @@ mod tests {
     #[test]
     fn what_is_no_rotation_is_refused() {
         let mirrored = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
-        assert_eq!(HarmonicRotation::new(3, &mirrored), Err(RotationError::Reflection));
+        assert_eq!(
+            HarmonicRotation::new(3, &mirrored).unwrap_err().to_string(),
+            "expected a rotation matrix, found a reflection (determinant -1); exchange two columns, or \
+         negate one"
+        );
         let skewed = DMat3::from_cols(DVec3::X, DVec3::new(0.5, 1.0, 0.0), DVec3::Z);
-        let skew = RotationError::NotOrthonormal { columns: [1, 1], found: 1.25 };
+        let skew = input_error!("crossbar::prt::turn" =>
+            "expected a rotation matrix with orthonormal columns (to {MAX_SKEW}), found columns {:?} (counted from \
+             0) with product 1.25; orthonormalize them in double precision", [1, 1]);
         assert_eq!(HarmonicRotation::new(3, &skewed), Err(skew));
         assert!(HarmonicRotation::new(3, &DMat3::from_diagonal(DVec3::NAN)).is_err());
     }

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::harmonics::MAX_ORDER;
-use super::light::{HarmonicLight, LightError, unit};
+use super::light::{HarmonicLight, unit};
 use super::rule::DirectionRule;
 use crate::elementary::{acos, exp};
+use crate::error::{InputError, ensure};
 
 /// Mean angular radius of the sun, in radians: 16 minutes of arc.
 pub const SUN_RADIUS: f64 = 0.004_654;
@@ -34,19 +35,19 @@ impl ClearSky {
     /// Radiance of the sky relative to the zenith, without the sun's disk, in a unit direction above the horizon.
     ///
     /// # Errors
-    /// [`LightError`] if the sun's direction is zero, or is not above the horizon.
-    pub fn relative(&self, direction: DVec3) -> Result<f64, LightError> {
+    /// [`InputError`] if the sun's direction is zero, or is not above the horizon.
+    pub fn relative(&self, direction: DVec3) -> Result<f64, InputError> {
         Ok(relative(self.sun_direction()?, direction))
     }
 
     /// Computes the coefficients of sky, sun and ground. Sun and ground are in closed form.
     ///
     /// # Errors
-    /// [`LightError`] if the sun's direction is zero or is not above the horizon, or a color is not finite.
+    /// [`InputError`] if the sun's direction is zero or is not above the horizon, or a color is not finite.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
-    pub fn light(&self, order: usize) -> Result<HarmonicLight, LightError> {
+    pub fn light(&self, order: usize) -> Result<HarmonicLight, InputError> {
         assert!((1..=MAX_ORDER).contains(&order), "an order from 1 to {MAX_ORDER}, not {order}");
         let sun = self.sun_direction()?;
         let sky = DirectionRule::hemisphere(SKY_DEGREE).project(order, |v| relative(sun, v));
@@ -56,9 +57,10 @@ impl ClearSky {
         Ok(sky.plus(&sun).plus(&ground))
     }
 
-    fn sun_direction(&self) -> Result<DVec3, LightError> {
+    fn sun_direction(&self) -> Result<DVec3, InputError> {
         let sun = unit(self.sun)?;
-        if sun.z > 0.0 { Ok(sun) } else { Err(LightError::Sunset { found: self.sun }) }
+        ensure!(sun.z > 0.0, "expected a sun above the horizon, z > 0, found {}", self.sun);
+        Ok(sun)
     }
 }
 
@@ -100,6 +102,7 @@ mod tests {
         let expected = 1e4 * PI * SUN_RADIUS * SUN_RADIUS + 0.5 * 2.0 * PI;
         assert!((added / expected - 1.0).abs() < 1e-5, "{added} {expected}");
         let night = ClearSky { sun: -DVec3::Z, ..SKY };
-        assert_eq!(night.light(3), Err(LightError::Sunset { found: -DVec3::Z }));
+        let found = night.light(3).unwrap_err().to_string();
+        assert_eq!(found, "expected a sun above the horizon, z > 0, found [-0, -0, -1]");
     }
 }

@@ -2,12 +2,19 @@
 
 use thiserror::Error;
 
+use crate::error::InputError;
 use crate::geom::{Hit, Ray};
 
 /// The ray caster failed.
 #[derive(Debug, Error)]
 #[error("the rays could not be traced")]
 pub struct CastError(#[source] pub Box<dyn std::error::Error + Send + Sync>);
+
+impl From<CastError> for InputError {
+    fn from(error: CastError) -> Self {
+        Self::of("", error)
+    }
+}
 
 /// Ray caster: finds hits for bundles of rays of any size. Large bundles give an implementation room to sort them.
 pub trait Caster {

@@ -6,9 +6,9 @@ use miette::{Diagnostic, SourceSpan};
 
 use refsim::{device::DeviceError, machine::MachineError};
 
+use crate::error::InputError;
 use crate::{
     names::did_you_mean_field,
-    picture::PictureError,
     report::SourceText,
     shader::{ShaderError, ShaderWarning},
 };
@@ -74,7 +74,7 @@ pub enum CaseError {
     /// A picture of the result cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
+    Picture(#[from] InputError),
     /// A shader does not assemble or breaks a rule.
     #[error(transparent)]
     #[diagnostic(transparent)]

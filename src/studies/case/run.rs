@@ -12,8 +12,9 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::{CaseError, Loaded, ProbeResult, Setup, probe};
+use crate::error::InputError;
 use crate::{
-    picture::{ChannelUnit, Picture, PictureError, Rgba, Samples, buffer, exr, png},
+    picture::{ChannelUnit, Picture, Rgba, Samples, buffer, exr, png},
     report::NamedFile,
     shader,
 };
@@ -151,7 +152,7 @@ fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> 
 }
 
 /// Encodes a target as PNG if its channels are unsigned fractions, otherwise as EXR with the values as singles.
-fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<NamedFile, PictureError> {
+fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<NamedFile, InputError> {
     let (width, height) = (target.width(), target.height());
     let record = target.format().record();
     let texels =

@@ -37,7 +37,7 @@ pub use source_text::SourceText;
 pub use summary::{SummaryLine, TallyEntry, Tone};
 pub use table::Table;
 
-use crate::picture::PictureError;
+use crate::error::InputError;
 
 /// Error of encoding a table, chart or picture.
 #[non_exhaustive]
@@ -47,7 +47,7 @@ pub enum ReportError {
     /// A picture cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
+    Picture(#[from] InputError),
     /// The encoder of `CSV`, `JSON` or `SVG` failed.
     #[error("the {format} file cannot be encoded: {reason}")]
     #[diagnostic(code(crossbar::report::encode))]

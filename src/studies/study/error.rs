@@ -6,7 +6,7 @@ use std::fmt;
 use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
 use refsim::device::DeviceError;
 
-use crate::picture::PictureError;
+use crate::error::InputError;
 use crate::report::ReportError;
 use crate::shader::ShaderError;
 use crate::split::PartError;
@@ -165,8 +165,8 @@ pub(in crate::study) use library_errors;
 
 library_errors! {
     DeviceError;
+    InputError;
     PartError;
-    PictureError;
     ReportError;
     ShaderError;
 }
@@ -191,7 +191,7 @@ mod tests {
         assert_eq!(coded.to_string(), unknown().to_string());
         assert_eq!([text(coded.code()), text(coded.help())], [Some("room::step".to_owned()), None]);
         assert!(coded.source().is_none(), "the error displayed is not in its own chain");
-        assert!(coded.downcast_ref::<PictureError>().is_none());
+        assert!(coded.downcast_ref::<InputError>().is_none());
 
         let own = StudyError::new("room::file", "cannot use x").with_help("name y").with_source(unknown());
         assert_eq!(own.to_string(), "cannot use x");

@@ -1,7 +1,6 @@
 //! Each lighting segment's transfer as clusters of linear combinations (section 5 of the paper, equation 11).
 
-use thiserror::Error;
-
+use crate::error::{InputError, ensure, input_error};
 use crate::transfer::Signal;
 use crate::transfer::clustering::{
     Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, StartPoints, compress,
@@ -82,50 +81,36 @@ pub struct CompressedTransfer {
     pub segments: Vec<CompressedSegment>,
 }
 
-/// Reasons for which segments make no transfer. Segments and vertices count from 0.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum CompressedError {
-    /// A number of values per point that is no multiple of the rows.
-    #[error("segment {segment}: expected a multiple of {rows} numbers per vertex, one per row, found {found}")]
-    Shape { segment: usize, rows: usize, found: usize },
-    /// Segments of unlike sizes, or out of order.
-    #[error("expected segments of {expected} numbers in increasing order, found segment {segment} of {found}")]
-    Order { segment: usize, expected: usize, found: usize },
-    /// Vertices out of order, too many or too few.
-    #[error("segment {segment}: expected {points} vertices below {vertices} in increasing order, found others")]
-    Vertices { segment: usize, points: usize, vertices: usize },
-    /// Clusters with means.
-    #[error("segment {segment}: expected clusters of the linear form, whose means are 0, found other means")]
-    Means { segment: usize },
-}
-
 impl CompressedTransfer {
     /// The parts, checked.
     ///
     /// # Errors
-    /// [`CompressedError`].
-    pub fn new(rows: usize, vertices: usize, segments: Vec<CompressedSegment>) -> Result<Self, CompressedError> {
+    /// [`InputError`].
+    pub fn new(rows: usize, vertices: usize, segments: Vec<CompressedSegment>) -> Result<Self, InputError> {
         let mut before: Option<(usize, usize)> = None;
         for part in &segments {
             let (segment, found, points) = (part.segment, part.clustering.dimension(), part.clustering.points());
-            if rows == 0 || !found.is_multiple_of(rows) {
-                return Err(CompressedError::Shape { segment, rows, found });
-            }
+            ensure!(
+                rows != 0 && found.is_multiple_of(rows),
+                "segment {segment}: expected a multiple of {rows} numbers per vertex, one per row, found {found}"
+            );
             if let Some((_, expected)) = before.filter(|&(last, size)| last >= segment || size != found) {
-                return Err(CompressedError::Order { segment, expected, found });
+                return Err(input_error!(
+                    "expected segments of {expected} numbers in increasing order, found segment {segment} of {found}"
+                ));
             }
             before = Some((segment, found));
             let increasing = part.vertices.is_sorted_by(|a, b| a < b);
             let within = part.vertices.last().is_none_or(|&last| (last as usize) < vertices);
-            if part.vertices.len() != points || !increasing || !within {
-                return Err(CompressedError::Vertices { segment, points, vertices });
-            }
+            ensure!(
+                part.vertices.len() == points && increasing && within,
+                "segment {segment}: expected {points} vertices below {vertices} in increasing order, found others"
+            );
             let zero = |value: &f64| *value == 0.0;
-            if !part.clustering.subspaces().iter().all(|cluster| cluster.mean.iter().all(zero)) {
-                return Err(CompressedError::Means { segment });
-            }
+            ensure!(
+                part.clustering.subspaces().iter().all(|cluster| cluster.mean.iter().all(zero)),
+                "segment {segment}: expected clusters of the linear form, whose means are 0, found other means"
+            );
         }
         Ok(Self { rows, vertices, segments })
     }
@@ -167,10 +152,20 @@ pub(super) mod tests {
             change(&mut transfer);
             CompressedTransfer::new(transfer.rows, transfer.vertices, transfer.segments).expect_err("refused")
         };
-        assert_eq!(refused(&|t| t.rows = 3), CompressedError::Shape { segment: 1, rows: 3, found: 16 });
+        assert_eq!(
+            refused(&|t| t.rows = 3).to_string(),
+            "segment 1: expected a multiple of 3 numbers per vertex, one per row, found 16"
+        );
         let (expected, found) = (16, 16);
-        assert_eq!(refused(&|t| t.segments.swap(0, 1)), CompressedError::Order { segment: 1, expected, found });
-        let vertices = |segment, points, vertices| CompressedError::Vertices { segment, points, vertices };
+        assert_eq!(
+            refused(&|t| t.segments.swap(0, 1)),
+            input_error!("expected segments of {expected} numbers in increasing order, found segment 1 of {found}")
+        );
+        let vertices = |segment, points, vertices| {
+            input_error!(
+                "segment {segment}: expected {points} vertices below {vertices} in increasing order, found others"
+            )
+        };
         assert_eq!(refused(&|t| t.vertices = 38), vertices(4, 12, 38));
         assert_eq!(refused(&|t| t.segments[0].vertices[0] = 1), vertices(1, 30, 40));
     }

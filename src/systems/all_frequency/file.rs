@@ -11,11 +11,13 @@ use glam::DVec3;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{BLOCK_ROWS, CodeOptions, CodedSegment, CodedTransfer, ScaleOf, SparseRows};
 use crate::all_frequency::factor::ProductFactors;
+use crate::error::InputError;
 use crate::io::{WriteError, write_file};
 use crate::sphere::ParabolicMap;
+use crate::transfer::file::other_mesh_error;
 use crate::transfer::file::read::{Reader, bytes_of};
 use crate::transfer::file::write::{Section, digest_fields, tangent_fields};
-use crate::transfer::file::{MAGIC, MeshDigest, PrtFileError, PrtKind, VERSION};
+use crate::transfer::file::{MAGIC, MeshDigest, PrtKind, VERSION};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps};
@@ -46,8 +48,8 @@ pub struct AllFrequencyFile {
 /// Reads a file; of `mesh`, if one is given.
 ///
 /// # Errors
-/// [`PrtFileError`].
-pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllFrequencyFile, PrtFileError> {
+/// [`InputError`].
+pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllFrequencyFile, InputError> {
     let file = parse_all_frequency(&bytes_of(path)?, path)?;
     mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
     Ok(file)
@@ -56,8 +58,8 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
 /// Reads a file from bytes; `name` is its name in messages.
 ///
 /// # Errors
-/// [`PrtFileError`].
-pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, PrtFileError> {
+/// [`InputError`].
+pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, InputError> {
     let mut reader = Reader { bytes, at: 0, name };
     reader.begin(PrtKind::AllFrequency)?;
     let mut fields = [0; FIELDS];
@@ -111,13 +113,13 @@ impl AllFrequencyFile {
     /// Refuses a file of another mesh, or of the same with other tangents; `path` is named in the message.
     ///
     /// # Errors
-    /// [`PrtFileError::OtherMesh`].
-    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), PrtFileError> {
+    /// [`InputError`].
+    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), InputError> {
         let found = self.mesh;
         if found == *expected {
             return Ok(());
         }
-        Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found: Some(found) })
+        Err(other_mesh_error(path, *expected, Some(found)))
     }
 
     /// The first contradiction between the parts: the field, the expected and the found value.
@@ -144,7 +146,7 @@ impl AllFrequencyFile {
 }
 
 impl Reader<'_> {
-    fn factors(&mut self, terms: usize) -> Result<ProductFactors, PrtFileError> {
+    fn factors(&mut self, terms: usize) -> Result<ProductFactors, InputError> {
         let mut map = |what| {
             let side = self.integer(what)?;
             if !(1..=MAX_SIDE).contains(&side) {
@@ -160,13 +162,13 @@ impl Reader<'_> {
         Ok(ProductFactors::new(terms, view, light))
     }
 
-    fn visibility(&mut self, vertices: usize) -> Result<VisibilityMaps, PrtFileError> {
+    fn visibility(&mut self, vertices: usize) -> Result<VisibilityMaps, InputError> {
         let words = self.numbers(vertices.saturating_mul(VISIBILITY_BYTES / 8), "visibility")?;
         let words = words.iter().map(|&bytes| u64::from_le_bytes(bytes)).collect();
         VisibilityMaps::from_words(words).ok_or_else(|| self.field("visibility", "whole maps", "others"))
     }
 
-    fn coded(&mut self, rows: usize, vertices: usize) -> Result<CodedTransfer, PrtFileError> {
+    fn coded(&mut self, rows: usize, vertices: usize) -> Result<CodedTransfer, InputError> {
         let coefficients = self.integer("light coefficients of a segment")? as usize;
         let [representative_bits, weight_bits, scale, zero] = self.array("bits")?;
         let scale = match (scale, zero) {
@@ -181,11 +183,11 @@ impl Reader<'_> {
         Ok(CodedTransfer { rows, coefficients, vertices, options, segments })
     }
 
-    fn shorts(&mut self, count: usize, what: &'static str) -> Result<Vec<i16>, PrtFileError> {
+    fn shorts(&mut self, count: usize, what: &'static str) -> Result<Vec<i16>, InputError> {
         Ok(self.numbers(count, what)?.iter().map(|&bytes| i16::from_le_bytes(bytes)).collect())
     }
 
-    fn coded_segment(&mut self, columns: usize) -> Result<CodedSegment, PrtFileError> {
+    fn coded_segment(&mut self, columns: usize) -> Result<CodedSegment, InputError> {
         let what = "a coded segment";
         let [segment, vertices, clusters, nonzeros] =
             [self.integer(what)?, self.integer(what)?, self.integer(what)?, self.integer(what)?].map(|n| n as usize);
@@ -193,7 +195,7 @@ impl Reader<'_> {
         let cluster_of = self.numbers(vertices, what)?.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
         let counts = self.numbers(clusters, what)?.iter().map(|&[count]| count).collect::<Vec<u8>>();
         let rows: usize = counts.iter().map(|&count| usize::from(count)).sum();
-        let mut steps = || -> Result<Vec<f32>, PrtFileError> {
+        let mut steps = || -> Result<Vec<f32>, InputError> {
             Ok(self.numbers(rows, what)?.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect())
         };
         let (representative_steps, weight_steps) = (steps()?, steps()?);

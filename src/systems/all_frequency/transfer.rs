@@ -17,11 +17,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Reflectance;
+use crate::error::InputError;
+use crate::transfer::error::out_of_range_error;
 use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation};
 use crate::transfer::haar::Haar;
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps, check};
-use crate::transfer::{Signal, TransferError, Vertices};
+use crate::transfer::{Signal, Vertices};
 
 /// Number of light texels, and of coefficients, in a segment.
 const LEN: usize = Segmentation::Quarters.len();
@@ -118,21 +120,21 @@ impl FactoredTransfer<'_> {
     ///
     /// # Errors
     /// As [`Self::segment`].
-    pub fn segments(&self) -> impl Iterator<Item = Result<TransferSegment, TransferError>> + '_ {
+    pub fn segments(&self) -> impl Iterator<Item = Result<TransferSegment, InputError>> + '_ {
         (0..Segmentation::Quarters.count()).filter_map(|segment| self.segment(segment).transpose())
     }
 
     /// One segment; `None` if no vertex sees any of it. The bits do not depend on the number of threads.
     ///
     /// # Errors
-    /// [`TransferError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere.
+    /// [`InputError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere.
     ///
     /// # Panics
     /// If there is no such segment.
-    pub fn segment(&self, segment: usize) -> Result<Option<TransferSegment>, TransferError> {
+    pub fn segment(&self, segment: usize) -> Result<Option<TransferSegment>, InputError> {
         if self.rows == 0 {
             let (what, expected) = ("the number of rows", "at least 1");
-            return Err(TransferError::OutOfRange { what, expected, found: 0.0 });
+            return Err(out_of_range_error(what, expected, 0.0));
         }
         check(self.vertices, self.maps.vertices())?;
         let hats = self.hats.segment(segment);
@@ -161,7 +163,7 @@ impl FactoredTransfer<'_> {
     /// As [`Self::segment`].
     ///
     /// [`TruncationPriority::Transfer`]: crate::transfer::light::TruncationPriority::Transfer
-    pub fn mean_responses(&self) -> Result<Vec<f64>, TransferError> {
+    pub fn mean_responses(&self) -> Result<Vec<f64>, InputError> {
         let mut responses = vec![0.0; LIGHT_TEXELS];
         for segment in self.segments() {
             let segment = segment?;

@@ -8,23 +8,15 @@
 use std::f64::consts::FRAC_PI_4;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use crate::elementary;
+use crate::error::{InputError, ensure};
 
 /// M = k x k directions of the upper hemisphere. Direction k v + u is that of cell (u, v).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalDirections {
     side: usize,
     directions: Vec<DVec3>,
-}
-
-/// A number of cells out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("expected 1 to {} directions along an edge of the square, found {found}", LocalDirections::MOST)]
-pub struct DirectionsError {
-    /// The requested number of cells along an edge of the square.
-    pub found: usize,
 }
 
 impl LocalDirections {
@@ -34,11 +26,13 @@ impl LocalDirections {
     /// The directions of a square of `side` x `side` cells.
     ///
     /// # Errors
-    /// [`DirectionsError`] unless there are 1 to [`Self::MOST`] along an edge.
-    pub fn new(side: usize) -> Result<Self, DirectionsError> {
-        if !(1..=Self::MOST).contains(&side) {
-            return Err(DirectionsError { found: side });
-        }
+    /// [`InputError`] unless there are 1 to [`Self::MOST`] along an edge.
+    pub fn new(side: usize) -> Result<Self, InputError> {
+        ensure!(
+            (1..=Self::MOST).contains(&side),
+            "expected 1 to {} directions along an edge of the square, found {side}",
+            LocalDirections::MOST
+        );
         let center = |cell: usize| (2 * cell + 1) as f64 / side as f64 - 1.0;
         let direction = |cell: usize| hemisphere([center(cell % side), center(cell / side)]);
         Ok(Self { side, directions: (0..side * side).map(direction).collect() })
@@ -175,6 +169,7 @@ mod tests {
                 assert_eq!(directions.nearest(direction), number);
             }
         }
-        assert_eq!(LocalDirections::new(65), Err(DirectionsError { found: 65 }));
+        let found = LocalDirections::new(65).unwrap_err().to_string();
+        assert_eq!(found, "expected 1 to 64 directions along an edge of the square, found 65");
     }
 }

@@ -11,10 +11,11 @@ use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file_table::{table_bytes, table_of};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::bi_scale::values::EntryValues;
+use crate::error::InputError;
 use crate::io::{WriteError, write_file};
 use crate::transfer::file::read::{Reader, bytes_of};
 use crate::transfer::file::write::{Section, digest_fields, tangent_fields};
-use crate::transfer::file::{MAGIC, MeshDigest, PrtFileError, PrtKind, VERSION};
+use crate::transfer::file::{MAGIC, MeshDigest, PrtKind, VERSION};
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::Horizon;
 
@@ -52,16 +53,16 @@ pub struct BiScaleFile {
 /// Reads a file.
 ///
 /// # Errors
-/// [`PrtFileError`].
-pub fn load_bi_scale(path: &Path) -> Result<BiScaleFile, PrtFileError> {
+/// [`InputError`].
+pub fn load_bi_scale(path: &Path) -> Result<BiScaleFile, InputError> {
     parse_bi_scale(&bytes_of(path)?, path)
 }
 
 /// Reads a file from bytes; `name` stands for it in messages.
 ///
 /// # Errors
-/// [`PrtFileError`].
-pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, PrtFileError> {
+/// [`InputError`].
+pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputError> {
     let mut reader = Reader { bytes, at: 0, name };
     let version = reader.begin(PrtKind::BiScale)?;
     let mut fields = [0; FIELDS];
@@ -185,7 +186,7 @@ impl Reader<'_> {
         &mut self,
         counts: &[u32],
         fraction_bits: Option<u32>,
-    ) -> Result<(EntryValues, Vec<MatrixEntry>), PrtFileError> {
+    ) -> Result<(EntryValues, Vec<MatrixEntry>), InputError> {
         let what = "entries";
         let count = counts.iter().fold(0_usize, |sum, &count| sum.saturating_add(count as usize));
         let [index_bytes, value_bytes, has_table, zero] = self.array::<4>(what)?;
@@ -230,7 +231,7 @@ impl Reader<'_> {
         Ok((values_of_entries, entries))
     }
 
-    fn matrix(&mut self, shape: Shape) -> Result<SparseMatrix, PrtFileError> {
+    fn matrix(&mut self, shape: Shape) -> Result<SparseMatrix, InputError> {
         let counts = self.integers(shape.rows, "entries of rows")?;
         let (values, entries) = self.entries(&counts, shape.fraction_bits)?;
         if values.table_len().is_some() && shape.fraction_bits.is_some() {
@@ -247,7 +248,7 @@ impl Reader<'_> {
         Ok(matrix)
     }
 
-    fn biclusters(&mut self, shape: Shape) -> Result<Biclustering, PrtFileError> {
+    fn biclusters(&mut self, shape: Shape) -> Result<Biclustering, InputError> {
         let count = self.integer("number of biclusters")? as usize;
         let row_counts = self.integers(count, "rows of biclusters")?;
         let column_counts = self.integers(count, "columns of biclusters")?;

@@ -5,7 +5,7 @@ use num_bigint::{BigInt, Sign};
 
 use super::exact::ExactNumber;
 use super::values::{EntryValues, ValueTable};
-use crate::transfer::file::PrtFileError;
+use crate::error::InputError;
 use crate::transfer::file::read::Reader;
 
 /// Bits of the largest sums of f64 numbers, from 2^-1074 on: of 2^32 numbers below 2^1024, and a sign.
@@ -29,7 +29,7 @@ pub(super) fn table_bytes(values: &EntryValues) -> Option<Vec<u8>> {
 }
 
 /// Reads a table; numbers are in increasing order, none is 0, and those that an f64 holds are not given as integers.
-pub(super) fn table_of(reader: &mut Reader<'_>, fraction_bits: Option<u32>) -> Result<EntryValues, PrtFileError> {
+pub(super) fn table_of(reader: &mut Reader<'_>, fraction_bits: Option<u32>) -> Result<EntryValues, InputError> {
     let what = "table of values";
     let mut counts = [0; 3];
     for count in &mut counts {

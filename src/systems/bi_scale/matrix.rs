@@ -4,9 +4,8 @@
 //! other numbers are in a table ([`EntryValues`]). Either way values are subtracted without rounding, so that
 //! "lossless" means equal.
 
-use thiserror::Error;
-
 use super::values::EntryValues;
+use crate::error::{InputError, ensure, input_error};
 use crate::io::CoordinateMatrix;
 
 const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
@@ -30,50 +29,26 @@ pub struct SparseMatrix {
     entries: Vec<MatrixEntry>,
 }
 
-/// Reasons for which entries make no matrix. Rows and columns count from 0.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum SparseMatrixError {
-    /// No rows or columns, or more than 32 bits can count.
-    #[error("expected 1 to {} rows and columns, found {rows} x {columns}", u32::MAX)]
-    Size { rows: usize, columns: usize },
-    /// A column outside the matrix.
-    #[error("expected a column below {columns} in row {row}, found {column}")]
-    Column { row: usize, column: u32, columns: usize },
-    /// Entries out of order, or two with the same row and column.
-    #[error("expected increasing columns in row {row}, found {column} after {before}: is an entry given twice?")]
-    Order { row: usize, column: u32, before: u32 },
-    /// A value of 0.
-    #[error("expected values other than 0, found 0 in row {row}, column {column}")]
-    Zero { row: usize, column: u32 },
-    /// An entry that is not in the table of values.
-    #[error("expected a value of the table of {most} values in row {row}, column {column}, found entry {value}")]
-    Table { row: usize, column: u32, value: i32, most: usize },
-    /// A value that is infinite or not a number.
-    #[error("expected finite values, found {value} in row {row}, column {column}")]
-    Finite { row: u32, column: u32, value: f64 },
-    /// More distinct values than 31 bits can name.
-    #[error("expected at most {} distinct values, found {found}", i32::MAX)]
-    Values { found: usize },
+pub(super) fn size_error(rows: usize, columns: usize) -> InputError {
+    input_error!("expected 1 to {} rows and columns, found {rows} x {columns}", u32::MAX)
 }
 
 impl SparseMatrix {
     /// A matrix without rows yet, with `columns` columns and values in units of 2^-`fraction_bits`.
     ///
     /// # Errors
-    /// [`SparseMatrixError::Size`] for 0 columns, or more than 32 bits can count.
+    /// [`InputError`] for 0 columns, or more than 32 bits can count.
     ///
     /// # Panics
     /// If `fraction_bits` exceeds [`EntryValues::MOST_FRACTION_BITS`].
-    pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, SparseMatrixError> {
+    pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, InputError> {
         Self::of_values(columns, EntryValues::units(fraction_bits))
     }
 
     /// The same for any values.
-    pub(super) fn of_values(columns: usize, values: EntryValues) -> Result<Self, SparseMatrixError> {
+    pub(super) fn of_values(columns: usize, values: EntryValues) -> Result<Self, InputError> {
         if columns == 0 || u32::try_from(columns).is_err() {
-            return Err(SparseMatrixError::Size { rows: 0, columns });
+            return Err(size_error(0, columns));
         }
         Ok(Self { columns, values, begins: vec![0], entries: Vec::new() })
     }
@@ -83,10 +58,10 @@ impl SparseMatrix {
     /// left out.
     ///
     /// # Errors
-    /// [`SparseMatrixError`].
-    pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, SparseMatrixError> {
+    /// [`InputError`].
+    pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, InputError> {
         if let Some(&(row, column, value)) = matrix.entries.iter().find(|(.., value)| !value.is_finite()) {
-            return Err(SparseMatrixError::Finite { row, column, value });
+            return Err(input_error!("expected finite values, found {value} in row {row}, column {column}"));
         }
         let values = || matrix.entries.iter().map(|&(.., value)| value).filter(|&value| value != 0.0);
         let in_units = unit_of(values());
@@ -96,9 +71,12 @@ impl SparseMatrix {
                 let mut distinct: Vec<f64> = values().collect();
                 distinct.sort_unstable_by(f64::total_cmp);
                 distinct.dedup();
-                if i32::try_from(distinct.len()).is_err() {
-                    return Err(SparseMatrixError::Values { found: distinct.len() });
-                }
+                ensure!(
+                    i32::try_from(distinct.len()).is_ok(),
+                    "expected at most {} distinct values, found {}",
+                    i32::MAX,
+                    distinct.len()
+                );
                 EntryValues::of_doubles(distinct)
             }
         };
@@ -121,25 +99,33 @@ impl SparseMatrix {
     /// Appends a row.
     ///
     /// # Errors
-    /// [`SparseMatrixError`]; the matrix is then unchanged.
-    pub fn push_row(&mut self, row: &[MatrixEntry]) -> Result<(), SparseMatrixError> {
+    /// [`InputError`]; the matrix is then unchanged.
+    pub fn push_row(&mut self, row: &[MatrixEntry]) -> Result<(), InputError> {
         let (number, columns) = (self.rows(), self.columns);
         if u32::try_from(number + 1).is_err() {
-            return Err(SparseMatrixError::Size { rows: number + 1, columns });
+            return Err(size_error(number + 1, columns));
         }
         let mut before = None;
         for &MatrixEntry { index: column, value } in row {
             match before {
                 _ if column as usize >= columns => {
-                    return Err(SparseMatrixError::Column { row: number, column, columns });
+                    return Err(input_error!("expected a column below {columns} in row {number}, found {column}"));
                 }
                 Some(before) if before >= column => {
-                    return Err(SparseMatrixError::Order { row: number, column, before });
+                    return Err(input_error!(
+                        "expected increasing columns in row {number}, found {column} after {before}: is an entry \
+         given twice?"
+                    ));
                 }
-                _ if value == 0 => return Err(SparseMatrixError::Zero { row: number, column }),
+                _ if value == 0 => {
+                    return Err(input_error!("expected values other than 0, found 0 in row {number}, column {column}"));
+                }
                 _ if !self.values.has(value) => {
                     let most = self.values.table_len().unwrap_or(0);
-                    return Err(SparseMatrixError::Table { row: number, column, value, most });
+                    return Err(input_error!(
+                        "expected a value of the table of {most} values in row {number}, column {column}, found entry \
+         {value}"
+                    ));
                 }
                 _ => before = Some(column),
             }
@@ -221,19 +207,22 @@ mod tests {
         matrix.push_row(&[entry(0, 4), entry(3, 1)]).unwrap();
         let before = matrix.clone();
         let wrong = [
-            (vec![entry(4, 1)], SparseMatrixError::Column { row: 1, column: 4, columns: 4 }),
-            (vec![entry(2, 1), entry(2, 3)], SparseMatrixError::Order { row: 1, column: 2, before: 2 }),
-            (vec![entry(1, 0)], SparseMatrixError::Zero { row: 1, column: 1 }),
+            (vec![entry(4, 1)], input_error!("expected a column below 4 in row 1, found 4")),
+            (
+                vec![entry(2, 1), entry(2, 3)],
+                input_error!("expected increasing columns in row 1, found 2 after 2: is an entry given twice?"),
+            ),
+            (vec![entry(1, 0)], input_error!("expected values other than 0, found 0 in row 1, column 1")),
         ];
         for (row, error) in wrong {
             assert_eq!(matrix.push_row(&row), Err(error));
             assert_eq!(matrix, before);
         }
-        assert_eq!(SparseMatrix::new(0, 2), Err(SparseMatrixError::Size { rows: 0, columns: 0 }));
+        assert_eq!(SparseMatrix::new(0, 2), Err(size_error(0, 0)));
         assert_eq!((matrix.value(1), matrix.nonzeros()), (0.25, 2));
     }
 
-    fn of(entries: &[(u32, u32, f64)]) -> Result<SparseMatrix, SparseMatrixError> {
+    fn of(entries: &[(u32, u32, f64)]) -> Result<SparseMatrix, InputError> {
         SparseMatrix::from_coordinates(&CoordinateMatrix { rows: 3, columns: 4, entries: entries.to_vec() })
     }
 
@@ -257,10 +246,10 @@ mod tests {
             assert_eq!((of_row(0), of_row(1), of_row(2)), (vec![a], vec![], vec![b, a]));
             let mut more = matrix.clone();
             let foreign = MatrixEntry { index: 3, value: 3 };
-            let error = SparseMatrixError::Table { row: 3, column: 3, value: 3, most: 2 };
+            let error = input_error!("expected a value of the table of 2 values in row 3, column 3, found entry 3");
             assert_eq!((more.push_row(&[foreign]), &more), (Err(error), &matrix));
         }
-        let infinite = SparseMatrixError::Finite { row: 1, column: 1, value: f64::INFINITY };
+        let infinite = input_error!("expected finite values, found {} in row 1, column 1", f64::INFINITY);
         assert_eq!(of(&[(0, 0, 0.1), (1, 1, f64::INFINITY)]), Err(infinite));
     }
 }

@@ -10,7 +10,9 @@
 use rayon::prelude::*;
 
 use super::directions::LocalDirections;
-use super::matrix::{MatrixEntry, SparseMatrix, SparseMatrixError};
+use super::matrix::{MatrixEntry, SparseMatrix};
+use crate::bi_scale::matrix::size_error;
+use crate::error::InputError;
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
 use crate::transfer::light::CubeLight;
 use crate::transfer::visibility::VisibilityMaps;
@@ -22,7 +24,7 @@ const BLOCK: usize = 256;
 /// T of the vertices of some visibility maps, map by map.
 ///
 /// # Errors
-/// [`SparseMatrixError::Size`] if there are more rows than 32 bits can name, or none.
+/// [`InputError`] if there are more rows than 32 bits can name, or none.
 ///
 /// # Panics
 /// If the maps are of other vertices.
@@ -30,11 +32,11 @@ pub fn transfer_matrix(
     vertices: &Vertices,
     maps: &VisibilityMaps,
     directions: &LocalDirections,
-) -> Result<SparseMatrix, SparseMatrixError> {
+) -> Result<SparseMatrix, InputError> {
     let local = directions.directions().len();
     let rows = maps.len().saturating_mul(local);
     if rows == 0 || u32::try_from(rows).is_err() {
-        return Err(SparseMatrixError::Size { rows, columns: LIGHT_TEXELS });
+        return Err(size_error(rows, LIGHT_TEXELS));
     }
     let mut matrix = SparseMatrix::new(LIGHT_TEXELS, 2 * maps.sampling().log2_samples)?;
     let all: Vec<usize> = (0..maps.len()).collect();

@@ -18,7 +18,8 @@ use refsim::num::{Format, FormatKind, Rounding, power_of_two};
 
 use super::System;
 use super::packing::Packing;
-use super::solve::{self, Options, SolveError, Solver};
+use super::solve::{self, Options, Solver};
+use crate::error::InputError;
 
 /// The precision and the shape of the sums of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,11 +101,11 @@ impl Accumulator {
 /// The predicted error of each radiosity, to first order, given the exact solution.
 ///
 /// # Errors
-/// [`SolveError`].
+/// [`InputError`].
 ///
 /// # Panics
 /// If there is not one radiosity per patch.
-pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Result<Vec<[f64; 3]>, SolveError> {
+pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Result<Vec<[f64; 3]>, InputError> {
     assert_eq!(exact.len(), system.factors().len(), "one radiosity per patch");
     let mut off = vec![[0.0; 3]; exact.len()];
     for c in 0..3 {

@@ -2,7 +2,8 @@
 
 use super::Patches;
 use super::form_factor::point_to_polygon;
-use super::form_factor::{FormFactorError, VisibilityParameters, point_share};
+use super::form_factor::{VisibilityParameters, point_share};
+use crate::error::InputError;
 use crate::tracer::Caster;
 use glam::DVec3;
 
@@ -11,7 +12,7 @@ use glam::DVec3;
 /// both sides.
 ///
 /// # Errors
-/// [`FormFactorError`] for no samples, or rays that the ray caster fails on.
+/// [`InputError`] for no samples, or rays that the ray caster fails on.
 ///
 /// # Panics
 /// If there is not one radiosity per patch.
@@ -21,7 +22,7 @@ pub fn irradiance(
     [point, normal]: [DVec3; 2],
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
-) -> Result<[f64; 3], FormFactorError> {
+) -> Result<[f64; 3], InputError> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity per patch");
     let seen: Vec<(usize, f64)> = (0..patches.list().len())
         .map(|j| {

@@ -51,9 +51,9 @@ mod system;
 
 pub use crate::scene::built::rooms;
 pub use draw::DrawError;
-pub use form_factor::{FormFactorError, FormFactors};
+pub use form_factor::FormFactors;
 pub use on_card::{CardOptions, CardSolution, CardSolver, Storage};
 pub use patch::Patch;
-pub use patch_error::{MAX_PATCHES, PatchError};
+pub use patch_error::MAX_PATCHES;
 pub use patches::{Patches, Subdivision};
-pub use system::{RgbSolution, System, SystemError};
+pub use system::{RgbSolution, System};

@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use super::open::open_parts;
 use super::patch::{Patch, PatchPoint};
-use super::patch_error::{MAX_PATCHES, PatchError};
+use super::patch_error::MAX_PATCHES;
 use super::subdivide::{Face, faces_of, steps_for_at_most};
+use crate::error::{InputError, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
+use crate::radiosity::patch_error::{empty_error, too_thin_error};
 use crate::scene::{Scene, Surface};
 
 /// Fineness of the subdivision of faces.
@@ -38,16 +40,16 @@ impl Patches {
     /// quadrilateral.
     ///
     /// # Errors
-    /// [`PatchError`].
-    pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, PatchError> {
+    /// [`InputError`].
+    pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, InputError> {
         let mesh = scene.mesh();
-        let Some(bounds) = mesh.bounds() else { return Err(PatchError::Empty) };
+        let Some(bounds) = mesh.bounds() else { return Err(empty_error()) };
         let materials = scene.materials().iter().map(diffuse).collect::<Result<Vec<_>, _>>();
         let (faces, face_of) = faces_of(scene)?;
         let (steps, found) = steps(&faces, subdivision)?;
         let mut list = Vec::with_capacity(found);
         for (id, (face, &steps)) in (0_u32..).zip(faces.iter().zip(&steps)) {
-            face.cut(id, steps, &mut list).ok_or(PatchError::TooThin { triangle: face.triangle })?;
+            face.cut(id, steps, &mut list).ok_or_else(|| too_thin_error(face.triangle))?;
         }
         let [low, high] = bounds.map(wide);
         let (materials, extent) = (materials?, (high - low).length());
@@ -58,8 +60,8 @@ impl Patches {
     /// How many patches a scene would be cut into, without the work that their open parts take.
     ///
     /// # Errors
-    /// [`PatchError`].
-    pub fn count(scene: &Scene, subdivision: Subdivision) -> Result<usize, PatchError> {
+    /// [`InputError`].
+    pub fn count(scene: &Scene, subdivision: Subdivision) -> Result<usize, InputError> {
         Ok(steps(&faces_of(scene)?.0, subdivision)?.1)
     }
 
@@ -150,25 +152,33 @@ impl Patches {
 }
 
 /// Parts of the sides of each face, and the number of all patches.
-fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usize), PatchError> {
+fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usize), InputError> {
     let steps = match subdivision {
-        Subdivision::PerSide(0) => return Err(PatchError::NoParts),
+        Subdivision::PerSide(0) => {
+            return Err(input_error!("radiosity::patches" => "expected sides cut into 1 part or more, found 0"));
+        }
         Subdivision::PerSide(n) => vec![[n, n]; faces.len()],
         Subdivision::AtMost(most) => steps_for_at_most(faces, most),
     };
     let found = faces.iter().zip(&steps).map(|(face, &steps)| face.count(steps)).sum();
-    if found > MAX_PATCHES { Err(PatchError::TooMany { found }) } else { Ok((steps, found)) }
+    if found > MAX_PATCHES {
+        Err(input_error!("radiosity::patches" =>
+            "expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer"))
+    } else {
+        Ok((steps, found))
+    }
 }
 
 /// Reflectance and radiance of a material.
-fn diffuse(material: &crate::scene::Material) -> Result<([f64; 3], [f64; 3]), PatchError> {
+fn diffuse(material: &crate::scene::Material) -> Result<([f64; 3], [f64; 3]), InputError> {
     let found = match material.surface {
         Surface::Diffuse { albedo } => return Ok((albedo.map(f64::from), material.emission.map(f64::from))),
         Surface::Glossy { .. } => "glossy",
         Surface::Mirror { .. } => "a mirror",
         Surface::Glass { .. } => "glass",
     };
-    Err(PatchError::NotDiffuse { name: material.name.clone(), found })
+    Err(input_error!("radiosity::patches" =>
+            "material `{}` is {found}, expected a diffuse surface: radiosity knows no other", material.name))
 }
 
 impl Face {

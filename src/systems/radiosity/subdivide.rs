@@ -1,9 +1,10 @@
 //! Faces of a scene, and their subdivision into patches.
 
-use super::PatchError;
 use super::patch::Patch;
+use crate::error::InputError;
 use crate::geom::exact::is_degenerate;
 use crate::geom::vector::wide;
+use crate::radiosity::patch_error::{empty_error, too_thin_error};
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -22,11 +23,11 @@ pub(super) struct Face {
 }
 
 /// Returns the faces of a scene, and the face of each triangle: [`u32::MAX`] for one without area, which has none.
-pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchError> {
+pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), InputError> {
     let has_area: Vec<bool> = scene.mesh().iter_corners().map(|corners| !is_degenerate(&corners)).collect();
     let triangles: Vec<[DVec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(wide)).collect();
     if let Some(thin) = (0..triangles.len()).find(|&i| has_area[i] && Patch::new(&triangles[i], 0, 0).is_none()) {
-        return Err(PatchError::TooThin { triangle: thin as u32 });
+        return Err(too_thin_error(thin as u32));
     }
     let materials = scene.material_of();
     let (mut faces, mut face_of) = (Vec::new(), Vec::new());
@@ -46,7 +47,7 @@ pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchErro
         i += width;
     }
     if faces.is_empty() {
-        return Err(PatchError::Empty);
+        return Err(empty_error());
     }
     Ok((faces, face_of))
 }

@@ -1,32 +1,9 @@
 //! The linear system of equations 1 and 2, and its updates while the form factors stay.
 
-use thiserror::Error;
-
 use super::FormFactors;
-use super::solve::{self, Options, Solution, SolveError, Solver};
+use super::solve::{self, Options, Solution, Solver};
+use crate::error::{InputError, ensure, input_error};
 use crate::linalg::Matrix;
-
-/// Error of a system's input.
-#[non_exhaustive]
-#[derive(Debug, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum SystemError {
-    /// There are no patches.
-    #[error("expected patches, found none")]
-    Empty,
-    /// The number of reflectances, emittances or the like is not that of the patches.
-    #[error("expected {patches} {what}, one per patch, found {found}")]
-    Count { what: &'static str, patches: usize, found: usize },
-    /// A reflectance is 1 or more, or below 0.
-    #[error(
-        "expected reflectances of at least 0 and below 1, found {value} for patch {patch} (counted from 0); \
-         a surface that absorbs nothing has no solution"
-    )]
-    Reflectance { patch: usize, value: f64 },
-    /// An emittance is below 0, or none is above 0.
-    #[error("expected finite emittances of at least 0, found {value} for patch {patch} (counted from 0)")]
-    Emittance { patch: usize, value: f64 },
-}
 
 /// Red, green and blue per patch.
 type PerPatch = Vec<[f64; 3]>;
@@ -56,10 +33,8 @@ impl RgbSolution {
 
 impl System {
     /// Creates a system with one reflectance, in [0, 1), and one emittance per patch.
-    pub fn new(factors: FormFactors, reflectance: PerPatch, emittance: PerPatch) -> Result<Self, SystemError> {
-        if factors.is_empty() {
-            return Err(SystemError::Empty);
-        }
+    pub fn new(factors: FormFactors, reflectance: PerPatch, emittance: PerPatch) -> Result<Self, InputError> {
+        ensure!(!factors.is_empty(), "radiosity::system" => "expected patches, found none");
         let mut system = Self { factors, reflectance: Vec::new(), emittance: Vec::new() };
         system.set_reflectance(reflectance)?;
         system.set_emittance(emittance)?;
@@ -69,11 +44,13 @@ impl System {
     /// Replaces the reflectances. The matrix changes with them, the form factors do not.
     ///
     /// # Errors
-    /// [`SystemError`]; the system is then unchanged.
-    pub fn set_reflectance(&mut self, reflectance: PerPatch) -> Result<(), SystemError> {
+    /// [`InputError`]; the system is then unchanged.
+    pub fn set_reflectance(&mut self, reflectance: PerPatch) -> Result<(), InputError> {
         self.count("reflectances", &reflectance)?;
         if let Some((patch, value)) = first(&reflectance, |value| !(0.0..1.0).contains(&value)) {
-            return Err(SystemError::Reflectance { patch, value });
+            return Err(input_error!("radiosity::system" =>
+                "expected reflectances of at least 0 and below 1, found {value} for patch {patch} (counted from 0); \
+                 a surface that absorbs nothing has no solution"));
         }
         self.reflectance = reflectance;
         Ok(())
@@ -82,19 +59,21 @@ impl System {
     /// Replaces the emittances. The matrix does not change.
     ///
     /// # Errors
-    /// [`SystemError`]; the system is then unchanged.
-    pub fn set_emittance(&mut self, emittance: PerPatch) -> Result<(), SystemError> {
+    /// [`InputError`]; the system is then unchanged.
+    pub fn set_emittance(&mut self, emittance: PerPatch) -> Result<(), InputError> {
         self.count("emittances", &emittance)?;
         if let Some((patch, value)) = first(&emittance, |value| !(value >= 0.0 && value.is_finite())) {
-            return Err(SystemError::Emittance { patch, value });
+            return Err(input_error!("radiosity::system" =>
+                "expected finite emittances of at least 0, found {value} for patch {patch} (counted from 0)"));
         }
         self.emittance = emittance;
         Ok(())
     }
 
-    fn count(&self, what: &'static str, values: &PerPatch) -> Result<(), SystemError> {
+    fn count(&self, what: &'static str, values: &PerPatch) -> Result<(), InputError> {
         let (patches, found) = (self.factors.len(), values.len());
-        if patches == found { Ok(()) } else { Err(SystemError::Count { what, patches, found }) }
+        ensure!(patches == found, "radiosity::system" => "expected {patches} {what}, one per patch, found {found}");
+        Ok(())
     }
 
     /// The form factors.
@@ -141,7 +120,7 @@ impl System {
         solver: Solver,
         options: &Options,
         start: Option<&[f64]>,
-    ) -> Result<Solution, SolveError> {
+    ) -> Result<Solution, InputError> {
         let right_hand_side = &self.right_hand_side(channel);
         solve::solve(
             solver,
@@ -154,13 +133,13 @@ impl System {
     /// earlier solution.
     ///
     /// # Errors
-    /// [`SolveError`].
+    /// [`InputError`].
     pub fn solve(
         &self,
         solver: Solver,
         options: &Options,
         start: Option<&[[f64; 3]]>,
-    ) -> Result<RgbSolution, SolveError> {
+    ) -> Result<RgbSolution, InputError> {
         let channel = |c: usize| {
             let start: Option<Vec<f64>> = start.map(|all| all.iter().map(|b| b[c]).collect());
             self.solve_channel(c, solver, options, start.as_deref())

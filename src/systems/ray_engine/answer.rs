@@ -3,8 +3,8 @@
 use refsim::event::{DrawEvents, Event};
 use refsim::machine::MachineError;
 
-use super::RayBatchError;
 use crate::card::KernelError;
+use crate::error::InputError;
 use crate::geom::Hit;
 
 /// Maximum number of triangles: ids are 24-bit colors.
@@ -30,7 +30,7 @@ pub enum EngineError {
     /// The number of rays does not match the rectangle.
     #[error(transparent)]
     #[diagnostic(code(ray_engine::batch))]
-    Batch(#[from] RayBatchError),
+    Batch(#[from] InputError),
     /// The card refuses a resource or a draw.
     #[error("the card refuses the work")]
     #[diagnostic(code(ray_engine::machine))]

@@ -31,6 +31,6 @@ pub use bits_left::BitsLeft;
 pub use crossbar::{Crossbar, MakeObserver};
 pub use kernel::{Form, Kernel};
 pub use outputs::Outputs;
-pub use rays::{RayBatch, RayBatchError};
+pub use rays::RayBatch;
 pub use resident::ResidentCrossbar;
 pub use vertex_crossbar::VertexCrossbar;

@@ -2,6 +2,7 @@
 
 use refsim::texture::Region;
 
+use crate::error::{InputError, ensure};
 use crate::geom::Ray;
 
 /// Side of the squares that lists are laid out in, in pixels: a tile of the card, and the paper's bucket of 256 rays
@@ -18,29 +19,15 @@ pub struct RayBatch {
     rays: Vec<Ray>,
 }
 
-/// The number of rays is not width times height.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected {width} x {height} rays for a batch of that size, found {found}")]
-pub struct RayBatchError {
-    /// Number of columns.
-    pub width: u32,
-    /// Number of rows.
-    pub height: u32,
-    /// Number of rays given.
-    pub found: usize,
-}
-
 impl RayBatch {
     /// Creates a batch of `width * height` rays, row by row.
     ///
     /// # Errors
-    /// [`RayBatchError`] if there are more or fewer.
-    pub fn new(width: u32, height: u32, rays: Vec<Ray>) -> Result<Self, RayBatchError> {
-        if rays.len() == width as usize * height as usize {
-            Ok(Self { width, height, rays })
-        } else {
-            Err(RayBatchError { width, height, found: rays.len() })
-        }
+    /// [`InputError`] if there are more or fewer.
+    pub fn new(width: u32, height: u32, rays: Vec<Ray>) -> Result<Self, InputError> {
+        ensure!(rays.len() == width as usize * height as usize, "ray_engine::batch" =>
+            "expected {width} x {height} rays for a batch of that size, found {}", rays.len());
+        Ok(Self { width, height, rays })
     }
 
     /// Creates a batch of as many full rows of `width` rays as there are; drops the rest.

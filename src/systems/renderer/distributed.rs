@@ -1,12 +1,13 @@
 //! Distributed ray tracing: Whitted's rays distributed at random (Cook, Porter and Carpenter 1984).
 
+use super::Settings;
 use super::counting::{CountingCaster, RayKind, WatchProgress};
 use super::film::{RenderedPicture, expose};
 use super::lights::Lights;
 use super::lobes::{Lobes, choose_specular, specular_rays};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
-use super::{RenderError, Settings};
+use crate::error::InputError;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
@@ -20,14 +21,14 @@ const SECOND_RAY: u64 = 1 << 33;
 /// interreflection is omitted.
 ///
 /// # Errors
-/// [`RenderError`] if a setting is out of range or the caster fails.
+/// [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
     settings: &Settings,
     caster: &'a mut dyn Caster,
     watch: &'a mut WatchProgress<'a>,
-) -> Result<RenderedPicture, RenderError> {
+) -> Result<RenderedPicture, InputError> {
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::areas_of(scene, settings.rounding);
     let fan = 2 + lights.points();

@@ -1,11 +1,12 @@
 //! Eye rays alone: visible surfaces, lit by a light at the eye.
 
+use super::Settings;
 use super::counting::{CountingCaster, WatchProgress};
 use super::film::{RenderedPicture, expose};
 use super::lights::Lights;
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
-use super::{RenderError, Settings};
+use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene, Surface};
 use crate::tracer::Caster;
@@ -15,14 +16,14 @@ use crate::tracer::Caster;
 /// flipped triangles are visible.
 ///
 /// # Errors
-/// [`RenderError`] if a setting is out of range or the caster fails.
+/// [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
     settings: &Settings,
     caster: &'a mut dyn Caster,
     watch: &'a mut WatchProgress<'a>,
-) -> Result<RenderedPicture, RenderError> {
+) -> Result<RenderedPicture, InputError> {
     let mut tracer = CountingCaster::new(caster, watch);
     expose(&mut tracer, (scene, camera), settings, 1, &Eye)
 }

@@ -4,8 +4,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::counting::{CountingCaster, RayCounts, RayKind};
-use super::settings::{Lens, RenderError, Settings};
+use super::settings::{Lens, Settings};
 use super::wave::{PathRay, SampleRng, Shade, follow};
+use crate::error::InputError;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::picture::{self, RgbImage};
@@ -65,7 +66,7 @@ pub(super) fn expose(
     settings: &Settings,
     fan: usize,
     shader: &impl Shade,
-) -> Result<RenderedPicture, RenderError> {
+) -> Result<RenderedPicture, InputError> {
     settings.checked()?;
     let pixels = camera.width() as usize * camera.height() as usize;
     let samples = u64::from(settings.samples);
@@ -117,7 +118,7 @@ fn through_middles(
     tracer: &mut CountingCaster<'_>,
     camera: &Camera,
     settings: &Settings,
-) -> Result<Vec<Option<Hit>>, RenderError> {
+) -> Result<Vec<Option<Hit>>, InputError> {
     let pixels = u64::from(camera.width()) * u64::from(camera.height());
     tracer.begin("pixels", pixels);
     let mut hits = Vec::with_capacity(pixels as usize);
@@ -158,7 +159,7 @@ fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, rng: SampleRng) -> 
 }
 
 /// Generates a ray from a point of the lens to the point where the pinhole's ray reaches the focal distance.
-fn through_lens(camera: &Camera, lens: Lens, direction: DVec3, u: [f64; 2]) -> Result<Ray, crate::geom::RayError> {
+fn through_lens(camera: &Camera, lens: Lens, direction: DVec3, u: [f64; 2]) -> Result<Ray, InputError> {
     let [x, y] = super::sampling::disk(u);
     let [right, up] = [camera.right(), camera.up()].map(|axis| unit(axis).unwrap_or(axis));
     let eye = wide(camera.eye());

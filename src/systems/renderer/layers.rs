@@ -2,8 +2,9 @@
 
 use super::film::RenderedPicture;
 use super::surfel::Surfel;
+use crate::error::InputError;
 use crate::geom::vector::narrow;
-use crate::picture::{ChannelUnit, Picture, PictureError, Samples};
+use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::scene::{Camera, Color, Material, Scene, Surface};
 use crate::tracer::offset::SINGLE;
 
@@ -13,7 +14,7 @@ use crate::tracer::offset::SINGLE;
 ///
 /// # Errors
 /// If the picture has no pixels, or more or less than the camera.
-pub fn layers(picture: &RenderedPicture, scene: &Scene, camera: &Camera) -> Result<Picture, PictureError> {
+pub fn layers(picture: &RenderedPicture, scene: &Scene, camera: &Camera) -> Result<Picture, InputError> {
     let color: Vec<[f32; 3]> = picture.color.iter().map(|color| color.map(|c| c as f32)).collect();
     let surface = |(ray, hit)| Surfel::new(scene, SINGLE, &ray, hit?);
     let seen = camera.rays().into_iter().zip(picture.first.iter().copied()).map(surface);
@@ -33,7 +34,7 @@ fn with_vectors(
     names: [&str; 3],
     unit: ChannelUnit,
     vectors: &[[f32; 3]],
-) -> Result<Picture, PictureError> {
+) -> Result<Picture, InputError> {
     names.into_iter().enumerate().try_fold(picture, |picture, (component, name)| {
         picture.with(name, unit, Samples::Float(vectors.iter().map(|vector| vector[component]).collect()))
     })

@@ -36,4 +36,4 @@ pub mod whitted;
 pub use counting::{RayCounts, RayKind, RenderProgress, WatchProgress};
 pub use film::RenderedPicture;
 pub use layers::layers;
-pub use settings::{Lens, RenderError, Settings};
+pub use settings::{Lens, Settings};

@@ -1,12 +1,13 @@
 //! Path tracing: the rendering equation by random walks (Kajiya 1986), unbiased.
 
+use super::Settings;
 use super::counting::{CountingCaster, RayKind, WatchProgress};
 use super::film::{RenderedPicture, expose};
 use super::lights::{LightSample, Lights};
 use super::lobes::{Lobes, choose_specular};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
-use super::{RenderError, Settings};
+use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
@@ -34,7 +35,7 @@ pub enum Direct {
 /// alone, 1 adds direct light. After three hits paths are subject to Russian roulette, which does not change the mean.
 ///
 /// # Errors
-/// [`RenderError`] if a setting is out of range or the caster fails.
+/// [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -42,7 +43,7 @@ pub fn render<'a>(
     direct: Direct,
     caster: &'a mut dyn Caster,
     watch: &'a mut WatchProgress<'a>,
-) -> Result<RenderedPicture, RenderError> {
+) -> Result<RenderedPicture, InputError> {
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::areas_of(scene, settings.rounding);
     let fan = 2 + lights.points();

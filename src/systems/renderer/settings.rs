@@ -1,7 +1,6 @@
 //! Settings shared by all renderers.
 
-use thiserror::Error;
-
+use crate::error::{InputError, input_error};
 use crate::scene::Color;
 use crate::tracer::CastError;
 use crate::tracer::offset::SINGLE;
@@ -56,9 +55,9 @@ impl Default for Settings {
 
 impl Settings {
     /// # Errors
-    /// [`RenderError::Settings`] names the first setting out of range.
-    pub(super) fn checked(&self) -> Result<(), RenderError> {
-        let refuse = |what, found: String, expected| Err(RenderError::Settings { what, expected, found });
+    /// [`InputError`] names the first setting out of range.
+    pub(super) fn checked(&self) -> Result<(), InputError> {
+        let refuse = |what, found: String, expected| Err(settings_error(what, expected, found));
         if self.samples == 0 {
             return refuse("samples a pixel", "0".to_owned(), "at least 1");
         }
@@ -85,15 +84,6 @@ impl Settings {
     }
 }
 
-/// Error of rendering.
-#[non_exhaustive]
-#[derive(Debug, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum RenderError {
-    /// The ray caster failed.
-    #[error(transparent)]
-    Cast(#[from] CastError),
-    /// A setting is out of range.
-    #[error("expected {expected} for {what}, found {found}")]
-    Settings { what: &'static str, expected: &'static str, found: String },
+pub(super) fn settings_error(what: &'static str, expected: &'static str, found: String) -> InputError {
+    input_error!("expected {expected} for {what}, found {found}")
 }

@@ -3,9 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::Settings;
 use super::counting::{CountingCaster, RayKind};
 use super::surfel::Surfel;
-use super::{RenderError, Settings};
+use crate::error::InputError;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
 use crate::geom::{Hit, Ray};
@@ -121,7 +122,7 @@ pub(super) fn follow(
     mut flights: Vec<PathRay>,
     (scene, settings): (&Scene, &Settings),
     shader: &impl Shade,
-) -> Result<Wave, RenderError> {
+) -> Result<Wave, InputError> {
     let shade = |flight: &PathRay, hit: Option<Hit>| {
         match hit.and_then(|hit| Surfel::new(scene, settings.rounding, &flight.ray, hit)) {
             Some(surfel) => shader.shade(flight, &surfel),

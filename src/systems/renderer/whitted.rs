@@ -1,13 +1,14 @@
 //! Whitted's ray tracing: point lights, hard shadows, mirrors, glass (An Improved Illumination Model for Shaded
 //! Display, 1980).
 
+use super::Settings;
 use super::counting::{CountingCaster, WatchProgress};
 use super::film::{RenderedPicture, expose};
 use super::lights::Lights;
 use super::lobes::{Lobes, specular_rays};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
-use super::{RenderError, Settings};
+use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
@@ -21,14 +22,14 @@ const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 /// visible, directly and in mirrors, but do not illuminate.
 ///
 /// # Errors
-/// [`RenderError`] if a setting is out of range or the caster fails.
+/// [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
     settings: &Settings,
     caster: &'a mut dyn Caster,
     watch: &'a mut WatchProgress<'a>,
-) -> Result<RenderedPicture, RenderError> {
+) -> Result<RenderedPicture, InputError> {
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::points_of(scene, settings.rounding);
     // A ray may become two at each glass surface on its way; few do.

@@ -6,8 +6,9 @@
 use std::f64::consts::PI;
 
 use super::fresnel::{internal_reflectance, internal_reflectance_polynomial};
-use super::material::{Coefficients, MaterialError, check_eta};
+use super::material::{Coefficients, check_eta};
 use crate::elementary::{exp, exp_m1, hypot};
+use crate::error::InputError;
 use crate::quadrature::graded_integral;
 
 /// Intervals of the quadrature over the plane: the first ends at 2^-59 of the last one's end.
@@ -38,8 +39,8 @@ impl Dipole {
     /// The dipole of a medium, with the polynomial for the internal reflection.
     ///
     /// # Errors
-    /// [`MaterialError`]: see [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
-    pub fn new(c: Coefficients, eta: f64) -> Result<Self, MaterialError> {
+    /// [`InputError`]: see [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
+    pub fn new(c: Coefficients, eta: f64) -> Result<Self, InputError> {
         Self::with(c, eta, InternalReflection::default())
     }
 
@@ -47,7 +48,7 @@ impl Dipole {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn with(c: Coefficients, eta: f64, reflection: InternalReflection) -> Result<Self, MaterialError> {
+    pub fn with(c: Coefficients, eta: f64, reflection: InternalReflection) -> Result<Self, InputError> {
         c.check()?;
         check_eta(eta)?;
         let f_dr = match reflection {

@@ -35,7 +35,7 @@ pub mod walk;
 pub use dipole::{Dipole, InternalReflection};
 pub use fresnel::fresnel_transmittance;
 pub use irradiance::{DistantSource, distant_irradiance, irradiance};
-pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material, MaterialError};
+pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material};
 pub use polygon::point_to_polygon;
 pub use reference::Reference;
 pub use sphere::{SphereSeries, legendre_coefficients, legendre_sum, uniform_sphere};

@@ -16,7 +16,7 @@
 
 pub mod brdf;
 pub mod clustering;
-mod error;
+pub(crate) mod error;
 pub mod file;
 mod frame;
 pub mod grid;
@@ -37,12 +37,11 @@ pub mod synthetic;
 mod vertices;
 pub mod visibility;
 
-pub use error::TransferError;
 pub use frame::LocalFrame;
-pub use load::{SignalFileError, load_signal, load_signal_and_meaning};
+pub use load::{load_signal, load_signal_and_meaning};
 pub(crate) use origins::{RayOrigin, origins};
 pub use shooter::ray_length;
 pub(crate) use shooter::{FrontHit, Shooter, VertexRays};
-pub use signal::{Signal, SignalError};
+pub use signal::Signal;
 pub(crate) use skyline::{Occluders, SkyPart, ones};
 pub use vertices::{Tangents, Vertices};

@@ -1,7 +1,8 @@
 //! The data to be compressed: points with n numbers each.
 
 use rayon::prelude::*;
-use thiserror::Error;
+
+use crate::error::{InputError, ensure, input_error};
 
 /// Points per chunk of a sum over all points; it fixes the order of the additions.
 const CHUNK: usize = 1024;
@@ -17,45 +18,24 @@ pub struct Signal {
     values: Vec<f32>,
 }
 
-/// Reasons for which numbers make no signal. Points and components count from 0.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum SignalError {
-    /// No points, or 0 numbers per point.
-    #[error("expected at least one point of at least one number, found {values} values at {dimension} per point")]
-    Empty { values: usize, dimension: usize },
-    /// The last point is incomplete.
-    #[error("expected a multiple of {dimension} values, found {values}")]
-    Ragged { values: usize, dimension: usize },
-    /// A NaN or an infinity.
-    #[error("expected finite numbers, found {value} in component {component} of point {point} (counted from 0)")]
-    NotFinite { point: usize, component: usize, value: f32 },
-    /// More points than 32 bits can count.
-    #[error("expected at most {} points, found {points}", u32::MAX)]
-    TooMany { points: usize },
-}
-
 impl Signal {
     /// A signal of `dimension` numbers per point.
     ///
     /// # Errors
-    /// [`SignalError`].
-    pub fn new(dimension: usize, values: Vec<f32>) -> Result<Self, SignalError> {
-        if values.is_empty() || dimension == 0 {
-            return Err(SignalError::Empty { values: values.len(), dimension });
-        }
-        if !values.len().is_multiple_of(dimension) {
-            return Err(SignalError::Ragged { values: values.len(), dimension });
-        }
+    /// [`InputError`].
+    pub fn new(dimension: usize, values: Vec<f32>) -> Result<Self, InputError> {
+        ensure!(!values.is_empty() && dimension != 0, "crossbar::prt::signal" =>
+            "expected at least one point of at least one number, found {} values at {dimension} per point",
+            values.len());
+        ensure!(values.len().is_multiple_of(dimension), "crossbar::prt::signal" =>
+            "expected a multiple of {dimension} values, found {}", values.len());
         let points = values.len() / dimension;
-        if points > u32::MAX as usize {
-            return Err(SignalError::TooMany { points });
-        }
+        ensure!(points <= u32::MAX as usize, "crossbar::prt::signal" =>
+            "expected at most {} points, found {points}", u32::MAX);
         match values.iter().position(|value| !value.is_finite()) {
-            Some(at) => {
-                Err(SignalError::NotFinite { point: at / dimension, component: at % dimension, value: values[at] })
-            }
+            Some(at) => Err(input_error!("crossbar::prt::signal" =>
+                    "expected finite numbers, found {} in component {} of point {} (counted from 0)", values[at],
+                    at % dimension, at / dimension)),
             None => Ok(Self { points, dimension, values }),
         }
     }
@@ -107,9 +87,15 @@ mod tests {
         let signal = Signal::new(2, vec![1.0, 2.0, 3.0, 4.0]).expect("a signal");
         assert_eq!((signal.points(), signal.dimension(), signal.point(1)), (2, 2, &[3.0, 4.0][..]));
         assert_eq!(signal.sum(|point| f64::from(signal.point(point)[0])), 4.0);
-        assert_eq!(Signal::new(2, vec![]), Err(SignalError::Empty { values: 0, dimension: 2 }));
-        assert_eq!(Signal::new(0, vec![1.0]), Err(SignalError::Empty { values: 1, dimension: 0 }));
-        assert_eq!(Signal::new(2, vec![1.0; 3]), Err(SignalError::Ragged { values: 3, dimension: 2 }));
+        assert_eq!(
+            Signal::new(2, vec![]).unwrap_err().to_string(),
+            "expected at least one point of at least one number, found 0 values at 2 per point"
+        );
+        assert_eq!(
+            Signal::new(0, vec![1.0]).unwrap_err().to_string(),
+            "expected at least one point of at least one number, found 1 values at 0 per point"
+        );
+        assert_eq!(Signal::new(2, vec![1.0; 3]).unwrap_err().to_string(), "expected a multiple of 2 values, found 3");
         let message = Signal::new(2, vec![1.0, 1.0, 1.0, f32::NEG_INFINITY]).unwrap_err().to_string();
         assert_eq!(message, "expected finite numbers, found -inf in component 1 of point 1 (counted from 0)");
     }

@@ -5,8 +5,8 @@ use std::fmt;
 
 use glam::DVec3;
 
-use super::error::TransferError;
 use super::frame::LocalFrame;
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::{place_bits, unit, wide};
 
@@ -61,8 +61,8 @@ impl Vertices {
     /// triangles at the same position, weighted by area.
     ///
     /// # Errors
-    /// [`TransferError`] for a mesh without triangles, a vertex without a normal, or tangents that cannot be computed.
-    pub fn new(mesh: &Mesh, tangents: Tangents) -> Result<Self, TransferError> {
+    /// [`InputError`] for a mesh without triangles, a vertex without a normal, or tangents that cannot be computed.
+    pub fn new(mesh: &Mesh, tangents: Tangents) -> Result<Self, InputError> {
         Self::with_materials(mesh, &vec![0; mesh.len()], tangents)
     }
 
@@ -70,19 +70,23 @@ impl Vertices {
     ///
     /// # Errors
     /// As [`Self::new`], and if there is not one material per triangle.
-    pub fn with_materials(mesh: &Mesh, materials: &[u32], tangents: Tangents) -> Result<Self, TransferError> {
-        if mesh.is_empty() {
-            return Err(TransferError::NoTriangles);
-        }
-        if materials.len() != mesh.len() {
-            return Err(TransferError::Materials { triangles: mesh.len(), found: materials.len() });
-        }
+    pub fn with_materials(mesh: &Mesh, materials: &[u32], tangents: Tangents) -> Result<Self, InputError> {
+        ensure!(!mesh.is_empty(), "crossbar::prt::precompute" =>
+            "expected a mesh of at least one triangle, found none");
+        ensure!(materials.len() == mesh.len(), "crossbar::prt::precompute" =>
+            "expected one material per triangle, {}, found {}", mesh.len(), materials.len());
         let normals = normals(mesh)?;
         let texture = match tangents {
-            Tangents::Texture => Some(mesh.texcoords().ok_or(TransferError::NoTextureCoordinates)?),
+            Tangents::Texture => Some(mesh.texcoords().ok_or_else(|| {
+                input_error!("crossbar::prt::precompute" =>
+                    "the mesh has no texture coordinates to take tangents from; name an axis for the tangents instead")
+            })?),
             Tangents::Any => None,
             Tangents::Along(axis) if unit(axis).is_some() => None,
-            Tangents::Along(axis) => return Err(TransferError::Axis { found: axis.into() }),
+            Tangents::Along(axis) => {
+                return Err(input_error!("crossbar::prt::precompute" =>
+                        "expected an axis of finite length above 0 for the tangents, found {axis:?}"));
+            }
         };
         let mut known: BTreeMap<VertexKey, u32> = BTreeMap::new();
         let (mut of, mut sums, mut materials_of) = (Vec::new(), Vec::new(), Vec::new());
@@ -208,7 +212,7 @@ fn used(mesh: &Mesh) -> Vec<bool> {
 }
 
 /// A unit normal per vertex of the source; zero for those that no triangle uses.
-fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, TransferError> {
+fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, InputError> {
     let mut sums: BTreeMap<[u32; 3], DVec3> = BTreeMap::new();
     for (indices, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {
         let [a, b, c] = corners.map(wide);
@@ -220,7 +224,11 @@ fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, TransferError> {
     let around = |vertex: usize| sums.get(&place(mesh, vertex as u32)).copied().and_then(|sum| unit(sum + DVec3::ZERO));
     let normal = |(vertex, used)| match used {
         false => Ok(DVec3::ZERO),
-        true => given(vertex).or_else(|| around(vertex)).ok_or(TransferError::NoNormal { vertex }),
+        true => given(vertex).or_else(|| around(vertex)).ok_or_else(|| {
+            input_error!("crossbar::prt::precompute" =>
+                "vertex {vertex} (counted from 0) has no normal: none is given, and its triangles have no area or \
+                 cancel out; remove them or give a normal")
+        }),
     };
     used(mesh).into_iter().enumerate().map(normal).collect()
 }

@@ -1,6 +1,6 @@
 //! Fewer triangles drawn: within the budget, never more, and never at the cost of error where none is allowed.
 
-use crossbar::cpca::coherence::{CoherenceError, ConstantRegisters, Superclusters, overdraw, reclassify};
+use crossbar::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
 use crossbar::transfer::Signal;
@@ -128,14 +128,17 @@ fn superclusters_of_a_size_are_as_large_as_may_be() {
         assert_eq!(again, superclusters);
         assert_eq!(again.require(&clustering, ConstantRegisters::diffuse(2 * size)), Ok(()));
         let error = again.require(&clustering, ConstantRegisters::diffuse(2 * size - 1)).unwrap_err();
-        assert!(matches!(error, CoherenceError::SuperclusterRegisters { needed, .. } if needed == 2 * size), "{error}");
+        assert!(error.to_string().contains(&format!(" needs {} constant registers, expected", 2 * size)), "{error}");
     }
     assert_eq!(before, triangles.len() as u64, "all clusters in one");
-    assert_eq!(Superclusters::of_size(&clustering, &triangles, 0).unwrap_err(), CoherenceError::Size);
+    assert_eq!(
+        Superclusters::of_size(&clustering, &triangles, 0).unwrap_err().to_string(),
+        "expected superclusters of at least 1 cluster, found 0"
+    );
     assert_eq!(Superclusters::of_numbers(&[0, 2, 1]), None);
     let other = Superclusters::of_numbers(&[0, 1, 1]).expect("in order");
     let error = other.require(&clustering, ConstantRegisters::diffuse(99)).unwrap_err();
-    assert_eq!(error, CoherenceError::Clusters { expected: 30, found: 3 });
+    assert_eq!(error.to_string(), "expected superclusters of 30 clusters, found those of 3");
 }
 
 #[test]
@@ -152,7 +155,7 @@ fn what_does_not_go_together_is_refused() {
     assert_eq!(error.to_string(), expected);
     for budget in [-0.1, f64::NAN, f64::INFINITY] {
         let error = reclassify(&signal, &clustering, &triangles, budget).unwrap_err();
-        assert!(matches!(error, CoherenceError::Budget { .. }));
+        assert!(error.to_string().contains("expected an error budget of at least 0, as a share of the error,"));
     }
     let other = ragged(7, 0.0);
     let error = reclassify(&other, &clustering, &triangles, 0.1).unwrap_err();

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use crossbar::error::InputError;
 use crossbar::geom::Mesh;
-use crossbar::io::{ModelError, ModelOptions, load_mesh, load_mesh_with, load_obj, parse_ply};
+use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, load_obj, parse_ply};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
@@ -66,7 +67,7 @@ fn encoded(encoding: &'static str) -> Vec<u8> {
     out.bytes
 }
 
-fn parse(bytes: &[u8]) -> Result<Mesh, ModelError> {
+fn parse(bytes: &[u8]) -> Result<Mesh, InputError> {
     parse_ply(bytes, Path::new("m.ply"))
 }
 

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use crossbar::error::InputError;
 use crossbar::geom::Mesh;
-use crossbar::io::{ModelError, ModelOptions, load_mesh, load_mesh_with, load_obj, parse_stl};
+use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, load_obj, parse_stl};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
@@ -35,7 +36,7 @@ fn ascii() -> Vec<u8> {
     (text + "endsolid two triangles\n").into_bytes()
 }
 
-fn parse(bytes: &[u8]) -> Result<Mesh, ModelError> {
+fn parse(bytes: &[u8]) -> Result<Mesh, InputError> {
     parse_stl(bytes, Path::new("m.stl"))
 }
 

@@ -1,7 +1,7 @@
 //! All solvers find the same solution; how fast is told by their histories.
 
 use approx::abs_diff_eq;
-use crossbar::radiosity::solve::{Options, Problem, SolveError, Solver, residual, solve};
+use crossbar::radiosity::solve::{Options, Problem, Solver, residual, solve};
 
 use super::{cornell, random_system};
 
@@ -84,19 +84,24 @@ fn what_cannot_be_solved_is_refused() {
     let options = Options::default();
     for step in [0.0, 2.0, -1.0, f64::NAN] {
         let refused = solve(Solver::OverRelaxation(step), &problem, &options);
-        assert!(matches!(refused, Err(SolveError::Relaxation(_))), "{step}");
+        let refused = refused.unwrap_err().to_string();
+        assert!(refused.starts_with("expected a relaxation factor above 0 and below 2, found "), "{step}");
     }
     let short = Problem { start: Some(&[0.0; 3]), ..problem };
     assert_eq!(
-        solve(Solver::Jacobi, &short, &options),
-        Err(SolveError::Count { what: "radiosities", rows: 4, found: 3 })
+        solve(Solver::Jacobi, &short, &options).unwrap_err().to_string(),
+        "expected 4 radiosities, one per row of the matrix, found 3"
     );
     let mut zero = matrix.clone();
     zero.row_mut(2)[2] = 0.0;
     let refused = solve(Solver::Jacobi, &Problem { matrix: &zero, ..problem }, &options);
-    assert_eq!(refused, Err(SolveError::Diagonal { row: 2 }));
+    assert_eq!(
+        refused.unwrap_err().to_string(),
+        "expected a diagonal without zeros, found one in row 2 (counted from 0)"
+    );
     let (runaway, right) = random_system(8, 3.0, 2);
     let problem = Problem { matrix: &runaway, right_hand_side: &right, areas: &[1.0; 8], start: None };
     let refused = solve(Solver::Jacobi, &problem, &Options { tolerance: 1e-9, most_iterations: 100_000 });
-    assert!(matches!(refused, Err(SolveError::Diverged { .. })), "{refused:?}");
+    let refused = refused.unwrap_err().to_string();
+    assert!(refused.starts_with("expected an iteration that converges, found no finite residual after "), "{refused}");
 }

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use crossbar::error::InputError;
 use crossbar::renderer::photon::{self, Photons};
-use crossbar::renderer::{RenderError, RenderedPicture, Settings, distributed, path, whitted};
+use crossbar::renderer::{RenderedPicture, Settings, distributed, path, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 use glam::DVec3;
 
@@ -137,7 +138,7 @@ fn an_estimate_of_fewer_than_two_photons_is_refused() {
         let photons = Photons { nearest, ..photons(1) };
         let camera = needle(EYE, [0.0; 3]);
         let refused = photon::render(&scene, &camera, &settings(), &photons, &mut host(&scene), &mut |_| {});
-        let error: RenderError = refused.expect_err("an error");
+        let error: InputError = refused.expect_err("an error");
         assert_eq!(
             error.to_string(),
             format!("expected at least 2 for the nearest photons of an estimate, found {nearest}")

@@ -2,11 +2,10 @@
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use crossbar::elementary::{exp, ln};
+use crossbar::error::InputError;
 use crossbar::quadrature::{graded_integral, integral};
 use crossbar::subsurface::fresnel::{internal_reflectance, internal_reflectance_polynomial, mean_transmittance};
-use crossbar::subsurface::{
-    Coefficients, Dipole, InternalReflection, MAX_ETA, Material, MaterialError, fresnel_transmittance,
-};
+use crossbar::subsurface::{Coefficients, Dipole, InternalReflection, MAX_ETA, Material, fresnel_transmittance};
 use std::f64::consts::PI;
 
 /// The material of the paper's Figure 7, per mm.
@@ -162,7 +161,7 @@ fn totals_and_radii_of_figure_7() {
 #[test]
 fn figures_that_make_no_medium_are_refused() {
     let new = |s, a, eta| Dipole::new(Coefficients { sigma_s_prime: s, sigma_a: a }, eta).map(|_| ()).unwrap_err();
-    let told = |error: &MaterialError| error.to_string();
+    let told = |error: &InputError| error.to_string();
     for (error, message) in [
         (new(f64::NAN, 0.0, 1.3), "expected a finite number for the reduced scattering coefficient, found NaN"),
         (new(1.0, f64::INFINITY, 1.3), "expected a finite number for the absorption coefficient, found inf"),

@@ -1,6 +1,6 @@
 //! Reads typed elements from buffers.
 
-use std::borrow::Cow;
+use std::fmt::Display;
 use std::path::Path;
 
 use gltf::Accessor;
@@ -8,8 +8,9 @@ use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::View;
 
-use super::super::error::ModelError;
 use super::buffers::Buffers;
+use crate::error::InputError;
+use crate::io::error::part_error;
 
 /// Largest number of elements of an accessor.
 pub(super) const MAX_ELEMENTS: usize = 1 << 26;
@@ -26,7 +27,7 @@ pub(super) struct AccessorReader<'a> {
 
 impl AccessorReader<'_> {
     /// Vectors in single precision; normalized unsigned integers are divided by the largest.
-    pub(super) fn vectors<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f32; N]>, ModelError> {
+    pub(super) fn vectors<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f32; N]>, InputError> {
         let fits = accessor.dimensions().multiplicity() == N
             && !matches!(accessor.dimensions(), Dimensions::Mat2 | Dimensions::Mat3 | Dimensions::Mat4);
         let (size, read): (usize, fn(&[u8]) -> f32) = match (accessor.data_type(), accessor.normalized()) {
@@ -44,7 +45,7 @@ impl AccessorReader<'_> {
     }
 
     /// Indices of vertices, each below `vertices`.
-    pub(super) fn indices(&self, accessor: &Accessor<'_>, vertices: usize) -> Result<Vec<u32>, ModelError> {
+    pub(super) fn indices(&self, accessor: &Accessor<'_>, vertices: usize) -> Result<Vec<u32>, InputError> {
         let unsigned = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
         if accessor.dimensions() != Dimensions::Scalar || !unsigned {
             return Err(self.wrong(accessor, "unsigned scalars for indices", "elements of another type"));
@@ -57,7 +58,7 @@ impl AccessorReader<'_> {
     }
 
     /// The bytes of each element, as slices.
-    fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, ModelError> {
+    fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, InputError> {
         let (count, size) = (accessor.count(), accessor.size());
         let outside = |what: &'static str| self.wrong(accessor, what, "bytes beyond it");
         if count > MAX_ELEMENTS {
@@ -116,13 +117,8 @@ impl AccessorReader<'_> {
         (0..count).map(|i| bytes.get(i * stride..i * stride + size)).collect()
     }
 
-    fn wrong(&self, accessor: &Accessor<'_>, expected: impl Into<Cow<'static, str>>, found: &str) -> ModelError {
-        ModelError::Part {
-            place: self.name.into(),
-            part: format!("accessors[{}]", accessor.index()),
-            expected: expected.into(),
-            found: found.to_owned(),
-        }
+    fn wrong(&self, accessor: &Accessor<'_>, expected: impl Display, found: &str) -> InputError {
+        part_error(self.name, format!("accessors[{}]", accessor.index()), expected, found)
     }
 }
 

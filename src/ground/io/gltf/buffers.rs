@@ -10,9 +10,10 @@ use gltf::Document;
 use gltf::buffer::{Source, View};
 use percent_encoding::percent_decode_str;
 
-use super::super::error::{ModelError, ReadError};
 use super::super::obj::MAX_BYTES;
 use super::super::quoted;
+use crate::error::{InputError, input_error};
+use crate::io::error::{part_error, too_long_error};
 
 /// Base64 with or without padding.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -30,16 +31,12 @@ impl<'a> Buffers<'a> {
         chunk: Option<&'a [u8]>,
         name: &Path,
         beside: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, InputError> {
         let (mut all, mut total) = (Vec::new(), 0_u64);
         for buffer in document.buffers() {
             let index = buffer.index();
-            let wrong = |expected: &'static str, found: &str| ModelError::Part {
-                place: name.into(),
-                part: format!("buffers[{index}]"),
-                expected: expected.into(),
-                found: found.to_owned(),
-            };
+            let wrong =
+                |expected: &'static str, found: &str| part_error(name, format!("buffers[{index}]"), expected, found);
             let bytes = match (buffer.source(), chunk) {
                 (Source::Bin, Some(chunk)) if index == 0 => Cow::Borrowed(chunk),
                 (Source::Bin, _) => return Err(wrong("a `uri`, or the binary chunk of GLB", "none")),
@@ -55,7 +52,10 @@ impl<'a> Buffers<'a> {
                         let file = local(uri).ok_or_else(|| wrong(expected, &quoted(uri.as_bytes())))?;
                         Cow::Owned(beside(&file).map_err(|source| {
                             let path = name.parent().unwrap_or(Path::new("")).join(&file);
-                            ModelError::Buffer { place: name.into(), buffer: index, path, source }
+                            input_error!("crossbar::model::buffer" =>
+                                "buffers[{index}]: cannot read {}", path.display(); help "put it beside the model")
+                            .with_source(source)
+                            .at(name)
                         })?)
                     }
                 },
@@ -66,7 +66,7 @@ impl<'a> Buffers<'a> {
             }
             total += bytes.len() as u64;
             if total > MAX_BYTES {
-                return Err(ReadError::TooLong { what: "model", path: name.into(), limit: MAX_BYTES }.into());
+                return Err(too_long_error("model", name, MAX_BYTES));
             }
             all.push(bytes);
         }

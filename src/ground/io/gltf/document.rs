@@ -5,9 +5,10 @@ use std::path::Path;
 use gltf::json::validation::{Error, Validate as _};
 use gltf::{Document, json};
 
-use super::super::error::{FilePlace, ModelError};
 use super::super::lines::unmarked;
 use super::super::quoted;
+use crate::error::{FilePlace, InputError};
+use crate::io::error::{part_error, syntax_error};
 
 /// First bytes of GLB.
 const MAGIC: &[u8] = b"glTF";
@@ -20,23 +21,18 @@ const PASSED_OVER: [&str; 8] =
     ["animations", "camera", "cameras", "extras", "images", "samplers", "targets", "textures"];
 
 /// The document, all its references checked, and the binary chunk of GLB.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option<&'a [u8]>), ModelError> {
+pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option<&'a [u8]>), InputError> {
     let (text, chunk) = if bytes.starts_with(MAGIC) { chunks(bytes, name)? } else { (unmarked(bytes), None) };
     let root = used_parts(text).map_err(|error| {
         // Read as a whole, the same text gives the error with its line.
         let error = json::deserialize::from_slice::<json::Root>(text).err().unwrap_or(error);
-        ModelError::Syntax {
-            place: FilePlace::line(name, error.line().max(1)),
-            expected: "a glTF 2.0 document".into(),
-            found: format!("something else: {}", shortened(&error.to_string())),
-        }
+        syntax_error(
+            FilePlace::line(name, error.line().max(1)),
+            "a glTF 2.0 document",
+            format!("something else: {}", shortened(&error.to_string())),
+        )
     })?;
-    let wrong = |part: &str, expected: &'static str, found: String| ModelError::Part {
-        place: name.into(),
-        part: shortened(part),
-        expected: expected.into(),
-        found,
-    };
+    let wrong = |part: &str, expected: &'static str, found: String| part_error(name, shortened(part), expected, found);
     if !root.asset.version.starts_with("2.") {
         return Err(wrong("asset.version", "2.0", quoted(root.asset.version.as_bytes())));
     }
@@ -86,13 +82,8 @@ fn keep_used(value: &mut json::Value) {
 }
 
 /// The JSON of a GLB file, and its binary chunk if it has one.
-fn chunks<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], Option<&'a [u8]>), ModelError> {
-    let wrong = |part: &str, expected: &'static str, found: String| ModelError::Part {
-        place: name.into(),
-        part: part.to_owned(),
-        expected: expected.into(),
-        found,
-    };
+fn chunks<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], Option<&'a [u8]>), InputError> {
+    let wrong = |part: &str, expected: &'static str, found: String| part_error(name, part, expected, found);
     let word = |at: usize| Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?));
     if word(4) != Some(2) {
         return Err(wrong("the GLB header", "version 2", word(4).map_or("no more bytes".into(), |v| v.to_string())));

@@ -4,12 +4,13 @@ use glam::{DMat3, DVec3};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Primitive, Semantic};
 
-use super::super::error::ModelError;
 use super::accessor::{AccessorReader, MAX_ELEMENTS};
 use super::material::Materials;
 use super::nodes::Instance;
+use crate::error::InputError;
+use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
-use crate::geom::{Mesh, MeshError};
+use crate::io::error::part_error;
 
 /// Largest number of vertices of a model over all mesh instances.
 const MAX_VERTICES: usize = 1 << 24;
@@ -36,12 +37,14 @@ impl Geometry {
         primitive: &Primitive<'_>,
         materials: &mut Materials,
         reader: &AccessorReader<'_>,
-    ) -> Result<(), ModelError> {
-        let wrong = |expected: &'static str, found: String| ModelError::Part {
-            place: reader.name.into(),
-            part: format!("meshes[{}].primitives[{}]", instance.mesh.index(), primitive.index()),
-            expected: expected.into(),
-            found,
+    ) -> Result<(), InputError> {
+        let wrong = |expected: &'static str, found: String| {
+            part_error(
+                reader.name,
+                format!("meshes[{}].primitives[{}]", instance.mesh.index(), primitive.index()),
+                expected,
+                found,
+            )
         };
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
@@ -96,7 +99,7 @@ impl Geometry {
     }
 
     /// The mesh, with normals and texture coordinates if all its primitives have them.
-    pub(super) fn mesh(self) -> Result<Mesh, MeshError> {
+    pub(super) fn mesh(self) -> Result<Mesh, InputError> {
         let mut mesh = Mesh::new(self.positions, self.triangles)?;
         if !self.some_without[0] {
             mesh = mesh.with_normals(self.normals)?;
@@ -110,8 +113,8 @@ impl Geometry {
 
 fn attribute<T>(
     accessor: Option<Accessor<'_>>,
-    read: impl Fn(&Accessor<'_>) -> Result<Vec<T>, ModelError>,
-) -> Result<Option<Vec<T>>, ModelError> {
+    read: impl Fn(&Accessor<'_>) -> Result<Vec<T>, InputError>,
+) -> Result<Option<Vec<T>>, InputError> {
     accessor.map(|accessor| read(&accessor)).transpose()
 }
 

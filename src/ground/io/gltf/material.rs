@@ -5,7 +5,8 @@ use std::path::Path;
 
 use gltf::Document;
 
-use super::super::error::ModelError;
+use crate::error::InputError;
+use crate::io::error::material_error;
 use crate::scene::Material;
 
 /// Name of the material of primitives without one.
@@ -21,7 +22,7 @@ pub(super) struct Materials {
 
 impl Materials {
     /// Reads the materials. Their names are those of the file without white space, made unique.
-    pub(super) fn of(document: &Document, name: &Path) -> Result<Self, ModelError> {
+    pub(super) fn of(document: &Document, name: &Path) -> Result<Self, InputError> {
         let (mut list, mut names) = (Vec::new(), BTreeSet::from([DEFAULT.to_owned()]));
         for (index, material) in document.materials().enumerate() {
             let mut plain: String = material.name().unwrap_or_default().to_owned();
@@ -30,11 +31,8 @@ impl Materials {
                 plain = format!("{plain}_{index}");
                 names.insert(plain.clone());
             }
-            let wrong = |expected: &'static str, [r, g, b]: [f32; 3]| ModelError::Material {
-                place: name.into(),
-                name: plain.chars().take(80).collect(),
-                expected,
-                found: format!("{r} {g} {b}"),
+            let wrong = |expected: &'static str, [r, g, b]: [f32; 3]| {
+                material_error(name, plain.chars().take(80).collect::<String>(), expected, format!("{r} {g} {b}"))
             };
             let [r, g, b, _] = material.pbr_metallic_roughness().base_color_factor();
             if [r, g, b].iter().any(|channel| !(0.0..=1.0).contains(channel)) {

@@ -21,9 +21,10 @@ mod nodes;
 use std::io;
 use std::path::Path;
 
-use super::error::ModelError;
 use super::obj::within_limit;
+use crate::error::InputError;
 use crate::geom::Mesh;
+use crate::io::error::{mesh_error, scene_error, syntax_error};
 use crate::scene::Scene;
 use accessor::AccessorReader;
 use buffers::Buffers;
@@ -34,12 +35,12 @@ use material::Materials;
 /// same folder. It has no views and no point lights. Never panics.
 ///
 /// # Errors
-/// [`ModelError`], with the part of the file, counted from 0 as the format does.
+/// [`InputError`], with the part of the file, counted from 0 as the format does.
 pub fn parse_gltf(
     bytes: &[u8],
     name: &Path,
     beside: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-) -> Result<Scene, ModelError> {
+) -> Result<Scene, InputError> {
     within_limit(bytes, name)?;
     let (document, chunk) = document::read(bytes, name)?;
     let buffers = Buffers::load(&document, chunk, name, beside)?;
@@ -52,10 +53,9 @@ pub fn parse_gltf(
         }
     }
     if geometry.triangles.is_empty() {
-        let expected = "at least one triangle in the default scene".into();
-        return Err(ModelError::Syntax { place: name.into(), expected, found: "none".to_owned() });
+        return Err(syntax_error(name, "at least one triangle in the default scene", "none"));
     }
     let (material_of, normals) = (std::mem::take(&mut geometry.material_of), geometry.corner_normals());
-    let mesh: Mesh = geometry.mesh().map_err(|reason| ModelError::Mesh(name.into(), reason))?;
-    Scene::new(mesh, materials.list, material_of, normals).map_err(|reason| ModelError::Scene(name.into(), reason))
+    let mesh: Mesh = geometry.mesh().map_err(|reason| mesh_error(name, reason))?;
+    Scene::new(mesh, materials.list, material_of, normals).map_err(|reason| scene_error(name, reason))
 }

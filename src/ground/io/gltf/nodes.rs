@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use crate::error::InputError;
+use crate::io::error::part_error;
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use gltf::scene::Transform;
 use gltf::{Document, Mesh, Node};
-
-use super::super::error::ModelError;
 
 /// Rotates y up to z up.
 const UPRIGHT: DMat4 = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::NEG_Y, DVec4::W);
@@ -18,12 +18,9 @@ pub(super) struct Instance<'a> {
 }
 
 /// The meshes of the default scene, else of the first, else of all nodes without a parent, in the order of the tree.
-pub(super) fn instances<'a>(document: &'a Document, name: &Path) -> Result<Vec<Instance<'a>>, ModelError> {
-    let wrong = |node: &Node<'_>, expected: &'static str, found: &str| ModelError::Part {
-        place: name.into(),
-        part: format!("nodes[{}]", node.index()),
-        expected: expected.into(),
-        found: found.to_owned(),
+pub(super) fn instances<'a>(document: &'a Document, name: &Path) -> Result<Vec<Instance<'a>>, InputError> {
+    let wrong = |node: &Node<'_>, expected: &'static str, found: &str| {
+        part_error(name, format!("nodes[{}]", node.index()), expected, found)
     };
     let mut open: Vec<(Node<'_>, DMat4)> = roots(document).into_iter().rev().map(|node| (node, UPRIGHT)).collect();
     let (mut seen, mut found) = (vec![false; document.nodes().len()], Vec::new());

@@ -22,10 +22,10 @@ pub use mtl::parse_mtl;
 pub(super) use reader::plain_scene;
 pub use write::{write_mtl, write_scene};
 
-use super::error::ModelError;
 use super::lines::{logical_lines, not_utf_16, statement};
 use super::model_note::ModelNote;
 use super::obj::within_limit;
+use crate::error::InputError;
 use crate::scene::Scene;
 use reader::SceneReader;
 
@@ -33,12 +33,12 @@ use reader::SceneReader;
 /// panics.
 ///
 /// # Errors
-/// [`ModelError`], with the line where there is one.
+/// [`InputError`], with the line where there is one.
 pub fn parse_scene(
     bytes: &[u8],
     name: &Path,
     library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-) -> Result<Scene, ModelError> {
+) -> Result<Scene, InputError> {
     read_scene(bytes, name, library, true).map(|(scene, _)| scene)
 }
 
@@ -49,7 +49,7 @@ pub(super) fn read_scene(
     name: &Path,
     library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
     strict: bool,
-) -> Result<(Scene, Vec<ModelNote>), ModelError> {
+) -> Result<(Scene, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
     let mut reader = SceneReader::new(name, strict);

@@ -18,10 +18,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::super::error::{FilePlace, ModelError};
 use super::super::lines::{decoded, logical_lines, not_utf_16, single, statement};
 use super::super::model_note::ModelNote;
 use super::super::{NumberError, quoted};
+use crate::error::{FilePlace, InputError, input_error};
+use crate::io::error::{material_error, syntax_error};
 use crate::scene::{Color, Material, Surface};
 
 /// Exponent of a glossy material without one.
@@ -36,8 +37,8 @@ const ROUNDING: f32 = 1e-6;
 /// Reads the materials of a library, in order; `name` is the file's name in messages. Never panics.
 ///
 /// # Errors
-/// [`ModelError`], with the line where there is one.
-pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, ModelError> {
+/// [`InputError`], with the line where there is one.
+pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, InputError> {
     read_mtl(bytes, name, None)
 }
 
@@ -46,7 +47,7 @@ pub(super) fn read_mtl(
     bytes: &[u8],
     name: &Path,
     mut notes: Option<&mut Vec<ModelNote>>,
-) -> Result<Vec<Material>, ModelError> {
+) -> Result<Vec<Material>, InputError> {
     not_utf_16(bytes, name)?;
     let mut reader = MtlReader { name, lenient: notes.is_some(), materials: Vec::new(), seen: BTreeSet::new() };
     for (line, text) in logical_lines(bytes) {
@@ -91,7 +92,7 @@ struct Statement<'a> {
 }
 
 impl MtlReader<'_> {
-    fn line(&mut self, line: usize, text: &[u8]) -> Result<(), ModelError> {
+    fn line(&mut self, line: usize, text: &[u8]) -> Result<(), InputError> {
         let words = statement(text);
         let Some((&key, values)) = words.split_first() else { return Ok(()) };
         let here = &Statement { line, text, key, values };
@@ -112,13 +113,15 @@ impl MtlReader<'_> {
         }
     }
 
-    fn material(&mut self, line: usize, name: &[u8]) -> Result<(), ModelError> {
+    fn material(&mut self, line: usize, name: &[u8]) -> Result<(), InputError> {
         if name.is_empty() {
             return Err(self.syntax(line, "the name of a material `newmtl name`", name));
         }
         let name = decoded(name);
         if !self.seen.insert(name.clone()) {
-            return Err(ModelError::SecondMaterial(FilePlace::line(self.name, line), name));
+            return Err(input_error!("crossbar::model::second_material" =>
+                "expected each material once, found a second `newmtl {name}`"; help "rename one of the two")
+            .at(FilePlace::line(self.name, line)));
         }
         self.materials.push(MaterialText { line, name, values: BTreeMap::new() });
         Ok(())
@@ -129,7 +132,7 @@ impl MtlReader<'_> {
         here: &Statement<'_>,
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
-    ) -> Result<(), ModelError> {
+    ) -> Result<(), InputError> {
         self.not_too_large(here)?;
         let channels: Vec<f32> = here.values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
         // A single number stands for all three channels.
@@ -146,7 +149,7 @@ impl MtlReader<'_> {
         here: &Statement<'_>,
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
-    ) -> Result<(), ModelError> {
+    ) -> Result<(), InputError> {
         self.not_too_large(here)?;
         let value = if let &[word] = here.values { number(word).filter(|&v| allowed(v)) } else { None };
         match value {
@@ -156,12 +159,12 @@ impl MtlReader<'_> {
     }
 
     /// Refuses a number that overflows single precision, before the key's own range is checked.
-    fn not_too_large(&self, here: &Statement<'_>) -> Result<(), ModelError> {
+    fn not_too_large(&self, here: &Statement<'_>) -> Result<(), InputError> {
         let large = here.values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
         large.map_or(Ok(()), |word| Err(self.syntax(here.line, NumberError::TooLarge.expected(), word)))
     }
 
-    fn keep(&mut self, here: &Statement<'_>, values: &[f32]) -> Result<(), ModelError> {
+    fn keep(&mut self, here: &Statement<'_>, values: &[f32]) -> Result<(), InputError> {
         let Some(material) = self.materials.last_mut() else {
             return Err(self.syntax(here.line, "`newmtl name` before the first figure of a material", here.text));
         };
@@ -169,9 +172,9 @@ impl MtlReader<'_> {
         Ok(())
     }
 
-    fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ModelError {
+    fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> InputError {
         let place = FilePlace::line(self.name, line);
-        ModelError::Syntax { place, expected: expected.into(), found: quoted(found) }
+        syntax_error(place, expected, quoted(found))
     }
 }
 
@@ -181,19 +184,14 @@ fn number(word: &[u8]) -> Option<f32> {
 }
 
 /// A material from its statements.
-fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNote>>) -> Result<Material, ModelError> {
+fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNote>>) -> Result<Material, InputError> {
     let MaterialText { line, name, .. } = read;
     let (line, name) = (*line, name.as_str());
     let mut note = |of: &dyn Fn(FilePlace, String) -> ModelNote| {
         let notes = notes.as_deref_mut();
         notes.map(|notes| notes.push(of(FilePlace::line(path, line), name.into()))).is_some()
     };
-    let wrong = |expected, found: String| ModelError::Material {
-        place: FilePlace::line(path, line),
-        name: name.into(),
-        expected,
-        found,
-    };
+    let wrong = |expected, found: String| material_error(FilePlace::line(path, line), name, expected, found);
     let model = read.number("illum").map_or(2, |model| model as u8);
     let (mut diffuse, mut specular) = (read.color("Kd"), read.color("Ks"));
     let sum = largest_reflectance(model, diffuse, specular);

@@ -5,13 +5,14 @@ use std::collections::btree_map::Entry;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::super::error::{FilePlace, ModelError};
 use super::super::lines::{before_comment, decoded};
 use super::super::model_note::ModelNote;
 use super::super::obj::{ObjCorner, ObjReader};
 use super::mtl::read_mtl;
+use crate::error::{FilePlace, InputError, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
+use crate::io::error::{material_error, scene_error};
 use crate::scene::{Material, Scene};
 
 /// Name of the material of faces without one.
@@ -51,7 +52,7 @@ impl SceneReader {
         words: &[&[u8]],
         text: &[u8],
         library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    ) -> Result<(), ModelError> {
+    ) -> Result<(), InputError> {
         self.geometry.line(line, words, text)?;
         match words.split_first() {
             Some((&b"f", _)) => self.face(line, text),
@@ -61,7 +62,7 @@ impl SceneReader {
         }
     }
 
-    fn face(&mut self, line: usize, text: &[u8]) -> Result<(), ModelError> {
+    fn face(&mut self, line: usize, text: &[u8]) -> Result<(), InputError> {
         let corners = self.geometry.faces().last();
         let with_normals = corners.iter().filter(|corner| corner[2] > 0).count();
         if with_normals != 0 && with_normals != corners.len() {
@@ -71,7 +72,7 @@ impl SceneReader {
         Ok(())
     }
 
-    fn material(&mut self, line: usize, rest: &[u8]) -> Result<(), ModelError> {
+    fn material(&mut self, line: usize, rest: &[u8]) -> Result<(), InputError> {
         let name = self.rest_of(line, rest, "the name of a material `usemtl name`")?;
         let next = self.used.len();
         let place = *self.place_of.entry(name.clone()).or_insert(next);
@@ -87,7 +88,7 @@ impl SceneReader {
         line: usize,
         rest: &[u8],
         library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    ) -> Result<(), ModelError> {
+    ) -> Result<(), InputError> {
         let whole = self.rest_of(line, rest, "the name of a library `mtllib name.mtl`")?;
         // Exporters repeat the line for every object.
         if self.libraries.contains(&whole) {
@@ -101,7 +102,11 @@ impl SceneReader {
             let path = self.name.parent().unwrap_or(Path::new("")).join(&file);
             let bytes = bytes.map_err(|source| {
                 let place = FilePlace::line(&self.name, line);
-                ModelError::Library { place, library: path.clone(), source }
+                input_error!("crossbar::model::library" =>
+                    "cannot read the material library {}", path.display();
+                    help "put it beside the model, or take the line out")
+                .with_source(source)
+                .at(place)
             })?;
             if !self.libraries.contains(&file) {
                 self.materials.extend(read_mtl(&bytes, &path, self.notes.as_mut())?);
@@ -112,13 +117,13 @@ impl SceneReader {
         Ok(())
     }
 
-    fn rest_of(&self, line: usize, rest: &[u8], expected: &'static str) -> Result<String, ModelError> {
+    fn rest_of(&self, line: usize, rest: &[u8], expected: &'static str) -> Result<String, InputError> {
         let name = Some(decoded(rest.trim_ascii())).filter(|name| !name.is_empty());
         name.ok_or_else(|| self.geometry.syntax(line, expected, b""))
     }
 
     /// The scene, once all lines have been read, with notes on changes.
-    pub(super) fn scene(self) -> Result<(Scene, Vec<ModelNote>), ModelError> {
+    pub(super) fn scene(self) -> Result<(Scene, Vec<ModelNote>), InputError> {
         let Self { name, geometry, material_of: faces, mut materials, used, mut notes, .. } = self;
         let (triangles, odd_faces) = geometry.triangles(notes.is_none())?;
         let mesh = geometry.mesh(&triangles, false)?;
@@ -135,7 +140,7 @@ impl SceneReader {
                         let (place, material) = (FilePlace::line(&name, line), material.to_owned());
                         let Some(notes) = &mut notes else {
                             let (expected, found) = ("a material of its libraries", "none of this name".to_owned());
-                            return Err(ModelError::Material { place, name: material, expected, found });
+                            return Err(material_error(place, material, expected, found));
                         };
                         notes.push(ModelNote::Unknown { place, material });
                     }
@@ -153,8 +158,7 @@ impl SceneReader {
         }
         let normal = |corner: ObjCorner| list.get((corner[2] as usize).wrapping_sub(1)).copied().unwrap_or_default();
         let normals = triangles.iter().map(|corners| flat_where_unknown(corners.map(normal))).collect();
-        let scene = Scene::new(mesh, materials, material_of, normals)
-            .map_err(|reason| ModelError::Scene(name.as_path().into(), reason))?;
+        let scene = Scene::new(mesh, materials, material_of, normals).map_err(|reason| scene_error(&name, reason))?;
         Ok((scene, notes.into_iter().flatten().chain(odd_faces).collect()))
     }
 }
@@ -211,14 +215,14 @@ fn several_libraries(line: &str) -> Vec<&str> {
 }
 
 /// The scene of a mesh without materials, with the normals of its vertices.
-pub(in super::super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, ModelError> {
+pub(in super::super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, InputError> {
     let normals = mesh.normals().map_or_else(Vec::new, |normals| {
         let corner = |&index: &u32| of_length_one(normals[index as usize]);
         mesh.triangles().iter().map(|triangle| flat_where_unknown(triangle.each_ref().map(corner))).collect()
     });
     let material_of = vec![0; mesh.len()];
     Scene::new(mesh, vec![Material::diffuse(DEFAULT, [GREY; 3])], material_of, normals)
-        .map_err(|reason| ModelError::Scene(name.into(), reason))
+        .map_err(|reason| scene_error(name, reason))
 }
 
 /// A normal whose length is close to 1 is kept, bit for bit; others are scaled to length 1. A normal without a

@@ -3,28 +3,12 @@
 use super::super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
 use super::super::display;
 use super::error_sums::{ErrorSums, value_error};
+use crate::error::{InputError, ensure, input_error};
 
-/// Error: two pictures have no samples to compare.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MismatchError {
-    /// The sizes differ.
-    #[error("expected two pictures of one size, found {}x{} and {}x{}", left[0], left[1], right[0], right[1])]
-    #[diagnostic(code(crossbar::picture::mismatch))]
-    Size { left: [u32; 2], right: [u32; 2] },
-    /// One picture has a channel that the other lacks.
-    #[error("expected the same channels in both pictures, found {left} and {right}")]
-    #[diagnostic(code(crossbar::picture::mismatch), help("name those that both have with `--channel`"))]
-    Channels { left: String, right: String },
-    /// A requested channel is missing in one or both pictures.
-    #[error("expected a channel `{name}` in both pictures, found {left} and {right}")]
-    #[diagnostic(code(crossbar::picture::mismatch))]
-    NoChannel { name: String, left: String, right: String },
-    /// A channel holds floats in one picture and integers in the other.
-    #[error("expected samples of one type in channel `{name}`, found floats and whole numbers")]
-    #[diagnostic(code(crossbar::picture::mismatch))]
-    Type { name: String },
+fn channels_error(left: String, right: String) -> InputError {
+    input_error!("crossbar::picture::mismatch" =>
+        "expected the same channels in both pictures, found {left} and {right}";
+        help "name those that both have with `--channel`")
 }
 
 /// Position and values of the largest difference of two channels.
@@ -67,8 +51,8 @@ pub struct ChannelDifference {
 /// one side is sRGB-encoded and the other linear, the former is decoded.
 ///
 /// # Errors
-/// [`MismatchError`] if the pictures have no samples to compare.
-pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec<ChannelDifference>, MismatchError> {
+/// [`InputError`] if the pictures have no samples to compare.
+pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec<ChannelDifference>, InputError> {
     let pairs = pairs(left, right, names)?;
     Ok(pairs.into_iter().map(|pair| difference(pair, left.width())).collect())
 }
@@ -77,12 +61,12 @@ pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec
 /// 0.
 ///
 /// # Errors
-/// [`MismatchError`], as [`channels`].
+/// [`InputError`], as [`channels`].
 pub fn signed_differences(
     left: &Picture,
     right: &Picture,
     names: &[String],
-) -> Result<Vec<(String, Vec<f32>)>, MismatchError> {
+) -> Result<Vec<(String, Vec<f32>)>, InputError> {
     let signed = |pair: ChannelPair<'_>| {
         let of = |[a, b]: [f64; 2]| match pair.whole() {
             true => f32::from(u8::from(a != b)),
@@ -118,18 +102,17 @@ impl ChannelPair<'_> {
     }
 }
 
-fn pairs<'a>(left: &'a Picture, right: &'a Picture, names: &[String]) -> Result<Vec<ChannelPair<'a>>, MismatchError> {
+fn pairs<'a>(left: &'a Picture, right: &'a Picture, names: &[String]) -> Result<Vec<ChannelPair<'a>>, InputError> {
     let [here, there] = [left, right].map(|picture| [picture.width(), picture.height()]);
-    if here != there {
-        return Err(MismatchError::Size { left: here, right: there });
-    }
+    ensure!(here == there, "crossbar::picture::mismatch" =>
+        "expected two pictures of one size, found {}x{} and {}x{}", here[0], here[1], there[0], there[1]);
     let list = |picture: &Picture| {
         picture.channels().iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ")
     };
     let find = |picture: &'a Picture, name: &str| picture.channels().iter().find(|channel| channel.name == name);
     let asked: Vec<&str> = match names {
         [] if left.channels().len() != right.channels().len() => {
-            return Err(MismatchError::Channels { left: list(left), right: list(right) });
+            return Err(channels_error(list(left), list(right)));
         }
         [] => left.channels().iter().map(|channel| channel.name.as_str()).collect(),
         names => names.iter().map(String::as_str).collect(),
@@ -138,11 +121,13 @@ fn pairs<'a>(left: &'a Picture, right: &'a Picture, names: &[String]) -> Result<
         (Some(left), Some(right))
             if matches!(left.samples, Samples::Uint(_)) != matches!(right.samples, Samples::Uint(_)) =>
         {
-            Err(MismatchError::Type { name: name.to_owned() })
+            Err(input_error!("crossbar::picture::mismatch" =>
+                    "expected samples of one type in channel `{name}`, found floats and whole numbers"))
         }
         (Some(left), Some(right)) => Ok(ChannelPair { left, right }),
-        _ if names.is_empty() => Err(MismatchError::Channels { left: list(left), right: list(right) }),
-        _ => Err(MismatchError::NoChannel { name: name.to_owned(), left: list(left), right: list(right) }),
+        _ if names.is_empty() => Err(channels_error(list(left), list(right))),
+        _ => Err(input_error!("crossbar::picture::mismatch" =>
+                "expected a channel `{name}` in both pictures, found {} and {}", list(left), list(right))),
     };
     asked.into_iter().map(pair).collect()
 }
@@ -214,11 +199,24 @@ mod tests {
     fn channels_go_by_name_and_have_to_be_the_same() {
         let rgb = Picture::rgb(2, 2, &[[0.5; 3]; 4]);
         let other = floats("Y", &[0.5; 4]);
-        assert!(matches!(channels(&rgb, &other, &[]), Err(MismatchError::Channels { .. })));
-        assert!(matches!(channels(&rgb, &rgb, &["Z".to_owned()]), Err(MismatchError::NoChannel { .. })));
-        assert!(matches!(channels(&rgb, &Picture::rgb(2, 1, &[]), &[]), Err(MismatchError::Size { .. })));
+        assert!(
+            channels(&rgb, &other, &[])
+                .is_err_and(|error| error.to_string().contains("expected the same channels in both pictures, found "))
+        );
+        assert!(
+            channels(&rgb, &rgb, &["Z".to_owned()])
+                .is_err_and(|error| error.to_string().contains("` in both pictures, found "))
+        );
+        assert!(
+            channels(&rgb, &Picture::rgb(2, 1, &[]), &[])
+                .is_err_and(|error| error.to_string().contains("expected two pictures of one size, found "))
+        );
         let ids = Picture::new(2, 2).with("Y", ChannelUnit::Id, Samples::Uint(vec![1; 4])).expect("four samples");
-        assert_eq!(channels(&ids, &other, &[]), Err(MismatchError::Type { name: "Y".to_owned() }));
+        assert_eq!(
+            channels(&ids, &other, &[]),
+            Err(input_error!("crossbar::picture::mismatch" =>
+                    "expected samples of one type in channel `Y`, found floats and whole numbers"))
+        );
         assert_eq!(channels(&rgb, &rgb, &["G".to_owned()]).expect("G").len(), 1);
     }
 

@@ -1,8 +1,8 @@
 //! Signed differences of luminance, for false colors.
 
 use super::super::channels::Picture;
-use super::super::error::PictureError;
 use super::error_sums::value_error;
+use crate::error::InputError;
 
 /// Rec. 709 luma weights of red, green and blue.
 pub(super) const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
@@ -10,8 +10,8 @@ pub(super) const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// Computes second minus first, pixel by pixel, of the luminance times `exposure`, without clipping.
 ///
 /// # Errors
-/// [`PictureError::NoColor`] if a picture has neither `R`, `G` and `B` nor `Y`.
-pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -> Result<Vec<f64>, PictureError> {
+/// [`InputError`] if a picture has neither `R`, `G` and `B` nor `Y`.
+pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -> Result<Vec<f64>, InputError> {
     let pairs = luminance(first)?.into_iter().zip(luminance(second)?);
     Ok(pairs.map(|(a, b)| exposure * value_error(b, a)).collect())
 }
@@ -21,12 +21,12 @@ pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -
 ///
 /// # Errors
 /// As [`luminance_differences`].
-pub fn relative_luminance_differences(first: &Picture, second: &Picture) -> Result<Vec<f64>, PictureError> {
+pub fn relative_luminance_differences(first: &Picture, second: &Picture) -> Result<Vec<f64>, InputError> {
     let pairs = luminance(first)?.into_iter().zip(luminance(second)?);
     Ok(pairs.map(|(a, b)| if a == b { 0.0 } else { (b - a) / a }).collect())
 }
 
-fn luminance(picture: &Picture) -> Result<Vec<f64>, PictureError> {
+fn luminance(picture: &Picture) -> Result<Vec<f64>, InputError> {
     let of = |pixel: [f32; 3]| [0, 1, 2].iter().map(|&c| WEIGHTS[c] * f64::from(pixel[c])).sum();
     Ok(picture.linear()?.into_iter().map(of).collect())
 }

@@ -13,7 +13,7 @@ mod luminance;
 mod screen;
 mod ssim;
 
-pub use channel::{ChannelDifference, MismatchError, WorstSample, channels, signed_differences};
+pub use channel::{ChannelDifference, WorstSample, channels, signed_differences};
 pub use error_sums::{ErrorSums, relative_error, value_error};
 pub use flip::{DEFAULT_PPD, FlipMap, MAX_PPD, MIN_PPD, flip};
 pub use luminance::{luminance_differences, relative_luminance_differences};

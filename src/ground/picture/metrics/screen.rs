@@ -2,8 +2,8 @@
 
 use super::super::channels::Picture;
 use super::super::display::{clip, curve};
-use super::super::error::PictureError;
 use super::luminance::WEIGHTS;
+use crate::error::InputError;
 
 /// Linear red, green and blue within [0, 1], rows from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +17,8 @@ impl ScreenPicture {
     /// Computes linear light times `exposure`, clipped at 1; NaN is black.
     ///
     /// # Errors
-    /// [`PictureError::NoColor`] if the picture has neither `R`, `G` and `B` nor `Y`.
-    pub fn new(picture: &Picture, exposure: f64) -> Result<Self, PictureError> {
+    /// [`InputError`] if the picture has neither `R`, `G` and `B` nor `Y`.
+    pub fn new(picture: &Picture, exposure: f64) -> Result<Self, InputError> {
         let shown = |pixel: [f32; 3]| pixel.map(|channel| clip(f64::from(channel) * exposure));
         let linear = picture.linear()?.into_iter().map(shown).collect();
         Ok(Self { width: picture.width() as usize, height: picture.height() as usize, linear })

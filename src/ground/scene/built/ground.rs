@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use crate::error::InputError;
+use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
-use crate::geom::{Mesh, MeshError};
 
 /// Vertices along an edge of the ground of the paper on all-frequency transfer (its section 7): 36,864 in all.
 pub const GROUND_SIDE: u32 = 192;
@@ -61,8 +62,8 @@ fn has_flat_base(model: &Mesh, height: f64) -> bool {
 /// The ground's vertices have normals; the model keeps its own, or receives the means of its triangles.
 ///
 /// # Errors
-/// [`MeshError::TooMany`] if there are too many triangles.
-pub fn on_ground(model: &Mesh, side: u32) -> Result<(Mesh, Vec<u32>), MeshError> {
+/// [`InputError`] if there are too many triangles.
+pub fn on_ground(model: &Mesh, side: u32) -> Result<(Mesh, Vec<u32>), InputError> {
     let ground = ground_of(model, side);
     let first = model.positions().len() as u32;
     let positions = [model.positions(), ground.positions()].concat();

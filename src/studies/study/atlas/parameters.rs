@@ -1,12 +1,12 @@
 //! Parameters and errors of the study.
 
-use crate::atlas::AtlasError;
+use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::scene::Camera;
 use crate::study::StudyError;
 
 /// Error of a mesh without an atlas.
-pub fn no_atlas(error: AtlasError) -> StudyError {
+pub fn no_atlas(error: InputError) -> StudyError {
     StudyError::coded("crossbar::atlas", error)
 }
 

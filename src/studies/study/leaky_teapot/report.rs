@@ -6,7 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::conclusion::{MAX_NAMES, conclude};
 use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
-use crate::picture::{ChannelUnit, Picture, PictureError, RgbImage, Samples};
+use crate::error::InputError;
+use crate::picture::{ChannelUnit, Picture, RgbImage, Samples};
 use crate::report::words::{counted, listed};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table};
 
@@ -127,7 +128,7 @@ impl Group<'_> {
 }
 
 /// Encodes first hits as picture layers.
-fn layers(parameters: &Parameters, t: Vec<f32>, triangles: Vec<u32>) -> Result<Picture, PictureError> {
+fn layers(parameters: &Parameters, t: Vec<f32>, triangles: Vec<u32>) -> Result<Picture, InputError> {
     Picture::new(parameters.view.width(), parameters.view.height())
         .with("t", ChannelUnit::RayLength, Samples::Float(t))?
         .with("triangle", ChannelUnit::Id, Samples::Uint(triangles))

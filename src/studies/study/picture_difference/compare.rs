@@ -1,17 +1,13 @@
 //! Comparison of two pictures: samples, SSIM, FLIP, and bounds.
 
+use crate::error::InputError;
 use crate::options::number;
 use crate::picture::metrics::{
-    ChannelDifference, DEFAULT_PPD, FlipMap, MAX_PPD, MIN_PPD, MismatchError, ScreenPicture, channels, flip,
-    luminance_differences, signed_differences, ssim,
+    ChannelDifference, DEFAULT_PPD, FlipMap, MAX_PPD, MIN_PPD, ScreenPicture, channels, flip, luminance_differences,
+    signed_differences, ssim,
 };
-use crate::picture::{Picture, PictureError};
-use crate::study::error::library_errors;
+use crate::picture::{NO_COLOR, Picture};
 use crate::study::{ProgressFn, StudyError};
-
-library_errors! {
-    MismatchError;
-}
 
 /// Picture with its name in the findings.
 #[derive(Clone, Debug)]
@@ -116,7 +112,9 @@ impl PictureDifference {
         progress("SSIM and FLIP", 1, 3);
         let perceptual = match self.perceptual(first, second) {
             // Depths and ids are compared by samples only.
-            Err(PictureError::NoColor { .. }) if self.options.max_flip.is_none() && self.options.min_ssim.is_none() => {
+            Err(error)
+                if error.code() == NO_COLOR && self.options.max_flip.is_none() && self.options.min_ssim.is_none() =>
+            {
                 None
             }
             other => other?,
@@ -129,7 +127,7 @@ impl PictureDifference {
         Ok(DifferenceOutcome { channels: found, signed, perceptual })
     }
 
-    fn perceptual(&self, first: &Picture, second: &Picture) -> Result<Option<PerceptualDifference>, PictureError> {
+    fn perceptual(&self, first: &Picture, second: &Picture) -> Result<Option<PerceptualDifference>, InputError> {
         let exposure = self.options.exposure;
         let [one, other] = [ScreenPicture::new(first, exposure)?, ScreenPicture::new(second, exposure)?];
         let Some(flip) = flip(&one, &other, self.options.pixels_per_degree()) else { return Ok(None) };

@@ -4,10 +4,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::interpolate::SeenSurface;
+use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 use crate::picture::Picture;
-use crate::scene::CameraError;
 use crate::study::framing::framed;
 use crate::transfer::Vertices;
 
@@ -26,12 +26,12 @@ impl FineView {
     /// Creates a view of `side` x `side` pixels that the first `framing` vertices fill.
     ///
     /// # Errors
-    /// [`CameraError`] for a mesh without extent.
+    /// [`InputError`] for a mesh without extent.
     pub(in crate::study) fn new(
         (mesh, vertices): (&Mesh, &Vertices),
         eye: [f32; 3],
         (side, framing): (u32, &[u32]),
-    ) -> Result<Self, CameraError> {
+    ) -> Result<Self, InputError> {
         let samples = (SAMPLED_SIDE / side.max(1)).max(1);
         let points: Vec<DVec3> = framing.iter().map(|&vertex| wide(vertices.positions()[vertex as usize])).collect();
         let camera = framed(wide(eye), &points, 1.0).camera(side * samples, side * samples)?;

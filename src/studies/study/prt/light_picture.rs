@@ -6,7 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::elementary::sin_cos;
-use crate::picture::{Picture, PictureError};
+use crate::error::InputError;
+use crate::picture::Picture;
 use crate::report::NamedPicture;
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
 
@@ -21,7 +22,7 @@ pub(in crate::study) fn light_picture(
     name: impl Into<String>,
     light: &str,
     radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
-) -> Result<NamedPicture, PictureError> {
+) -> Result<NamedPicture, InputError> {
     let height = WIDTH / 2;
     let pixel = |at: u32| {
         let [column, row] = [at % WIDTH, at / WIDTH].map(|center| f64::from(center) + 0.5);

@@ -5,7 +5,8 @@ use serde_json::json;
 
 use super::interpolate::linear_picture;
 use super::light_picture::light_picture;
-use crate::picture::{Picture, PictureError};
+use crate::error::InputError;
+use crate::picture::Picture;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, NamedPicture, false_color};
 use crate::scene::Camera;
@@ -45,7 +46,7 @@ impl LitView {
     pub(super) fn light_picture(
         &self,
         radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
-    ) -> Result<NamedPicture, PictureError> {
+    ) -> Result<NamedPicture, InputError> {
         light_picture("light", &self.light, radiance)
     }
 
@@ -55,7 +56,7 @@ impl LitView {
         title: &str,
         drawn: &[[f64; 3]],
         radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
-    ) -> Result<(Findings, f64), PictureError> {
+    ) -> Result<(Findings, f64), InputError> {
         let exposure = self.exposure_of(drawn);
         let mut found = Findings::new(title);
         found.taken_from(self.camera.world_to_camera());

@@ -21,17 +21,11 @@ mod stored_ways;
 mod turned_frames;
 mod vertex_values;
 
-use crate::all_frequency::code::CodeOptionsError;
-use crate::all_frequency::factor::FactorizationError;
 use crate::all_frequency::shade::LightSizeError;
 use crate::card::CardError;
 use crate::card::frame_time::FrameTimeError;
-use crate::sphere::{HemisphereError, RotationError};
 use crate::study::StudyError;
 use crate::study::error::library_errors;
-use crate::transfer::file::PrtFileError;
-use crate::transfer::light::CubeLightError;
-use crate::transfer::{SignalError, TransferError};
 
 pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
@@ -62,16 +56,8 @@ pub use vertex_values::{ValuesFormat, VertexValues};
 
 library_errors! {
     CardError => "crossbar::prt::card";
-    CodeOptionsError => "crossbar::prt::code";
-    CubeLightError => "crossbar::prt::light";
-    FactorizationError;
     FrameTimeError => "crossbar::prt::time";
-    HemisphereError => "crossbar::prt::functions";
     LightSizeError => "crossbar::prt::segments";
-    PrtFileError;
-    RotationError => "crossbar::prt::turn";
-    SignalError => "crossbar::prt::signal";
-    TransferError => "crossbar::prt::precompute";
 }
 
 /// Error of a card that displays compressed transfer.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::parts::VertexTransfer;
 use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
+use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::sphere::{DirectionRule, MAX_ORDER};
@@ -13,7 +14,7 @@ use crate::subsurface::{Dipole, fresnel_transmittance};
 use crate::tracer::HostTracer;
 use crate::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
-use crate::transfer::{Signal, SignalError, TransferError, Vertices};
+use crate::transfer::{Signal, Vertices};
 
 /// Degree up to which a rule of many heights is exact: that of products of two functions of the largest order.
 const EXACT_DEGREE: usize = 2 * MAX_ORDER - 2;
@@ -195,12 +196,7 @@ impl Precomputation<'_> {
         }
     }
 
-    fn responses(
-        &self,
-        rule: &DirectionRule,
-        channel: usize,
-        brdfs: &[Brdf],
-    ) -> Result<ChannelResponses, TransferError> {
+    fn responses(&self, rule: &DirectionRule, channel: usize, brdfs: &[Brdf]) -> Result<ChannelResponses, InputError> {
         let views = DirectionRule::hemisphere(BRDF_DEGREE);
         let response = |brdf: &Brdf| match (&self.exit, *brdf) {
             (ExitRadiance::Diffuse, Brdf::Lambert { albedo }) => Response::diffuse(albedo, rule),
@@ -224,7 +220,7 @@ impl Precomputation<'_> {
         rays: &TracedRays,
         responses: &ChannelResponses,
         (direct, entering): (Vec<f32>, Vec<f32>),
-    ) -> Result<Transfer, TransferError> {
+    ) -> Result<Transfer, InputError> {
         let whole = |responses: &[Response], direct: Vec<f32>, bounces: Bounces| {
             Transfer::with_bounces(self.vertices, rays, responses, self.order, (direct, bounces))
         };
@@ -238,7 +234,7 @@ impl Precomputation<'_> {
 }
 
 /// One signal of all channels: point by point, channel by channel.
-fn together(channels: Vec<Transfer>) -> Result<Signal, SignalError> {
+fn together(channels: Vec<Transfer>) -> Result<Signal, InputError> {
     let size = channels.first().map_or(0, |one| one.row_count() * one.column_count());
     let count = channels.len();
     let mut parts: Vec<Vec<f32>> = channels.into_iter().map(Transfer::into_values).collect();

@@ -2,13 +2,15 @@
 
 use std::time::Instant;
 
+use crate::bi_scale::baselines::columns_error;
 use crate::bi_scale::baselines::{
-    BaselineError, CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer,
-    NarrowRows, ReshuffledVisibility, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
+    CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer, NarrowRows,
+    ReshuffledVisibility, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
 };
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::product::by_rows;
+use crate::error::InputError;
 use crate::report::words::counted;
 use crate::report::{Cell, Table};
 use crate::study::ProgressFn;
@@ -55,15 +57,15 @@ impl StoredComparison<'_> {
     /// All ways under some lights, biclusters first. `visit` sees each when it is made.
     ///
     /// # Errors
-    /// [`BaselineError`]; what a layout of narrow numbers has no room for is left out.
+    /// [`InputError`]; what a layout of narrow numbers has no room for is left out.
     pub fn ways(
         &self,
         lights: &[LightChannels],
         progress: &mut ProgressFn<'_>,
         visit: &mut dyn FnMut(&str, &dyn StoredTransfer),
-    ) -> Result<Vec<StoredWay>, BaselineError> {
+    ) -> Result<Vec<StoredWay>, InputError> {
         if self.matrix.columns() != LIGHT_TEXELS {
-            return Err(BaselineError::Columns { found: self.matrix.columns() });
+            return Err(columns_error(self.matrix.columns()));
         }
         let exact: Vec<Vec<f64>> =
             lights.iter().map(|light| joined(light, |light| by_rows(self.matrix, light))).collect();
@@ -139,8 +141,8 @@ impl StorageMethods<'_> {
     fn make<S: StoredTransfer>(
         &mut self,
         name: impl Into<String>,
-        make: impl FnOnce() -> Result<S, BaselineError>,
-    ) -> Result<(), BaselineError> {
+        make: impl FnOnce() -> Result<S, InputError>,
+    ) -> Result<(), InputError> {
         let start = Instant::now();
         let stored = make()?;
         let seconds = start.elapsed().as_secs_f64();

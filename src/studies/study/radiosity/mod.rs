@@ -22,14 +22,13 @@ mod sweep;
 mod tables;
 mod time;
 
-use crate::atlas::AtlasError;
+use crate::error::InputError;
 use crate::picture::metrics::value_error;
 use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Fit;
 use crate::radiosity::rate::RateError;
-use crate::radiosity::solve::SolveError;
-use crate::radiosity::{DrawError, FormFactorError, PatchError, Patches, System, SystemError};
+use crate::radiosity::{DrawError, Patches, System};
 use crate::report::{Findings, Provenance};
 use crate::split::{Computed, SplitRun};
 use crate::study::error::library_errors;
@@ -52,15 +51,11 @@ use sweep::Sweep;
 
 library_errors! {
     DrawError => "radiosity::display";
-    FormFactorError => "radiosity::form_factors";
-    PatchError => "radiosity::patches";
     RateError => "radiosity::rate";
-    SolveError => "radiosity::solve";
-    SystemError => "radiosity::system";
 }
 
 /// Error of a scene without an atlas.
-pub fn no_atlas(error: AtlasError) -> StudyError {
+pub fn no_atlas(error: InputError) -> StudyError {
     StudyError::coded("radiosity::atlas", error).with_help("ask for a larger `--atlas`, or for fewer patches")
 }
 

@@ -2,22 +2,18 @@
 
 use refsim::timing::TimingError;
 
-use crate::atlas::AtlasError;
 use crate::card::CardError;
+use crate::error::InputError;
 use crate::study::StudyError;
 use crate::study::error::library_errors;
-use crate::subsurface::MaterialError;
 use crate::subsurface::factor::FactorError;
-use crate::subsurface::walk::MeshWalkError;
 
 library_errors! {
     FactorError => "subsurface::links";
-    MaterialError => "subsurface::material";
-    MeshWalkError => "subsurface::walk";
 }
 
 /// Error of a model without an atlas.
-pub fn no_atlas(error: AtlasError) -> StudyError {
+pub fn no_atlas(error: InputError) -> StudyError {
     StudyError::coded("subsurface::atlas", error)
 }
 

@@ -2,14 +2,15 @@
 
 use super::coded::steps;
 use super::quantise::quantise;
-use super::{CodeOptions, CodeOptionsError, CodedSegment, CodedTransfer, SparseRows};
+use super::{CodeOptions, CodedSegment, CodedTransfer, SparseRows};
+use crate::error::InputError;
 
 impl CodedTransfer {
     /// The decoded numbers, coded again. A number that is rounded twice has an error of up to half a step of each code.
     ///
     /// # Errors
-    /// [`CodeOptionsError`].
-    pub fn recoded(&self, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+    /// [`InputError`].
+    pub fn recoded(&self, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let segments = self.segments.iter().map(|part| part.recoded(options)).collect();
         Ok(Self { options, segments, ..*self })

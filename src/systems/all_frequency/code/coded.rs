@@ -4,8 +4,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::quantise::{quantise, step};
-use super::{CodeOptions, CodeOptionsError, ScaleOf, SparseRows};
+use super::{CodeOptions, ScaleOf, SparseRows};
 use crate::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
+use crate::error::InputError;
 use crate::transfer::clustering::Clustering;
 
 /// The transfer of one lighting segment, coded.
@@ -75,11 +76,11 @@ impl CodedTransfer {
     /// Quantises compressed transfer.
     ///
     /// # Errors
-    /// [`CodeOptionsError`].
+    /// [`InputError`].
     ///
     /// # Panics
     /// If a segment has more than 65,536 clusters, or a cluster more than 255 vectors.
-    pub fn new(transfer: &CompressedTransfer, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+    pub fn new(transfer: &CompressedTransfer, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let segments = transfer.segments.par_iter().map(|part| CodedSegment::new(part, options)).collect();
         let (rows, coefficients) = (transfer.rows, transfer.coefficients());
@@ -134,11 +135,11 @@ impl CodedSegment {
     /// Quantises a compressed segment.
     ///
     /// # Errors
-    /// [`CodeOptionsError`].
+    /// [`InputError`].
     ///
     /// # Panics
     /// As [`CodedTransfer::new`].
-    pub fn code(part: &CompressedSegment, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+    pub fn code(part: &CompressedSegment, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         Ok(Self::new(part, options))
     }
@@ -148,11 +149,11 @@ impl CodedSegment {
     /// are cut off. Weights are coded by the options.
     ///
     /// # Errors
-    /// [`CodeOptionsError`].
+    /// [`InputError`].
     ///
     /// # Panics
     /// As [`CodedTransfer::new`].
-    pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+    pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let sizes = mean_weights(&part.clustering, &firsts(&counts(&part.clustering)));
         let steps = sizes.into_iter().map(|size| if size > 0.0 { (step / size) as f32 } else { 0.0 });
@@ -378,7 +379,7 @@ mod tests {
             let options = CodeOptions { representative_bits, weight_bits, scale: ScaleOf::Segment };
             let error = CodedTransfer::new(&sample(1, 4), options).expect_err("refused");
             let found = if what == "weights" { weight_bits } else { representative_bits };
-            assert_eq!(error, CodeOptionsError::Bits { what, found });
+            assert_eq!(error.code(), "crossbar::prt::code");
             assert_eq!(
                 error.to_string(),
                 format!("expected 2 to 16 bits for {what}, the sign among them, found {found}")

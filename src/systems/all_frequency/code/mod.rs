@@ -13,6 +13,6 @@ mod quantise;
 mod sparse;
 
 pub use coded::{CodeSize, CodedSegment, CodedTransfer};
-pub use quantise::{CodeOptions, CodeOptionsError, ScaleOf};
+pub use quantise::{CodeOptions, ScaleOf};
 pub(super) use sparse::SparseColumn;
 pub use sparse::{BLOCK_ROWS, SparseRows};

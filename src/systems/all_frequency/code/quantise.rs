@@ -1,6 +1,6 @@
 //! Quantisation: numbers as integer multiples of a step.
 
-use thiserror::Error;
+use crate::error::{InputError, ensure};
 
 /// Options of the quantisation. The paper uses 16 bits for both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,20 +24,6 @@ pub enum ScaleOf {
     Segment,
 }
 
-/// Reasons for which the options are refused.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum CodeOptionsError {
-    /// Too few or too many bits.
-    #[error("expected 2 to 16 bits for {what}, the sign among them, found {found}")]
-    Bits {
-        /// The quantity to be coded.
-        what: &'static str,
-        /// The requested number of bits.
-        found: u8,
-    },
-}
-
 impl Default for CodeOptions {
     fn default() -> Self {
         Self { representative_bits: 16, weight_bits: 16, scale: ScaleOf::Representative }
@@ -45,11 +31,10 @@ impl Default for CodeOptions {
 }
 
 impl CodeOptions {
-    pub(super) fn check(&self) -> Result<(), CodeOptionsError> {
+    pub(super) fn check(&self) -> Result<(), InputError> {
         for (what, found) in [("representatives", self.representative_bits), ("weights", self.weight_bits)] {
-            if !(2..=16).contains(&found) {
-                return Err(CodeOptionsError::Bits { what, found });
-            }
+            ensure!((2..=16).contains(&found), "crossbar::prt::code" =>
+                "expected 2 to 16 bits for {what}, the sign among them, found {found}");
         }
         Ok(())
     }

@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::error::FactorizationError;
 use super::factors::ProductFactors;
 use super::product::ProductFunction;
 use super::table::ProductTable;
+use crate::all_frequency::factor::error::of_svd;
 use crate::elementary::on_circle;
+use crate::error::InputError;
 use crate::linalg::{LeadingSvd, Matrix, dot};
 use crate::sphere::ParabolicMap;
 
@@ -135,9 +136,9 @@ impl HemisphereSamples {
     /// Errors of the `terms` largest singular values of these samples themselves, or of all there are.
     ///
     /// # Errors
-    /// [`FactorizationError::Svd`].
-    pub fn term_errors(&self, terms: usize) -> Result<ProductErrors, FactorizationError> {
-        let svd = LeadingSvd::new(&self.values, terms.max(1))?;
+    /// [`InputError`].
+    pub fn term_errors(&self, terms: usize) -> Result<ProductErrors, InputError> {
+        let svd = LeadingSvd::new(&self.values, terms.max(1)).map_err(of_svd)?;
         let lights: Vec<Vec<f64>> = (0..self.values.column_count()).map(|at| column(&svd.right, at)).collect();
         Ok(ProductErrors::over(self.counts(), |at, f, found| {
             f.copy_from_slice(self.values.row(at));

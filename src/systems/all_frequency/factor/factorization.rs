@@ -1,8 +1,9 @@
 //! Singular values of a table of f, and what a number of terms keeps of it (equation 8).
 
-use super::error::FactorizationError;
 use super::factors::ProductFactors;
 use super::table::ProductTable;
+use crate::all_frequency::factor::error::of_svd;
+use crate::error::{InputError, ensure};
 use crate::linalg::LeadingSvd;
 use crate::sphere::ParabolicMap;
 
@@ -33,24 +34,23 @@ impl Factorization {
     /// Factors a table, with vectors for up to `terms` terms. The bits do not depend on the number of threads.
     ///
     /// # Errors
-    /// [`FactorizationError`] for no terms, for more than the table's rank, and for a table of zeros.
-    pub fn new(table: &ProductTable, terms: usize) -> Result<Self, FactorizationError> {
+    /// [`InputError`] for no terms, for more than the table's rank, and for a table of zeros.
+    pub fn new(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
         let found = Self::up_to(table, terms)?;
-        if !(1..=found.rank()).contains(&terms) {
-            return Err(FactorizationError::Terms { found: terms, rank: found.rank() });
-        }
+        ensure!((1..=found.rank()).contains(&terms), "crossbar::factor::terms" =>
+            "expected 1 to {} terms, the rank of the table, found {terms}", found.rank(); help "ask for fewer terms");
         Ok(found)
     }
 
     /// As [`Self::new`], with fewer terms where the rank is lower.
     ///
     /// # Errors
-    /// [`FactorizationError`] for a table of zeros.
-    pub fn up_to(table: &ProductTable, terms: usize) -> Result<Self, FactorizationError> {
-        let svd = LeadingSvd::new(table.values(), terms.max(1))?;
-        if svd.rank == 0 {
-            return Err(FactorizationError::Dark { texels: table.view().texels() * table.light().texels() });
-        }
+    /// [`InputError`] for a table of zeros.
+    pub fn up_to(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
+        let svd = LeadingSvd::new(table.values(), terms.max(1)).map_err(of_svd)?;
+        ensure!(svd.rank != 0, "crossbar::factor::dark" =>
+            "expected reflectance above 0 somewhere, found 0 in all {} texels of the table",
+            table.view().texels() * table.light().texels(); help "a diffuse or specular part must be above 0");
         Ok(Self { view: table.view(), light: table.light(), svd })
     }
 

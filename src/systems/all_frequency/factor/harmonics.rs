@@ -1,7 +1,8 @@
 //! The same table in spherical harmonics, the output basis of earlier work: the lower part of the table of section 3.
 
 use super::disc::{HemisphereSamples, ProductErrors};
-use super::error::FactorizationError;
+use crate::all_frequency::factor::error::of_svd;
+use crate::error::InputError;
 use crate::linalg::{Matrix, Svd};
 use crate::sphere::{function_count, harmonics};
 
@@ -29,7 +30,7 @@ pub enum HarmonicSides {
 /// their solid angles.
 ///
 /// # Errors
-/// [`FactorizationError::Svd`] if the functions depend on each other on so few samples that least squares has no
+/// [`InputError`] if the functions depend on each other on so few samples that least squares has no
 /// answer.
 ///
 /// # Panics
@@ -39,7 +40,7 @@ pub fn harmonic_errors(
     order: usize,
     fit: HarmonicFit,
     sides: HarmonicSides,
-) -> Result<ProductErrors, FactorizationError> {
+) -> Result<ProductErrors, InputError> {
     let [view, light] = [0, 1].map(|side| Expansion::new(samples, side, order, fit));
     let values = match sides {
         HarmonicSides::Light => light?.columns(&samples.values)?,
@@ -58,15 +59,10 @@ struct Expansion {
 }
 
 impl Expansion {
-    fn new(
-        samples: &HemisphereSamples,
-        side: usize,
-        order: usize,
-        fit: HarmonicFit,
-    ) -> Result<Self, FactorizationError> {
+    fn new(samples: &HemisphereSamples, side: usize, order: usize, fit: HarmonicFit) -> Result<Self, InputError> {
         let (directions, angles) = (&samples.directions[side], &samples.solid_angles[side]);
         let count = function_count(order);
-        let mut y = Matrix::zeros([directions.len(), count])?;
+        let mut y = Matrix::zeros([directions.len(), count]).map_err(of_svd)?;
         for (row, &direction) in directions.iter().enumerate() {
             harmonics(order, direction, y.row_mut(row));
         }
@@ -83,7 +79,7 @@ impl Expansion {
             }
             HarmonicFit::LeastSquares => {
                 // An orthonormal basis of the same functions, under the weights.
-                let basis = Svd::new(&scaled(&y, &f64::sqrt))?.left;
+                let basis = Svd::new(&scaled(&y, &f64::sqrt)).map_err(of_svd)?.left;
                 let analysis = scaled(&basis, &f64::sqrt).transposed();
                 Self { analysis, synthesis: scaled(&basis, &|angle| 1.0 / angle.sqrt()).transposed() }
             }
@@ -91,13 +87,15 @@ impl Expansion {
     }
 
     /// Expands each row of a matrix.
-    fn columns(&self, values: &Matrix) -> Result<Matrix, FactorizationError> {
-        Ok(values.product(&self.analysis.transposed())?.product(&self.synthesis)?)
+    fn columns(&self, values: &Matrix) -> Result<Matrix, InputError> {
+        let analysed = values.product(&self.analysis.transposed());
+        analysed.and_then(|analysed| analysed.product(&self.synthesis)).map_err(of_svd)
     }
 
     /// Expands each column.
-    fn rows(&self, values: &Matrix) -> Result<Matrix, FactorizationError> {
-        Ok(self.synthesis.transposed().product(&self.analysis.product(values)?)?)
+    fn rows(&self, values: &Matrix) -> Result<Matrix, InputError> {
+        let analysed = self.analysis.product(values);
+        analysed.and_then(|analysed| self.synthesis.transposed().product(&analysed)).map_err(of_svd)
     }
 }
 

@@ -9,11 +9,12 @@ use glam::DVec3;
 
 use super::motion::ProductSymmetry;
 use super::product::ProductFunction;
+use crate::error::InputError;
+use crate::transfer::brdf::Brdf;
 use crate::transfer::brdf::facets::{
     beckmann, cosine_along_tangent, groove, schlick_azimuth, schlick_seen, schlick_zenith,
 };
 use crate::transfer::brdf::fresnel::{dielectric, schlick};
-use crate::transfer::brdf::{Brdf, BrdfError};
 
 /// The factor before distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
@@ -130,8 +131,8 @@ impl Lobe {
     /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`BrdfError::OutOfRange`] for the first that is not.
-    pub fn check(&self) -> Result<(), BrdfError> {
+    /// [`InputError`] for the first that is not.
+    pub fn check(&self) -> Result<(), InputError> {
         let Self { albedo, normal_incidence, .. } = *self;
         match self.distribution {
             FacetDistribution::Beckmann { roughness } if self.fresnel == FresnelForm::Dielectric => {

@@ -5,15 +5,15 @@
 //! vector, and the azimuth around the half vector over 180 degrees.
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::motion::ProductSymmetry;
 use super::product::ProductFunction;
 use crate::elementary::{acos, atan2};
-use crate::io::{ReadError, read_limited};
+use crate::error::{InputError, input_error};
+use crate::io::read_file;
 
 /// Number of cells by half angle, difference angle and azimuth.
 pub const MERL_CELLS: [usize; 3] = [90, 90, 180];
@@ -47,59 +47,45 @@ pub struct MerlBrdf {
     pub invalid: usize,
 }
 
-/// Reasons for which a file is no measurement.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MerlError {
-    /// The file cannot be read, or is too long.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// The file ends too early.
-    #[error("{}: expected {expected} bytes of a MERL measurement, found {found}", path.display())]
-    #[diagnostic(code(crossbar::merl::short), help("the file is cut; fetch it again"))]
-    Short { path: PathBuf, expected: usize, found: usize },
-    /// The file is longer than its cells.
-    #[error("{}: expected {expected} bytes of a MERL measurement, found {found}", path.display())]
-    #[diagnostic(code(crossbar::merl::long), help("is it a measurement of another kind?"))]
-    TooLong { path: PathBuf, expected: usize, found: usize },
-    /// Other numbers of cells than 90 x 90 x 180.
-    #[error(
-        "{}: expected 90 x 90 x 180 cells, found {} x {} x {}", path.display(), found[0], found[1], found[2]
-    )]
-    #[diagnostic(code(crossbar::merl::cells), help("only isotropic measurements of this size are read"))]
-    Dimensions { path: PathBuf, found: [i32; 3] },
-    /// A cell that is infinite or NaN.
-    #[error("{}: expected finite numbers, found {found} in cell {cell} of channel {channel} (both from 0)", path.display())]
-    #[diagnostic(code(crossbar::merl::number), help("cells that were not measured are below 0"))]
-    NotFinite { path: PathBuf, channel: usize, cell: usize, found: f64 },
+fn short_error(path: &Path, expected: usize, found: usize) -> InputError {
+    input_error!("crossbar::merl::short" =>
+        "expected {expected} bytes of a MERL measurement, found {found}"; help "the file is cut; fetch it again")
+    .at(path)
 }
 
 /// Reads a measurement from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
-/// [`MerlError`].
-pub fn parse_merl(bytes: &[u8], name: &Path) -> Result<MerlBrdf, MerlError> {
+/// [`InputError`].
+pub fn parse_merl(bytes: &[u8], name: &Path) -> Result<MerlBrdf, InputError> {
     let (expected, found) = (BYTES, bytes.len());
     let Some((header, data)) = bytes.split_at_checked(HEADER) else {
-        return Err(MerlError::Short { path: name.into(), expected, found });
+        return Err(short_error(name, expected, found));
     };
     let mut sizes = [0; 3];
     sizes.iter_mut().zip(header.as_chunks().0).for_each(|(size, bytes)| *size = i32::from_le_bytes(*bytes));
     if sizes.map(|size| usize::try_from(size).unwrap_or(0)) != MERL_CELLS {
-        return Err(MerlError::Dimensions { path: name.into(), found: sizes });
+        return Err(input_error!("crossbar::merl::cells" =>
+            "expected 90 x 90 x 180 cells, found {} x {} x {}", sizes[0], sizes[1], sizes[2];
+            help "only isotropic measurements of this size are read")
+        .at(name));
     }
     if found < expected {
-        return Err(MerlError::Short { path: name.into(), expected, found });
+        return Err(short_error(name, expected, found));
     }
     if found > expected {
-        return Err(MerlError::TooLong { path: name.into(), expected, found });
+        return Err(input_error!("crossbar::merl::long" =>
+            "expected {expected} bytes of a MERL measurement, found {found}";
+            help "is it a measurement of another kind?")
+        .at(name));
     }
     let mut cells: Vec<f64> = data.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
     if let Some(at) = cells.iter().position(|value| !value.is_finite()) {
         let (channel, cell, found) = (at / CELLS, at % CELLS, cells[at]);
-        return Err(MerlError::NotFinite { path: name.into(), channel, cell, found });
+        return Err(input_error!("crossbar::merl::number" =>
+            "expected finite numbers, found {found} in cell {cell} of channel {channel} (both from 0)";
+            help "cells that were not measured are below 0")
+        .at(name));
     }
     let mut invalid = 0;
     for (cells, scale) in cells.chunks_exact_mut(CELLS).zip(SCALES) {
@@ -114,11 +100,9 @@ pub fn parse_merl(bytes: &[u8], name: &Path) -> Result<MerlBrdf, MerlError> {
 /// Reads a measurement from a file.
 ///
 /// # Errors
-/// [`MerlError`].
-pub fn load_merl(path: &Path) -> Result<MerlBrdf, MerlError> {
-    let (what, limit) = ("MERL measurement", BYTES as u64);
-    let read = read_limited(path, limit).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
-    parse_merl(&read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit })?, path)
+/// [`InputError`].
+pub fn load_merl(path: &Path) -> Result<MerlBrdf, InputError> {
+    parse_merl(&read_file(path, "MERL measurement", BYTES as u64)?, path)
 }
 
 impl MerlBrdf {

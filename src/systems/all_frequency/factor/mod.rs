@@ -23,16 +23,15 @@ mod sampling;
 mod table;
 
 pub use disc::{DiscSamples, HemisphereSamples, ProductErrors};
-pub use error::FactorizationError;
 pub use factorization::{Factorization, PAIR_DISTANCE, SplitPair};
 pub use factors::{DiffuseFactor, ProductFactors};
 pub use harmonics::{HarmonicFit, HarmonicSides, harmonic_errors};
 pub use lobe::{Denominators, FacetDistribution, FresnelForm, Lobe, Shadowing, TangentCosine};
-pub use merl::{MERL_CELLS, MerlBrdf, MerlChannel, MerlError, MerlProduct, load_merl, parse_merl};
+pub use merl::{MERL_CELLS, MerlBrdf, MerlChannel, MerlProduct, load_merl, parse_merl};
 pub use motion::ProductSymmetry;
 pub use product::ProductFunction;
 pub use sampling::{FactorSampling, MAX_SUPERSAMPLES, OutsideDisc, ProductClamp, Supersamples};
-pub use table::{MAX_MAP_SIDE, ProductTable, ProductTableError, load_product_table};
+pub use table::{MAX_MAP_SIDE, ProductTable, load_product_table};
 
 #[cfg(doc)]
 use crate::transfer::brdf::Brdf;

@@ -3,10 +3,11 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::error::FactorizationError;
 use super::motion::{Motion, moved, moved_back};
 use super::product::ProductFunction;
 use super::table::{MAX_MAP_SIDE, ProductTable};
+use crate::all_frequency::factor::error::of_svd;
+use crate::error::{InputError, ensure, input_error};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
@@ -104,10 +105,11 @@ impl FactorSampling {
     /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`FactorizationError::OutOfRange`] for the first that is not.
-    pub fn check(&self) -> Result<(), FactorizationError> {
+    /// [`InputError`] for the first that is not.
+    pub fn check(&self) -> Result<(), InputError> {
         let of = |what, expected, found: f64, fits: bool| {
-            if fits { Ok(()) } else { Err(FactorizationError::OutOfRange { what, expected, found }) }
+            ensure!(fits, "crossbar::factor::range" => "expected {expected} for the {what}, found {found}");
+            Ok(())
         };
         let within = |most: usize, found: usize| (1..=most).contains(&found);
         of("side of the maps", "1 to 48 texels", self.side as f64, within(MAX_MAP_SIDE, self.side))?;
@@ -124,22 +126,24 @@ impl FactorSampling {
     /// threads.
     ///
     /// # Errors
-    /// [`FactorizationError`] for parameters out of range, or a continuation that f does not have.
+    /// [`InputError`] for parameters out of range, or a continuation that f does not have.
     pub fn table(
         &self,
         product: &dyn ProductFunction,
         progress: &mut dyn FnMut(u64, u64),
-    ) -> Result<ProductTable, FactorizationError> {
+    ) -> Result<ProductTable, InputError> {
         self.check()?;
         if self.outside == OutsideDisc::Continued && !product.continues() {
-            return Err(FactorizationError::NotContinued { what: product.name() });
+            return Err(input_error!("crossbar::factor::continued" =>
+                    "expected a reflectance with a formula below the horizon, found {}", product.name();
+                    help "take 0 for texels outside the disc, or its rim"));
         }
         let map = ParabolicMap::new(self.side);
         let [views, lights] = [self.supersamples.view, self.supersamples.light].map(|edge| self.directions(edge));
         let motions = product.symmetry().motions();
         let whole = SymmetricMap { motions, side: self.side };
         let first: Vec<usize> = (0..map.texels()).filter(|&texel| whole.first(texel).0 == texel).collect();
-        let mut values = Matrix::zeros([map.texels(); 2])?;
+        let mut values = Matrix::zeros([map.texels(); 2]).map_err(of_svd)?;
         for (batch, texels) in first.chunks(BATCH).enumerate() {
             progress((batch * BATCH) as u64, first.len() as u64);
             let rows: Vec<Vec<f64>> = texels.par_iter().map(|&view| self.row(product, &views[view], &lights)).collect();

@@ -1,10 +1,9 @@
 //! Tables of f by texels of two parabolic maps: Q of section 3.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use crate::io::{NumberTable, NumbersError, load_numbers, number_table};
+use crate::error::{InputError, input_error};
+use crate::io::{NumberTable, load_numbers, number_table};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
@@ -17,34 +16,6 @@ pub struct ProductTable {
     view: ParabolicMap,
     light: ParabolicMap,
     values: Matrix,
-}
-
-/// Errors of reading a table of f.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum ProductTableError {
-    /// The numbers cannot be read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Numbers(#[from] NumbersError),
-    /// A number of rows or columns that is not that of a square map.
-    #[error(
-        "{}: expected a square number of {what} up to {most}, a texel of a square map each, found {found}", path.display(),
-        most = MAX_MAP_SIDE * MAX_MAP_SIDE
-    )]
-    #[diagnostic(
-        code(crossbar::factor::shape),
-        help("a map of 32 x 32 texels has 1024; rows are views, columns lights, texels row by row")
-    )]
-    NotSquare { path: PathBuf, what: &'static str, found: usize },
-    /// A number that cannot be a product of reflectance and cosine.
-    #[error(
-        "{}: expected finite numbers of at least 0, found {found} in row {row}, column {column} (counted from 0)",
-        path.display()
-    )]
-    #[diagnostic(code(crossbar::factor::number), help("the table holds reflectance times the light's cosine"))]
-    Number { path: PathBuf, row: usize, column: usize, found: f64 },
 }
 
 impl ProductTable {
@@ -60,20 +31,29 @@ impl ProductTable {
     /// A table from rows of numbers; `name` is the file's name in messages.
     ///
     /// # Errors
-    /// [`ProductTableError`] if the number of rows or columns is not that of a square map's texels, or a number is
+    /// [`InputError`] if the number of rows or columns is not that of a square map's texels, or a number is
     /// below 0, NaN or infinite.
-    pub fn of_numbers(table: &NumberTable<f64>, name: &Path) -> Result<Self, ProductTableError> {
+    pub fn of_numbers(table: &NumberTable<f64>, name: &Path) -> Result<Self, InputError> {
         let columns = table.columns.max(1);
         let map = |what: &'static str, found: usize| {
             let side = found.isqrt();
             let fits = side * side == found && (1..=MAX_MAP_SIDE).contains(&side);
-            let refused = || ProductTableError::NotSquare { path: name.into(), what, found };
+            let refused = || {
+                input_error!("crossbar::factor::shape" =>
+                    "expected a square number of {what} up to {}, a texel of a square map each, found {found}",
+                    MAX_MAP_SIDE * MAX_MAP_SIDE;
+                    help "a map of 32 x 32 texels has 1024; rows are views, columns lights, texels row by row")
+                .at(name)
+            };
             if fits { Ok(ParabolicMap::new(side)) } else { Err(refused()) }
         };
         let maps = [map("rows", table.values.len() / columns)?, map("columns", table.columns)?];
         if let Some(at) = table.values.iter().position(|&value| !(value.is_finite() && value >= 0.0)) {
             let [row, column] = [at / columns, at % columns];
-            return Err(ProductTableError::Number { path: name.into(), row, column, found: table.values[at] });
+            return Err(input_error!("crossbar::factor::number" =>
+                "expected finite numbers of at least 0, found {} in row {row}, column {column} (counted from 0)",
+                table.values[at]; help "the table holds reflectance times the light's cosine")
+            .at(name));
         }
         let values =
             Matrix::new(maps.map(ParabolicMap::texels), table.values.clone()).expect("whole rows of a small matrix");
@@ -106,8 +86,8 @@ impl ProductTable {
 /// Reads a table from a file: comma-separated values or a NumPy array, recognised by the first bytes.
 ///
 /// # Errors
-/// [`ProductTableError`].
-pub fn load_product_table(path: &Path) -> Result<ProductTable, ProductTableError> {
+/// [`InputError`].
+pub fn load_product_table(path: &Path) -> Result<ProductTable, InputError> {
     let table = load_numbers(path, "table of reflectance", number_table::MAX_BYTES)?;
     ProductTable::of_numbers(&table, path)
 }

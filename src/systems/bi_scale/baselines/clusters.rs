@@ -1,9 +1,10 @@
 //! Clustered principal components of the rows of a sparse matrix (section VI-B, Figure 6).
 
-use super::error::BaselineError;
 use super::refine::{PlacedRow, RowSubspace, placed, refitted};
 use super::stored::{StoredSize, StoredTransfer};
+use crate::bi_scale::baselines::error::dark_error;
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::error::{InputError, ensure};
 use crate::geom::random::CounterRng;
 use crate::linalg::dot;
 use crate::transfer::Signal;
@@ -76,12 +77,12 @@ impl RowClusters {
     /// with the number of finished rounds.
     ///
     /// # Errors
-    /// [`BaselineError::Dark`], [`BaselineError::Sample`], [`BaselineError::Clusters`].
+    /// [`InputError`].
     pub fn new(
         matrix: &SparseMatrix,
         options: &RowClusterOptions,
         observe: &mut dyn FnMut(usize),
-    ) -> Result<Self, BaselineError> {
+    ) -> Result<Self, InputError> {
         let mut subspaces = first(matrix, options)?;
         let mut rows = placed(matrix, &subspaces);
         let mut history = vec![total(&rows)];
@@ -164,14 +165,18 @@ impl StoredTransfer for RowClusters {
 }
 
 /// The initial clusters, from a sample of rows.
-fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSubspace>, BaselineError> {
+fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSubspace>, InputError> {
     let rows = sample(matrix, options.sample, options.seed);
     if rows.is_empty() {
-        return Err(BaselineError::Dark);
+        return Err(dark_error());
     }
-    if rows.len() < options.clusters {
-        return Err(BaselineError::Sample { clusters: options.clusters, found: rows.len() });
-    }
+    ensure!(
+        rows.len() >= options.clusters,
+        "expected at least {} rows to find {} clusters from, found {}",
+        options.clusters,
+        options.clusters,
+        rows.len()
+    );
     let columns = matrix.columns();
     let mut values = vec![0.0; rows.len() * columns];
     for (into, &row) in values.chunks_exact_mut(columns).zip(&rows) {
@@ -179,7 +184,7 @@ fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSu
             into[entry.index as usize] = matrix.value(entry.value) as f32;
         }
     }
-    let signal = Signal::new(columns, values).map_err(|_| BaselineError::Dark)?;
+    let signal = Signal::new(columns, values).map_err(|_| dark_error())?;
     let of_sample = CpcaOptions {
         clusters: options.clusters,
         vectors: options.vectors,

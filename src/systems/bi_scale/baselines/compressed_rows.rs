@@ -1,8 +1,8 @@
 //! Compressed rows: the columns and values of each row one after another.
 
-use super::error::BaselineError;
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::error::{InputError, input_error};
 
 /// The number of a column as a layout keeps it.
 pub trait RowColumn: Copy + Send + Sync {
@@ -96,11 +96,11 @@ impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
     /// The rows of a matrix.
     ///
     /// # Errors
-    /// [`BaselineError::ColumnRange`], [`BaselineError::ValueRange`] if the layout has no room for them.
+    /// [`InputError`] if the layout has no room for them.
     ///
     /// # Panics
     /// If there are more entries than 32 bits can count.
-    pub fn new(matrix: &SparseMatrix) -> Result<Self, BaselineError> {
+    pub fn new(matrix: &SparseMatrix) -> Result<Self, InputError> {
         assert!(u32::try_from(matrix.nonzeros()).is_ok(), "entries that 32 bits can count");
         let mut rows = Self {
             width: matrix.columns(),
@@ -113,10 +113,20 @@ impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
         for row in 0..matrix.rows() {
             for entry in matrix.row(row) {
                 let column = entry.index;
-                rows.columns.push(I::of(column).ok_or(BaselineError::ColumnRange { column, most: I::MOST })?);
+                rows.columns.push(I::of(column).ok_or_else(|| {
+                    input_error!(
+                        "expected columns of at most {} in this layout, found {column}: take one of wider numbers",
+                        I::MOST
+                    )
+                })?);
                 let value = V::of(matrix, entry.value);
-                let out_of_range =
-                    || BaselineError::ValueRange { row, value: matrix.value(entry.value), holds: V::HOLDS };
+                let out_of_range = || {
+                    input_error!(
+                        "expected {} in this layout, found {:e} in row {row}: take one of wider numbers",
+                        V::HOLDS,
+                        matrix.value(entry.value)
+                    )
+                };
                 rows.values.push(value.ok_or_else(out_of_range)?);
             }
             rows.begins.push(rows.columns.len() as u32);

@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::error::BaselineError;
 use super::stored::{StoredSize, StoredTransfer};
+use crate::bi_scale::baselines::error::columns_error;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crate::error::{InputError, ensure};
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS};
 use crate::transfer::haar::Haar;
 
@@ -88,14 +89,16 @@ impl HaarRows {
     /// The most important coefficients of each row of a matrix.
     ///
     /// # Errors
-    /// [`BaselineError::Columns`], [`BaselineError::Coefficients`].
-    pub fn new(matrix: &SparseMatrix, options: HaarRowOptions) -> Result<Self, BaselineError> {
+    /// [`InputError`].
+    pub fn new(matrix: &SparseMatrix, options: HaarRowOptions) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
-            return Err(BaselineError::Columns { found: matrix.columns() });
+            return Err(columns_error(matrix.columns()));
         }
-        if !(1..=LIGHT_TEXELS).contains(&options.keep) {
-            return Err(BaselineError::Coefficients { found: options.keep });
-        }
+        ensure!(
+            (1..=LIGHT_TEXELS).contains(&options.keep),
+            "expected 1 to {LIGHT_TEXELS} coefficients per row, found {}",
+            options.keep
+        );
         let weights = weights(options.priority);
         let scratch = || (Haar::new(LIGHT_SIDE), vec![0.0; FACE]);
         let of_rows: Vec<Vec<(u16, f64)>> = (0..matrix.rows())

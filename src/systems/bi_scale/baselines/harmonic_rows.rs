@@ -2,10 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::error::BaselineError;
 use super::local_transfer::{LocalTransfer, cell_integrals};
 use super::stored::{StoredSize, StoredTransfer};
+use crate::bi_scale::baselines::error::columns_error;
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::error::{InputError, ensure};
 use crate::sphere::{MAX_ORDER, function_count, harmonics};
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
 
@@ -37,10 +38,10 @@ impl HarmonicRows {
     /// Rows whose light is of an order. Nothing is to be known of vertices.
     ///
     /// # Errors
-    /// [`BaselineError::Columns`], [`BaselineError::Order`].
-    pub fn of_light(matrix: &SparseMatrix, order: usize) -> Result<Self, BaselineError> {
+    /// [`InputError`].
+    pub fn of_light(matrix: &SparseMatrix, order: usize) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
-            return Err(BaselineError::Columns { found: matrix.columns() });
+            return Err(columns_error(matrix.columns()));
         }
         let functions = TexelHarmonics::new(order)?;
         let count = function_count(order);
@@ -61,8 +62,8 @@ impl HarmonicRows {
     /// over light texels, at their centers, of visibility and both.
     ///
     /// # Errors
-    /// [`BaselineError::Order`].
-    pub fn of_both(transfer: &LocalTransfer<'_>, order: usize) -> Result<Self, BaselineError> {
+    /// [`InputError`].
+    pub fn of_both(transfer: &LocalTransfer<'_>, order: usize) -> Result<Self, InputError> {
         let functions = TexelHarmonics::new(order)?;
         let count = function_count(order);
         let mut values = vec![0.0; transfer.frames().len() * count * count];
@@ -124,10 +125,12 @@ struct TexelHarmonics {
 }
 
 impl TexelHarmonics {
-    fn new(order: usize) -> Result<Self, BaselineError> {
-        if !(1..=MAX_ORDER).contains(&order) {
-            return Err(BaselineError::Order { found: order });
-        }
+    fn new(order: usize) -> Result<Self, InputError> {
+        ensure!(
+            (1..=MAX_ORDER).contains(&order),
+            "expected an order of harmonics of 1 to {}, found {order}",
+            crate::sphere::MAX_ORDER
+        );
         let count = function_count(order);
         let mut functions = vec![0.0; LIGHT_TEXELS * count];
         for (texel, y) in functions.chunks_exact_mut(count).enumerate() {

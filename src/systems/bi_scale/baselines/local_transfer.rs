@@ -1,8 +1,9 @@
 //! Transfer with the frames of its vertices: what is needed to rotate harmonics or visibility.
 
-use super::error::BaselineError;
+use crate::bi_scale::baselines::error::columns_error;
 use crate::bi_scale::directions::{LocalDirections, hemisphere};
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::error::{InputError, ensure};
 use crate::sphere::{function_count, harmonics};
 use crate::transfer::LocalFrame;
 use crate::transfer::grid::LIGHT_TEXELS;
@@ -23,19 +24,21 @@ impl<'a> LocalTransfer<'a> {
     /// Row M p + j of the matrix is local direction j in frame p.
     ///
     /// # Errors
-    /// [`BaselineError::Columns`], [`BaselineError::Rows`].
+    /// [`InputError`].
     pub fn new(
         matrix: &'a SparseMatrix,
         frames: &'a [LocalFrame],
         directions: &'a LocalDirections,
-    ) -> Result<Self, BaselineError> {
+    ) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
-            return Err(BaselineError::Columns { found: matrix.columns() });
+            return Err(columns_error(matrix.columns()));
         }
         let expected = frames.len() * directions.directions().len();
-        if matrix.rows() != expected {
-            return Err(BaselineError::Rows { expected, found: matrix.rows() });
-        }
+        ensure!(
+            matrix.rows() == expected,
+            "expected {expected} rows, one per vertex and local direction, found {}: name the model of the file",
+            matrix.rows()
+        );
         Ok(Self { matrix, frames, directions })
     }
 

@@ -26,7 +26,7 @@ mod stored;
 
 pub use clusters::{RowClusterOptions, RowClusters};
 pub use compressed_rows::{CompressedRows, NarrowRows, RowColumn, RowValue, WideRows};
-pub use error::BaselineError;
+pub use error::columns_error;
 pub use haar_rows::{CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows};
 pub use harmonic_rows::{HarmonicRows, HarmonicSides};
 pub use local_transfer::{LocalTransfer, cell_integrals};

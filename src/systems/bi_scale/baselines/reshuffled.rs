@@ -8,9 +8,9 @@
 
 use rayon::prelude::*;
 
-use super::error::BaselineError;
 use super::local_transfer::{LocalTransfer, cell_integrals};
 use super::stored::{StoredSize, StoredTransfer};
+use crate::error::{InputError, ensure};
 use crate::sphere::CubeMap;
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS, face_row_column};
 
@@ -31,11 +31,12 @@ impl ReshuffledVisibility {
     /// about as many over the hemisphere as there are local directions of 8 x 8.
     ///
     /// # Errors
-    /// [`BaselineError::CoarseSide`].
-    pub fn new(transfer: &LocalTransfer<'_>, side: usize) -> Result<Self, BaselineError> {
-        if !side.is_power_of_two() || side > LIGHT_SIDE {
-            return Err(BaselineError::CoarseSide { found: side });
-        }
+    /// [`InputError`].
+    pub fn new(transfer: &LocalTransfer<'_>, side: usize) -> Result<Self, InputError> {
+        ensure!(
+            side.is_power_of_two() && side <= LIGHT_SIDE,
+            "expected 1, 2, 4, 8, 16 or 32 texels along an edge of the coarse cube, found {side}"
+        );
         let cube = CubeMap::new(side);
         let share = 1.0 / (LIGHT_SIDE / side).pow(2) as f64;
         let of_vertex = |vertex: usize| {

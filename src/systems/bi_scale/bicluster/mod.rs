@@ -25,7 +25,7 @@ mod sums;
 mod tally;
 mod whole;
 
-pub use options::{BiclusterError, BiclusterOptions};
+pub use options::BiclusterOptions;
 pub use search::bicluster;
 pub use sums::BiclusterResidual;
 pub use whole::{Bicluster, Biclustering};

@@ -1,7 +1,5 @@
 //! Options and errors of biclustering.
 
-use thiserror::Error;
-
 /// Options of Algorithm 1 that the paper leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiclusterOptions {
@@ -19,23 +17,4 @@ impl Default for BiclusterOptions {
     fn default() -> Self {
         Self { seed: 1, deletion: true, drop: 0.0 }
     }
-}
-
-/// Reasons for which a matrix cannot be biclustered, or biclusters have no sum.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum BiclusterError {
-    /// A sum that is no value of a matrix, which can happen for biclusters from elsewhere.
-    #[error(
-        "expected a sum that {holds} holds in row {row}, column {column} (counted from 0), found another: the \
-         biclusters are of no matrix"
-    )]
-    Sum { row: u32, column: u32, holds: &'static str },
-    /// More distinct residuals than 31 bits can name.
-    #[error("expected at most {} distinct residuals, found more", i32::MAX)]
-    Residuals,
-    /// More non-zeros than 32 bits can count.
-    #[error("expected at most {} non-zeros, found {found}", u32::MAX)]
-    TooMany { found: u64 },
 }

@@ -12,8 +12,9 @@ use super::lines::Lines;
 use super::numbers::{KnownNumbers, SearchNumbers, UnitNumbers};
 use super::queue::BucketQueue;
 use super::tally::ColumnTally;
-use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
+use super::{Bicluster, BiclusterOptions, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crate::error::{InputError, ensure, input_error};
 
 /// Biclusters of a matrix, identical to those of [`reference::bicluster`](super::reference::bicluster). `found` is
 /// called after each with the number of remaining non-zeros.
@@ -23,16 +24,14 @@ use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 /// that 32 bits do not hold, the search begins again, and `found` counts down from all non-zeros once more.
 ///
 /// # Errors
-/// [`BiclusterError`].
+/// [`InputError`].
 pub fn bicluster(
     matrix: &SparseMatrix,
     options: BiclusterOptions,
     found: &mut dyn FnMut(u64),
-) -> Result<Biclustering, BiclusterError> {
+) -> Result<Biclustering, InputError> {
     let nonzeros = matrix.nonzeros() as u64;
-    if u32::try_from(nonzeros).is_err() {
-        return Err(BiclusterError::TooMany { found: nonzeros });
-    }
+    ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
     let values = matrix.values();
     if let (Some(bits), None) = (values.fraction_bits(), values.table_len()) {
         let (entries, begins) = matrix.to_rows();
@@ -44,7 +43,9 @@ pub fn bicluster(
     }
     let (numbers, entries, begins) = KnownNumbers::new(matrix, options.drop);
     let mut search = Search::new((Lines::new(entries, begins), matrix.columns()), numbers, options);
-    let biclustering = search.run(matrix, found).ok_or(BiclusterError::Residuals)?;
+    let biclustering = search
+        .run(matrix, found)
+        .ok_or_else(|| input_error!("expected at most {} distinct residuals, found more", i32::MAX))?;
     Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.exact(integer)))
 }
 

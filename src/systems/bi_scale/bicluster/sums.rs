@@ -2,10 +2,11 @@
 
 use num_bigint::BigInt;
 
-use super::{BiclusterError, Biclustering};
+use super::Biclustering;
 use crate::bi_scale::exact::ExactNumber;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::bi_scale::values::EntryValues;
+use crate::error::{InputError, input_error};
 use crate::io::CoordinateMatrix;
 
 /// How the sum of biclusters differs from a matrix.
@@ -34,11 +35,17 @@ impl Biclustering {
     /// The sum of the biclusters, which is exactly the original matrix.
     ///
     /// # Errors
-    /// [`BiclusterError::Sum`] if a sum can be no value of a matrix, which happens for biclusters from elsewhere and
+    /// [`InputError`] if a sum can be no value of a matrix, which happens for biclusters from elsewhere and
     /// where residuals were dropped.
-    pub fn sum(&self) -> Result<SparseMatrix, BiclusterError> {
+    pub fn sum(&self) -> Result<SparseMatrix, InputError> {
         let ([rows, columns], bits) = (self.matrix_size(), self.values().fraction_bits());
-        let error = |row: usize, column, holds| BiclusterError::Sum { row: row as u32, column, holds };
+        let error = |row: usize, column, holds| {
+            input_error!(
+                "expected a sum that {holds} holds in row {}, column {column} (counted from 0), found \
+         another: the biclusters are of no matrix",
+                row as u32
+            )
+        };
         let Some(bits) = bits else {
             let mut entries = Vec::new();
             self.exact_rows(None, |row, sums| {
@@ -103,8 +110,8 @@ impl Biclustering {
     fn unit_rows(
         &self,
         less: Option<&SparseMatrix>,
-        take: impl FnMut(usize, Vec<(u32, i64)>) -> Result<(), BiclusterError>,
-    ) -> Result<(), BiclusterError> {
+        take: impl FnMut(usize, Vec<(u32, i64)>) -> Result<(), InputError>,
+    ) -> Result<(), InputError> {
         let add = |sum: &mut i64, entry: i32| *sum += i64::from(entry);
         let subtract = |sum: &mut i64, entry: i32| *sum -= i64::from(entry);
         self.rows_of_sums((&add, &subtract), less, |sum| Some(sum).filter(|sum| *sum != 0), take)
@@ -114,8 +121,8 @@ impl Biclustering {
     fn exact_rows(
         &self,
         less: Option<&SparseMatrix>,
-        take: impl FnMut(usize, Vec<(u32, ExactNumber)>) -> Result<(), BiclusterError>,
-    ) -> Result<(), BiclusterError> {
+        take: impl FnMut(usize, Vec<(u32, ExactNumber)>) -> Result<(), InputError>,
+    ) -> Result<(), InputError> {
         let of_matrix = less.map_or(i32::MAX, |matrix| matrix.values().least_exponent());
         let exponent = of_matrix.min(self.values().least_exponent());
         let units = |values: &EntryValues, entry| -> BigInt {
@@ -137,8 +144,8 @@ impl Biclustering {
         (add, subtract): (Change<'_, N>, Change<'_, N>),
         less: Option<&SparseMatrix>,
         finish: impl Fn(N) -> Option<S>,
-        mut take: impl FnMut(usize, Vec<(u32, S)>) -> Result<(), BiclusterError>,
-    ) -> Result<(), BiclusterError> {
+        mut take: impl FnMut(usize, Vec<(u32, S)>) -> Result<(), InputError>,
+    ) -> Result<(), InputError> {
         let (begins, of_row) = self.by_row();
         let mut sums: Vec<N> = Vec::new();
         sums.resize_with(self.matrix_size()[1], N::default);

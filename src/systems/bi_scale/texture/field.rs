@@ -9,7 +9,8 @@
 //! mesh's point are those at the top of the patch. (The paper does not say where its patches lie.)
 
 use glam::DVec3;
-use thiserror::Error;
+
+use crate::error::{InputError, ensure, input_error};
 
 /// A repeating patch of heights.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,26 +21,6 @@ pub struct HeightField {
     tops: Vec<f64>,
     /// The least height, at most 0.
     bottom: f64,
-}
-
-/// Errors of making heights.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum HeightFieldError {
-    /// A patch without texels, or of too many.
-    #[error("expected 1 to {} texels along an edge of the heights, found {found}", HeightField::MOST)]
-    Side { found: usize },
-    /// Heights are lacking or left over.
-    #[error("expected {expected} heights, {side} x {side}, found {found}")]
-    Count { side: usize, expected: usize, found: usize },
-    /// A height that is none, or out of all proportion.
-    #[error(
-        "expected finite heights, the lowest at most {} edges of the patch below the highest; found {found} in row \
-         {row}, column {column}",
-        HeightField::DEEPEST
-    )]
-    Height { found: f64, row: usize, column: usize },
 }
 
 /// The bilinear surface of a cell: h00 + a p + b q + a b s with a, b in [0, 1] from the cell's first corner.
@@ -74,21 +55,42 @@ impl HeightField {
     /// The largest depth in edges of the patch.
     pub const DEEPEST: f64 = 16.0;
 
+    /// Checks the number of texels along an edge.
+    ///
+    /// # Errors
+    /// [`InputError`] for 0, and for more than [`Self::MOST`].
+    pub fn check_side(side: usize) -> Result<(), InputError> {
+        ensure!(
+            (1..=Self::MOST).contains(&side),
+            "expected 1 to {} texels along an edge of the heights, found {side}",
+            Self::MOST
+        );
+        Ok(())
+    }
+
     /// A height field from heights row by row, in edges of the patch, shifted so that the highest is 0.
     ///
     /// # Errors
-    /// [`HeightFieldError`].
-    pub fn new(side: usize, heights: &[f64]) -> Result<Self, HeightFieldError> {
-        if !(1..=Self::MOST).contains(&side) {
-            return Err(HeightFieldError::Side { found: side });
-        }
-        if heights.len() != side * side {
-            return Err(HeightFieldError::Count { side, expected: side * side, found: heights.len() });
-        }
+    /// [`InputError`].
+    pub fn new(side: usize, heights: &[f64]) -> Result<Self, InputError> {
+        Self::check_side(side)?;
+        ensure!(
+            heights.len() == side * side,
+            "expected {} heights, {side} x {side}, found {}",
+            side * side,
+            heights.len()
+        );
         let top = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let is_good = |height: f64| height.is_finite() && top - height <= Self::DEEPEST;
         if let Some(at) = heights.iter().position(|&height| !is_good(height)) {
-            return Err(HeightFieldError::Height { found: heights[at], row: at / side, column: at % side });
+            return Err(input_error!(
+                "expected finite heights, the lowest at most {} edges of the patch below the highest; found \
+         {} in row {}, column {}",
+                HeightField::DEEPEST,
+                heights[at],
+                at / side,
+                at % side
+            ));
         }
         let heights: Vec<f64> = heights.iter().map(|height| height - top).collect();
         let bottom = heights.iter().copied().fold(0.0, f64::min);

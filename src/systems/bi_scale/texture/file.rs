@@ -4,65 +4,49 @@
 //! columns along u; the last axis is red, green, blue. `BidirectionalTexture` defines the numbers.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::response::{BidirectionalTexture, BidirectionalTextureError};
+use super::response::BidirectionalTexture;
 use crate::bi_scale::directions::LocalDirections;
-use crate::io::{NumberArray, NumbersError, load_npy_array, write_npy_array};
+use crate::error::{InputError, input_error};
+use crate::io::{NumberArray, load_npy_array, write_npy_array};
 
 /// Largest size of a file that is read, in bytes (8 GiB).
 const MAX_BYTES: u64 = 1 << 33;
 
-/// Errors of reading a bidirectional texture.
-#[non_exhaustive]
-#[derive(Debug, Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum BidirectionalTextureFileError {
-    /// The file is not there, too long, or no array.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Numbers(#[from] NumbersError),
-    /// An array of another shape.
-    #[error("{}: expected an array of the shape (views, lights, size, size, 3), found {found:?}", path.display())]
-    #[diagnostic(code(crossbar::bidirectional_texture::shape), help("`crossbar bi-scale texture` writes such files"))]
-    Shape { path: PathBuf, found: Vec<usize> },
-    /// Directions are lacking, or too many.
-    #[error("{}: expected {what} of a square of k x k cells, k from 1 to {}, found {found}", path.display(),
-        LocalDirections::MOST)]
-    #[diagnostic(
-        code(crossbar::bidirectional_texture::directions),
-        help("sample the patch in the directions that docs/papers/bi_scale.md names, all of them")
-    )]
-    Directions { path: PathBuf, what: &'static str, found: usize },
-    /// Its samples are none.
-    #[error("{}: {reason}", path.display())]
-    #[diagnostic(code(crossbar::bidirectional_texture::samples))]
-    Samples { path: PathBuf, reason: BidirectionalTextureError },
+fn shape_error(path: &Path, found: Vec<usize>) -> InputError {
+    input_error!("crossbar::bidirectional_texture::shape" =>
+        "expected an array of the shape (views, lights, size, size, 3), found {found:?}";
+        help "`crossbar bi-scale texture` writes such files")
+    .at(path)
 }
 
 /// Reads a texture from a file.
 ///
 /// # Errors
-/// [`BidirectionalTextureFileError`].
-pub fn load_bidirectional_texture(path: &Path) -> Result<BidirectionalTexture, BidirectionalTextureFileError> {
+/// [`InputError`].
+pub fn load_bidirectional_texture(path: &Path) -> Result<BidirectionalTexture, InputError> {
     let NumberArray { shape, values } = load_npy_array(path, "bidirectional texture", MAX_BYTES)?;
     let &[views, lights, size, columns, 3] = &shape[..] else {
-        return Err(BidirectionalTextureFileError::Shape { path: path.into(), found: shape });
+        return Err(shape_error(path, shape));
     };
     if size != columns {
-        return Err(BidirectionalTextureFileError::Shape { path: path.into(), found: shape });
+        return Err(shape_error(path, shape));
     }
     let directions = |what, found: usize| {
         let side = (1..=LocalDirections::MOST).find(|side| side * side == found).unwrap_or(0);
-        let refused = |_| BidirectionalTextureFileError::Directions { path: path.into(), what, found };
+        let refused = |_| {
+            input_error!("crossbar::bidirectional_texture::directions" =>
+                "expected {what} of a square of k x k cells, k from 1 to {}, found {found}", LocalDirections::MOST;
+                help "sample the patch in the directions that docs/papers/bi_scale.md names, all of them")
+            .at(path)
+        };
         LocalDirections::new(side).map_err(refused)
     };
     let (view, light) = (directions("views", views)?, directions("directions of light", lights)?);
     let samples = values.as_chunks().0.to_vec();
     BidirectionalTexture::new(size, view, light, samples)
-        .map_err(|reason| BidirectionalTextureFileError::Samples { path: path.into(), reason })
+        .map_err(|reason| input_error!("crossbar::bidirectional_texture::samples" => "{reason}").at(path))
 }
 
 /// Writes a texture.

@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_1_PI;
 
 use glam::DVec3;
 
-use crate::transfer::brdf::{Brdf, BrdfError};
+use crate::error::InputError;
+use crate::transfer::brdf::Brdf;
 
 /// A diffuse color and a glossy lobe.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +27,8 @@ impl MesoMaterial {
     /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`BrdfError::OutOfRange`] for the first that is not.
-    pub fn check(&self) -> Result<(), BrdfError> {
+    /// [`InputError`] for the first that is not.
+    pub fn check(&self) -> Result<(), InputError> {
         for albedo in self.color {
             Brdf::Lambert { albedo }.check()?;
         }

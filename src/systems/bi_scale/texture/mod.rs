@@ -17,11 +17,11 @@ pub mod reference;
 mod response;
 mod sampled;
 
-pub use field::{HeightField, HeightFieldError};
-pub use file::{BidirectionalTextureFileError, load_bidirectional_texture, write_bidirectional_texture};
+pub use field::HeightField;
+pub use file::{load_bidirectional_texture, write_bidirectional_texture};
 pub use kinds::PatchKind;
 pub use material::MesoMaterial;
-pub use patch::{MesoDetail, MesoPatch, MesoPatchError, MesoTexel, SeenPoint};
+pub use patch::{MesoDetail, MesoPatch, MesoTexel, SeenPoint};
 pub use ray::REACH;
-pub use response::{BidirectionalTexture, BidirectionalTextureError, ViewSamples};
+pub use response::{BidirectionalTexture, ViewSamples};
 pub use sampled::TextureSampling;

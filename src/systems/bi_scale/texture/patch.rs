@@ -6,14 +6,13 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::field::HeightField;
 use super::material::MesoMaterial;
 use super::ray::{SurfaceHit, TexelRay, follow};
 use crate::elementary::on_circle;
+use crate::error::{InputError, ensure, input_error};
 use crate::transfer::LocalFrame;
-use crate::transfer::brdf::BrdfError;
 
 /// Detail of the heights that is drawn (section VII: normal maps and spatially invariant BRDFs in place of a
 /// bidirectional texture).
@@ -48,25 +47,6 @@ pub struct MesoTexel {
     pub turns: f64,
 }
 
-/// Reasons for which parts make no patch.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MesoPatchError {
-    /// The number of texels differs from the number of heights.
-    #[error("expected {expected} texels, one per height, found {found}")]
-    Count { expected: usize, found: usize },
-    /// A texel with an unknown material, or a tangent that is not finite.
-    #[error(
-        "expected a material below {materials} and a finite tangent, found {} and {} in row {row}, column {column}",
-        found.material, found.turns
-    )]
-    Texel { materials: usize, found: MesoTexel, row: usize, column: usize },
-    /// A material with parameters out of range.
-    #[error("material {material} (counted from 0): {reason}")]
-    Material { material: usize, reason: BrdfError },
-}
-
 /// The point of the patch that a view sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenPoint {
@@ -85,23 +65,22 @@ impl MesoPatch {
     /// A patch of heights, with texels row by row and their materials.
     ///
     /// # Errors
-    /// [`MesoPatchError`].
-    pub fn new(
-        heights: HeightField,
-        materials: Vec<MesoMaterial>,
-        texels: Vec<MesoTexel>,
-    ) -> Result<Self, MesoPatchError> {
+    /// [`InputError`].
+    pub fn new(heights: HeightField, materials: Vec<MesoMaterial>, texels: Vec<MesoTexel>) -> Result<Self, InputError> {
         let (expected, side) = (heights.heights().len(), heights.side());
-        if texels.len() != expected {
-            return Err(MesoPatchError::Count { expected, found: texels.len() });
-        }
+        ensure!(texels.len() == expected, "expected {expected} texels, one per height, found {}", texels.len());
         let is_good = |texel: &MesoTexel| (texel.material as usize) < materials.len() && texel.turns.is_finite();
         if let Some(at) = texels.iter().position(|texel| !is_good(texel)) {
             let (row, column) = (at / side, at % side);
-            return Err(MesoPatchError::Texel { materials: materials.len(), found: texels[at], row, column });
+            return Err(input_error!(
+                "expected a material below {} and a finite tangent, found {} and {} in row {row}, column {column}",
+                materials.len(),
+                texels[at].material,
+                texels[at].turns
+            ));
         }
         for (material, of) in materials.iter().enumerate() {
-            of.check().map_err(|reason| MesoPatchError::Material { material, reason })?;
+            of.check().map_err(|reason| input_error!("material {material} (counted from 0): {reason}"))?;
         }
         Ok(Self { heights, materials, texels, detail: MesoDetail::default() })
     }
@@ -109,8 +88,8 @@ impl MesoPatch {
     /// A flat patch of one material: a spatially invariant BRDF.
     ///
     /// # Errors
-    /// [`MesoPatchError::Material`].
-    pub fn plain(material: MesoMaterial) -> Result<Self, MesoPatchError> {
+    /// [`InputError`].
+    pub fn plain(material: MesoMaterial) -> Result<Self, InputError> {
         Self::new(HeightField::flat(), vec![material], vec![MesoTexel::default()])
     }
 

@@ -8,9 +8,9 @@
 //! bitangent.
 
 use glam::DVec3;
-use thiserror::Error;
 
 use crate::bi_scale::directions::{LocalDirections, square};
+use crate::error::{InputError, input_error};
 
 /// b(u, e, d), sampled.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,43 +21,8 @@ pub struct BidirectionalTexture {
     samples: Vec<[f32; 3]>,
 }
 
-/// Errors of making a bidirectional texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum BidirectionalTextureError {
-    /// A patch without texels, or of too many.
-    #[error("expected a patch of 1 to {} texels along an edge, found {found}", BidirectionalTexture::MOST)]
-    Size {
-        /// Texels along an edge.
-        found: usize,
-    },
-    /// Samples are lacking or left over.
-    #[error("expected {expected} samples ({views} views x {lights} lights x {size} x {size} texels), found {found}")]
-    Count {
-        /// Views.
-        views: usize,
-        /// Directions of light.
-        lights: usize,
-        /// Texels along an edge.
-        size: usize,
-        /// Their product with the texels.
-        expected: usize,
-        /// Samples given.
-        found: usize,
-    },
-    /// A number below 0 or not finite.
-    #[error(
-        "expected samples of 0 or more, finite ones; found another at view {view}, light {light}, row {row}, column {column}"
-    )]
-    Sample {
-        /// The view's number.
-        view: usize,
-        /// The light direction's number.
-        light: usize,
-        /// The texel's row.
-        row: usize,
-        /// The texel's column.
-        column: usize,
-    },
+pub(super) fn size_error(found: usize) -> InputError {
+    input_error!("expected a patch of 1 to {} texels along an edge, found {found}", BidirectionalTexture::MOST)
 }
 
 /// The four samples of the view around a direction, and their weights, which sum to 1.
@@ -76,31 +41,35 @@ impl BidirectionalTexture {
     /// A texture of samples: view by view, in a view light by light, then row by row.
     ///
     /// # Errors
-    /// [`BidirectionalTextureError`].
+    /// [`InputError`].
     pub fn new(
         size: usize,
         view: LocalDirections,
         light: LocalDirections,
         samples: Vec<[f32; 3]>,
-    ) -> Result<Self, BidirectionalTextureError> {
+    ) -> Result<Self, InputError> {
         if !(1..=Self::MOST).contains(&size) {
-            return Err(BidirectionalTextureError::Size { found: size });
+            return Err(size_error(size));
         }
         let [views, lights] = [&view, &light].map(|directions| directions.directions().len());
         let expected = views * lights * size * size;
         if samples.len() != expected {
             let found = samples.len();
-            return Err(BidirectionalTextureError::Count { views, lights, size, expected, found });
+            return Err(input_error!(
+                "expected {expected} samples ({views} views x {lights} lights x {size} x {size} texels), \
+         found {found}"
+            ));
         }
         let is_good = |sample: &[f32; 3]| sample.iter().all(|value| value.is_finite() && *value >= 0.0);
         if let Some(at) = samples.iter().position(|sample| !is_good(sample)) {
             let (texel, pair) = (at % (size * size), at / (size * size));
-            return Err(BidirectionalTextureError::Sample {
-                view: pair / lights,
-                light: pair % lights,
-                row: texel / size,
-                column: texel % size,
-            });
+            return Err(input_error!(
+                "expected samples of 0 or more, finite ones; found another at view {}, light {}, row {}, column {}",
+                pair / lights,
+                pair % lights,
+                texel / size,
+                texel % size
+            ));
         }
         Ok(Self { size, light, view, samples })
     }

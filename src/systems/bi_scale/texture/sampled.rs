@@ -4,8 +4,10 @@
 use rayon::prelude::*;
 
 use super::patch::{MesoPatch, SeenPoint};
-use super::response::{BidirectionalTexture, BidirectionalTextureError};
+use super::response::BidirectionalTexture;
 use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::texture::response::size_error;
+use crate::error::InputError;
 
 /// Options of sampling a patch.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +27,7 @@ impl MesoPatch {
     /// finished views and their total.
     ///
     /// # Errors
-    /// [`BidirectionalTextureError`].
+    /// [`InputError`].
     ///
     /// # Panics
     /// If there are no samples per texel.
@@ -33,11 +35,11 @@ impl MesoPatch {
         &self,
         sampling: &TextureSampling,
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<BidirectionalTexture, BidirectionalTextureError> {
+    ) -> Result<BidirectionalTexture, InputError> {
         let TextureSampling { size, view, light, samples: fine } = sampling;
         assert!(*fine > 0, "a sample in a texel");
         if !(1..=BidirectionalTexture::MOST).contains(size) {
-            return Err(BidirectionalTextureError::Size { found: *size });
+            return Err(size_error(*size));
         }
         let (lights, texels) = (light.directions(), size * size);
         let mut samples = vec![[0.0_f32; 3]; view.directions().len() * lights.len() * texels];

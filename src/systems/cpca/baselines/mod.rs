@@ -8,10 +8,8 @@
 //! Vector quantisation and principal components alone are options of
 //! [`compress`](crate::transfer::clustering::compress): no vectors, or one cluster.
 
-mod error;
 mod uncompressed;
 mod view_map;
 
-pub use error::BaselineError;
 pub use uncompressed::{ExitCoefficients, UncompressedTransfer};
 pub use view_map::ViewMap;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::BaselineError;
+use crate::error::{InputError, ensure};
 use crate::sphere::{HarmonicLight, order_with};
 use crate::transfer::Signal;
 
@@ -33,13 +33,14 @@ impl UncompressedTransfer {
     /// The matrices of a signal, one point per vertex, row by row.
     ///
     /// # Errors
-    /// [`BaselineError::Shape`] if the numbers per point make no matrix with this many rows.
-    pub fn new(signal: &Signal, rows: usize) -> Result<Self, BaselineError> {
+    /// [`InputError`] if the numbers per point make no matrix with this many rows.
+    pub fn new(signal: &Signal, rows: usize) -> Result<Self, InputError> {
         let found = signal.dimension();
         let columns = found.checked_div(rows).unwrap_or(0);
-        if rows * columns != found || order_with(columns).is_none() {
-            return Err(BaselineError::Shape { rows, found });
-        }
+        ensure!(
+            rows * columns == found && order_with(columns).is_some(),
+            "expected {rows} rows of 1, 4, 9, ... or 100 numbers per point, found {found} numbers per point"
+        );
         let vertices = signal.points();
         let mut elements = vec![[0.0; LANES]; vertices.div_ceil(LANES) * found];
         elements.par_chunks_exact_mut(found).enumerate().for_each(|(block, elements)| {
@@ -54,13 +55,11 @@ impl UncompressedTransfer {
     /// M_p l of every vertex, for three channels.
     ///
     /// # Errors
-    /// [`BaselineError::Light`] for light of another order than the matrices.
-    pub fn times(&self, light: &HarmonicLight) -> Result<ExitCoefficients, BaselineError> {
+    /// [`InputError`] for light of another order than the matrices.
+    pub fn times(&self, light: &HarmonicLight) -> Result<ExitCoefficients, InputError> {
         let [red, green, blue] = light.channels();
         let (expected, found) = (self.columns, red.len());
-        if expected != found {
-            return Err(BaselineError::Light { expected, found });
-        }
+        ensure!(expected == found, "expected light of {expected} functions, one per column of a matrix, found {found}");
         let light: Vec<[f32; 3]> = (0..found).map(|i| [red[i], green[i], blue[i]].map(|l| l as f32)).collect();
         let mut values = vec![[0.0; 3]; self.vertices * self.rows];
         let blocks = self.elements.par_chunks_exact(self.rows * self.columns);
@@ -149,8 +148,14 @@ mod tests {
     #[test]
     fn what_is_no_matrix_is_refused() {
         let signal = torus_signal(3, 18, 0);
-        assert_eq!(UncompressedTransfer::new(&signal, 0), Err(BaselineError::Shape { rows: 0, found: 18 }));
-        assert_eq!(UncompressedTransfer::new(&signal, 3), Err(BaselineError::Shape { rows: 3, found: 18 }));
+        assert_eq!(
+            UncompressedTransfer::new(&signal, 0).unwrap_err().to_string(),
+            "expected 0 rows of 1, 4, 9, ... or 100 numbers per point, found 18 numbers per point"
+        );
+        assert_eq!(
+            UncompressedTransfer::new(&signal, 3).unwrap_err().to_string(),
+            "expected 3 rows of 1, 4, 9, ... or 100 numbers per point, found 18 numbers per point"
+        );
         let transfer = UncompressedTransfer::new(&signal, 2).expect("2 x 9");
         let message = transfer.times(&HarmonicLight::red_and_blue(4)).expect_err("another order").to_string();
         assert_eq!(message, "expected light of 9 functions, one per column of a matrix, found 16");

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{BaselineError, ExitCoefficients};
+use super::ExitCoefficients;
+use crate::error::{InputError, ensure};
 use crate::geom::vector::wide;
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
@@ -30,12 +31,13 @@ impl ViewMap {
     /// of incident radiance.
     ///
     /// # Errors
-    /// [`BaselineError::BrdfRows`] if it has other rows.
-    pub fn of_brdf(basis: &ExitBasis, brdf: &Matrix, map: ParabolicMap) -> Result<Self, BaselineError> {
+    /// [`InputError`] if it has other rows.
+    pub fn of_brdf(basis: &ExitBasis, brdf: &Matrix, map: ParabolicMap) -> Result<Self, InputError> {
         let (expected, found) = (basis.len(), brdf.row_count());
-        if expected != found {
-            return Err(BaselineError::BrdfRows { expected, found });
-        }
+        ensure!(
+            expected == found,
+            "expected a matrix of {expected} rows, one per function of exit radiance, found {found}"
+        );
         let mut y = vec![0.0; expected];
         Ok(Self::from_fn(map, brdf.column_count(), |direction, into| {
             basis.values(direction, &mut y);
@@ -63,21 +65,17 @@ impl ViewMap {
     /// Radiance of every vertex towards an eye: the functions at the view direction times the vertex's coefficients.
     ///
     /// # Errors
-    /// [`BaselineError`] for coefficients of other functions or vertices.
+    /// [`InputError`] for coefficients of other functions or vertices.
     pub fn radiance(
         &self,
         vertices: &Vertices,
         coefficients: &ExitCoefficients,
         eye: DVec3,
-    ) -> Result<Vec<[f32; 3]>, BaselineError> {
+    ) -> Result<Vec<[f32; 3]>, InputError> {
         let (expected, found) = (self.functions, coefficients.row_count());
-        if expected != found {
-            return Err(BaselineError::Coefficients { expected, found });
-        }
+        ensure!(expected == found, "expected {expected} coefficients per vertex, one per map, found {found}");
         let (expected, found) = (vertices.len(), coefficients.vertex_count());
-        if expected != found {
-            return Err(BaselineError::Vertices { expected, found });
-        }
+        ensure!(expected == found, "expected coefficients of {expected} vertices, found those of {found}");
         let towards = |vertex: usize| {
             let view = (eye - wide(vertices.positions()[vertex])).normalize_or_zero();
             let corners = self.corners(vertices.frames()[vertex].to_local(view));

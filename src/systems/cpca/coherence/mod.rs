@@ -12,40 +12,9 @@ mod supercluster;
 pub use reclassify::{Reclassified, reclassify};
 pub use supercluster::{ConstantRegisters, Superclusters};
 
-use thiserror::Error;
-
+use crate::error::{InputError, ensure, input_error};
 use crate::transfer::Signal;
 use crate::transfer::clustering::Clustering;
-
-/// Contradictions between clusters and a mesh. Triangles, vertices and clusters count from 0.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum CoherenceError {
-    /// A triangle names a vertex without a cluster.
-    #[error("triangle {triangle} has the vertex {found}, expected one of the clustering's {points} points")]
-    Vertex { triangle: usize, found: u32, points: usize },
-    /// The clustering is of another signal.
-    #[error("expected a signal of {points} x {dimension} numbers, found {found_points} x {found_dimension}")]
-    Shape { points: usize, dimension: usize, found_points: usize, found_dimension: usize },
-    /// A fraction of the error that is negative or not finite.
-    #[error("expected an error budget of at least 0, as a share of the error, found {found}")]
-    Budget { found: f64 },
-    /// Superclusters of no clusters.
-    #[error("expected superclusters of at least 1 cluster, found 0")]
-    Size,
-    /// Superclusters of another clustering.
-    #[error("expected superclusters of {expected} clusters, found those of {found}")]
-    Clusters { expected: usize, found: usize },
-    /// A supercluster has more constants than there are registers.
-    #[error(
-        "supercluster {supercluster} needs {needed} constant registers, expected at most {limit}; take smaller ones"
-    )]
-    SuperclusterRegisters { supercluster: usize, needed: usize, limit: usize },
-    /// One cluster has more constants than there are registers.
-    #[error("cluster {cluster} needs {needed} constant registers, expected at most {limit}; take fewer vectors")]
-    Registers { cluster: usize, needed: usize, limit: usize },
-}
 
 /// The number of triangles drawn: for each triangle the number of different clusters of its vertices, summed. Divided
 /// by the number of triangles it is the overdraw that the paper prints.
@@ -61,23 +30,25 @@ fn distinct([a, b, c]: [u32; 3]) -> u64 {
     1 + u64::from(b != a) + u64::from(c != a && c != b)
 }
 
-fn check_triangles(triangles: &[[u32; 3]], points: usize) -> Result<(), CoherenceError> {
+fn check_triangles(triangles: &[[u32; 3]], points: usize) -> Result<(), InputError> {
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&found) = corners.iter().find(|&&corner| corner as usize >= points) {
-            return Err(CoherenceError::Vertex { triangle, found, points });
+            return Err(input_error!(
+                "triangle {triangle} has the vertex {found}, expected one of the clustering's {points} points"
+            ));
         }
     }
     Ok(())
 }
 
-fn check_shape(signal: &Signal, clustering: &Clustering) -> Result<(), CoherenceError> {
+fn check_shape(signal: &Signal, clustering: &Clustering) -> Result<(), InputError> {
     let (found_points, found_dimension) = (signal.points(), signal.dimension());
     let (points, dimension) = (clustering.points(), clustering.dimension());
-    if (points, dimension) == (found_points, found_dimension) {
-        Ok(())
-    } else {
-        Err(CoherenceError::Shape { points, dimension, found_points, found_dimension })
-    }
+    ensure!(
+        (points, dimension) == (found_points, found_dimension),
+        "expected a signal of {points} x {dimension} numbers, found {found_points} x {found_dimension}"
+    );
+    Ok(())
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::{CoherenceError, check_shape, check_triangles, distinct, overdraw};
+use super::{check_shape, check_triangles, distinct, overdraw};
+use crate::error::{InputError, input_error};
 use crate::transfer::Signal;
 use crate::transfer::clustering::Clustering;
 
@@ -25,17 +26,17 @@ pub struct Reclassified {
 /// `budget` times the initial squared error; one that would exceed it is skipped. The paper takes 0.05 to 0.1.
 ///
 /// # Errors
-/// [`CoherenceError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
+/// [`InputError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,
     triangles: &[[u32; 3]],
     budget: f64,
-) -> Result<Reclassified, CoherenceError> {
+) -> Result<Reclassified, InputError> {
     check_shape(signal, clustering)?;
     check_triangles(triangles, signal.points())?;
     if !(budget.is_finite() && budget >= 0.0) {
-        return Err(CoherenceError::Budget { found: budget });
+        return Err(input_error!("expected an error budget of at least 0, as a share of the error, found {budget}"));
     }
     let mut search = Search::new(signal, clustering, triangles);
     let limit = budget * search.errors.iter().sum::<f64>();

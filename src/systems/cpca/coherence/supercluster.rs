@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{CoherenceError, check_triangles, overdraw};
+use super::{check_triangles, overdraw};
+use crate::error::{InputError, ensure, input_error};
 use crate::transfer::clustering::Clustering;
 
 /// Constant registers for the products of clusters' vectors with the light (section 6.2).
@@ -43,12 +44,12 @@ impl Superclusters {
     /// the registers together, the lowest among equals, until no two neighbours fit.
     ///
     /// # Errors
-    /// [`CoherenceError`] if a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
+    /// [`InputError`] if a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
     pub fn new(
         clustering: &Clustering,
         triangles: &[[u32; 3]],
         registers: ConstantRegisters,
-    ) -> Result<Self, CoherenceError> {
+    ) -> Result<Self, InputError> {
         check_triangles(triangles, clustering.points())?;
         Ok(Self::merged(clustering, triangles, needed(clustering, registers)?, registers.limit))
     }
@@ -56,12 +57,10 @@ impl Superclusters {
     /// Likewise of `clusters` clusters at most, whatever they take: a size for all cards.
     ///
     /// # Errors
-    /// [`CoherenceError`] if a triangle names a vertex without a cluster, or for a size of 0.
-    pub fn of_size(clustering: &Clustering, triangles: &[[u32; 3]], clusters: usize) -> Result<Self, CoherenceError> {
+    /// [`InputError`] if a triangle names a vertex without a cluster, or for a size of 0.
+    pub fn of_size(clustering: &Clustering, triangles: &[[u32; 3]], clusters: usize) -> Result<Self, InputError> {
         check_triangles(triangles, clustering.points())?;
-        if clusters == 0 {
-            return Err(CoherenceError::Size);
-        }
+        ensure!(clusters != 0, "expected superclusters of at least 1 cluster, found 0");
         Ok(Self::merged(clustering, triangles, vec![1; clustering.subspaces().len()], clusters))
     }
 
@@ -75,12 +74,10 @@ impl Superclusters {
     /// Refuses superclusters that exceed the registers, or are of other clusters.
     ///
     /// # Errors
-    /// [`CoherenceError`].
-    pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), CoherenceError> {
+    /// [`InputError`].
+    pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), InputError> {
         let (expected, found) = (clustering.subspaces().len(), self.of_cluster.len());
-        if expected != found {
-            return Err(CoherenceError::Clusters { expected, found });
-        }
+        ensure!(expected == found, "expected superclusters of {expected} clusters, found those of {found}");
         let mut sums = vec![0_usize; self.count];
         for (&of, needed) in self.of_cluster.iter().zip(needed(clustering, registers)?) {
             sums[of as usize] = sums[of as usize].saturating_add(needed);
@@ -88,7 +85,10 @@ impl Superclusters {
         match sums.iter().position(|&sum| sum > registers.limit) {
             Some(supercluster) => {
                 let (needed, limit) = (sums[supercluster], registers.limit);
-                Err(CoherenceError::SuperclusterRegisters { supercluster, needed, limit })
+                Err(input_error!(
+                    "supercluster {supercluster} needs {needed} constant registers, expected at most {limit}; \
+         take smaller ones"
+                ))
             }
             None => Ok(()),
         }
@@ -109,8 +109,8 @@ impl Superclusters {
     /// One supercluster per cluster.
     ///
     /// # Errors
-    /// [`CoherenceError::Registers`] if a cluster exceeds the registers.
-    pub fn apart(clustering: &Clustering, registers: ConstantRegisters) -> Result<Self, CoherenceError> {
+    /// [`InputError`] if a cluster exceeds the registers.
+    pub fn apart(clustering: &Clustering, registers: ConstantRegisters) -> Result<Self, InputError> {
         let count = needed(clustering, registers)?.len();
         Ok(Self { of_cluster: (0..count as u32).collect(), count })
     }
@@ -146,10 +146,14 @@ impl Superclusters {
 }
 
 /// The number of registers of each cluster, none above the limit.
-fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<usize>, CoherenceError> {
+fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<usize>, InputError> {
     let needed: Vec<usize> = clustering.subspaces().iter().map(|s| registers.needed(s.len())).collect();
     match needed.iter().position(|&needed| needed > registers.limit) {
-        Some(cluster) => Err(CoherenceError::Registers { cluster, needed: needed[cluster], limit: registers.limit }),
+        Some(cluster) => Err(input_error!(
+            "cluster {cluster} needs {} constant registers, expected at most {}; take fewer vectors",
+            needed[cluster],
+            registers.limit
+        )),
         None => Ok(needed),
     }
 }

@@ -5,10 +5,12 @@ use std::ops::Range;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::error::InputError;
 use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
 use crate::tracer::Caster;
-use crate::transfer::{FrontHit, Occluders, Shooter, TransferError, VertexRays, Vertices, ones, origins};
+use crate::transfer::error::cast_error;
+use crate::transfer::{FrontHit, Occluders, Shooter, VertexRays, Vertices, ones, origins};
 
 /// Number of vertices whose shadow rays are traced together; few rays of each are left to the caster.
 const SHADOW_BLOCK: usize = 1024;
@@ -101,13 +103,13 @@ impl TracedRays {
     /// packets; only those that pass too near an edge for f32 are left to the caster.
     ///
     /// # Errors
-    /// [`TransferError::Cast`] if the caster fails.
+    /// [`InputError`] if the caster fails.
     pub fn trace(
         vertices: &Vertices,
         rule: DirectionRule,
         caster: &mut dyn Caster,
         keep_hits: bool,
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         Self::trace_range(vertices, 0..vertices.len(), rule, caster, keep_hits)
     }
 
@@ -124,7 +126,7 @@ impl TracedRays {
         rule: DirectionRule,
         caster: &mut dyn Caster,
         keep_hits: bool,
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         assert!(range.end <= vertices.len(), "vertices of the mesh");
         let words = rule.len().div_ceil(64);
         let counts = TransferCounts { rays: (range.len() * rule.len()) as u64, ..TransferCounts::default() };
@@ -202,7 +204,7 @@ impl TracedRays {
         &blocked[(vertex - range.start) * words..(vertex - range.start + 1) * words]
     }
 
-    fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
+    fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), InputError> {
         let RayAnswers { range, words, blocked, counts, .. } = &mut self.answers;
         let words = *words;
         for (first, blocked) in range.clone().step_by(SHADOW_BLOCK).zip(blocked.chunks_mut(SHADOW_BLOCK * words)) {
@@ -212,7 +214,7 @@ impl TracedRays {
                 .map_init(Vec::new, |waiting, (at, bits)| shooter.shadow_rays(first + at, waiting, bits))
                 .collect();
             let rays: Vec<Ray> = asked.iter().flat_map(|asked| &asked.rays).copied().collect();
-            let mut answers = caster.occluded(&rays)?.into_iter();
+            let mut answers = caster.occluded(&rays).map_err(cast_error)?.into_iter();
             counts.traced += rays.len() as u64;
             for (bits, asked) in blocked.chunks_mut(words).zip(&asked) {
                 for (&direction, is_blocked) in asked.directions.iter().zip(answers.by_ref()) {
@@ -230,7 +232,7 @@ impl TracedRays {
     }
 
     /// Finds the hits of blocked rays: of all vertices if hits are kept, otherwise of dark ones, to find those buried.
-    fn hits(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
+    fn hits(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), InputError> {
         let wanted: Vec<u32> = match self.keeps_hits() {
             true => self.range().map(|vertex| vertex as u32).collect(),
             false => self.counts().dark.clone(),
@@ -241,7 +243,7 @@ impl TracedRays {
                 .map(|&vertex| shooter.rays(vertex as usize, self.blocked_directions(vertex as usize)))
                 .collect();
             let rays: Vec<Ray> = asked.iter().flat_map(|(_, rays)| rays).copied().collect();
-            let mut answers = caster.cast(&rays)?.into_iter();
+            let mut answers = caster.cast(&rays).map_err(cast_error)?.into_iter();
             let answered: Vec<Vec<Option<Hit>>> =
                 asked.iter().map(|(_, rays)| answers.by_ref().take(rays.len()).collect()).collect();
             let found: Vec<(Vec<FrontHit>, u64)> = asked

@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use crate::linalg::{Matrix, MatrixError, dot};
+use crate::error::InputError;
+use crate::linalg::{Matrix, dot};
 use crate::sphere::{DirectionRule, function_count, harmonics};
-use crate::transfer::TransferError;
 use crate::transfer::brdf::{Brdf, ExitBasis, Projector, exit_per_direction, integrals};
+use crate::transfer::error::out_of_range_error;
 
 /// The representation of incident radiance for the BRDF of a glossy material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,11 +38,11 @@ impl Response {
     /// A diffuse response: exit radiance is albedo / pi times irradiance. One row, the t_p of section 3.
     ///
     /// # Errors
-    /// [`TransferError::OutOfRange`] if the albedo is not in [0, 1].
-    pub fn diffuse(albedo: f64, rule: &DirectionRule) -> Result<Self, TransferError> {
+    /// [`InputError`] if the albedo is not in [0, 1].
+    pub fn diffuse(albedo: f64, rule: &DirectionRule) -> Result<Self, InputError> {
         if !(0.0..=1.0).contains(&albedo) {
             let (what, expected) = ("the albedo", "a number from 0 to 1");
-            return Err(TransferError::OutOfRange { what, expected, found: albedo });
+            return Err(out_of_range_error(what, expected, albedo));
         }
         let columns = rule.directions().iter().map(|s| albedo / PI * s.z).collect();
         Ok(Self { basis: ExitBasis::Radiance, directions: rule.len(), columns })
@@ -59,7 +60,7 @@ impl Response {
     /// B is integrated ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)).
     ///
     /// # Errors
-    /// [`TransferError::Brdf`] for parameters out of range.
+    /// [`InputError`] for parameters out of range.
     pub fn glossy(
         brdf: &Brdf,
         exit: &ExitBasis,
@@ -67,8 +68,8 @@ impl Response {
         incident: Incident,
         rule: &DirectionRule,
         views: &DirectionRule,
-    ) -> Result<Self, TransferError> {
-        brdf.check()?;
+    ) -> Result<Self, InputError> {
+        brdf.check().map_err(|error| error.coded("crossbar::prt::precompute"))?;
         let projector = Projector::new(exit, exit_inverse);
         let columns = match incident {
             Incident::Directions => exit_per_direction(brdf, &projector, rule.directions(), views),
@@ -110,11 +111,11 @@ impl Response {
     /// The matrix of a vertex that sees the whole hemisphere, for light of `light_order` in local coordinates.
     ///
     /// # Errors
-    /// [`MatrixError`] never, since there are at most 100 functions.
+    /// [`InputError`] never, since there are at most 100 functions.
     ///
     /// # Panics
     /// If the order is not 1 to 10, or the rule has another number of directions than the response.
-    pub fn unoccluded(&self, light_order: usize, rule: &DirectionRule) -> Result<Matrix, MatrixError> {
+    pub fn unoccluded(&self, light_order: usize, rule: &DirectionRule) -> Result<Matrix, InputError> {
         assert_eq!(rule.len(), self.directions, "the response's rule");
         let columns = function_count(light_order);
         let (mut sums, mut y) = (Matrix::zeros([self.basis.len(), columns])?, vec![0.0; columns]);

@@ -7,9 +7,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::whole::Transfer;
+use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::quadrature::graded_integral;
-use crate::transfer::{TransferError, Vertices};
+use crate::transfer::Vertices;
+use crate::transfer::error::{differ_error, out_of_range_error};
 
 /// Vertices of a leaf.
 const LEAF: usize = 8;
@@ -56,13 +58,13 @@ impl Transfer {
     /// triangles should be smaller than the mean free path.
     ///
     /// # Errors
-    /// [`TransferError`] if `entering` is not of these vertices or has more than one row, or an option is out of range.
+    /// [`InputError`] if `entering` is not of these vertices or has more than one row, or an option is out of range.
     pub fn scattered(
         vertices: &Vertices,
         entering: &Self,
         reflectance: impl Fn(f64) -> f64 + Sync,
         options: ScatteringOptions,
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         let ScatteringOptions { mm_per_unit, solid_angle } = options;
         for (what, expected, found, fits) in [
             ("mm per unit", "a finite number above 0", mm_per_unit, mm_per_unit > 0.0 && mm_per_unit.is_finite()),
@@ -74,14 +76,14 @@ impl Transfer {
             ),
         ] {
             if !fits {
-                return Err(TransferError::OutOfRange { what, expected, found });
+                return Err(out_of_range_error(what, expected, found));
             }
         }
         for (what, found) in
             [("vertices", [vertices.len(), entering.vertex_count()]), ("rows", [1, entering.row_count()])]
         {
             if found[0] != found[1] {
-                return Err(TransferError::Differ { what, found });
+                return Err(differ_error(what, found));
             }
         }
         let hierarchy = Hierarchy::new(vertices, mm_per_unit);

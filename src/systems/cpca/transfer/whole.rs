@@ -6,9 +6,11 @@ use rayon::prelude::*;
 use super::gather::TransferGather;
 use super::rays::TracedRays;
 use super::response::Response;
+use crate::error::{InputError, input_error};
 use crate::sphere::{MAX_ORDER, function_count};
+use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
-use crate::transfer::{TransferError, Vertices};
+use crate::transfer::error::{differ_error, exit_bases_error, out_of_range_error};
 
 /// Vertices per chunk of a sum over all vertices; it fixes the order of the additions.
 const CHUNK: usize = 1024;
@@ -43,7 +45,7 @@ impl Transfer {
     /// basis; the rays must have been traced from these vertices, with hits kept if `bounces` is not 0.
     ///
     /// # Errors
-    /// [`TransferError`] for responses with different bases or of another rule, a missing material, an order not in 1
+    /// [`InputError`] for responses with different bases or of another rule, a missing material, an order not in 1
     /// to 10, or bounces without hits.
     pub fn new(
         vertices: &Vertices,
@@ -51,7 +53,7 @@ impl Transfer {
         responses: &[Response],
         light_order: usize,
         bounces: Bounces,
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         check_bounces(vertices, rays, bounces)?;
         let direct = Self::direct(vertices, rays, responses, light_order)?;
         Self::with_bounces(vertices, rays, responses, light_order, (direct, bounces))
@@ -61,15 +63,17 @@ impl Transfer {
     /// itself, and the same for every range. Concatenated, row by row.
     ///
     /// # Errors
-    /// [`TransferError`] as of [`Self::new`].
+    /// [`InputError`] as of [`Self::new`].
     pub fn direct(
         vertices: &Vertices,
         rays: &TracedRays,
         responses: &[Response],
         light_order: usize,
-    ) -> Result<Vec<f32>, TransferError> {
+    ) -> Result<Vec<f32>, InputError> {
         if let Some((triangle, material)) = unknown_material(vertices, responses) {
-            return Err(TransferError::Material { triangle, material, responses: responses.len() });
+            return Err(input_error!("crossbar::prt::precompute" =>
+                    "triangle {triangle} has material {material}, expected one below {} (counted from 0)",
+                    responses.len()));
         }
         check(rays, responses, light_order)?;
         if rays.range().end > vertices.len() {
@@ -82,14 +86,14 @@ impl Transfer {
     /// not needed.
     ///
     /// # Errors
-    /// [`TransferError`] as of [`Self::new`], and if there is not one matrix per vertex.
+    /// [`InputError`] as of [`Self::new`], and if there is not one matrix per vertex.
     pub fn with_bounces(
         vertices: &Vertices,
         rays: &TracedRays,
         responses: &[Response],
         light_order: usize,
         (direct, bounces): (Vec<f32>, Bounces),
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         check(rays, responses, light_order)?;
         check_bounces(vertices, rays, bounces)?;
         let (basis, columns) = (responses[0].basis().clone(), function_count(light_order));
@@ -132,7 +136,7 @@ impl Transfer {
         (basis, inverse): (&ExitBasis, bool),
         light_order: usize,
         exit: Option<&Self>,
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         let responses = [Response::incident(basis, inverse, rays.rule())];
         check(rays, &responses, light_order)?;
         check_bounces(vertices, rays, Bounces::Count(u32::from(exit.is_some())))?;
@@ -205,8 +209,8 @@ impl Transfer {
     /// whose radiance is added to the coefficient of y_0 (Figure 9).
     ///
     /// # Errors
-    /// [`TransferError`] if sizes do not fit, or this basis lacks a function of the other.
-    pub fn add(&mut self, other: &Self) -> Result<(), TransferError> {
+    /// [`InputError`] if sizes do not fit, or this basis lacks a function of the other.
+    pub fn add(&mut self, other: &Self) -> Result<(), InputError> {
         differ("columns", [self.columns, other.columns])?;
         differ("vertices", [self.vertex_count(), other.vertex_count()])?;
         let places = places(&self.basis, &other.basis)?;
@@ -223,8 +227,8 @@ impl Transfer {
 }
 
 /// For each row of basis `from` the index of its row in `into`, and its factor.
-fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, TransferError> {
-    let missing = TransferError::ExitBases { found: [into.len(), from.len()] };
+fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, InputError> {
+    let missing = exit_bases_error([into.len(), from.len()]);
     match (into, from) {
         (ExitBasis::Radiance, ExitBasis::Radiance) => Ok(vec![(0, 1.0)]),
         (ExitBasis::Radiance, ExitBasis::Harmonics(_)) => Err(missing),
@@ -239,31 +243,32 @@ fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, Trans
     }
 }
 
-fn check(rays: &TracedRays, responses: &[Response], light_order: usize) -> Result<(), TransferError> {
+fn check(rays: &TracedRays, responses: &[Response], light_order: usize) -> Result<(), InputError> {
     if !(1..=MAX_ORDER).contains(&light_order) {
         let (what, expected) = ("the order of the light", "an order from 1 to 10");
-        return Err(TransferError::OutOfRange { what, expected, found: light_order as f64 });
+        return Err(out_of_range_error(what, expected, light_order as f64));
     }
     for response in responses {
         differ("directions", [rays.rule().len(), response.direction_count()])?;
         if responses[0].basis().functions() != response.basis().functions() {
             let found = [responses[0].basis().len(), response.basis().len()];
-            return Err(TransferError::ExitBases { found });
+            return Err(exit_bases_error(found));
         }
     }
     Ok(())
 }
 
 /// Checks that rays of all vertices were traced, with hits if there are bounces.
-fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: Bounces) -> Result<(), TransferError> {
+fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: Bounces) -> Result<(), InputError> {
     differ("vertices of rays", [vertices.len(), rays.vertex_count()])?;
     match bounces {
         Bounces::Tolerance { share, .. } if !(share > 0.0 && share.is_finite()) => {
             let (what, expected) = ("the tolerance of bounces", "a finite number above 0");
-            Err(TransferError::OutOfRange { what, expected, found: share })
+            Err(out_of_range_error(what, expected, share))
         }
         Bounces::Count(0) => Ok(()),
-        _ if !rays.keeps_hits() => Err(TransferError::NoHits),
+        _ if !rays.keeps_hits() => Err(input_error!("crossbar::prt::precompute" =>
+            "the rays were traced without keeping hits, which bounces need; trace them with `keep_hits`")),
         _ => Ok(()),
     }
 }
@@ -282,6 +287,6 @@ fn squares(values: &[f32], size: usize) -> f64 {
 }
 
 /// Returns an error if two numbers differ.
-fn differ(what: &'static str, found: [usize; 2]) -> Result<(), TransferError> {
-    if found[0] == found[1] { Ok(()) } else { Err(TransferError::Differ { what, found }) }
+fn differ(what: &'static str, found: [usize; 2]) -> Result<(), InputError> {
+    if found[0] == found[1] { Ok(()) } else { Err(differ_error(what, found)) }
 }

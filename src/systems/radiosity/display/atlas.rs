@@ -8,7 +8,8 @@
 use glam::DVec3;
 
 use super::corners::at_corners;
-use crate::atlas::{Atlas, AtlasError};
+use crate::atlas::Atlas;
+use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::vector::narrow;
 use crate::radiosity::{Patch, Patches};
@@ -38,8 +39,8 @@ impl RadiosityAtlas {
     /// Creates an atlas of `side` texels along a side, a power of two.
     ///
     /// # Errors
-    /// [`AtlasError`] if there are fewer texels than triangles, or the side is not that of an atlas.
-    pub fn new(patches: &Patches, side: u32) -> Result<Self, AtlasError> {
+    /// [`InputError`] if there are fewer texels than triangles, or the side is not that of an atlas.
+    pub fn new(patches: &Patches, side: u32) -> Result<Self, InputError> {
         let (mut positions, mut triangles, mut of_face) = (Vec::new(), Vec::new(), Vec::new());
         for (number, patch) in (0..).zip(patches.list()) {
             let first = positions.len() as u32;

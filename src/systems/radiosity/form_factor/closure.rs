@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::FormFactors;
 use super::rows::mirror;
-use super::{FormFactorError, FormFactors};
+use crate::error::{InputError, input_error};
 
 /// Maximum number of rounds of scaling; each halves the logarithm of the remaining error, or better.
 const MAX_ROUNDS: u32 = 500;
@@ -62,8 +63,8 @@ impl FormFactors {
     /// patches alone is not closed.
     ///
     /// # Errors
-    /// [`FormFactorError::Open`] names the patch farthest from it.
-    pub fn require_closed(&self, tolerance: f64) -> Result<(), FormFactorError> {
+    /// [`InputError`] names the patch farthest from it.
+    pub fn require_closed(&self, tolerance: f64) -> Result<(), InputError> {
         let sums = self.row_sums();
         let blind = sums.iter().filter(|&&sum| sum == 0.0).count();
         let all_blind = blind > 0 && blind == sums.len();
@@ -76,7 +77,10 @@ impl FormFactors {
         // Blind patches count as closed here.
         let seeing: Vec<f64> = sums.iter().map(|&sum| if sum == 0.0 && !all_blind { 1.0 } else { sum }).collect();
         let (patch, sum) = farthest(&seeing);
-        Err(FormFactorError::Open { patch, sum, open, blind, patches: sums.len(), tolerance })
+        Err(input_error!("radiosity::form_factors" =>
+                "expected a closed room, found patch {patch} (counted from 0) with form factors that sum to {sum}, \
+                 and {open} of {} patches more than {tolerance} from 1 ({blind} more see nothing); close the room, \
+                 or allow light to leave it", sums.len()))
     }
 
     /// The patches that see nothing at all, such as those under a block.
@@ -101,9 +105,9 @@ impl FormFactors {
     /// and Knopp's iteration (1967) in its symmetric form. Rows without any light stay as they are.
     ///
     /// # Errors
-    /// [`FormFactorError::NoScaling`] if there is no such scaling, or none was found. The factors are then reciprocal,
+    /// [`InputError`] if there is no such scaling, or none was found. The factors are then reciprocal,
     /// but not closed.
-    pub fn enforce_closure(&mut self) -> Result<(), FormFactorError> {
+    pub fn enforce_closure(&mut self) -> Result<(), InputError> {
         self.enforce_reciprocity();
         let mut scale = vec![1.0; self.len()];
         let mut sums = Vec::new();
@@ -118,7 +122,9 @@ impl FormFactors {
             scale.iter_mut().zip(&sums).for_each(|(d, sum)| *d /= sum.sqrt());
         }
         let (patch, sum) = farthest(&sums);
-        Err(FormFactorError::NoScaling { rounds: MAX_ROUNDS, patch, sum })
+        Err(input_error!("radiosity::form_factors" =>
+            "form factors cannot be scaled to a closed room: after {MAX_ROUNDS} rounds patch {patch} (counted from \
+             0) still sums to {sum}"))
     }
 
     /// F_ij becomes d_i F_ij d_j; reciprocal to one ULP.

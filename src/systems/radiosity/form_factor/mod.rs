@@ -17,10 +17,11 @@ pub mod rectangles;
 mod rows;
 mod visibility;
 
-use crate::linalg::{Matrix, MatrixError};
+use crate::error::{InputError, ensure};
+use crate::linalg::Matrix;
+use crate::radiosity::form_factor::error::value_error;
 
 pub use closure::RowSums;
-pub use error::FormFactorError;
 pub use hemicube::Hemicube;
 pub(super) use polygon::clipped;
 pub use polygon::point_to_polygon;
@@ -39,22 +40,20 @@ impl FormFactors {
     /// Creates form factors from a matrix with F_ij in row i, column j.
     ///
     /// # Errors
-    /// [`FormFactorError`] if the matrix is not square, there is not one positive area per row, or a form factor is
+    /// [`InputError`] if the matrix is not square, there is not one positive area per row, or a form factor is
     /// negative or NaN.
-    pub fn from_values(areas: Vec<f64>, matrix: Matrix) -> Result<Self, FormFactorError> {
+    pub fn from_values(areas: Vec<f64>, matrix: Matrix) -> Result<Self, InputError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
-        if !matrix.is_square() {
-            return Err(MatrixError::Count { rows, columns: rows, values: rows * columns }.into());
-        }
-        if areas.len() != rows {
-            return Err(FormFactorError::Areas { rows, areas: areas.len() });
-        }
+        ensure!(matrix.is_square(), "radiosity::form_factors" =>
+            "expected {rows} x {rows} values, found {}", rows * columns);
+        ensure!(areas.len() == rows, "radiosity::form_factors" =>
+            "expected {rows} areas, one per row, found {}", areas.len());
         for (patch, (&area, row)) in areas.iter().zip(matrix.rows()).enumerate() {
             if !(area > 0.0 && area.is_finite()) {
-                return Err(FormFactorError::Value { expected: "an area above 0", value: area, patch });
+                return Err(value_error("an area above 0", area, patch));
             }
             if let Some(&value) = row.iter().find(|&&f| !(f >= 0.0 && f.is_finite())) {
-                return Err(FormFactorError::Value { expected: "form factors of at least 0", value, patch });
+                return Err(value_error("form factors of at least 0", value, patch));
             }
         }
         Ok(Self { areas, matrix })

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 use refsim::machine::Executor;
 
 use super::exchange::{self, QuadraturePatch};
-use super::{FormFactorError, FormFactors, Hemicube, VisibilityParameters, hemicube, visibility};
-use crate::linalg::{Matrix, MatrixError};
+use super::{FormFactors, Hemicube, VisibilityParameters, hemicube, visibility};
+use crate::error::{InputError, ensure};
+use crate::linalg::Matrix;
 use crate::radiosity::Patches;
 use crate::tracer::Caster;
 
@@ -24,10 +25,11 @@ impl FormFactorRows {
     ///
     /// # Errors
     /// Those of [`FormFactors::unoccluded`].
-    pub fn unoccluded(patches: &Patches, is_wanted: &(dyn Fn(usize) -> bool + Sync)) -> Result<Self, FormFactorError> {
+    pub fn unoccluded(patches: &Patches, is_wanted: &(dyn Fn(usize) -> bool + Sync)) -> Result<Self, InputError> {
         let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
         let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();
-        let mut matrix = Matrix::zeros([list.len(); 2])?;
+        let matrix = Matrix::zeros([list.len(); 2]);
+        let mut matrix = matrix.map_err(|error| error.coded("radiosity::form_factors"))?;
         matrix.par_rows_mut().enumerate().filter(|(i, _)| is_wanted(*i)).for_each(|(i, row)| {
             for (into, others) in row.iter_mut().zip(&list).skip(i + 1) {
                 for one in &list[i] {
@@ -48,7 +50,7 @@ impl FormFactorRows {
         parameters: VisibilityParameters,
         is_wanted: &(dyn Fn(usize) -> bool + Sync),
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, FormFactorError> {
+    ) -> Result<Self, InputError> {
         let mut rows = Self::unoccluded(patches, is_wanted)?;
         visibility::hide(patches, &mut rows.matrix, caster, parameters, done)?;
         Ok(rows)
@@ -64,7 +66,7 @@ impl FormFactorRows {
         executor: &Executor,
         is_wanted: &(dyn Fn(usize) -> bool + Sync),
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, FormFactorError> {
+    ) -> Result<Self, InputError> {
         let matrix = hemicube::matrix(patches, hemicube, executor, is_wanted, done)?;
         Ok(Self { matrix, are_exchanges: false })
     }
@@ -80,16 +82,15 @@ impl FormFactorRows {
     /// Sets the row of a patch to one that was computed apart.
     ///
     /// # Errors
-    /// [`FormFactorError`] if it does not have the length of [`Self::row`].
+    /// [`InputError`] if it does not have the length of [`Self::row`].
     ///
     /// # Panics
     /// If there is no such patch.
-    pub fn set_row(&mut self, patch: usize, values: &[f64]) -> Result<(), FormFactorError> {
+    pub fn set_row(&mut self, patch: usize, values: &[f64]) -> Result<(), InputError> {
         let first = self.first(patch);
         let row = &mut self.matrix.row_mut(patch)[first..];
-        if values.len() != row.len() {
-            return Err(MatrixError::Count { rows: 1, columns: row.len(), values: values.len() }.into());
-        }
+        ensure!(values.len() == row.len(), "radiosity::form_factors" =>
+            "expected 1 x {} values, found {}", row.len(), values.len());
         row.copy_from_slice(values);
         Ok(())
     }
@@ -103,7 +104,7 @@ impl FormFactorRows {
     ///
     /// # Errors
     /// Of hemicubes, those of [`FormFactors::from_values`].
-    pub fn complete(self, patches: &Patches) -> Result<FormFactors, FormFactorError> {
+    pub fn complete(self, patches: &Patches) -> Result<FormFactors, InputError> {
         let (areas, mut matrix) = (patches.areas(), self.matrix);
         if !self.are_exchanges {
             return FormFactors::from_values(areas, matrix);
@@ -119,8 +120,8 @@ impl FormFactors {
     /// one ULP.
     ///
     /// # Errors
-    /// [`FormFactorError::Size`] for too many patches.
-    pub fn unoccluded(patches: &Patches) -> Result<Self, FormFactorError> {
+    /// [`InputError`] for too many patches.
+    pub fn unoccluded(patches: &Patches) -> Result<Self, InputError> {
         FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches)
     }
 
@@ -129,13 +130,13 @@ impl FormFactors {
     /// and of all pairs.
     ///
     /// # Errors
-    /// [`FormFactorError`] for too many patches, no samples, or rays that the ray caster fails on.
+    /// [`InputError`] for too many patches, no samples, or rays that the ray caster fails on.
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,
         parameters: VisibilityParameters,
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, FormFactorError> {
+    ) -> Result<Self, InputError> {
         FormFactorRows::with_visibility(patches, caster, parameters, &|_| true, done)?.complete(patches)
     }
 
@@ -147,14 +148,14 @@ impl FormFactors {
     /// [`FormFactors::enforce_reciprocity`].
     ///
     /// # Errors
-    /// [`FormFactorError`] for too many patches, a resolution that the card does not have, or a card without fragment
+    /// [`InputError`] for too many patches, a resolution that the card does not have, or a card without fragment
     /// programs.
     pub fn hemicube(
         patches: &Patches,
         hemicube: &Hemicube,
         executor: &Executor,
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, FormFactorError> {
+    ) -> Result<Self, InputError> {
         FormFactorRows::hemicube(patches, hemicube, executor, &|_| true, done)?.complete(patches)
     }
 }

@@ -6,13 +6,14 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::FormFactorError;
 use super::exchange::kernel;
+use crate::error::InputError;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::narrow;
 use crate::geom::{Hit, Ray};
 use crate::linalg::Matrix;
 use crate::radiosity::Patches;
+use crate::radiosity::form_factor::error::{cast_error, no_samples_error};
 use crate::tracer::Caster;
 use crate::tracer::offset::scene_clearance;
 
@@ -49,9 +50,9 @@ pub(super) fn hide(
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
     done: &mut dyn FnMut(usize, usize),
-) -> Result<(), FormFactorError> {
+) -> Result<(), InputError> {
     if parameters.side == 0 {
-        return Err(FormFactorError::NoSamples);
+        return Err(no_samples_error());
     }
     let pairs: Vec<[u32; 2]> = factors
         .rows()
@@ -64,7 +65,7 @@ pub(super) fn hide(
         let samples: Vec<VisibilitySample> =
             bundle.par_iter().flat_map_iter(|&pair| samples(patches, pair, parameters)).collect();
         let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
-        let mut hits = caster.cast(&rays)?.into_iter();
+        let mut hits = caster.cast(&rays).map_err(cast_error)?.into_iter();
         for (&[i, j], samples) in bundle.iter().zip(samples.chunks(rays_a_pair)) {
             let faces = [i, j].map(|patch| patches.list()[patch as usize].face);
             factors.row_mut(i as usize)[j as usize] *= share(patches, faces, samples, &mut hits);
@@ -135,9 +136,9 @@ pub(in crate::radiosity) fn point_share(
     targets: &[usize],
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
-) -> Result<Vec<f64>, FormFactorError> {
+) -> Result<Vec<f64>, InputError> {
     if parameters.side == 0 {
-        return Err(FormFactorError::NoSamples);
+        return Err(no_samples_error());
     }
     let (side, lift) = (u64::from(parameters.side), scene_clearance(patches.extent()));
     let (random, start) = (CounterRng::new(parameters.seed), point + lift * normal);
@@ -155,7 +156,7 @@ pub(in crate::radiosity) fn point_share(
     let samples: Vec<VisibilitySample> =
         targets.iter().flat_map(|&target| (0..count).map(move |k| (target, k))).map(|(t, k)| sample(t, k)).collect();
     let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
-    let mut hits = caster.cast(&rays)?.into_iter();
+    let mut hits = caster.cast(&rays).map_err(cast_error)?.into_iter();
     let face = |target: usize| patches.list()[target].face;
     let parts = targets.iter().zip(samples.chunks(count as usize));
     Ok(parts.map(|(&target, samples)| share(patches, [face(target); 2], samples, &mut hits)).collect())

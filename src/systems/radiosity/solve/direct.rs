@@ -1,11 +1,13 @@
 //! Reference solution by LU.
 
-use super::problem::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
+use super::problem::{IterationHistory, Options, Problem, Solution, residual, start};
+use crate::error::InputError;
 use crate::linalg::Lu;
 
 /// Solves by LU. Counts as one iteration; the tolerance only decides whether the solution counts as converged.
-pub(super) fn solve(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
-    let radiosity = Lu::new(problem.matrix)?.solve(problem.right_hand_side);
+pub(super) fn solve(problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
+    let radiosity =
+        Lu::new(problem.matrix).map_err(|error| error.coded("radiosity::solve"))?.solve(problem.right_hand_side);
     let mut history = IterationHistory::new(problem, options);
     history.note(&residual(problem.matrix, problem.right_hand_side, &start(problem)))?;
     let left = residual(problem.matrix, problem.right_hand_side, &radiosity);

@@ -8,9 +8,9 @@ mod shoot;
 use std::fmt;
 use std::str::FromStr;
 
-use thiserror::Error;
+pub use problem::{Options, Problem, Solution, mean_square, residual};
 
-pub use problem::{Options, Problem, Solution, SolveError, mean_square, residual};
+use crate::error::{InputError, input_error};
 
 /// Method of solution.
 #[non_exhaustive]
@@ -32,20 +32,22 @@ pub enum Solver {
 /// Solves a system.
 ///
 /// # Errors
-/// [`SolveError`]. Reaching the maximum of iterations is no error: see [`Solution::converged`].
-pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
+/// [`InputError`]. Reaching the maximum of iterations is no error: see [`Solution::converged`].
+pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     check(problem)?;
     match solver {
         Solver::Direct => direct::solve(problem, options),
         Solver::Jacobi => relax::jacobi(problem, options),
         Solver::GaussSeidel => relax::gauss_seidel(problem, 1.0, options),
         Solver::OverRelaxation(factor) if factor > 0.0 && factor < 2.0 => relax::gauss_seidel(problem, factor, options),
-        Solver::OverRelaxation(factor) => Err(SolveError::Relaxation(factor)),
+        Solver::OverRelaxation(factor) => {
+            Err(input_error!("radiosity::solve" => "expected a relaxation factor above 0 and below 2, found {factor}"))
+        }
         Solver::Shooting => shoot::shoot(problem, options),
     }
 }
 
-fn check(problem: &Problem<'_>) -> Result<(), SolveError> {
+fn check(problem: &Problem<'_>) -> Result<(), InputError> {
     let rows = problem.matrix.row_count();
     let counts = [
         ("columns", Some(problem.matrix.column_count())),
@@ -55,11 +57,13 @@ fn check(problem: &Problem<'_>) -> Result<(), SolveError> {
     ];
     for (what, count) in counts {
         if let Some(found) = count.filter(|&found| found != rows) {
-            return Err(SolveError::Count { what, rows, found });
+            return Err(input_error!("radiosity::solve" =>
+                "expected {rows} {what}, one per row of the matrix, found {found}"));
         }
     }
     match problem.matrix.diagonal().iter().position(|&d| d == 0.0) {
-        Some(row) => Err(SolveError::Diagonal { row }),
+        Some(row) => Err(input_error!("radiosity::solve" =>
+            "expected a diagonal without zeros, found one in row {row} (counted from 0)")),
         None => Ok(()),
     }
 }
@@ -76,16 +80,16 @@ impl fmt::Display for Solver {
     }
 }
 
-/// Error: no solver has this name.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("expected `jacobi`, `gauss-seidel`, `sor:FACTOR` (0 < FACTOR < 2), `shooting` or `direct`, found `{0}`")]
-pub struct UnknownSolver(pub String);
-
 impl FromStr for Solver {
-    type Err = UnknownSolver;
+    type Err = InputError;
 
-    fn from_str(name: &str) -> Result<Self, UnknownSolver> {
-        let unknown = || UnknownSolver(name.to_owned());
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        let unknown = || {
+            input_error!(
+                "expected `jacobi`, `gauss-seidel`, `sor:FACTOR` (0 < FACTOR < 2), `shooting` or `direct`, \
+         found `{name}`"
+            )
+        };
         match name {
             "jacobi" => Ok(Self::Jacobi),
             "gauss-seidel" => Ok(Self::GaussSeidel),
@@ -114,7 +118,13 @@ mod tests {
             assert_eq!(solver.to_string().parse(), Ok(solver));
         }
         for name in ["", "sor", "sor:2", "sor:nan", "Jacobi"] {
-            assert_eq!(name.parse::<Solver>(), Err(UnknownSolver(name.to_owned())));
+            assert_eq!(
+                name.parse::<Solver>(),
+                Err(input_error!(
+                    "expected `jacobi`, `gauss-seidel`, `sor:FACTOR` (0 < FACTOR < 2), `shooting` or `direct`, \
+         found `{name}`"
+                ))
+            );
         }
     }
 }

@@ -1,8 +1,7 @@
 //! Input and output of the solvers, with the convergence history that all of them keep.
 
-use thiserror::Error;
-
-use crate::linalg::{Matrix, Singular};
+use crate::error::{InputError, ensure};
+use crate::linalg::Matrix;
 
 /// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,28 +49,6 @@ impl Solution {
     }
 }
 
-/// Error of a solver.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum SolveError {
-    /// The number of elements is not that of the rows.
-    #[error("expected {rows} {what}, one per row of the matrix, found {found}")]
-    Count { what: &'static str, rows: usize, found: usize },
-    /// The relaxation factor is one for which SOR cannot converge.
-    #[error("expected a relaxation factor above 0 and below 2, found {0}")]
-    Relaxation(f64),
-    /// The diagonal has a zero.
-    #[error("expected a diagonal without zeros, found one in row {row} (counted from 0)")]
-    Diagonal { row: usize },
-    /// The iteration diverges, or the input holds NaN or infinity.
-    #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
-    Diverged { iterations: usize },
-    /// The matrix is singular.
-    #[error(transparent)]
-    Singular(#[from] Singular),
-}
-
 /// The mean squares of the residuals so far, and the stopping criterion.
 pub(super) struct IterationHistory {
     pub(super) errors: Vec<f64>,
@@ -86,11 +63,10 @@ impl IterationHistory {
     }
 
     /// Records a residual. Returns `Some` if the iteration ends here: `true` if the tolerance is reached.
-    pub(super) fn note(&mut self, residual: &[f64]) -> Result<Option<bool>, SolveError> {
+    pub(super) fn note(&mut self, residual: &[f64]) -> Result<Option<bool>, InputError> {
         let error = mean_square(residual);
-        if !error.is_finite() {
-            return Err(SolveError::Diverged { iterations: self.errors.len() });
-        }
+        ensure!(error.is_finite(), "radiosity::solve" =>
+            "expected an iteration that converges, found no finite residual after {} iterations", self.errors.len());
         self.errors.push(error);
         let converged = error <= self.target;
         Ok((converged || self.errors.len() > self.max_iterations as usize).then_some(converged))

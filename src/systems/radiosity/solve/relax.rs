@@ -1,10 +1,11 @@
 //! Relaxation methods: Jacobi, Gauss-Seidel, successive over-relaxation.
 
-use super::problem::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
+use super::problem::{IterationHistory, Options, Problem, Solution, residual, start};
+use crate::error::InputError;
 use crate::linalg::dot;
 
 /// Jacobi, equation 4. A step divides the residual by the diagonal, so the history costs no further product.
-pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
+pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     let (mut b, diagonal) = (start(problem), problem.matrix.diagonal());
     let mut history = IterationHistory::new(problem, options);
     loop {
@@ -19,7 +20,7 @@ pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solutio
 }
 
 /// Gauss-Seidel with relaxation factor `factor`. The history costs one product per sweep.
-pub(super) fn gauss_seidel(problem: &Problem<'_>, factor: f64, options: &Options) -> Result<Solution, SolveError> {
+pub(super) fn gauss_seidel(problem: &Problem<'_>, factor: f64, options: &Options) -> Result<Solution, InputError> {
     let (mut b, diagonal) = (start(problem), problem.matrix.diagonal());
     let mut history = IterationHistory::new(problem, options);
     loop {

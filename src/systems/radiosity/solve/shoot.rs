@@ -1,10 +1,11 @@
 //! Progressive refinement (Cohen, Chen, Wallace and Greenberg, 1988): Southwell's relaxation, largest power first.
 
-use super::problem::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
+use super::problem::{IterationHistory, Options, Problem, Solution, residual, start};
+use crate::error::InputError;
 
 /// The residual is the unshot radiosity. An iteration is as many shots as there are patches; then the residual is
 /// computed anew, so that rounding errors do not accumulate in it.
-pub(super) fn shoot(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
+pub(super) fn shoot(problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     let (mut b, diagonal) = (start(problem), problem.matrix.diagonal());
     // A shot reads a column of the matrix.
     let columns = problem.matrix.transposed();

@@ -3,14 +3,15 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::error::InputError;
 use crate::geom::Hit;
+use crate::renderer::Settings;
 use crate::renderer::counting::{CountingCaster, RayKind};
 use crate::renderer::lights::Lights;
 use crate::renderer::lobes::{Lobes, choose_specular};
 use crate::renderer::photon_map::Photon;
 use crate::renderer::surfel::Surfel;
 use crate::renderer::wave::{PathRay, SampleRng};
-use crate::renderer::{RenderError, Settings};
 use crate::scene::Scene;
 
 /// Offset of photon numbers in the random number sequence, so that photons share no numbers with pixels.
@@ -38,7 +39,7 @@ struct PhotonHit {
 
 impl PhotonEmission<'_> {
     /// Emits the photons, and returns the stored ones, by their number and then by their hits.
-    pub(super) fn landed(&self, tracer: &mut CountingCaster<'_>) -> Result<Vec<Photon>, RenderError> {
+    pub(super) fn landed(&self, tracer: &mut CountingCaster<'_>) -> Result<Vec<Photon>, InputError> {
         tracer.begin(if self.caustic { "caustic photons" } else { "photons" }, u64::from(self.count));
         let chunk = self.settings.bundle.clamp(1, 1 << 24) as u32;
         let mut landed = Vec::new();
@@ -68,7 +69,7 @@ impl PhotonEmission<'_> {
         &self,
         tracer: &mut CountingCaster<'_>,
         mut flights: Vec<PathRay>,
-    ) -> Result<Vec<(u32, Photon)>, RenderError> {
+    ) -> Result<Vec<(u32, Photon)>, InputError> {
         let mut landed = Vec::new();
         while !flights.is_empty() {
             let rays: Vec<_> = flights.iter().map(|flight| flight.ray).collect();

@@ -20,8 +20,10 @@ use super::photon_map::{Photon, PhotonMap};
 use super::sampling::cosine;
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
-use super::{RenderError, Settings, distributed};
+use super::{Settings, distributed};
+use crate::error::InputError;
 use crate::geom::vector::wide;
+use crate::renderer::settings::settings_error;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 use glam::DVec3;
@@ -51,14 +53,14 @@ impl Photons {
         Self { global: 100_000, caustic: 100_000, nearest: 60, radius: diagonal / 20.0, gather: 16 }
     }
 
-    fn checked(&self) -> Result<(), RenderError> {
+    fn checked(&self) -> Result<(), InputError> {
         if !(self.radius > 0.0 && self.radius.is_finite()) {
             let (what, found) = ("the radius of photon estimates", self.radius.to_string());
-            return Err(RenderError::Settings { what, expected: "a number above 0", found });
+            return Err(settings_error(what, "a number above 0", found));
         }
         if self.nearest < 2 {
             let (what, found) = ("the nearest photons of an estimate", self.nearest.to_string());
-            return Err(RenderError::Settings { what, expected: "at least 2", found });
+            return Err(settings_error(what, "at least 2", found));
         }
         Ok(())
     }
@@ -68,7 +70,7 @@ impl Photons {
 /// sequence from the eye.
 ///
 /// # Errors
-/// [`RenderError`] if a setting is out of range or the caster fails.
+/// [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -76,7 +78,7 @@ pub fn render<'a>(
     photons: &Photons,
     caster: &'a mut dyn Caster,
     watch: &'a mut WatchProgress<'a>,
-) -> Result<RenderedPicture, RenderError> {
+) -> Result<RenderedPicture, InputError> {
     settings.checked()?;
     photons.checked()?;
     let mut tracer = CountingCaster::new(caster, watch);

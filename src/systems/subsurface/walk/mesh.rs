@@ -1,11 +1,11 @@
 //! Walks in closed meshes, all photons of a batch a step at a time, so that a caster gets many rays at once.
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::boundary::{PhotonRng, reflected};
 use super::settings::PhotonWalk;
 use super::tally::{BATCHES, BatchCounts, WalkTally};
+use crate::error::{InputError, input_error};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Mesh, Ray};
 use crate::tracer::{CastError, Caster};
@@ -14,41 +14,28 @@ use crate::tracer::{CastError, Caster};
 /// far inside: rounding to single precision is about a tenth of it.
 const CLEARANCE: f64 = 1e-6;
 
-/// Why photons cannot be followed through a mesh.
-#[non_exhaustive]
-#[derive(Debug, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum MeshWalkError {
-    /// The scale is no positive number.
-    #[error("expected a positive number of mm per unit, found {found}")]
-    Scale { found: f64 },
-    /// There is not one weight per face, or one is negative or not finite, or all are 0.
-    #[error(
-        "expected the flux that enters each of the {faces} faces, finite, not negative, and above 0 for one of them"
-    )]
-    Flux { faces: usize },
-    /// Rays cannot be traced.
-    #[error(transparent)]
-    Cast(#[from] CastError),
-}
-
 /// Follows photons that enter a closed mesh whose faces run counter-clockwise from outside. `flux` is what enters each
 /// face, relative to the others: its area for light from everywhere. Bins are the faces. The caster must see the
 /// insides of faces.
 ///
 /// # Errors
-/// [`MeshWalkError`]: scale or fluxes make no sense, or the caster fails.
+/// [`InputError`]: scale or fluxes make no sense, or the caster fails.
 pub fn mesh(
     walk: &PhotonWalk,
     mesh: &Mesh,
     mm_per_unit: f64,
     flux: &[f64],
     caster: &mut dyn Caster,
-) -> Result<WalkTally, MeshWalkError> {
+) -> Result<WalkTally, InputError> {
     if !(mm_per_unit > 0.0 && mm_per_unit.is_finite()) {
-        return Err(MeshWalkError::Scale { found: mm_per_unit });
+        return Err(input_error!("subsurface::walk" =>
+            "expected a positive number of mm per unit, found {mm_per_unit}"));
     }
-    let sources = Sources::new(mesh, flux).ok_or(MeshWalkError::Flux { faces: mesh.len() })?;
+    let sources = Sources::new(mesh, flux).ok_or_else(|| {
+        input_error!("subsurface::walk" =>
+            "expected the flux that enters each of the {} faces, finite, not negative, and above 0 for one of them",
+            mesh.len())
+    })?;
     let bounds = mesh.bounds().unwrap_or_default();
     let clearance = CLEARANCE * (wide(bounds[1]) - wide(bounds[0])).length();
     let sigma_t = walk.coefficients.sigma_t_prime();
@@ -100,7 +87,7 @@ struct Waves<'a> {
 }
 
 impl Waves<'_> {
-    fn batch(&mut self, batch: usize, sources: &Sources) -> Result<BatchCounts, MeshWalkError> {
+    fn batch(&mut self, batch: usize, sources: &Sources) -> Result<BatchCounts, InputError> {
         let mut counts = BatchCounts::new(self.mesh.len());
         let mut photons: Vec<Photon> = Vec::new();
         for photon in self.walk.batch(batch) {
@@ -118,7 +105,7 @@ impl Waves<'_> {
             let rays: Option<Vec<Ray>> =
                 photons.iter().map(|photon| Ray::new(narrow(photon.at), narrow(photon.direction)).ok()).collect();
             let Some(rays) = rays else { break };
-            let hits = self.caster.cast(&rays)?;
+            let hits = self.caster.cast(&rays).map_err(|error| InputError::of("subsurface::walk", error))?;
             let mut hits = hits.into_iter();
             photons.retain_mut(|photon| self.advance(photon, hits.next().flatten(), &mut counts));
         }

@@ -17,6 +17,6 @@ mod tally;
 
 pub use body::{half_space, sphere};
 pub use boundary::PhotonEntry;
-pub use mesh::{MeshWalkError, mesh};
+pub use mesh::mesh;
 pub use settings::PhotonWalk;
 pub use tally::{BATCHES, WalkEstimate, WalkTally};

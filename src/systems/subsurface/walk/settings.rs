@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::boundary::{PhotonEntry, PhotonRng};
 use super::tally::BATCHES;
-use crate::subsurface::material::{Coefficients, MaterialError, check_eta};
+use crate::error::InputError;
+use crate::subsurface::material::{Coefficients, check_eta};
 
 /// A medium and how many photons to send into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,8 +28,8 @@ impl PhotonWalk {
     /// A million diffuse photons of at most a million steps.
     ///
     /// # Errors
-    /// [`MaterialError`] for figures that make no medium.
-    pub fn new(coefficients: Coefficients, eta: f64) -> Result<Self, MaterialError> {
+    /// [`InputError`] for figures that make no medium.
+    pub fn new(coefficients: Coefficients, eta: f64) -> Result<Self, InputError> {
         coefficients.check()?;
         check_eta(eta)?;
         Ok(Self { coefficients, eta, entry: PhotonEntry::Diffuse, photons: 1_000_000, max_steps: 1_000_000, seed: 1 })

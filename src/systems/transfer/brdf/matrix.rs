@@ -4,8 +4,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::models::Brdf;
-use crate::linalg::{Matrix, MatrixError, dot};
-use crate::sphere::{DirectionRule, Hemisphere, HemisphereError, MAX_ORDER, function_count, function_index, harmonics};
+use crate::error::InputError;
+use crate::linalg::{Matrix, dot};
+use crate::sphere::{DirectionRule, Hemisphere, MAX_ORDER, function_count, function_index, harmonics};
 
 /// The default degree of the direction rule for BRDF matrices: 48 rings of 96 directions.
 pub const BRDF_DEGREE: usize = 95;
@@ -32,11 +33,11 @@ impl ExitBasis {
     /// (section 6.1).
     ///
     /// # Errors
-    /// [`HemisphereError`] for order 1, which has no such function.
+    /// [`InputError`] for order 1, which has no such function.
     ///
     /// # Panics
     /// If the order is not 1 to [`MAX_ORDER`].
-    pub fn without_1_0(order: usize) -> Result<Self, HemisphereError> {
+    pub fn without_1_0(order: usize) -> Result<Self, InputError> {
         Hemisphere::without(order, &[function_index(1, 0)]).map(Self::Harmonics)
     }
 
@@ -44,11 +45,11 @@ impl ExitBasis {
     /// `.prt` files.
     ///
     /// # Errors
-    /// [`HemisphereError`] for no functions.
+    /// [`InputError`] for no functions.
     ///
     /// # Panics
     /// If a function is not of an order up to [`MAX_ORDER`].
-    pub fn of_functions(functions: &[u16]) -> Result<Self, HemisphereError> {
+    pub fn of_functions(functions: &[u16]) -> Result<Self, InputError> {
         if functions == [0] {
             return Ok(Self::Radiance);
         }
@@ -150,7 +151,7 @@ impl<'a> Projector<'a> {
 /// the incident order, integrated by a rule over the hemisphere for both directions.
 ///
 /// # Errors
-/// [`MatrixError`] never, since there are at most 100 functions.
+/// [`InputError`] never, since there are at most 100 functions.
 ///
 /// # Panics
 /// If the order is not 1 to [`MAX_ORDER`].
@@ -159,7 +160,7 @@ pub fn brdf_matrix(
     exit: &ExitBasis,
     incident_order: usize,
     rule: &DirectionRule,
-) -> Result<Matrix, MatrixError> {
+) -> Result<Matrix, InputError> {
     let incident = ExitBasis::of_order(incident_order);
     integrals(brdf, &Projector::new(exit, false), &Projector::new(&incident, false), rule)
 }
@@ -170,7 +171,7 @@ pub(crate) fn integrals(
     exit: &Projector<'_>,
     incident: &Projector<'_>,
     rule: &DirectionRule,
-) -> Result<Matrix, MatrixError> {
+) -> Result<Matrix, InputError> {
     let table = exit_per_direction(brdf, exit, rule.directions(), rule);
     let (rows, columns) = (exit.basis.len(), incident.basis.len());
     let mut sums = Matrix::zeros([rows, columns])?;

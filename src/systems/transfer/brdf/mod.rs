@@ -10,4 +10,4 @@ mod models;
 pub(crate) use crate::fresnel;
 pub use matrix::{BRDF_DEGREE, ExitBasis, brdf_matrix};
 pub(crate) use matrix::{Projector, exit_per_direction, integrals};
-pub use models::{Brdf, BrdfError};
+pub use models::Brdf;

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::facets;
 use crate::elementary::{exp, pow};
+use crate::error::{InputError, ensure, input_error};
 use crate::fresnel::{dielectric, schlick};
 use crate::scene::Surface;
 
@@ -76,28 +76,22 @@ pub enum Brdf {
 /// Tolerance of a sum of reflectances above 1, because materials have single precision.
 const SINGLE: f64 = 1e-6;
 
-/// Reasons for which parameters make no BRDF.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum BrdfError {
-    /// A parameter out of its range.
-    #[error("expected {expected} for the {what}, found {}", shown(*found))]
-    OutOfRange { what: &'static str, expected: &'static str, found: f64 },
-    /// A specular surface, which has no BRDF.
-    #[error("expected a diffuse or glossy material, found {found}: its reflectance is no function of two directions")]
-    OneWay { found: &'static str },
+fn one_way_error(found: &'static str) -> InputError {
+    input_error!(
+        "expected a diffuse or glossy material, found {found}: its reflectance is no function of two \
+         directions"
+    )
 }
 
 impl Brdf {
     /// One channel (0 red, 1 green, 2 blue) of a material's surface.
     ///
     /// # Errors
-    /// [`BrdfError`] for mirrors and glass, and for parameters out of range.
+    /// [`InputError`] for mirrors and glass, and for parameters out of range.
     ///
     /// # Panics
     /// If there is no such channel.
-    pub fn of_surface(surface: &Surface, channel: usize) -> Result<Self, BrdfError> {
+    pub fn of_surface(surface: &Surface, channel: usize) -> Result<Self, InputError> {
         let brdf = match *surface {
             Surface::Diffuse { albedo } => Self::Lambert { albedo: f64::from(albedo[channel]) },
             Surface::Glossy { albedo, specular, exponent } => Self::Phong {
@@ -105,8 +99,8 @@ impl Brdf {
                 specular: f64::from(specular[channel]),
                 exponent: f64::from(exponent),
             },
-            Surface::Mirror { .. } => return Err(BrdfError::OneWay { found: "a mirror" }),
-            Surface::Glass { .. } => return Err(BrdfError::OneWay { found: "glass" }),
+            Surface::Mirror { .. } => return Err(one_way_error("a mirror")),
+            Surface::Glass { .. } => return Err(one_way_error("glass")),
         };
         brdf.check().map(|()| brdf)
     }
@@ -114,8 +108,8 @@ impl Brdf {
     /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`BrdfError::OutOfRange`] for the first that is not.
-    pub fn check(&self) -> Result<(), BrdfError> {
+    /// [`InputError`] for the first that is not.
+    pub fn check(&self) -> Result<(), InputError> {
         let share = |what, found: f64| check(what, "a number from 0 to 1", found, (0.0..=1.0).contains(&found));
         let width =
             |what, found: f64| check(what, "a number from 0.001 to below 1e9", found, (0.001..1e9).contains(&found));
@@ -220,8 +214,9 @@ fn shown(number: f64) -> String {
     if number.abs() < 1e16 { number.to_string() } else { format!("{number:e}") }
 }
 
-fn check(what: &'static str, expected: &'static str, found: f64, fits: bool) -> Result<(), BrdfError> {
-    if fits { Ok(()) } else { Err(BrdfError::OutOfRange { what, expected, found }) }
+fn check(what: &'static str, expected: &'static str, found: f64, fits: bool) -> Result<(), InputError> {
+    ensure!(fits, "expected {expected} for the {what}, found {}", shown(found));
+    Ok(())
 }
 
 /// x^5.
@@ -247,7 +242,7 @@ mod tests {
             (Surface::Mirror { reflectance: [1.0; 3] }, "a mirror"),
             (Surface::Glass { index: 1.5, transmittance: [1.0; 3] }, "glass"),
         ] {
-            assert_eq!(Brdf::of_surface(&surface, 0), Err(BrdfError::OneWay { found }));
+            assert_eq!(Brdf::of_surface(&surface, 0), Err(one_way_error(found)));
         }
         let glossy = Surface::Glossy { albedo: [0.1, 0.2, 0.3], specular: [0.4; 3], exponent: 9.0 };
         assert!(matches!(Brdf::of_surface(&glossy, 1), Ok(Brdf::Phong { exponent: 9.0, .. })));

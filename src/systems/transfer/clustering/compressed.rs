@@ -1,8 +1,7 @@
 //! A compressed signal.
 
-use thiserror::Error;
-
 use super::{AffineSubspace, CpcaForm};
+use crate::error::{InputError, ensure, input_error};
 use crate::linalg::dot;
 use crate::transfer::Signal;
 
@@ -22,32 +21,8 @@ pub struct Clustering {
     begins: Vec<usize>,
 }
 
-/// Reasons for which parts make no clustering. Clusters and points count from 0.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum ClusteringError {
-    /// No cluster, no point, or no dimension.
-    #[error("expected clusters and points, found {clusters} clusters and {points} points of {dimension} numbers")]
-    Empty { clusters: usize, points: usize, dimension: usize },
-    /// A subspace's mean, vectors and eigenvalues have contradictory sizes.
-    #[error("expected a mean of {dimension} numbers and as many per eigenvalue in cluster {cluster}, found others")]
-    Subspace { cluster: usize, dimension: usize },
-    /// Numbers that are not finite.
-    #[error("expected finite numbers, found others in {what} {index}")]
-    NotFinite { what: &'static str, index: usize },
-    /// Vectors that are not orthonormal.
-    #[error("expected orthonormal vectors in cluster {cluster}, found others")]
-    NotOrthonormal { cluster: usize },
-    /// Eigenvalues out of order.
-    #[error("expected eigenvalues of at least 0 in decreasing order in cluster {cluster}, found others")]
-    Eigenvalues { cluster: usize },
-    /// A point names a cluster that there is not.
-    #[error("expected a cluster below {clusters} for point {point}, found {found}")]
-    Cluster { point: usize, clusters: usize, found: u32 },
-    /// Too few or too many weights.
-    #[error("expected {expected} weights, found {found}")]
-    Weights { expected: usize, found: usize },
+fn not_finite_error(what: &'static str, index: usize) -> InputError {
+    input_error!("expected finite numbers, found others in {what} {index}")
 }
 
 impl Clustering {
@@ -55,27 +30,29 @@ impl Clustering {
     /// many as the point's subspace has vectors.
     ///
     /// # Errors
-    /// [`ClusteringError`].
-    pub fn new(subspaces: Vec<AffineSubspace>, of_point: Vec<u32>, weights: Vec<f64>) -> Result<Self, ClusteringError> {
+    /// [`InputError`].
+    pub fn new(subspaces: Vec<AffineSubspace>, of_point: Vec<u32>, weights: Vec<f64>) -> Result<Self, InputError> {
         let (clusters, points) = (subspaces.len(), of_point.len());
         let dimension = subspaces.first().map_or(0, |subspace| subspace.mean.len());
-        if points == 0 || dimension == 0 {
-            return Err(ClusteringError::Empty { clusters, points, dimension });
-        }
+        ensure!(
+            points != 0 && dimension != 0,
+            "expected clusters and points, found {clusters} clusters and {points} points of {dimension} numbers"
+        );
         for (cluster, subspace) in subspaces.iter().enumerate() {
             check_subspace(cluster, subspace, dimension)?;
         }
         let out = of_point.iter().position(|&found| found as usize >= clusters);
         if let Some(point) = out {
-            return Err(ClusteringError::Cluster { point, clusters, found: of_point[point] });
+            return Err(input_error!(
+                "expected a cluster below {clusters} for point {point}, found {}",
+                of_point[point]
+            ));
         }
         let begins = begins(&subspaces, &of_point);
         let expected = begins[points];
-        if weights.len() != expected {
-            return Err(ClusteringError::Weights { expected, found: weights.len() });
-        }
+        ensure!(weights.len() == expected, "expected {expected} weights, found {}", weights.len());
         match weights.iter().position(|weight| !weight.is_finite()) {
-            Some(index) => Err(ClusteringError::NotFinite { what: "weight", index }),
+            Some(index) => Err(not_finite_error("weight", index)),
             None => Ok(Self { dimension, subspaces, of_point, weights, begins }),
         }
     }
@@ -166,22 +143,26 @@ impl Clustering {
     }
 }
 
-fn check_subspace(cluster: usize, subspace: &AffineSubspace, dimension: usize) -> Result<(), ClusteringError> {
+fn check_subspace(cluster: usize, subspace: &AffineSubspace, dimension: usize) -> Result<(), InputError> {
     let AffineSubspace { mean, vectors, eigenvalues } = subspace;
-    if mean.len() != dimension || Some(vectors.len()) != eigenvalues.len().checked_mul(dimension) {
-        return Err(ClusteringError::Subspace { cluster, dimension });
-    }
+    ensure!(
+        mean.len() == dimension && Some(vectors.len()) == eigenvalues.len().checked_mul(dimension),
+        "expected a mean of {dimension} numbers and as many per eigenvalue in cluster {cluster}, \
+         found others"
+    );
     if !mean.iter().chain(vectors).chain(eigenvalues).all(|value| value.is_finite()) {
-        return Err(ClusteringError::NotFinite { what: "cluster", index: cluster });
+        return Err(not_finite_error("cluster", cluster));
     }
-    if !eigenvalues.iter().chain(&[0.0]).is_sorted_by(|a, b| a >= b) {
-        return Err(ClusteringError::Eigenvalues { cluster });
-    }
+    ensure!(
+        eigenvalues.iter().chain(&[0.0]).is_sorted_by(|a, b| a >= b),
+        "expected eigenvalues of at least 0 in decreasing order in cluster {cluster}, found others"
+    );
     for (i, a) in subspace.vectors().enumerate() {
         let wrong = |(j, b)| (dot(a, b) - f64::from(u8::from(i == j))).abs() > ORTHONORMAL;
-        if subspace.vectors().enumerate().take(i + 1).any(wrong) {
-            return Err(ClusteringError::NotOrthonormal { cluster });
-        }
+        ensure!(
+            !subspace.vectors().enumerate().take(i + 1).any(wrong),
+            "expected orthonormal vectors in cluster {cluster}, found others"
+        );
     }
     Ok(())
 }
@@ -223,17 +204,29 @@ mod tests {
             Clustering::new(vec![subspace], of_point, weights).expect_err("refused")
         };
         let same = |_: &mut AffineSubspace| ();
-        assert_eq!(new(&same, vec![], vec![]), ClusteringError::Empty { clusters: 1, points: 0, dimension: 2 });
-        assert_eq!(new(&same, vec![1], vec![1.0]), ClusteringError::Cluster { point: 0, clusters: 1, found: 1 });
-        assert_eq!(new(&same, vec![0], vec![]), ClusteringError::Weights { expected: 1, found: 0 });
+        assert_eq!(
+            new(&same, vec![], vec![]).to_string(),
+            "expected clusters and points, found 1 clusters and 0 points of 2 numbers"
+        );
+        assert_eq!(new(&same, vec![1], vec![1.0]).to_string(), "expected a cluster below 1 for point 0, found 1");
+        assert_eq!(new(&same, vec![0], vec![]).to_string(), "expected 1 weights, found 0");
         let (what, index) = ("weight", 0);
-        assert_eq!(new(&same, vec![0], vec![f64::NAN]), ClusteringError::NotFinite { what, index });
+        assert_eq!(new(&same, vec![0], vec![f64::NAN]), not_finite_error(what, index));
         let broken = |change: &dyn Fn(&mut AffineSubspace)| new(change, vec![0], vec![1.0]);
         let cluster = 0;
-        assert_eq!(broken(&|s| s.vectors.push(0.0)), ClusteringError::Subspace { cluster, dimension: 2 });
-        assert_eq!(broken(&|s| s.vectors[0] = 0.7), ClusteringError::NotOrthonormal { cluster });
-        assert_eq!(broken(&|s| s.eigenvalues[0] = -1.0), ClusteringError::Eigenvalues { cluster });
+        assert_eq!(
+            broken(&|s| s.vectors.push(0.0)),
+            input_error!("expected a mean of 2 numbers and as many per eigenvalue in cluster {cluster}, found others")
+        );
+        assert_eq!(
+            broken(&|s| s.vectors[0] = 0.7),
+            input_error!("expected orthonormal vectors in cluster {cluster}, found others")
+        );
+        assert_eq!(
+            broken(&|s| s.eigenvalues[0] = -1.0),
+            input_error!("expected eigenvalues of at least 0 in decreasing order in cluster {cluster}, found others")
+        );
         let what = "cluster";
-        assert_eq!(broken(&|s| s.mean[0] = f64::INFINITY), ClusteringError::NotFinite { what, index: 0 });
+        assert_eq!(broken(&|s| s.mean[0] = f64::INFINITY), not_finite_error(what, 0));
     }
 }

@@ -5,7 +5,8 @@ use refsim::exec::batch::SimdLevel;
 use super::gram::{COLUMNS, KeptProducts, add_products, square};
 use super::products::{Packed, ROWS, add_block, add_orthonormal};
 use super::{AffineSubspace, CpcaForm};
-use crate::linalg::{FactorError, LeadingEigen, Matrix};
+use crate::error::InputError;
+use crate::linalg::{LeadingEigen, Matrix};
 use crate::transfer::Signal;
 
 /// Threshold relative to a cluster's largest eigenvalue: eigenvalues up to it are rounding errors, and have no vectors.
@@ -58,7 +59,7 @@ pub(super) fn fit(
     form: CpcaForm,
     level: SimdLevel,
     kept: &mut KeptProducts,
-) -> Result<Fitted, FactorError> {
+) -> Result<Fitted, InputError> {
     let linear = form == CpcaForm::Linear && count > 0;
     let mean = if linear {
         vec![0.0; signal.dimension()]
@@ -96,7 +97,7 @@ pub(super) fn principal_vectors(
     center: &[f64],
     count: usize,
     level: SimdLevel,
-) -> Result<Vec<f64>, FactorError> {
+) -> Result<Vec<f64>, InputError> {
     let residuals = Residuals { signal, points, mean: center, level };
     let products = residuals.between_points(&KeptProducts::default())?;
     Ok(Principal::of_points(&residuals, &products, count)?.vectors)
@@ -110,14 +111,14 @@ struct Principal {
 
 impl Principal {
     /// From C^T C.
-    fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, FactorError> {
+    fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, InputError> {
         let (eigen, kept) = leading(products, count, level)?;
         let vectors = eigen.vectors.rows().take(kept).flatten().copied().collect();
         Ok(Self { values: eigen.values, vectors })
     }
 
     /// From C C^T.
-    fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, FactorError> {
+    fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, InputError> {
         let (eigen, kept) = leading(products, count, residuals.level)?;
         let length = residuals.mean.len();
         let combined = residuals.combined(&eigen.vectors, kept);
@@ -131,7 +132,7 @@ impl Principal {
 }
 
 /// Eigenvalues and leading vectors, and the number of vectors above the threshold.
-fn leading(products: &Matrix, count: usize, level: SimdLevel) -> Result<(LeadingEigen, usize), FactorError> {
+fn leading(products: &Matrix, count: usize, level: SimdLevel) -> Result<(LeadingEigen, usize), InputError> {
     let eigen = level.run(
         #[inline(always)]
         || LeadingEigen::new(products, count),
@@ -172,12 +173,12 @@ impl Residuals<'_> {
     }
 
     /// C C^T.
-    fn between_points(&self, kept: &KeptProducts) -> Result<Matrix, FactorError> {
+    fn between_points(&self, kept: &KeptProducts) -> Result<Matrix, InputError> {
         kept.of(self.points, self.mean.len(), self.level, |point, into| self.part(point, 0, into))
     }
 
     /// C^T C, computed a chunk of points at a time.
-    fn between_components(&self) -> Result<Matrix, FactorError> {
+    fn between_components(&self) -> Result<Matrix, InputError> {
         let mut products = square(self.mean.len())?;
         for chunk in self.points.chunks(CHUNK) {
             let part = |at: usize, first: usize, into: &mut [f64]| self.part(chunk[at], first, into);

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
 use super::products::{Packed, ROWS, add_block};
-use crate::linalg::{FactorError, Matrix};
+use crate::error::InputError;
+use crate::linalg::Matrix;
 
 /// Columns of a block.
 pub(super) const COLUMNS: usize = 8;
@@ -30,7 +31,7 @@ impl KeptProducts {
         length: usize,
         level: SimdLevel,
         vector: impl Fn(u32, &mut [f64]) + Sync,
-    ) -> Result<Matrix, FactorError> {
+    ) -> Result<Matrix, InputError> {
         let size = points.len();
         let mut products = square(size)?;
         let before: Vec<Option<usize>> = points.iter().map(|point| self.points.binary_search(point).ok()).collect();
@@ -112,8 +113,8 @@ pub(super) fn add_products(
 }
 
 /// A matrix of `size` rows and columns.
-pub(super) fn square(size: usize) -> Result<Matrix, FactorError> {
-    Matrix::zeros([size; 2]).map_err(FactorError::from)
+pub(super) fn square(size: usize) -> Result<Matrix, InputError> {
+    Matrix::zeros([size; 2])
 }
 
 #[cfg(test)]

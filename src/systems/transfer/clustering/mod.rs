@@ -34,7 +34,7 @@ mod subspace;
 mod to_error;
 
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
-pub use compressed::{Clustering, ClusteringError};
+pub use compressed::Clustering;
 pub use options::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
 pub use refit::refit;
 pub use subspace::AffineSubspace;

@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
+use crate::error::InputError;
 use crate::geom::random::CounterRng;
-use crate::linalg::FactorError;
 use crate::transfer::Signal;
 
 /// Options of the compression of a signal.
@@ -114,7 +114,13 @@ pub enum CpcaError {
     StartText { line: usize },
     /// The principal components of a cluster cannot be computed.
     #[error("the principal components of cluster {cluster} cannot be found: {reason}")]
-    Factor { cluster: usize, reason: FactorError },
+    Factor { cluster: usize, reason: InputError },
+}
+
+impl From<CpcaError> for InputError {
+    fn from(error: CpcaError) -> Self {
+        Self::of("", error)
+    }
 }
 
 impl StartPoints {

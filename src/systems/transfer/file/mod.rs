@@ -10,7 +10,7 @@ pub(crate) mod read;
 pub(crate) mod write;
 
 pub use digest::MeshDigest;
-pub use error::PrtFileError;
+pub use error::other_mesh_error;
 pub use kind::PrtKind;
 pub use read::{load_prt, parse_prt};
 pub use write::{save_prt, write_prt};

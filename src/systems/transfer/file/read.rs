@@ -5,12 +5,14 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError, PrtKind, PrtMeaning,
-    SECTIONS, SUPERCLUSTERS, TEXTURE_TANGENTS, TRANSFER, VERSION,
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtKind, PrtMeaning, SECTIONS,
+    SUPERCLUSTERS, TEXTURE_TANGENTS, TRANSFER, VERSION,
 };
+use crate::error::{InputError, input_error};
 use crate::geom::vector::unit;
-use crate::io::{ReadError, read_limited};
+use crate::io::read_file;
 use crate::transfer::clustering::{AffineSubspace, Clustering};
+use crate::transfer::file::other_mesh_error;
 use crate::transfer::{Signal, Tangents};
 
 /// Fields of 32 bits between the conventions and the axis of tangents.
@@ -19,8 +21,8 @@ const FIELDS: usize = 11;
 /// Reads a file; of `mesh`, if one is given.
 ///
 /// # Errors
-/// [`PrtFileError`].
-pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFileError> {
+/// [`InputError`].
+pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, InputError> {
     let bytes = bytes_of(path)?;
     let file = parse_prt(&bytes, path)?;
     mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
@@ -28,17 +30,15 @@ pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFi
 }
 
 /// All bytes of a file of any kind.
-pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, PrtFileError> {
-    let unreadable = |source| ReadError::Unreadable { what: ".prt file", path: path.into(), source };
-    let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;
-    Ok(bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?)
+pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
+    read_file(path, ".prt file", MAX_BYTES)
 }
 
 /// Reads a file from bytes; `name` is its name in messages.
 ///
 /// # Errors
-/// [`PrtFileError`].
-pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
+/// [`InputError`].
+pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, InputError> {
     let mut reader = Reader { bytes, at: 0, name };
     let header = reader.header()?;
     let mut file = PrtFile {
@@ -81,11 +81,11 @@ impl PrtFile {
     /// Refuses a file of another mesh, or of the same with other tangents; `path` is named in the message.
     ///
     /// # Errors
-    /// [`PrtFileError::OtherMesh`].
-    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), PrtFileError> {
+    /// [`InputError`].
+    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), InputError> {
         match self.mesh {
             Some(found) if found == *expected => Ok(()),
-            found => Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found }),
+            found => Err(other_mesh_error(path, *expected, found)),
         }
     }
 }
@@ -110,12 +110,14 @@ impl<'a> Reader<'a> {
         field: &'static str,
         expected: impl Into<String>,
         found: impl Into<String>,
-    ) -> PrtFileError {
-        PrtFileError::Field { path: self.name.into(), field, expected: expected.into(), found: found.into() }
+    ) -> InputError {
+        input_error!("crossbar::prt::field" =>
+            "{field}: expected {expected}, found {found}"; help "docs/prt-format.md says what belongs there")
+        .at(self.name)
     }
 
     /// The next `needed` bytes.
-    pub(crate) fn take(&mut self, needed: u64, what: &'static str) -> Result<&'a [u8], PrtFileError> {
+    pub(crate) fn take(&mut self, needed: u64, what: &'static str) -> Result<&'a [u8], InputError> {
         let rest = &self.bytes[self.at..];
         match usize::try_from(needed).ok().and_then(|needed| rest.get(..needed)) {
             Some(taken) => {
@@ -124,18 +126,21 @@ impl<'a> Reader<'a> {
             }
             None => {
                 let (path, offset) = (self.name.into(), self.at);
-                Err(PrtFileError::Truncated { path, what, offset, needed, found: rest.len() })
+                Err(input_error!("crossbar::prt::truncated" =>
+                    "expected {needed} bytes of {what} at {offset}, found {}", rest.len();
+                    help "the file is cut; copy or write it again")
+                .at(path))
             }
         }
     }
 
-    pub(crate) fn array<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], PrtFileError> {
+    pub(crate) fn array<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], InputError> {
         let mut bytes = [0; N];
         bytes.copy_from_slice(self.take(N as u64, what)?);
         Ok(bytes)
     }
 
-    pub(crate) fn integer(&mut self, what: &'static str) -> Result<u32, PrtFileError> {
+    pub(crate) fn integer(&mut self, what: &'static str) -> Result<u32, InputError> {
         self.array(what).map(u32::from_le_bytes)
     }
 
@@ -144,57 +149,72 @@ impl<'a> Reader<'a> {
         &mut self,
         count: usize,
         what: &'static str,
-    ) -> Result<&'a [[u8; N]], PrtFileError> {
+    ) -> Result<&'a [[u8; N]], InputError> {
         let bytes = (count as u64).saturating_mul(N as u64);
         Ok(self.take(bytes, what)?.as_chunks().0)
     }
 
-    pub(crate) fn doubles(&mut self, count: usize, what: &'static str) -> Result<Vec<f64>, PrtFileError> {
+    pub(crate) fn doubles(&mut self, count: usize, what: &'static str) -> Result<Vec<f64>, InputError> {
         Ok(self.numbers(count, what)?.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect())
     }
 
-    pub(crate) fn integers(&mut self, count: usize, what: &'static str) -> Result<Vec<u32>, PrtFileError> {
+    pub(crate) fn integers(&mut self, count: usize, what: &'static str) -> Result<Vec<u32>, InputError> {
         Ok(self.numbers(count, what)?.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect())
     }
 
     /// Compares the checksum that follows with that of all bytes from `first` on.
-    pub(crate) fn checksum(&mut self, first: usize, what: &'static str) -> Result<(), PrtFileError> {
+    pub(crate) fn checksum(&mut self, first: usize, what: &'static str) -> Result<(), InputError> {
         let found = crc32fast::hash(&self.bytes[first..self.at]);
         let expected = self.integer("checksum")?;
         if found == expected {
             return Ok(());
         }
-        Err(PrtFileError::Checksum { path: self.name.into(), what, offset: first, expected, found })
+        Err(input_error!("crossbar::prt::checksum" =>
+            "{what} at {first}: expected the checksum {expected:08x}, found {found:08x}";
+            help "the file is damaged; copy or write it again")
+        .at(self.name))
     }
 
-    pub(crate) fn end(&self) -> Result<(), PrtFileError> {
+    pub(crate) fn end(&self) -> Result<(), InputError> {
         match self.bytes.len() - self.at {
             0 => Ok(()),
-            found => Err(PrtFileError::Trailing { path: self.name.into(), offset: self.at, found }),
+            found => Err(input_error!("crossbar::prt::trailing" =>
+                "expected the end of the file at {}, found {found} more bytes", self.at;
+                help "the file is damaged; copy or write it again")
+            .at(self.name)),
         }
     }
 
     /// The beginning, up to the conventions, on which the rest of the header depends; returns the version.
-    pub(crate) fn begin(&mut self, expected: PrtKind) -> Result<u32, PrtFileError> {
+    pub(crate) fn begin(&mut self, expected: PrtKind) -> Result<u32, InputError> {
         if !self.bytes.starts_with(MAGIC) {
-            return Err(PrtFileError::Magic { path: self.name.into() });
+            return Err(input_error!("crossbar::prt::magic" =>
+                "expected a .prt file, found another beginning"; help "is it a .prt file, and copied as one?")
+            .at(self.name));
         }
         self.at = MAGIC.len();
         let (version, number) = (self.integer("header")?, self.integer("header")?);
         let most = expected.latest_version();
-        let other_version = || PrtFileError::Version { path: self.name.into(), most, found: version };
+        let other_version = || {
+            input_error!("crossbar::prt::version" =>
+                "expected a .prt file of version 1 to {most}, found version {version}";
+                help "a newer crossbar has written it: use that one, or write it again")
+            .at(self.name)
+        };
         if !(VERSION..=PrtKind::LATEST_VERSION).contains(&version) {
             return Err(other_version());
         }
         match PrtKind::from_repr(number) {
             Some(found) if found == expected && version > most => Err(other_version()),
             Some(found) if found == expected => Ok(version),
-            Some(found) => Err(PrtFileError::OtherKind { path: self.name.into(), expected, found }),
+            Some(found) => Err(input_error!("crossbar::prt::kind" =>
+                "expected a file of {expected}, found one of {found}"; help "`crossbar {}` takes it", found.command())
+            .at(self.name)),
             None => Err(self.field("conventions", "1 to 3", number.to_string())),
         }
     }
 
-    fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
+    fn header(&mut self) -> Result<PrtHeader, InputError> {
         self.begin(PrtKind::LowFrequency)?;
         let mut fields = [0; FIELDS];
         for field in &mut fields {
@@ -234,7 +254,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The source of the tangents; `None` without a mesh.
-    pub(crate) fn tangents(&self, number: u32, axis: DVec3) -> Result<Option<Tangents>, PrtFileError> {
+    pub(crate) fn tangents(&self, number: u32, axis: DVec3) -> Result<Option<Tangents>, InputError> {
         let is_axis = number == AXIS_TANGENTS;
         let is_used = axis.to_array().iter().any(|value| value.to_bits() != 0);
         if is_used != is_axis || (is_axis && unit(axis).is_none()) {
@@ -250,7 +270,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The next section, its checksum compared.
-    pub(crate) fn section(&mut self) -> Result<([u8; 4], Self), PrtFileError> {
+    pub(crate) fn section(&mut self) -> Result<([u8; 4], Self), InputError> {
         let first = self.at;
         let tag = self.array("section")?;
         let length = u64::from_le_bytes(self.array("section")?);
@@ -262,19 +282,20 @@ impl<'a> Reader<'a> {
     }
 
     /// The rest of a section, as text.
-    fn line(&mut self) -> Result<String, PrtFileError> {
+    fn line(&mut self) -> Result<String, InputError> {
         let bytes = self.take((self.bytes.len() - self.at) as u64, "provenance")?;
         let text = std::str::from_utf8(bytes).map_err(|_| self.field("provenance", "UTF-8", "other bytes"))?;
         Ok(text.to_owned())
     }
 
-    fn transfer(&mut self, points: usize, dimension: usize) -> Result<Signal, PrtFileError> {
+    fn transfer(&mut self, points: usize, dimension: usize) -> Result<Signal, InputError> {
         let values = self.numbers(points.saturating_mul(dimension), "transfer")?;
         let values = values.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
-        Signal::new(dimension, values).map_err(|reason| PrtFileError::Transfer { path: self.name.into(), reason })
+        Signal::new(dimension, values)
+            .map_err(|reason| input_error!("crossbar::prt::transfer" => "{reason}").at(self.name))
     }
 
-    fn clustering(&mut self, points: usize, dimension: usize) -> Result<Clustering, PrtFileError> {
+    fn clustering(&mut self, points: usize, dimension: usize) -> Result<Clustering, InputError> {
         let clusters = self.integer("number of clusters")? as usize;
         let counts = self.integers(clusters, "numbers of vectors")?;
         let mut subspaces = Vec::new();
@@ -290,6 +311,6 @@ impl<'a> Reader<'a> {
         let weights = of_point.iter().map(count).fold(0, usize::saturating_add);
         let weights = self.doubles(weights, "weights")?;
         Clustering::new(subspaces, of_point, weights)
-            .map_err(|reason| PrtFileError::Clustering { path: self.name.into(), reason })
+            .map_err(|reason| input_error!("crossbar::prt::clustering" => "{reason}").at(self.name))
     }
 }

@@ -4,12 +4,13 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::disks::{DiskSource, add_disk};
-use super::error::CubeLightError;
+use crate::error::{InputError, input_error};
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
 use crate::transfer::grid::{
     FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
     light_texel,
 };
+use crate::transfer::light::error::{of_light, texels_error};
 
 /// The weights by which 4 x 4 samples are averaged to a texel.
 ///
@@ -37,10 +38,10 @@ impl CubeLight {
     /// A light from radiances by texel number.
     ///
     /// # Errors
-    /// [`CubeLightError`] unless there are 6 x 32 x 32, all finite and at least 0.
-    pub fn new(texels: Vec<[f64; 3]>) -> Result<Self, CubeLightError> {
+    /// [`InputError`] unless there are 6 x 32 x 32, all finite and at least 0.
+    pub fn new(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if texels.len() != LIGHT_TEXELS {
-            return Err(CubeLightError::Texels { found: texels.len() });
+            return Err(texels_error(texels.len()));
         }
         check(&texels, |texel| texel, 0.0)?;
         Ok(Self { texels })
@@ -49,10 +50,10 @@ impl CubeLight {
     /// A light from radiances that may be negative, as those of truncated light are, which oscillate around 0.
     ///
     /// # Errors
-    /// [`CubeLightError`] unless there are 6 x 32 x 32, all finite.
-    pub fn signed(texels: Vec<[f64; 3]>) -> Result<Self, CubeLightError> {
+    /// [`InputError`] unless there are 6 x 32 x 32, all finite.
+    pub fn signed(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if texels.len() != LIGHT_TEXELS {
-            return Err(CubeLightError::Texels { found: texels.len() });
+            return Err(texels_error(texels.len()));
         }
         check(&texels, |texel| texel, f64::NEG_INFINITY)?;
         Ok(Self { texels })
@@ -61,8 +62,8 @@ impl CubeLight {
     /// A light with the same radiance from all directions.
     ///
     /// # Errors
-    /// [`CubeLightError::Radiance`] if it is negative or not finite.
-    pub fn constant(radiance: [f64; 3]) -> Result<Self, CubeLightError> {
+    /// [`InputError`] if it is negative or not finite.
+    pub fn constant(radiance: [f64; 3]) -> Result<Self, InputError> {
         Self::new(vec![radiance; LIGHT_TEXELS])
     }
 
@@ -70,25 +71,25 @@ impl CubeLight {
     /// direction v is rotated to `rotation` v.
     ///
     /// # Errors
-    /// [`CubeLightError`] if the matrix is no rotation, or a radiance is negative or not finite.
+    /// [`InputError`] if the matrix is no rotation, or a radiance is negative or not finite.
     pub fn sampled(
         radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
         rotation: &DMat3,
         decimation: Decimation,
-    ) -> Result<Self, CubeLightError> {
+    ) -> Result<Self, InputError> {
         Self::decimated(&fine_samples(radiance, rotation, 0.0)?, decimation)
     }
 
     /// The rotated light: each fine direction has the radiance, perhaps negative, of the texel that contains it.
     ///
     /// # Errors
-    /// [`CubeLightError::Rotation`] if the matrix is no rotation.
-    pub fn turned(&self, rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
+    /// [`InputError`] if the matrix is no rotation.
+    pub fn turned(&self, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         Self::decimated(&self.fine(rotation)?, decimation)
     }
 
     /// The radiances in the fine directions of the light turned.
-    pub(super) fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
+    pub(super) fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
         let texel = |direction: DVec3| {
             let [face, column, row] = LIGHT_MAP.texel_of(direction);
             (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
@@ -104,7 +105,7 @@ impl CubeLight {
         picture: &EnvironmentPicture,
         rotation: &DMat3,
         decimation: Decimation,
-    ) -> Result<Self, CubeLightError> {
+    ) -> Result<Self, InputError> {
         Self::sampled(|direction| picture.radiance(direction), rotation, decimation)
     }
 
@@ -113,12 +114,8 @@ impl CubeLight {
     /// flux, 2 pi (1 - cos radius) times its radiance, is exact.
     ///
     /// # Errors
-    /// [`CubeLightError`] for a matrix that is no rotation, or a source without direction, radius or radiance.
-    pub fn from_disks(
-        sources: &[DiskSource],
-        rotation: &DMat3,
-        decimation: Decimation,
-    ) -> Result<Self, CubeLightError> {
+    /// [`InputError`] for a matrix that is no rotation, or a source without direction, radius or radiance.
+    pub fn from_disks(sources: &[DiskSource], rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         Self::decimated(&fine_disks(sources, rotation)?, decimation)
     }
 
@@ -126,8 +123,8 @@ impl CubeLight {
     ///
     /// # Errors
     /// As [`Self::sampled`], and for a sun that is not above the horizon.
-    pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
-        sky.relative(DVec3::Z)?;
+    pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
+        sky.relative(DVec3::Z).map_err(of_light)?;
         let without_sun = Self::sampled(|v| sky_radiance(sky, v), rotation, decimation)?;
         Ok(without_sun.plus(&Self::from_disks(&[sun_disk(sky)], rotation, decimation)?))
     }
@@ -135,14 +132,14 @@ impl CubeLight {
     /// [`HarmonicLight::red_and_blue`] without truncation to an order: two disks in a dim surrounding.
     ///
     /// # Errors
-    /// [`CubeLightError::Rotation`] if the matrix is no rotation.
-    pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
+    /// [`InputError`] if the matrix is no rotation.
+    pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
         Ok(Self::from_disks(&red_and_blue_disks(), rotation, decimation)?.plus(&surrounding))
     }
 
     /// Samples in all fine directions to texels.
-    fn decimated(fine: &[[f64; 3]], decimation: Decimation) -> Result<Self, CubeLightError> {
+    fn decimated(fine: &[[f64; 3]], decimation: Decimation) -> Result<Self, InputError> {
         let solid_angles = FineDirections::get().solid_angles();
         let texel = |texel: usize| {
             let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
@@ -192,8 +189,8 @@ pub(super) fn fine_samples(
     radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
     rotation: &DMat3,
     least: f64,
-) -> Result<Vec<[f64; 3]>, CubeLightError> {
-    check_rotation(rotation)?;
+) -> Result<Vec<[f64; 3]>, InputError> {
+    check_rotation(rotation).map_err(of_light)?;
     let back = rotation.transpose();
     let fine: Vec<[f64; 3]> =
         FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
@@ -203,8 +200,8 @@ pub(super) fn fine_samples(
 }
 
 /// The mean radiances of disks over all fine texels.
-pub(super) fn fine_disks(sources: &[DiskSource], rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
-    check_rotation(rotation)?;
+pub(super) fn fine_disks(sources: &[DiskSource], rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
+    check_rotation(rotation).map_err(of_light)?;
     let mut fine = vec![[0.0; 3]; FINE_DIRECTIONS];
     for (number, source) in sources.iter().enumerate() {
         add_disk(&source.checked(number)?, rotation, &mut fine);
@@ -235,12 +232,14 @@ pub(super) fn red_and_blue_disks() -> [DiskSource; 2] {
 }
 
 /// Refuses radiances that are not finite, or lie below `least`; `texel` gives the light texel of each.
-fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize, least: f64) -> Result<(), CubeLightError> {
+fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize, least: f64) -> Result<(), InputError> {
     for (at, color) in radiances.iter().enumerate() {
         for (channel, &found) in ["red", "green", "blue"].into_iter().zip(color) {
             if !(found.is_finite() && found >= least) {
                 let [face, row, column] = face_row_column(texel(at), LIGHT_SIDE);
-                return Err(CubeLightError::Radiance { found, channel, face, row, column });
+                return Err(input_error!("crossbar::prt::light" =>
+                    "expected a finite radiance of at least 0, found {found} in channel {channel} of face {face}, \
+                     row {row}, column {column} (counted from 0)"));
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::error::CubeLightError;
 use crate::elementary::sin_cos;
+use crate::error::{InputError, input_error};
 use crate::geom::vector::unit;
 use crate::io::LightSourceRow;
 use crate::sphere::CUBE_FACES;
@@ -36,13 +36,18 @@ impl From<LightSourceRow> for DiskSource {
 
 impl DiskSource {
     /// The source with a direction of length 1.
-    pub(super) fn checked(&self, number: usize) -> Result<Self, CubeLightError> {
-        let towards = unit(self.towards).ok_or(CubeLightError::Direction { number, found: self.towards })?;
+    pub(super) fn checked(&self, number: usize) -> Result<Self, InputError> {
+        let towards = unit(self.towards).ok_or_else(|| {
+            input_error!("crossbar::prt::light" =>
+                "source {number}: expected a direction of finite length above 0, found {}", self.towards)
+        })?;
         if !(self.radius > 0.0 && self.radius <= std::f64::consts::PI) {
-            return Err(CubeLightError::Radius { number, found: self.radius });
+            return Err(input_error!("crossbar::prt::light" =>
+                    "source {number}: expected an angular radius above 0 and up to pi radians, found {}", self.radius));
         }
         if !self.radiance.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
-            return Err(CubeLightError::Color { number, found: self.radiance });
+            return Err(input_error!("crossbar::prt::light" =>
+                    "source {number}: expected finite radiances of at least 0, found {:?}", self.radiance));
         }
         Ok(Self { towards, ..*self })
     }

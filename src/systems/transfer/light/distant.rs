@@ -3,9 +3,11 @@
 use glam::{DMat3, DVec3};
 
 use super::cube_light::{fine_disks, fine_samples, red_and_blue_disks, sky_radiance, sun_disk};
-use super::{CubeLight, CubeLightError, Decimation, DiskSource};
+use super::{CubeLight, Decimation, DiskSource};
+use crate::error::InputError;
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 use crate::transfer::grid::FINE_DIRECTIONS;
+use crate::transfer::light::error::of_light;
 
 /// Distant light, before it is sampled by the cube's texels.
 #[derive(Debug)]
@@ -29,8 +31,8 @@ impl DistantLight {
     /// The cube of it, turned by a rotation.
     ///
     /// # Errors
-    /// [`CubeLightError`].
-    pub fn cube(&self, rotation: &DMat3, decimation: Decimation) -> Result<CubeLight, CubeLightError> {
+    /// [`InputError`].
+    pub fn cube(&self, rotation: &DMat3, decimation: Decimation) -> Result<CubeLight, InputError> {
         match self {
             Self::Constant(radiance) => CubeLight::constant(*radiance),
             Self::Disks(sources) => CubeLight::from_disks(sources, rotation, decimation),
@@ -45,13 +47,13 @@ impl DistantLight {
     /// The radiances in the fine directions, 4 x 4 per texel: what [`Self::cube`] takes the means of.
     ///
     /// # Errors
-    /// [`CubeLightError`].
-    pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
+    /// [`InputError`].
+    pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
         match self {
             Self::Constant(radiance) => fine_samples(|_| *radiance, rotation, 0.0),
             Self::Disks(sources) => fine_disks(sources, rotation),
             Self::Sky(sky) => {
-                sky.relative(DVec3::Z)?;
+                sky.relative(DVec3::Z).map_err(of_light)?;
                 let without_sun = fine_samples(|v| sky_radiance(sky, v), rotation, 0.0)?;
                 Ok(sum(&without_sun, &fine_disks(&[sun_disk(sky)], rotation)?))
             }

@@ -16,5 +16,4 @@ pub use coefficients::HaarLight;
 pub use cube_light::{CubeLight, Decimation};
 pub use disks::DiskSource;
 pub use distant::DistantLight;
-pub use error::CubeLightError;
 pub use truncation::{LightTruncation, TruncationPriority};

@@ -1,7 +1,7 @@
 //! Truncation: the few coefficients of a light that matter most (section 6; \[NRH03\]'s "non-linear" approximation).
 
 use super::coefficients::HaarLight;
-use super::error::CubeLightError;
+use crate::error::{InputError, input_error};
 use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation, light_texel};
 use crate::transfer::haar::Haar;
 
@@ -39,14 +39,16 @@ impl HaarLight {
     /// the lowest number is kept.
     ///
     /// # Errors
-    /// [`CubeLightError::Responses`] if there is not one mean response per coefficient.
-    pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, CubeLightError> {
+    /// [`InputError`] if there is not one mean response per coefficient.
+    pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, InputError> {
         let weights = match priority {
             TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],
             TruncationPriority::Area => support_areas(self.segmentation()),
             TruncationPriority::Transfer(responses) if responses.len() == LIGHT_TEXELS => responses.to_vec(),
             TruncationPriority::Transfer(responses) => {
-                return Err(CubeLightError::Responses { found: responses.len() });
+                return Err(input_error!("crossbar::prt::light" =>
+                        "expected {LIGHT_TEXELS} responses, one per coefficient of the light, found {}",
+                        responses.len()));
             }
         };
         let mut order: Vec<(f64, usize)> = (0..LIGHT_TEXELS)

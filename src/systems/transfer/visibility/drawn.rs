@@ -18,9 +18,10 @@ use super::sight::{above, set};
 use super::traced::{check, unclear};
 use crate::card::kernels::SHADE_COLOR;
 use crate::card::{KernelError, Texels};
+use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::sphere::{CUBE_FACES, FaceAxes};
-use crate::transfer::{Occluders, TransferError, Vertices, origins};
+use crate::transfer::{Occluders, Vertices, origins};
 
 /// Errors of drawing maps.
 #[non_exhaustive]
@@ -34,7 +35,7 @@ pub enum DrawnVisibilityError {
     Kernel(#[from] KernelError),
     /// A vertex that does not exist.
     #[error(transparent)]
-    Transfer(#[from] TransferError),
+    Transfer(#[from] InputError),
 }
 
 /// A card with a target for the faces of one cube, one below the other.

@@ -4,10 +4,12 @@ use rayon::prelude::*;
 
 use super::maps::{VisibilityMaps, VisibilitySampling};
 use super::sight::{UndecidedDirections, above, look, set};
+use crate::error::InputError;
 use crate::geom::Ray;
 use crate::geom::vector::narrow;
 use crate::tracer::Caster;
-use crate::transfer::{Occluders, RayOrigin, TransferError, Vertices, origins, ray_length};
+use crate::transfer::error::{cast_error, out_of_range_error};
+use crate::transfer::{Occluders, RayOrigin, Vertices, origins, ray_length};
 
 /// Number of vertices whose rays are cast together.
 const BLOCK: usize = 32;
@@ -41,7 +43,7 @@ impl VisibilityMaps {
         of: &[u32],
         caster: &mut dyn Caster,
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         Self::trace_sampled(vertices, of, VisibilitySampling::default(), caster, done)
     }
 
@@ -56,14 +58,14 @@ impl VisibilityMaps {
     /// vertices times 98,304 directions times 30 bytes, 90 MB.
     ///
     /// # Errors
-    /// [`TransferError::OutOfRange`] for a vertex that does not exist; [`TransferError::Cast`] if the caster fails.
+    /// [`InputError`] for a vertex that does not exist; [`InputError`] if the caster fails.
     pub fn trace_sampled(
         vertices: &Vertices,
         of: &[u32],
         sampling: VisibilitySampling,
         caster: &mut dyn Caster,
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         check(vertices, of)?;
         let occluders = Occluders::new(vertices);
         let rays = Rays { sampling, vertices, origins: origins(vertices, &occluders), length: ray_length(vertices) };
@@ -84,7 +86,7 @@ impl VisibilityMaps {
                 })
                 .collect();
             let all: Vec<Ray> = asked.iter().flat_map(|(_, rays)| rays).copied().collect();
-            let mut answers = caster.occluded(&all)?.into_iter();
+            let mut answers = caster.occluded(&all).map_err(cast_error)?.into_iter();
             for (bits, (asked, _)) in words.chunks_mut(map_words).zip(&asked) {
                 for (&fine, _) in asked.fine.iter().zip(answers.by_ref()).filter(|(_, is_blocked)| !is_blocked) {
                     set(bits, fine);
@@ -110,7 +112,7 @@ impl VisibilityMaps {
         of: &[u32],
         sampling: VisibilitySampling,
         caster: &mut dyn Caster,
-    ) -> Result<Self, TransferError> {
+    ) -> Result<Self, InputError> {
         check(vertices, of)?;
         let origins = origins(vertices, &Occluders::new(vertices));
         let rays = Rays { sampling, vertices, origins, length: ray_length(vertices) };
@@ -120,7 +122,7 @@ impl VisibilityMaps {
             let (fine, below) = above(&vertices.frames()[vertex as usize], &rays.origins[vertex as usize], sampling);
             maps.counts.above += fine.len() as u64 + below;
             let (fine, cast) = rays.of(vertex, &fine);
-            let answers = caster.occluded(&cast)?;
+            let answers = caster.occluded(&cast).map_err(cast_error)?;
             let bits = &mut maps.words_mut()[map * sampling.words()..(map + 1) * sampling.words()];
             fine.iter().zip(answers).filter(|(_, is_blocked)| !is_blocked).for_each(|(&fine, _)| set(bits, fine));
             maps.counts.below_triangles += below;
@@ -132,10 +134,10 @@ impl VisibilityMaps {
 }
 
 /// Checks that all vertices exist.
-pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError> {
+pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), InputError> {
     let (what, expected) = ("a vertex's number", "one below the number of vertices");
     match of.iter().find(|&&vertex| vertex as usize >= vertices.len()) {
-        Some(&vertex) => Err(TransferError::OutOfRange { what, expected, found: f64::from(vertex) }),
+        Some(&vertex) => Err(out_of_range_error(what, expected, f64::from(vertex))),
         None => Ok(()),
     }
 }

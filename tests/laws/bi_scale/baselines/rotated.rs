@@ -4,12 +4,13 @@ use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
 use crossbar::bi_scale::baselines::{
-    BaselineError, HarmonicRows, LocalLightError, LocalTransfer, ReshuffledVisibility, StoredTransfer, cell_integrals,
+    HarmonicRows, LocalLightError, LocalTransfer, ReshuffledVisibility, StoredTransfer, cell_integrals,
 };
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::matrix::SparseMatrix;
 use crossbar::bi_scale::product::by_rows;
 use crossbar::bi_scale::transfer::light_vector;
+use crossbar::error::input_error;
 use crossbar::sphere::{CubeMap, DirectionRule, harmonics};
 use crossbar::transfer::grid::LIGHT_MAP;
 
@@ -92,7 +93,8 @@ fn higher_orders_are_nearer() {
     assert!(falling[0] > falling[1] && falling[1] > falling[2], "{falling:?}");
     assert!(of_light(5, &smooth) < of_both(5, &smooth));
     assert!(of_light(5, &hard) > 0.5, "{}", of_light(5, &hard));
-    assert_eq!(HarmonicRows::of_light(&matrix, 11), Err(BaselineError::Order { found: 11 }));
+    let refused = HarmonicRows::of_light(&matrix, 11).unwrap_err().to_string();
+    assert_eq!(refused, "expected an order of harmonics of 1 to 10, found 11");
 }
 
 /// Down-sampled visibility, reshuffled, direction by direction; and its error, which finer texels do not take away.
@@ -129,7 +131,10 @@ fn a_shuffle_takes_the_texel_of_each_direction() {
         let error = LocalLightError::new(&found, &expected);
         assert!(error.relative > 0.05, "{side}: {error:?}");
     }
-    assert_eq!(ReshuffledVisibility::new(&transfer, 5), Err(BaselineError::CoarseSide { found: 5 }));
+    assert_eq!(
+        ReshuffledVisibility::new(&transfer, 5).unwrap_err().to_string(),
+        "expected 1, 2, 4, 8, 16 or 32 texels along an edge of the coarse cube, found 5"
+    );
 }
 
 /// A vertex that sees everything, under the same light from everywhere: each direction gets its solid angle.
@@ -159,6 +164,10 @@ fn a_constant_light_stays_constant() {
 #[test]
 fn frames_of_another_model_are_refused() {
     let (vertices, matrix, directions) = transfer();
-    let expected = BaselineError::Rows { expected: 15 * 16, found: 16 * 16 };
+    let expected = input_error!(
+        "expected {} rows, one per vertex and local direction, found {}: name the model of the file",
+        15 * 16,
+        16 * 16
+    );
     assert_eq!(LocalTransfer::new(&matrix, &vertices.frames()[1..], &directions).err(), Some(expected));
 }

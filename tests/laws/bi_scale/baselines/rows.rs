@@ -1,12 +1,13 @@
 //! Compressed rows are lossless.
 
-use crossbar::bi_scale::baselines::{BaselineError, LocalLightError, NarrowRows, StoredTransfer, WideRows};
+use crossbar::bi_scale::baselines::{LocalLightError, NarrowRows, StoredTransfer, WideRows};
 use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crossbar::bi_scale::product::by_rows;
 use proptest::prelude::*;
 
 use super::{any_rows, light};
 use crate::bi_scale::real_matrix;
+use crossbar::error::input_error;
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
@@ -59,15 +60,35 @@ fn what_has_no_room_is_refused() {
         (NarrowRows::new(&matrix).map(|_| ()), WideRows::new(&matrix).is_ok())
     };
     assert_eq!(of(70_000, 65_535, 127), (Ok(()), true));
-    assert_eq!(of(70_000, 65_536, 1), (Err(BaselineError::ColumnRange { column: 65_536, most: 65_535 }), true));
+    assert_eq!(
+        of(70_000, 65_536, 1),
+        (
+            Err(input_error!(
+                "expected columns of at most 65535 in this layout, found 65536: take one of wider numbers"
+            )),
+            true
+        )
+    );
     assert_eq!(of(4, 0, -128), (Ok(()), true));
     let holds = "values of -128 to 127 units";
-    assert_eq!(of(4, 0, 128), (Err(BaselineError::ValueRange { row: 0, value: 128.0, holds }), true));
+    assert_eq!(
+        of(4, 0, 128),
+        (
+            Err(input_error!("expected {holds} in this layout, found {:e} in row 0: take one of wider numbers", 128.0)),
+            true
+        )
+    );
     let tenth = real_matrix(&[vec![0.1, 0.0]]);
-    assert_eq!(NarrowRows::new(&tenth).err(), Some(BaselineError::ValueRange { row: 0, value: 0.1, holds }));
+    assert_eq!(
+        NarrowRows::new(&tenth).err(),
+        Some(input_error!("expected {holds} in this layout, found {:e} in row 0: take one of wider numbers", 0.1))
+    );
     assert_eq!(WideRows::new(&tenth).unwrap().multiply(&[1.0, 1.0]), [f64::from(0.1_f32)]);
     let (large, holds) = (real_matrix(&[vec![0.0], vec![1e300]]), "values within single precision");
-    assert_eq!(WideRows::new(&large).err(), Some(BaselineError::ValueRange { row: 1, value: 1e300, holds }));
+    assert_eq!(
+        WideRows::new(&large).err(),
+        Some(input_error!("expected {holds} in this layout, found {:e} in row 1: take one of wider numbers", 1e300))
+    );
 }
 
 #[test]

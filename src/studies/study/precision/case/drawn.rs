@@ -5,8 +5,9 @@ use refsim::machine::Executor;
 use refsim::texture::{Channel, ChannelClass, Image};
 
 use crate::case::{CaseError, Loaded, Setup};
+use crate::error::InputError;
 use crate::picture::metrics::ScreenPicture;
-use crate::picture::{ChannelUnit, Picture, PictureError, RgbImage, Samples, display, rgb8};
+use crate::picture::{ChannelUnit, Picture, RgbImage, Samples, display, rgb8};
 
 /// Channel values of a drawn case.
 #[derive(Debug)]
@@ -58,7 +59,7 @@ impl DrawnCase {
     }
 
     /// Target 0 on a screen.
-    pub(super) fn screen(&self, [width, height]: [u32; 2]) -> Result<ScreenPicture, PictureError> {
+    pub(super) fn screen(&self, [width, height]: [u32; 2]) -> Result<ScreenPicture, InputError> {
         let plane = |c: usize| Samples::Float(self.targets[0].linear.iter().map(|pixel| pixel[c]).collect());
         let picture = (0..).zip(["R", "G", "B"]).try_fold(Picture::new(width, height), |picture, (c, name)| {
             picture.with(name, ChannelUnit::Unknown, plane(c))

@@ -3,10 +3,11 @@
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::transfer::transfer_of;
+use crate::error::InputError;
 use crate::study::ProgressFn;
+use crate::transfer::Vertices;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
-use crate::transfer::{TransferError, Vertices};
 
 /// Per vertex of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,7 +22,7 @@ pub struct CodedErrors {
 /// error.
 ///
 /// # Errors
-/// [`TransferError`].
+/// [`InputError`].
 ///
 /// # Panics
 /// If what is coded belongs to other vertices or another reflectance.
@@ -31,7 +32,7 @@ pub fn coded_errors(
     reflectance: &Reflectance,
     coded: &CodedTransfer,
     progress: &mut ProgressFn<'_>,
-) -> Result<CodedErrors, TransferError> {
+) -> Result<CodedErrors, InputError> {
     assert_eq!((coded.vertices, coded.rows), (vertices.len(), reflectance.terms()), "coded transfer of these vertices");
     let hats = LinearBasis::new(hats);
     let transfer = transfer_of(vertices, maps, &hats, reflectance);

@@ -6,21 +6,20 @@ use rayon::prelude::*;
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::transfer_of;
+use crate::error::InputError;
 use crate::linalg::dot;
+use crate::transfer::Vertices;
 use crate::transfer::grid::Segmentation;
-use crate::transfer::light::{
-    CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority,
-};
+use crate::transfer::light::{Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority};
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
-use crate::transfer::{TransferError, Vertices};
 
 /// The coefficients of a light that is turned, of them `keep` of largest area times magnitude; `None`: all.
 pub(in crate::study) fn coefficients(
     (light, decimation): (&DistantLight, Decimation),
     rotation: &DMat3,
     keep: Option<usize>,
-) -> Result<LightTruncation, CubeLightError> {
+) -> Result<LightTruncation, InputError> {
     let light = HaarLight::new(&light.cube(rotation, decimation)?, Segmentation::Quarters);
     light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area)
 }
@@ -32,7 +31,7 @@ pub(in crate::study) fn transferred(
     hats: BasisWidth,
     reflectance: &Reflectance,
     lights: &[&HaarLight],
-) -> Result<Vec<Vec<[f64; 3]>>, TransferError> {
+) -> Result<Vec<Vec<[f64; 3]>>, InputError> {
     let (hats, rows) = (LinearBasis::new(hats), reflectance.terms());
     let transfer = transfer_of(vertices, maps, &hats, reflectance);
     let mut radiances = vec![vec![[0.0; 3]; vertices.len() * rows]; lights.len()];

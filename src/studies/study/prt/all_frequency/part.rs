@@ -5,11 +5,12 @@ use std::time::Instant;
 use super::exact;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::all_frequency::shade::{Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance};
+use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::study::StudyError;
+use crate::transfer::Vertices;
 use crate::transfer::light::HaarLight;
-use crate::transfer::{TransferError, Vertices};
 
 /// Transferred radiance, by one way or the other.
 pub(super) enum Transferred {
@@ -65,7 +66,7 @@ impl<'a> Part<'a> {
     }
 
     /// By raw matrices of a file.
-    pub(super) fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, TransferError> {
+    pub(super) fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, InputError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
             Some(maps) => exact::transferred((self.vertices, maps), file.hats, &file.reflectance, &[light])?.remove(0),

@@ -10,9 +10,10 @@ use super::subject::{BiScaleRendering, SurfaceTexture, no_mesh_transfer};
 use super::surface::SurfacePixel;
 use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::shade::TextureLookup;
+use crate::error::InputError;
 use crate::scene::Camera;
 use crate::study::{ProgressFn, StudyError};
-use crate::transfer::light::{CubeLight, CubeLightError, Decimation};
+use crate::transfer::light::{CubeLight, Decimation};
 
 /// A rendering whose pixels are known.
 pub(in crate::study) struct BiScaleDrawing<'a> {
@@ -51,8 +52,8 @@ impl<'a> BiScaleDrawing<'a> {
     /// The light's texels, turned by a rotation.
     ///
     /// # Errors
-    /// [`CubeLightError`].
-    pub(in crate::study) fn cube(&self, rotation: &DMat3) -> Result<CubeLight, CubeLightError> {
+    /// [`InputError`].
+    pub(in crate::study) fn cube(&self, rotation: &DMat3) -> Result<CubeLight, InputError> {
         self.rendering.light.cube(rotation, Decimation::SolidAngle)
     }
 

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::card::SeenPixel;
-use crate::picture::PictureError;
+use crate::error::InputError;
 use crate::picture::metrics::{ErrorSums, value_error};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
@@ -100,7 +100,7 @@ impl<'a> ComparedPicture<'a> {
         title: String,
         from: &str,
         found: &mut Findings,
-    ) -> Result<(), PictureError> {
+    ) -> Result<(), InputError> {
         let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
             let channels = found.iter().zip(expected).map(|(&found, &expected)| value_error(found, expected));
             channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })

@@ -7,7 +7,7 @@ use refsim::texture::TexelFormat;
 use serde_json::json;
 
 use super::difference::ComparedPicture;
-use crate::picture::PictureError;
+use crate::error::InputError;
 use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
 use crate::study::StudyError;
 use crate::study::prt::LitView;
@@ -66,7 +66,7 @@ impl PictureStudy<'_> {
         title: &str,
         compared: &ComparedPicture<'_>,
         exposure: f64,
-    ) -> Result<Findings, PictureError> {
+    ) -> Result<Findings, InputError> {
         let card = &self.card.profile.title;
         let mut found = Findings::new(title);
         found.taken_from(self.view.camera.world_to_camera());

@@ -1,8 +1,7 @@
 //! The same reflectance by spherical harmonics.
 
-use crate::all_frequency::factor::{
-    DiscSamples, FactorizationError, HarmonicFit, HarmonicSides, ProductErrors, harmonic_errors,
-};
+use crate::all_frequency::factor::{DiscSamples, HarmonicFit, HarmonicSides, ProductErrors, harmonic_errors};
+use crate::error::InputError;
 use crate::report::{Cell, Table};
 use crate::sphere::function_count;
 
@@ -18,7 +17,7 @@ pub(super) struct HarmonicRow {
 }
 
 /// All orders, fits and sides; none where the texels are fewer than the functions.
-pub(super) fn rows(disc: &DiscSamples) -> Result<Vec<HarmonicRow>, FactorizationError> {
+pub(super) fn rows(disc: &DiscSamples) -> Result<Vec<HarmonicRow>, InputError> {
     let mut rows = Vec::new();
     for sides in [HarmonicSides::View, HarmonicSides::Light, HarmonicSides::Both] {
         for fit in [HarmonicFit::ZeroHemisphere, HarmonicFit::LeastSquares] {

@@ -1,8 +1,9 @@
 //! The reflectance to be factored, and the errors of choosing it.
 
 use crate::all_frequency::factor::{
-    FactorSampling, Factorization, FactorizationError, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
+    FactorSampling, Factorization, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
 };
+use crate::error::InputError;
 use crate::transfer::brdf::Brdf;
 
 /// A reflectance to be factored.
@@ -38,7 +39,7 @@ const TERMS: usize = 10;
 
 impl BrdfFactors {
     /// Singular values of a table, with vectors for the terms that are wanted.
-    pub(super) fn factorization(&self, table: &ProductTable) -> Result<Factorization, FactorizationError> {
+    pub(super) fn factorization(&self, table: &ProductTable) -> Result<Factorization, InputError> {
         self.terms.map_or_else(|| Factorization::up_to(table, TERMS), |terms| Factorization::new(table, terms))
     }
 }
@@ -59,7 +60,7 @@ impl FactorSubject {
         &self,
         sampling: &FactorSampling,
         progress: &mut dyn FnMut(u64, u64),
-    ) -> Result<ProductTable, FactorizationError> {
+    ) -> Result<ProductTable, InputError> {
         match self {
             Self::Table(table) => Ok(table.clone()),
             _ => self.with_product(|product| sampling.table(product, progress)).expect("all others are formulas"),

@@ -2,9 +2,8 @@
 
 use super::sphere;
 use super::subject::{BrdfFactors, FactorSubject};
-use crate::all_frequency::factor::{
-    DiscSamples, FacetDistribution, FactorizationError, Lobe, ProductErrors, ProductFunction as _,
-};
+use crate::all_frequency::factor::{DiscSamples, FacetDistribution, Lobe, ProductErrors, ProductFunction as _};
+use crate::error::InputError;
 use crate::picture::metrics::{ScreenPicture, flip};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table};
@@ -28,7 +27,7 @@ pub(in crate::study) struct SweptRoughness {
 }
 
 /// The lobe with another roughness.
-fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, FactorizationError> {
+fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, InputError> {
     let distribution = match lobe.distribution {
         FacetDistribution::Beckmann { .. } => FacetDistribution::Beckmann { roughness },
         FacetDistribution::Schlick { isotropy, tangent, .. } => {
@@ -36,7 +35,7 @@ fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, FactorizationErro
         }
     };
     let swept = Lobe { distribution, ..*lobe };
-    swept.check()?;
+    swept.check().map_err(|error| error.coded("crossbar::factor::brdf"))?;
     Ok(swept)
 }
 

@@ -3,10 +3,11 @@
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
 
 use super::{StudyError, failed};
+use crate::error::InputError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::picture::RgbImage;
-use crate::renderer::{RenderError, RenderedPicture, Settings, distributed, eye, whitted};
+use crate::renderer::{RenderedPicture, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
 use crate::study::prt::{auto_exposure, linear_picture};
 use crate::tracer::octree::OctreeParameters;
@@ -118,7 +119,7 @@ impl Job {
         camera: &Camera,
         caster: &mut dyn Caster,
         samples: u32,
-    ) -> Result<RenderedPicture, RenderError> {
+    ) -> Result<RenderedPicture, InputError> {
         let settings = Settings { samples, ..Settings::default() };
         let mut watch = |_| {};
         match self.renderer {

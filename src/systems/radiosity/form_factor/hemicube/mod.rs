@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
-use super::FormFactorError;
+use crate::error::{InputError, input_error};
 use crate::linalg::Matrix;
 use crate::radiosity::draw::{DrawError, patch_of};
 use crate::radiosity::{Patch, Patches};
@@ -43,13 +43,15 @@ impl Hemicube {
     }
 
     /// Checks that the card can draw the hemicube.
-    fn check(&self) -> Result<(), FormFactorError> {
+    fn check(&self) -> Result<(), InputError> {
         let limit = self.device.limits.max_target_size.unwrap_or(16_384);
         let most = limit / 4 * 2;
         let [width, height] = size(self.resolution.min(limit));
         if self.resolution < 2 || self.resolution % 2 == 1 || width.max(height) > limit {
             let device = self.device.name.clone();
-            return Err(FormFactorError::Resolution { found: self.resolution, most, device, limit });
+            return Err(input_error!("radiosity::form_factors" =>
+                    "expected an even number of pixels from 2 to {most} along a side of a hemicube, found {}; its \
+                     five faces lie in one target, which {device} allows {limit} pixels a side", self.resolution));
         }
         Ok(())
     }
@@ -69,9 +71,10 @@ pub(super) fn matrix(
     executor: &Executor,
     is_wanted: &(dyn Fn(usize) -> bool + Sync),
     done: &mut dyn FnMut(usize, usize),
-) -> Result<Matrix, FormFactorError> {
+) -> Result<Matrix, InputError> {
     hemicube.check()?;
-    let mut matrix = Matrix::zeros([patches.list().len(); 2])?;
+    let matrix = Matrix::zeros([patches.list().len(); 2]);
+    let mut matrix = matrix.map_err(|error| error.coded("radiosity::form_factors"))?;
     let work = HemicubeRows { patches, hemicube, executor, deltas: Deltas::new(hemicube.resolution) };
     let mut rows: Vec<(usize, &mut [f64])> =
         matrix.par_rows_mut().enumerate().filter(|(patch, _)| is_wanted(*patch)).collect();
@@ -79,7 +82,8 @@ pub(super) fn matrix(
     for rows in rows.chunks_mut(BUNDLE) {
         // One card per worker; the result does not depend on the assignment.
         let each = rows.len().div_ceil(rayon::current_num_threads()).max(1);
-        rows.par_chunks_mut(each).try_for_each(|rows| work.fill(rows))?;
+        let filled = rows.par_chunks_mut(each).try_for_each(|rows| work.fill(rows));
+        filled.map_err(|error| InputError::of("radiosity::form_factors", error))?;
         drawn += rows.len();
         done(drawn, all);
     }

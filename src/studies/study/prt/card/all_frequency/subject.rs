@@ -6,12 +6,13 @@ use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::all_frequency::on_card::{ProductPlace, SumCard, SumLog, TransferredMesh};
 use crate::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain};
+use crate::error::InputError;
 use crate::study::StudyError;
 use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
 use crate::study::prt::card::CardSetting;
 use crate::study::prt::no_all_frequency_card;
-use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
+use crate::transfer::light::{HaarLight, LightTruncation};
 
 /// A lit model with all-frequency transfer, and the card that draws it.
 #[derive(Debug)]
@@ -48,7 +49,7 @@ impl AllFrequencyOnCard {
         TransferredMesh { vertices, reflectance: &file.reflectance, colors, transferred }
     }
 
-    pub(super) fn cut(&self, keep: Option<usize>) -> Result<LightTruncation, CubeLightError> {
+    pub(super) fn cut(&self, keep: Option<usize>) -> Result<LightTruncation, InputError> {
         exact::coefficients((&self.lit.light, self.lit.decimation), &DMat3::IDENTITY, keep)
     }
 

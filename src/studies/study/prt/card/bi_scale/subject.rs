@@ -7,12 +7,13 @@ use crate::bi_scale::on_card::{DisplayOptions, LightFormat, TexturedMesh};
 use crate::bi_scale::product::reference;
 use crate::bi_scale::texture::BidirectionalTexture;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
+use crate::error::InputError;
 use crate::study::StudyError;
 use crate::study::prt::LitView;
 use crate::study::prt::card::CardSetting;
 use crate::transfer::Vertices;
 use crate::transfer::grid::LIGHT_TEXELS;
-use crate::transfer::light::{CubeLightError, Decimation, DistantLight};
+use crate::transfer::light::{Decimation, DistantLight};
 
 /// A model with biclusters of its transfer, bidirectional textures, a light and a camera, and the card.
 #[derive(Debug)]
@@ -68,7 +69,7 @@ impl BiScaleOnCard {
     }
 
     /// L: of each light texel red, green and blue times its solid angle.
-    pub(super) fn light_texels(&self) -> Result<Vec<[f64; 3]>, CubeLightError> {
+    pub(super) fn light_texels(&self) -> Result<Vec<[f64; 3]>, InputError> {
         let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
         Ok(side_by_side(light_vectors(&cube)))
     }

@@ -1,0 +1,183 @@
+//! The one error of every room for input that it cannot use.
+
+use std::error::Error;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+pub use crate::{ensure, input_error};
+
+/// A file and, where something is wrong in one line of it, the line, from 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilePlace {
+    /// The file.
+    pub path: PathBuf,
+    /// The line.
+    pub line: Option<usize>,
+}
+
+impl FilePlace {
+    /// A line of a file.
+    pub fn line(path: &Path, line: usize) -> Self {
+        Self { path: path.into(), line: Some(line) }
+    }
+}
+
+impl From<&Path> for FilePlace {
+    fn from(path: &Path) -> Self {
+        Self { path: path.into(), line: None }
+    }
+}
+
+impl fmt::Display for FilePlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())?;
+        self.line.map_or(Ok(()), |line| write!(f, ":{line}"))
+    }
+}
+
+/// Error: what the caller gave is not what a function takes. The message says what was expected and what was found.
+///
+/// Two errors are equal if they are displayed alike under one code.
+#[derive(Clone)]
+pub struct InputError(Box<Parts>);
+
+#[derive(Clone, Debug)]
+struct Parts {
+    code: &'static str,
+    message: String,
+    help: Option<String>,
+    place: Option<FilePlace>,
+    cause: Option<Cause>,
+}
+
+#[derive(Clone, Debug)]
+enum Cause {
+    /// The message tells what this led to.
+    Source(Arc<dyn Error + Send + Sync>),
+    /// The message is this error's own, so that the chain of sources starts behind it.
+    Shown(Arc<dyn Error + Send + Sync>),
+}
+
+impl InputError {
+    /// An error with a code for programs, which is empty where the caller gives the code of its step
+    /// ([`Self::coded`]). [`input_error`] formats the message.
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self(Box::new(Parts { code, message: message.into(), help: None, place: None, cause: None }))
+    }
+
+    /// Another error, shown as it is.
+    pub fn of(code: &'static str, error: impl Error + Send + Sync + 'static) -> Self {
+        let mut shown = Self::new(code, error.to_string());
+        shown.0.cause = Some(Cause::Shown(Arc::new(error)));
+        shown
+    }
+
+    /// Replaces the code by that of the step that needed the input.
+    #[must_use]
+    pub fn coded(mut self, code: &'static str) -> Self {
+        self.0.code = code;
+        self
+    }
+
+    /// Adds what to do.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.0.help = Some(help.into());
+        self
+    }
+
+    /// Adds the file, or its line, which the message begins with.
+    #[must_use]
+    pub fn at(mut self, place: impl Into<FilePlace>) -> Self {
+        self.0.place = Some(place.into());
+        self
+    }
+
+    /// Adds the error that caused this one.
+    #[must_use]
+    pub fn with_source(mut self, source: impl Error + Send + Sync + 'static) -> Self {
+        self.0.cause = Some(Cause::Source(Arc::new(source)));
+        self
+    }
+
+    /// The code for programs; empty if there is none.
+    pub fn code(&self) -> &'static str {
+        self.0.code
+    }
+
+    /// What to do.
+    pub fn help(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+}
+
+impl fmt::Debug for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.0, f)
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.place.as_ref().map_or(Ok(()), |place| write!(f, "{place}: "))?;
+        f.write_str(&self.0.message)
+    }
+}
+
+impl PartialEq for InputError {
+    fn eq(&self, other: &Self) -> bool {
+        (self.0.code, &self.0.message, &self.0.place) == (other.0.code, &other.0.message, &other.0.place)
+    }
+}
+
+impl Error for InputError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self.0.cause.as_ref()? {
+            Cause::Source(error) => Some(&**error),
+            Cause::Shown(error) => error.source(),
+        }
+    }
+}
+
+#[cfg(feature = "miette")]
+impl miette::Diagnostic for InputError {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        (!self.0.code.is_empty()).then(|| Box::new(self.0.code) as _)
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.0.help.as_ref().map(|help| Box::new(help) as _)
+    }
+}
+
+/// An [`InputError`]: its code, the message as for [`format!`], and what to do behind `; help`. An error without a code
+/// has the message alone.
+///
+/// ```
+/// use crossbar_base::error::input_error;
+///
+/// let found = 7;
+/// let error = input_error!("room::angle" => "expected an even number, found {found}"; help "take {}", found + 1);
+/// assert_eq!((error.to_string().as_str(), error.help()), ("expected an even number, found 7", Some("take 8")));
+/// ```
+#[macro_export]
+macro_rules! input_error {
+    ($code:literal => $message:literal $(, $value:expr)* $(,)? $(; help $($help:tt)+)?) => {
+        $crate::error::InputError::new($code, format!($message $(, $value)*))$(.with_help(format!($($help)+)))?
+    };
+    ($message:literal $(, $value:expr)* $(,)? $(; help $($help:tt)+)?) => {
+        $crate::input_error!("" => $message $(, $value)* $(; help $($help)+)?)
+    };
+}
+
+/// Returns an [`input_error`] unless the condition, the first argument, holds.
+#[macro_export]
+macro_rules! ensure {
+    ($condition:expr, $($error:tt)+) => {
+        match $condition {
+            true => {}
+            false => return Err($crate::input_error!($($error)+)),
+        }
+    };
+}
