@@ -102,12 +102,12 @@ impl InputError {
     }
 
     /// The code for programs; empty if there is none.
-    pub fn code(&self) -> &'static str {
+    pub fn error_code(&self) -> &'static str {
         self.0.code
     }
 
     /// What to do.
-    pub fn help(&self) -> Option<&str> {
+    pub fn advice(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
 }
@@ -159,7 +159,7 @@ impl miette::Diagnostic for InputError {
 ///
 /// let found = 7;
 /// let error = input_error!("room::angle" => "expected an even number, found {found}"; help "take {}", found + 1);
-/// assert_eq!((error.to_string().as_str(), error.help()), ("expected an even number, found 7", Some("take 8")));
+/// assert_eq!((error.to_string().as_str(), error.advice()), ("expected an even number, found 7", Some("take 8")));
 /// ```
 #[macro_export]
 macro_rules! input_error {

@@ -98,26 +98,26 @@ struct TexelLine<'a> {
 impl TexelLine<'_> {
     /// The texel's number and its radiance.
     fn parse(&self, record: &csv::ByteRecord) -> Result<(usize, [f64; 3]), InputError> {
-        let place = FilePlace::line(self.path, self.line as usize);
+        let here = FilePlace::line(self.path, self.line as usize);
         let fields: Vec<&[u8]> = record.iter().collect();
         let [face, row, column, r, g, b] = fields[..] else {
             return Err(input_error!("crossbar::cube_map::fields" =>
                 "expected six fields (face,row,column,r,g,b), found {}", whole(record))
-            .at(place.clone()));
+            .at(here.clone()));
         };
         let text = |field: &[u8]| std::str::from_utf8(field).unwrap_or_default().to_owned();
         let named = FACES.iter().position(|name| name.as_bytes() == face);
         let face = named.or_else(|| text(face).parse().ok().filter(|face| *face < 6)).ok_or_else(|| {
             input_error!("crossbar::cube_map::face" =>
                 "expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found {}", quoted(face))
-            .at(place.clone())
+            .at(here.clone())
         })?;
         let number = |what, field: &[u8]| {
             let refused = || {
                 input_error!("crossbar::cube_map::place" =>
                     "expected a {what} from 0 to {}, found {}", self.side - 1, quoted(field);
                     help "the map has six faces of {} x {} texels", self.side, self.side)
-                .at(place.clone())
+                .at(here.clone())
             };
             text(field).parse().ok().filter(|at| *at < self.side).ok_or_else(refused)
         };
@@ -127,7 +127,7 @@ impl TexelLine<'_> {
             value.ok_or_else(|| {
                 input_error!("crossbar::cube_map::radiance" =>
                     "expected a finite number for `{channel}`, found {}", quoted(field))
-                .at(place.clone())
+                .at(here.clone())
             })
         };
         let at = (face * self.side + row) * self.side + column;

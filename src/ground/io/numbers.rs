@@ -63,10 +63,10 @@ mod tests {
             assert_eq!(parse_numbers(bytes, name).expect("numbers"), wide);
         }
         let error = parse_numbers(b"1,2\n3\n", name).expect_err("ragged");
-        assert_eq!(error.code(), "crossbar::table::ragged");
+        assert_eq!(error.error_code(), "crossbar::table::ragged");
         let cut = parse_numbers(&array[..array.len() - 1], name).expect_err("cut");
-        assert_eq!(cut.code(), "crossbar::npy::size");
+        assert_eq!(cut.error_code(), "crossbar::npy::size");
         let missing = load_numbers(Path::new("no/such/file.csv"), "table", 8).expect_err("missing");
-        assert_eq!(missing.code(), "crossbar::file::unreadable");
+        assert_eq!(missing.error_code(), "crossbar::file::unreadable");
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::error::{InputError, input_error};
 use crate::scene::Color;
-use crate::tracer::CastError;
 use crate::tracer::offset::SINGLE;
 
 /// Thin lens in place of the pinhole.

@@ -108,9 +108,8 @@ impl Material {
     pub fn new(name: impl Into<String>, channels: [Coefficients; 3], eta: f64) -> Result<Self, InputError> {
         check_eta(eta)?;
         for (channel, coefficients) in Self::CHANNELS.into_iter().zip(channels) {
-            coefficients.check().map_err(
-                |problem| input_error!("subsurface::material" => "{channel} channel: {}", Box::new(problem)),
-            )?;
+            let checked = coefficients.check();
+            checked.map_err(|problem| input_error!("subsurface::material" => "{channel} channel: {problem}"))?;
         }
         Ok(Self { name: name.into(), channels, eta })
     }

@@ -85,7 +85,7 @@ impl Vertices {
             Tangents::Along(axis) if unit(axis).is_some() => None,
             Tangents::Along(axis) => {
                 return Err(input_error!("crossbar::prt::precompute" =>
-                        "expected an axis of finite length above 0 for the tangents, found {axis:?}"));
+                        "expected an axis of finite length above 0 for the tangents, found {:?}", axis.to_array()));
             }
         };
         let mut known: BTreeMap<VertexKey, u32> = BTreeMap::new();

@@ -154,7 +154,7 @@ fn another_mesh_is_refused() {
     for (other, words) in others {
         let error = load_prt(&path, Some(&other)).expect_err("another mesh");
         let message = format!("{}: expected transfer of a mesh with {other}, found that of {mesh}", path.display());
-        assert_eq!((error.code(), error.to_string()), ("crossbar::prt::mesh", message));
+        assert_eq!((error.error_code(), error.to_string()), ("crossbar::prt::mesh", message));
         assert!(error.to_string().contains(words), "{error}");
         assert!(error.to_string().ends_with("tangents along 0,-0.5,2"), "{error}");
     }

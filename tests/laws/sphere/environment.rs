@@ -152,7 +152,7 @@ fn what_is_no_environment_is_refused() {
     let (expected, found) = (EnvironmentLayout::LatLong, EnvironmentLayout::AngularProbe);
     let told = format!("expected the shape of a {expected}, found 32x32, that of a {found}");
     assert_eq!(other.unwrap_err().to_string(), told);
-    assert_eq!(refused(&Picture::new(64, 32)).code(), NO_COLOR);
+    assert_eq!(refused(&Picture::new(64, 32)).error_code(), NO_COLOR);
     for bad in [f32::NAN, f32::INFINITY] {
         let mut pixels = vec![[1.0; 3]; 64 * 32];
         pixels[5 * 64 + 7][1] = bad;
@@ -189,7 +189,7 @@ proptest! {
         let picture = Picture::rgb(width, height, &(0..width * height).map(pixel).collect::<Vec<_>>());
         match HarmonicLight::from_picture(order, &picture) {
             Ok(light) => prop_assert!(light.channels().iter().flatten().all(|c| c.is_finite())),
-            Err(error) if error.code() == "crossbar::sphere::shape" => {
+            Err(error) if error.error_code() == "crossbar::sphere::shape" => {
                 prop_assert_eq!(EnvironmentLayout::of(width, height), None);
             }
             Err(error) => {

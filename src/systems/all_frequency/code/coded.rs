@@ -379,7 +379,7 @@ mod tests {
             let options = CodeOptions { representative_bits, weight_bits, scale: ScaleOf::Segment };
             let error = CodedTransfer::new(&sample(1, 4), options).expect_err("refused");
             let found = if what == "weights" { weight_bits } else { representative_bits };
-            assert_eq!(error.code(), "crossbar::prt::code");
+            assert_eq!(error.error_code(), "crossbar::prt::code");
             assert_eq!(
                 error.to_string(),
                 format!("expected 2 to 16 bits for {what}, the sign among them, found {found}")

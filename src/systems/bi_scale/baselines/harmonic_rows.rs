@@ -129,7 +129,7 @@ impl TexelHarmonics {
         ensure!(
             (1..=MAX_ORDER).contains(&order),
             "expected an order of harmonics of 1 to {}, found {order}",
-            crate::sphere::MAX_ORDER
+            MAX_ORDER
         );
         let count = function_count(order);
         let mut functions = vec![0.0; LIGHT_TEXELS * count];

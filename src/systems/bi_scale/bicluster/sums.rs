@@ -41,9 +41,8 @@ impl Biclustering {
         let ([rows, columns], bits) = (self.matrix_size(), self.values().fraction_bits());
         let error = |row: usize, column, holds| {
             input_error!(
-                "expected a sum that {holds} holds in row {}, column {column} (counted from 0), found \
-         another: the biclusters are of no matrix",
-                row as u32
+                "expected a sum that {holds} holds in row {row}, column {column} (counted from 0), found \
+                 another: the biclusters are of no matrix"
             )
         };
         let Some(bits) = bits else {
@@ -59,8 +58,8 @@ impl Biclustering {
             return Ok(sum.expect("finite numbers in a matrix of this size"));
         };
         let mut matrix = SparseMatrix::new(columns, bits).expect("the size of a matrix");
-        let mut push = |row: usize, sums: Vec<(u32, Option<i32>)>| {
-            let entry = |(index, value): (u32, Option<i32>)| {
+        let mut push = |row: usize, sums: Vec<(u32, Option<i32>)>| -> Result<(), InputError> {
+            let entry = |(index, value): (u32, Option<i32>)| -> Result<MatrixEntry, InputError> {
                 let value = value.ok_or_else(|| error(row, index, "32 bits of units"))?;
                 Ok(MatrixEntry { index, value })
             };

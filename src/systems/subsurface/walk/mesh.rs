@@ -8,7 +8,7 @@ use super::tally::{BATCHES, BatchCounts, WalkTally};
 use crate::error::{InputError, input_error};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Mesh, Ray};
-use crate::tracer::{CastError, Caster};
+use crate::tracer::Caster;
 
 /// Points nearer to the boundary than this fraction of the mesh's diagonal count as on it, and reflected rays start as
 /// far inside: rounding to single precision is about a tenth of it.

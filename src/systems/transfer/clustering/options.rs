@@ -73,7 +73,7 @@ pub enum StartPoints {
 
 /// Reasons for which a signal cannot be compressed. Points count from 0.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CpcaError {
     /// No clusters, or more than points.

@@ -1,5 +1,6 @@
 //! Reading: nothing is allocated that the bytes at hand do not fill.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use glam::DVec3;
@@ -105,12 +106,7 @@ pub(crate) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub(crate) fn field(
-        &self,
-        field: &'static str,
-        expected: impl Into<String>,
-        found: impl Into<String>,
-    ) -> InputError {
+    pub(crate) fn field(&self, field: &'static str, expected: impl Display, found: impl Display) -> InputError {
         input_error!("crossbar::prt::field" =>
             "{field}: expected {expected}, found {found}"; help "docs/prt-format.md says what belongs there")
         .at(self.name)
@@ -125,11 +121,11 @@ impl<'a> Reader<'a> {
                 Ok(taken)
             }
             None => {
-                let (path, offset) = (self.name.into(), self.at);
+                let offset = self.at;
                 Err(input_error!("crossbar::prt::truncated" =>
                     "expected {needed} bytes of {what} at {offset}, found {}", rest.len();
                     help "the file is cut; copy or write it again")
-                .at(path))
+                .at(self.name))
             }
         }
     }

@@ -50,5 +50,5 @@ fn the_example_has_terms() {
     assert_eq!(([table.view().side(), table.light().side()], found.terms()), ([4, 4], 4));
     let zeros = crossbar::io::NumberTable { columns: 4, values: vec![0.0; 16] };
     let zeros = crossbar::all_frequency::factor::ProductTable::of_numbers(&zeros, "0".as_ref()).expect("a table");
-    assert_eq!(Factorization::new(&zeros, 1).unwrap_err().code(), "crossbar::factor::dark");
+    assert_eq!(Factorization::new(&zeros, 1).unwrap_err().error_code(), "crossbar::factor::dark");
 }
