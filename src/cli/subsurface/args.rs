@@ -89,7 +89,8 @@ pub(in crate::cli) struct Args {
     #[arg(long)]
     pub(super) half: bool,
 
-    /// The largest relative error of factors
+    /// Largest relative error of factors, beside 1e-5 of the total; of the total between texels so long that less light
+    /// leaves them
     #[arg(long, value_name = "X", default_value_t = crate::subsurface::factor::TOLERANCE, value_parser = number::positive)]
     pub(super) tolerance: f64,
 
