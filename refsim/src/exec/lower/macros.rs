@@ -42,13 +42,11 @@ impl GraphBuilder<'_> {
             Cmp => std::array::from_fn(|i| self.compute(k, Op::SelectNonNegative, a[i], b[i], c[i])),
             Bem => self.bem(k, &a, &b, bump),
             Abs => a.map(|x| self.unary(k, Op::Abs, x)),
-            Min | Max if Rules::compares_in(version, &self.formats.format(k)) => {
-                std::array::from_fn(|i| {
-                    let above = self.holds(k, Op::Less, b[i], a[i]);
-                    let (yes, no) = if opcode == Max { (a[i], b[i]) } else { (b[i], a[i]) };
-                    self.select(above, yes, no)
-                })
-            }
+            Min | Max if Rules::compares_in(version, &self.formats.format(k)) => std::array::from_fn(|i| {
+                let above = self.holds(k, Op::Less, b[i], a[i]);
+                let (yes, no) = if opcode == Max { (a[i], b[i]) } else { (b[i], a[i]) };
+                self.select(above, yes, no)
+            }),
             Min => std::array::from_fn(|i| self.binary(k, Op::Min, a[i], b[i])),
             Max => std::array::from_fn(|i| self.binary(k, Op::Max, a[i], b[i])),
             Dsx | Dsy => a.map(|x| self.graph.node(NodeKind::Difference(k, opcode == Dsy, x))),
