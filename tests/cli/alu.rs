@@ -71,11 +71,11 @@ fn lines_of_many_numbers() {
     let terms = "6800 3C00 3C00 3C00 3C00 3C00\n\n3C00 3C00";
     assert_eq!(results("dot --format fp16", terms), ["6800", "3C00"]);
     assert_eq!(results("dot --format fp16 --accumulator fp32 --flags", terms), ["6801 00", "3C00 00"]);
-    assert_eq!(results("dot --format fp16 --order exact", terms), ["6801", "3C00"]);
+    assert_eq!(results("dot --format fp16 --summation exact", terms), ["6801", "3C00"]);
     for (arguments, input, expected) in [
         ("quantize --format fp32", "0", "blocks need a block format"),
         ("add --format fp32 --block mxfp4", "0 0", "`--block` is for `quantize` and `dequantize` only"),
-        ("add --format fp32 --order tree", "0 0", "`--accumulator` and `--order` are for `dot` only"),
+        ("add --format fp32 --summation tree", "0 0", "`--accumulator` and `--summation` are for `dot` only"),
         ("dot --format fp32 --exhaustive", "", "neither `--verify` nor `--exhaustive` nor `--to`"),
         ("dot --format fp32 --accumulator fp16:rst", "0 0", "round more than once"),
         ("dot --format fp32", "0 0 0", "line 1: expected 1 to 32 pairs of numbers, found 3 fields"),

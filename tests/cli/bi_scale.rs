@@ -217,7 +217,7 @@ fn the_court_has_its_transfer() {
 fn textures_take_every_way() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [file, sheet, out] = ["b.npy", "s.png", "p"].map(|name| place(folder.path(), name));
-    let sizes = "--size 8 --directions 4 --views 3";
+    let sizes = "--texels 8 --directions 4 --views 3";
     let mut before: Option<(Vec<u8>, Vec<[f32; 3]>)> = None;
     for threads in [1, 3] {
         let made =
@@ -292,7 +292,7 @@ fn transfer_is_shown() {
 fn textures_that_do_not_fit_are_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let file = place(folder.path(), "b.npy");
-    document(&format!("bi-scale texture plain --size 1 --directions 3 --views 2 --out {file}"));
+    document(&format!("bi-scale texture plain --texels 1 --directions 3 --views 2 --out {file}"));
     let damaged = place(folder.path(), "nan.npy");
     let mut bytes = fs::read(&file).expect("written");
     let end = bytes.len();

@@ -130,7 +130,7 @@ fn cards_write_radiance_of_vertices_too() {
     let (model, file, small, page) = (of("square.obj"), of("file.prt"), of("small.prt"), of("page"));
     fs::write(&model, SQUARE).expect("written");
     let plain = of("plain.npy");
-    document(&["bi-scale", "texture", "plain", "--size", "2", "--directions", "2", "--views", "2", "--out", &plain]);
+    document(&["bi-scale", "texture", "plain", "--texels", "2", "--directions", "2", "--views", "2", "--out", &plain]);
     let model_of = ["--model", model.as_str()];
     for (command, made, compress, drawn) in [
         ("cpca", &["--order", "3"][..], &["compress", &file, "--clusters", "1", "--vectors", "1"][..], &[][..]),
@@ -190,7 +190,7 @@ fn radiance_of_vertices_is_written_as_numbers() {
     let (model, file, page) = (of("square.obj"), of("file.prt"), of("page"));
     fs::write(&model, SQUARE).expect("written");
     let plain = of("plain.npy");
-    document(&["bi-scale", "texture", "plain", "--size", "2", "--directions", "2", "--views", "2", "--out", &plain]);
+    document(&["bi-scale", "texture", "plain", "--texels", "2", "--directions", "2", "--views", "2", "--out", &plain]);
     for (command, made, drawn) in [
         ("cpca", &["--order", "3"][..], &[][..]),
         ("all-frequency", &[], &[]),

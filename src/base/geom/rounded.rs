@@ -12,7 +12,7 @@ fn reach(corners: &[DVec3]) -> f64 {
 }
 
 /// Returns `true` if a triangle has an area whatever the rounding of its corners was. Corners that were on a line are
-/// now within [`reach`] of it, so that the least height of the triangle is at most twice that.
+/// now within their reach of it, so that the least height of the triangle is at most twice that.
 pub fn has_certain_area(triangle: &[[f32; 3]; 3]) -> bool {
     let corners @ [a, b, c] = triangle.map(wide);
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());

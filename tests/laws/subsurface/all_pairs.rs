@@ -54,7 +54,7 @@ fn a_plate_of_any_size_returns_the_half_space_s_total() {
 /// Two texels of one face are parallelograms of sides e and f, k e + l f apart. The points of both are
 /// `(k + u) e + (l + v) f` apart with u and v from -1 to 1 by the densities 1 - |u| and 1 - |v|: equation 10 as an
 /// integral over two numbers, by panels that narrow towards where the points meet.
-fn parallelograms(dipole: &Dipole, [e, f]: [DVec3; 2], [k, l]: [f64; 2]) -> f64 {
+pub(super) fn parallelograms(dipole: &Dipole, [e, f]: [DVec3; 2], [k, l]: [f64; 2]) -> f64 {
     let panels = |middle: f64, side: DVec3| {
         let mut edges = vec![middle - 1.0, middle, middle + 1.0, 0.0];
         let mut at = 0.25 * dipole.z_r() / side.length();

@@ -78,10 +78,17 @@ fn factors_agree_with_contour_integrals() {
 
 /// Mean over texel i of contour integrals over texel j, by bisection along the texel and across it, to about 1e-3 of an
 /// estimate.
-fn mean_of_contours(atlas: &Atlas, dipole: &Dipole, [i, j]: [u32; 2], estimate: f64) -> f64 {
+pub(super) fn mean_of_contours(
+    atlas: &Atlas,
+    mm_per_unit: f64,
+    dipole: &Dipole,
+    [i, j]: [u32; 2],
+    estimate: f64,
+) -> f64 {
     let polygons = |texel: u32| {
         let part = atlas.part(texel);
-        part.polygons().map(<[DVec3]>::to_vec).collect::<Vec<_>>()
+        let in_mm = |ring: &[DVec3]| ring.iter().map(|corner| mm_per_unit * *corner).collect::<Vec<_>>();
+        part.polygons().map(in_mm).collect::<Vec<_>>()
     };
     let (own, other) = (polygons(i), polygons(j));
     let (mut sum, mut area) = (0.0, 0.0);
@@ -154,7 +161,7 @@ fn slivers_keep_the_tolerance() {
             let factors = Factors::new(&surface, [dipole], 0.01).expect("a tolerance");
             for j in (0..16).step_by(by_form(8, 1)) {
                 let [found] = factors.factor([1, 1], ClusterId { level: 0, y: j / 4, x: j % 4 });
-                let exact = mean_of_contours(&atlas, &dipole, [5, j], found + 1e-5 * dipole.total());
+                let exact = mean_of_contours(&atlas, 1.0, &dipole, [5, j], found + 1e-5 * dipole.total());
                 let allowed = 0.01 * (exact + 1e-5 * dipole.total());
                 assert!((found - exact).abs() <= allowed, "{length} x 1, {j}: {found} for {exact}, {dipole:?}");
             }

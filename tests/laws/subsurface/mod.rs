@@ -5,6 +5,7 @@ mod links_blocks;
 mod links_bound;
 mod links_choice;
 mod links_factors;
+mod links_long;
 mod links_models;
 mod on_card;
 mod on_card_views;

@@ -54,8 +54,8 @@ fn hold(path: &str, expected: &str) {
     assert!(found == expected, "{path} is out of date: INSTA_UPDATE=always cargo test --test papers writes it");
 }
 
-/// The text with what stands between `<!-- reproduce: NAME -->` and `<!-- /reproduce -->` replaced by what `of` says, if
-/// it says something.
+/// The text with what stands between `<!-- reproduce: NAME -->` and `<!-- /reproduce -->` replaced by what `of` says,
+/// where it says something.
 fn filled(text: &str, of: impl Fn(&str) -> Option<String>) -> String {
     const END: &str = "<!-- /reproduce -->";
     let mut parts = text.split("<!-- reproduce: ");

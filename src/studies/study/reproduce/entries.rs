@@ -180,8 +180,8 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         .sized(&[Flat(Chair)], bi_scale::full_size),
 ];
 
-/// Returns the entries with these names, or of the papers with these names, in the order of [`ENTRIES`]; all entries for
-/// no names.
+/// Returns the entries with these names, and those of papers with these names, in the order of [`ENTRIES`]; all entries
+/// for no names.
 ///
 /// # Errors
 /// If neither a paper nor an entry has a name.

@@ -46,7 +46,8 @@ pub struct SubsurfaceOptions {
     #[arg(long = "map", value_name = "F", value_parser = maps())]
     pub maps: Vec<MapBits>,
 
-    /// The largest relative error of factors.
+    /// Largest relative error of factors, beside 1e-5 of the total; of the total between texels so long that less light
+    /// leaves them
     #[arg(long, value_name = "X", default_value_t = crate::subsurface::factor::TOLERANCE, value_parser = number::positive)]
     pub tolerance: f64,
 

@@ -9,8 +9,12 @@ use crate::subsurface::Dipole;
 
 /// Factors of N channels between the texels and clusters of a surface.
 ///
-/// The error of a factor is at most the tolerance times the factor, plus the tolerance times 1e-5 of the light that
-/// the plane would return: what is farther away than light of that order comes from is not divided.
+/// The error of a factor is at most the tolerance times the factor, plus the tolerance times 1e-5 of the plane's total
+/// ([`Dipole::total`]): what is farther away than light of that order comes from is not divided.
+///
+/// Between two texels that keep their light the error is at most the tolerance times the total. A texel keeps its light
+/// if what leaves it, to first order its outline times the mean exit distance over pi times its area, is at most the
+/// tolerance times the total. Texels whose outlines exceed 20,000 mean free paths count as such, too.
 #[derive(Clone, Debug)]
 pub struct Factors<'a, const N: usize> {
     surface: &'a SurfaceMoments,
@@ -57,7 +61,7 @@ impl<'a, const N: usize> Factors<'a, N> {
 #[derive(Clone, Debug)]
 pub struct Receiver<'a, const N: usize> {
     factors: &'a Factors<'a, N>,
-    cache: PieceCache,
+    cache: PieceCache<N>,
 }
 
 impl<'a, const N: usize> Receiver<'a, N> {

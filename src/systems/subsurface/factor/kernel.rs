@@ -9,15 +9,20 @@
 
 use std::f64::consts::PI;
 
+use glam::DVec3;
+
 use super::expansion::{Expansion, Taylor};
 use super::moments::{BALL, Covariance, Moments};
 use crate::elementary::{cbrt, exp};
+use crate::quadrature::graded_integral;
 use crate::subsurface::Dipole;
 
 /// The largest relative error of the table where light still matters, see [`DistanceTable::interpolation_error`].
 const MAX_INTERPOLATION_ERROR: f64 = 1e-6;
 /// Beyond this many diffusion lengths the relative error is not asked for: e^-25 is 1e-11.
 const MATTERS: f64 = 25.0;
+/// Intervals of the integral over exit distances: the first ends at 2^-59 of the diameter.
+const PANELS: u32 = 60;
 /// Intervals per octave of 1 + (r / z)^2: 2^5 to 2^9.
 const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
 /// The logarithmic derivative of R_d is at most this over d, plus sigma_tr.
@@ -28,9 +33,9 @@ const FAR: f64 = 0.5;
 /// By how much the squared size of a group of receivers counts more: a receiver at its rim, where terms of third
 /// order do not cancel, is to keep the tolerance too. Measured, see tests/laws/subsurface/links_blocks.rs.
 pub(super) const SPREAD: f64 = 6.0;
-/// The sum of both squared sizes, in squared mean free paths, beyond which dividing texels is of no use: texels of
-/// about 10 mean free paths.
-const HOPELESS: f64 = 30.0;
+/// By how much the squared sizes of pieces may exceed this that are not divided any more, or of which a pair of texels
+/// has many, whose errors have no common sign. Measured, see tests/laws/subsurface/links_long.rs.
+const LOOSE: f64 = 2.0;
 /// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
 /// total over the plane.
 pub(super) const FLOOR: f64 = 1e-5;
@@ -46,8 +51,9 @@ pub(super) struct DistanceTable<const N: usize> {
     shift: u32,
     intervals: Vec<Interval<N>>,
     interpolation_error: f64,
-    /// Excess over their reach that pieces may have that are not divided any more: up to that of a tolerance of 1 %.
-    slack: f64,
+    tolerance: f64,
+    /// Per channel, the mean distance at which light leaves, in mm, within the surface's diameter.
+    exit: [f64; N],
 }
 
 /// One interval of v = 1 + r^2 / unit.
@@ -55,6 +61,8 @@ pub(super) struct DistanceTable<const N: usize> {
 struct Interval<const N: usize> {
     /// Per channel, coefficients of powers of v less the interval's left end.
     cubic: [[f64; 4]; N],
+    /// Per channel, the integral of R_d over the disc whose radius belongs to the left end.
+    disc: [f64; N],
     /// Per channel, pieces whose squared sizes sum to at most this are far.
     reach: [f64; N],
     /// Per channel, pieces whose squared sizes sum to at most this are negligible. Channels are judged one by one: one
@@ -81,7 +89,8 @@ impl<const N: usize> DistanceTable<N> {
             shift: 0,
             intervals: Vec::new(),
             interpolation_error: f64::INFINITY,
-            slack: 1.0,
+            tolerance,
+            exit: dipoles.map(|dipole| graded_integral(diameter, PANELS, |r| dipole.beyond(r)) / dipole.total()),
         };
         let end = 1.0 + diameter * diameter / unit;
         for bits in RESOLUTION {
@@ -103,12 +112,13 @@ impl<const N: usize> DistanceTable<N> {
         self.shift = shift;
         self.intervals.clear();
         self.interpolation_error = 0.0;
+        let mut disc = [0.0; N];
         let mut left = self.dipoles.map(|dipole| derivatives(&dipole, self.unit, 1.0));
         loop {
             let [from, to] = [self.left_end(self.intervals.len()), self.left_end(self.intervals.len() + 1)];
             let right = self.dipoles.map(|dipole| derivatives(&dipole, self.unit, to));
             let width = to - from;
-            let mut interval = Interval { cubic: [[0.0; 4]; N], reach: [0.0; N], negligible: [0.0; N] };
+            let mut interval = Interval { cubic: [[0.0; 4]; N], disc, reach: [0.0; N], negligible: [0.0; N] };
             for (channel, cubic) in interval.cubic.iter_mut().enumerate() {
                 let (l, r) = (&left[channel], &right[channel]);
                 let slope = (r.value - l.value) / width;
@@ -121,6 +131,8 @@ impl<const N: usize> DistanceTable<N> {
                     self.interpolation_error = self.interpolation_error.max(bound);
                 }
             }
+            let ring = |channel: usize| PI * self.unit * primitive_at(interval.cubic[channel], width);
+            disc = std::array::from_fn(|channel| disc[channel] + ring(channel));
             self.intervals.push(interval);
             if to > end {
                 return;
@@ -133,7 +145,6 @@ impl<const N: usize> DistanceTable<N> {
     fn set_reaches(&mut self, area: f64, tolerance: f64) {
         // What the second order leaves out grows with the third power of the size.
         let far = FAR * cbrt(tolerance / 0.01);
-        self.slack = (FAR / far * (FAR / far)).max(1.0);
         let left_ends: Vec<f64> = (0..self.intervals.len()).map(|k| self.left_end(k)).collect();
         let distance = |k: usize| ((left_ends[k] - 1.0) * self.unit).sqrt();
         for (channel, dipole) in self.dipoles.iter().enumerate() {
@@ -178,31 +189,48 @@ impl<const N: usize> DistanceTable<N> {
     /// g + g' trace(C) + 2 g'' x^T C x.
     #[inline]
     pub(super) fn mean(&self, one: &Moments, other: &Moments) -> Option<[f64; N]> {
-        self.mean_within(one, other, 1.0)
-    }
-
-    /// The same for pieces that are not divided any more.
-    pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> Option<[f64; N]> {
-        self.mean_within(one, other, self.slack)
-    }
-
-    #[inline]
-    fn mean_within(&self, one: &Moments, other: &Moments, slack: f64) -> Option<[f64; N]> {
         let apart = other.point - one.point;
-        let squared = apart.length_squared();
-        let (interval, t) = self.find(squared);
+        let (interval, t) = self.find(apart.length_squared());
         let size_squared = one.size_squared + other.size_squared;
-        let is_far = |channel: usize| size_squared <= slack * interval.reach[channel];
-        let fits = |channel: usize| is_far(channel) || size_squared <= interval.negligible[channel];
+        let fits = |channel: usize| size_squared <= interval.reach[channel].max(interval.negligible[channel]);
         (0..N).all(fits).then(|| {
-            let covariance = one.covariance.plus(&other.covariance);
-            let across = covariance.trace() * self.per_unit;
-            let along = 2.0 * covariance.along(apart) * self.per_unit * self.per_unit;
+            let [across, along] = self.spread(one, other, apart);
             std::array::from_fn(|channel| {
                 let [value, first, second] = derivatives_at(interval.cubic[channel], t);
-                if is_far(channel) { value + first * across + second * along } else { value }
+                let is_far = size_squared <= interval.reach[channel];
+                if is_far { value + first * across + second * along } else { value }
             })
         })
+    }
+
+    /// The same for each of the open channels, for pieces of which a pair of texels has many.
+    #[inline]
+    pub(super) fn means(&self, one: &Moments, other: &Moments, open: [bool; N]) -> [Option<f64>; N] {
+        let apart = other.point - one.point;
+        let (interval, t) = self.find(apart.length_squared());
+        let size_squared = one.size_squared + other.size_squared;
+        let [across, along] = self.spread(one, other, apart);
+        std::array::from_fn(|channel| {
+            let is_far = size_squared <= LOOSE * interval.reach[channel];
+            (open[channel] && (is_far || size_squared <= interval.negligible[channel])).then(|| {
+                let [value, first, second] = derivatives_at(interval.cubic[channel], t);
+                if is_far { value + first * across + second * along } else { value }
+            })
+        })
+    }
+
+    /// The same for pieces that are not divided any more; R_d between mean points if they are much too near.
+    pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> [f64; N] {
+        let between = self.at(one.point.distance_squared(other.point));
+        let means = self.means(one, other, [true; N]);
+        std::array::from_fn(|channel| means[channel].unwrap_or(between[channel]))
+    }
+
+    /// What the first and second derivatives by v count with in a mean.
+    #[inline]
+    fn spread(&self, one: &Moments, other: &Moments, apart: DVec3) -> [f64; 2] {
+        let covariance = one.covariance.plus(&other.covariance);
+        [covariance.trace() * self.per_unit, 2.0 * covariance.along(apart) * self.per_unit * self.per_unit]
     }
 
     /// Light that receivers in a group of given moments get of a cluster: R_d times its area, by their offset from
@@ -234,23 +262,30 @@ impl<const N: usize> DistanceTable<N> {
         })
     }
 
-    /// The mean of R_d over a disc of an area, from its center.
-    pub(super) fn disc(&self, area: f64) -> [f64; N] {
-        let radius = (area / PI).sqrt();
-        std::array::from_fn(|channel| {
-            if area > 0.0 { self.dipoles[channel].disc(radius) / area } else { self.dipoles[channel].r_d(0.0) }
-        })
+    /// The integral of the tabulated R_d over a disc, by its squared radius.
+    pub(super) fn disc(&self, squared: f64) -> [f64; N] {
+        let (interval, t) = self.find(squared);
+        let ring = |channel: usize| PI * self.unit * primitive_at(interval.cubic[channel], t);
+        std::array::from_fn(|channel| interval.disc[channel] + ring(channel))
     }
 
-    /// Returns `true` if texels whose squared sizes have this sum exceed the mean free path so far that nearly all
-    /// light stays in its texel.
-    pub(super) fn is_hopeless(&self, size_squared: f64) -> bool {
-        size_squared > HOPELESS * self.unit
+    /// The least depth of a source: the shortest mean free path, in mm.
+    pub(super) fn depth(&self) -> f64 {
+        self.unit.sqrt()
     }
 
-    /// Pieces whose squared sizes sum to at most this are far at any distance.
-    pub(super) fn nearest_reach(&self) -> f64 {
-        self.intervals[0].reach.into_iter().fold(f64::INFINITY, f64::min)
+    pub(super) fn dipoles(&self) -> &[Dipole; N] {
+        &self.dipoles
+    }
+
+    pub(super) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Returns `true` if the light that leaves a flat part, of an outline in mm and an area in mm^2, is at most the
+    /// tolerance times the total: to first order, the outline times the mean exit distance over pi times the area.
+    pub(super) fn keeps_light(&self, outline: f64, area: f64) -> bool {
+        self.exit.iter().all(|exit| outline * exit <= self.tolerance * PI * area)
     }
 
     /// How many times two pieces are to be halved until their parts are far from each other.
@@ -271,6 +306,11 @@ impl<const N: usize> DistanceTable<N> {
 /// A cubic polynomial, its derivative and its second derivative at t.
 fn derivatives_at([c0, c1, c2, c3]: [f64; 4], t: f64) -> [f64; 3] {
     [c0 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2.0 * c2 + 3.0 * t * c3), 2.0 * c2 + 6.0 * t * c3]
+}
+
+/// The integral of a cubic polynomial from 0 to t.
+fn primitive_at([c0, c1, c2, c3]: [f64; 4], t: f64) -> f64 {
+    t * (c0 + t * (c1 / 2.0 + t * (c2 / 3.0 + t * (c3 / 4.0))))
 }
 
 /// Adds terms channel by channel.

@@ -13,9 +13,9 @@ mod expansion;
 mod face_map;
 mod integrate;
 mod kernel;
+mod long;
 mod moments;
 mod near;
-mod sliver;
 mod surface;
 
 pub(super) use block::{BLOCK_LEVEL, BlockReceiver, TexelFactors};

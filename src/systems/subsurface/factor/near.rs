@@ -1,22 +1,29 @@
-//! Factors of near texels: both parts are divided until their pieces are far.
+//! Factors of near texels: both parts are divided into quarters until their pieces are far; long ones are cut by
+//! [`super::long`].
+
+use std::collections::BTreeMap;
 
 use glam::DVec3;
 
 use super::face_map::{FaceMap, Window};
 use super::kernel::{DistanceTable, add};
+use super::long::long_mean;
 use super::moments::Moments;
-use super::sliver::{is_sliver, sliver_mean};
 use super::surface::SurfaceMoments;
 
-/// Texels are halved at most this often along a side.
+/// Texels are halved at most this often along a side; those that need more are long.
 const MAX_HALVINGS: u32 = 4;
 /// Texels whose pieces are kept; a power of two.
 const SLOTS: usize = 4096;
 
-/// Pieces of texels that were near lately.
+/// Means of long pairs that are kept.
+const LONG_PAIRS: usize = 1 << 16;
+
+/// Pieces of texels that were near lately, and means of long pairs, which both texels ask for.
 #[derive(Clone, Debug)]
-pub(super) struct PieceCache {
+pub(super) struct PieceCache<const N: usize> {
     slots: Vec<TexelPieces>,
+    long: BTreeMap<[usize; 2], [f64; N]>,
 }
 
 /// The pieces of one texel: 4^k of them after k halvings, those of a piece together.
@@ -29,9 +36,9 @@ struct TexelPieces {
 /// No texel has this index.
 const NONE: usize = usize::MAX;
 
-impl PieceCache {
+impl<const N: usize> PieceCache<N> {
     pub(super) fn new() -> Self {
-        Self { slots: vec![TexelPieces { texel: NONE, halvings: Vec::new() }; SLOTS] }
+        Self { slots: vec![TexelPieces { texel: NONE, halvings: Vec::new() }; SLOTS], long: BTreeMap::new() }
     }
 
     /// Makes sure that the pieces of a texel are there. Returns their slot.
@@ -42,6 +49,13 @@ impl PieceCache {
             kept.fill(surface, texel, halvings);
         }
         slot
+    }
+
+    fn long_mean(&mut self, surface: &SurfaceMoments, kernel: &DistanceTable<N>, pair: [usize; 2]) -> [f64; N] {
+        if self.long.len() == LONG_PAIRS {
+            self.long.clear();
+        }
+        *self.long.entry(pair).or_insert_with(|| long_mean(surface, kernel, pair))
     }
 }
 
@@ -80,7 +94,6 @@ struct Pair<'a, const N: usize> {
     from: &'a [Vec<Moments>],
     to: &'a [Vec<Moments>],
     halvings: usize,
-    is_same: bool,
 }
 
 /// The mean of R_d over the pairs of points of two texels' parts, by Morton index. The same bits in either order.
@@ -88,22 +101,19 @@ pub(super) fn texel_mean<const N: usize>(
     surface: &SurfaceMoments,
     kernel: &DistanceTable<N>,
     [one, other]: [usize; 2],
-    cache: &mut PieceCache,
+    cache: &mut PieceCache<N>,
 ) -> [f64; N] {
     let [from, to] = [one.min(other), one.max(other)];
     let [p, q] = [from, to].map(|texel| &surface.level(0)[texel]);
-    let most = if kernel.is_hopeless(p.size_squared + q.size_squared) { 2 } else { MAX_HALVINGS };
-    let halvings = kernel.halvings(p, q);
-    if halvings > most
-        && (is_sliver(p) || is_sliver(q))
-        && let Some(mean) = sliver_mean(surface, kernel, [from, to])
-    {
-        return mean;
+    let mut halvings = kernel.halvings(p, q);
+    if halvings > MAX_HALVINGS {
+        if p.area > 0.0 && q.area > 0.0 {
+            return cache.long_mean(surface, kernel, [from, to]);
+        }
+        halvings = MAX_HALVINGS;
     }
-    let halvings = halvings.min(most);
-    let is_same = from == to;
     let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
-    let displaced = if slots[0] == slots[1] && !is_same {
+    let displaced = if slots[0] == slots[1] && from != to {
         // Both have the same slot, which holds the second one's pieces now.
         let mut pieces = TexelPieces { texel: NONE, halvings: Vec::new() };
         pieces.fill(surface, from, halvings);
@@ -112,7 +122,7 @@ pub(super) fn texel_mean<const N: usize>(
         None
     };
     let from = &displaced.as_ref().unwrap_or(&cache.slots[slots[0]]).halvings;
-    Pair { kernel, from, to: &cache.slots[slots[1]].halvings, halvings: halvings as usize, is_same }
+    Pair { kernel, from, to: &cache.slots[slots[1]].halvings, halvings: halvings as usize }
         .mean(Piece::WHOLE, Piece::WHOLE)
 }
 
@@ -126,7 +136,7 @@ impl<const N: usize> Pair<'_, N> {
         // The larger one is divided.
         let [from_last, to_last] = [from, to].map(|piece| piece.halvings == self.halvings);
         if from_last && to_last {
-            return self.mean_of_last(from, to);
+            return self.kernel.mean_of_last(p, q);
         }
         let mut sum = [0.0; N];
         if to_last || (!from_last && p.size_squared >= q.size_squared) {
@@ -135,17 +145,6 @@ impl<const N: usize> Pair<'_, N> {
             to.quarters().for_each(|quarter| add(&mut sum, &self.mean(from, quarter)));
         }
         sum.map(|sum| 0.25 * sum)
-    }
-
-    /// The mean over two pieces that are not divided any more. Light that does not leave a piece is that within a
-    /// disc of its area; what does comes from its middle. So light that one piece loses by this the next one gets.
-    fn mean_of_last(&self, from: Piece, to: Piece) -> [f64; N] {
-        let (p, q) = (&self.from[from.halvings][from.index], &self.to[to.halvings][to.index]);
-        match self.kernel.mean_of_last(p, q) {
-            Some(mean) => mean,
-            None if self.is_same && from == to => self.kernel.disc(p.area),
-            None => self.kernel.at(p.point.distance_squared(q.point)),
-        }
     }
 }
 

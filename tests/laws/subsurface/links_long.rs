@@ -1,0 +1,198 @@
+//! Factors and links of texels that are long against the mean free path, against integrals of equation 10 that have no
+//! pieces.
+
+use crate::environment::by_form;
+use crossbar::atlas::Atlas;
+use crossbar::geom::Mesh;
+use crossbar::subsurface::factor::{ClusterId, Factors};
+use crossbar::subsurface::links::{IrradianceMeans, LinkChoice, Links, MeanWeighting};
+use crossbar::subsurface::{Coefficients, Dipole, Reference};
+use glam::DVec3;
+
+use super::all_pairs::parallelograms;
+use super::links_factors::mean_of_contours;
+use super::links_models::{atlas, medium, root, surface};
+
+const TOLERANCE: f64 = 0.01;
+
+fn marble() -> Dipole {
+    Dipole::new(Coefficients { sigma_s_prime: 2.62, sigma_a: 0.0041 }, 1.5).expect("a medium")
+}
+
+fn media() -> [Dipole; 3] {
+    [marble(), medium(1.0, 0.0), medium(0.68, 0.9)]
+}
+
+/// Rectangles of sides `length` and `width`, and of the same length but the other width, which meet in an edge at an
+/// angle; at 180 degrees one lies in the plane of the other.
+fn folded([length, width, other]: [f32; 3], degrees: f32) -> Mesh {
+    let [cosine, sine] = crossbar::elementary::on_circle(f64::from(degrees) / 360.0).map(|value| value as f32);
+    let [y, z] = [-cosine * other, sine * other];
+    let corners = [[0.0, -width, 0.0], [0.0, 0.0, 0.0], [0.0, y, z]];
+    let positions = corners.iter().flat_map(|&[_, y, z]| [[0.0, y, z], [length, y, z]]).collect();
+    Mesh::new(positions, vec![[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]]).expect("a mesh")
+}
+
+/// A plate of four corners.
+fn plate(length: f32, width: f32) -> Mesh {
+    let corners = vec![[0.0, 0.0, 0.0], [length, 0.0, 0.0], [length, width, 0.0], [0.0, width, 0.0]];
+    Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh")
+}
+
+fn cuboid([x, y, z]: [f32; 3]) -> Mesh {
+    let corner = |k: u8| [x * f32::from(k & 1), y * f32::from(k >> 1 & 1), z * f32::from(k >> 2)];
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    Mesh::new((0..8).map(corner).collect(), triangles).expect("a mesh")
+}
+
+/// The corners of a texel, in mm.
+fn corners(atlas: &Atlas, mm_per_unit: f64, texel: u32) -> Vec<Vec<DVec3>> {
+    let in_mm = |ring: &[DVec3]| ring.iter().map(|corner| mm_per_unit * *corner).collect();
+    atlas.part(texel).polygons().map(in_mm).collect()
+}
+
+/// What the error of a factor may be: of texels that keep all their light but the tolerance, the tolerance times all.
+fn allowed(dipole: &Dipole, exact: f64, rings: [&[Vec<DVec3>]; 2]) -> f64 {
+    // The mean exit distance in the plane, out to more than any model's size.
+    let exit = crossbar::quadrature::graded_integral(1e4, 60, |r| dipole.beyond(r)) / dipole.total();
+    let loses = |rings: &&[Vec<DVec3>]| {
+        let sides = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let outline: f64 = sides.map(|(a, b)| a.distance(*b)).sum();
+        let area = |ring: &Vec<DVec3>| -> f64 {
+            let fan = ring.windows(2).map(|side| (side[0] - ring[0]).cross(side[1] - ring[0])).sum::<DVec3>();
+            0.5 * fan.length()
+        };
+        outline * exit / std::f64::consts::PI / rings.iter().map(area).sum::<f64>()
+    };
+    let keep = rings.iter().all(|rings| loses(rings) <= TOLERANCE);
+    TOLERANCE * if keep { dipole.total() } else { exact + 1e-5 * dipole.total() }
+}
+
+/// Texels of one face, against the integral over two numbers. Lengths are those of a texel's longer side, in mean free
+/// paths.
+#[test]
+fn long_texels_of_a_face_have_equation_10() {
+    const SIDE: u32 = 8;
+    let mut worst: f64 = 0.0;
+    for aspect in [1.0, 2.0, 4.0, 9.0, 30.0] {
+        let atlas = atlas(&plate(aspect, 1.0), SIDE);
+        let face = |texel: u32| atlas.texels()[texel as usize].face;
+        let whole = |texel: u32| {
+            let rings = corners(&atlas, 1.0, texel);
+            rings.len() == 1 && rings[0].len() == 4
+        };
+        let alike = |i: u32, j: u32| whole(j) && face(j) == face(i);
+        let i = (0..SIDE * SIDE - SIDE - 1).find(|&i| [0, 1, SIDE, SIDE + 1].iter().all(|step| alike(i, i + step)));
+        let i = i.expect("four parallelograms");
+        let ring = &corners(&atlas, 1.0, i)[0];
+        let sides = [ring[1] - ring[0], ring[2] - ring[1]];
+        let [e, f] = sides;
+        let longer = e.length().max(f.length());
+        for dipole in media().into_iter().take(by_form(1, 3)) {
+            for length in [3.0, 10.0, 30.0, 100.0, 1000.0] {
+                let mm_per_unit = length * dipole.mean_free_path() / longer;
+                let surface = surface(&atlas, mm_per_unit);
+                let factors = Factors::new(&surface, [dipole], TOLERANCE).expect("a tolerance");
+                let mut receiver = factors.receiver();
+                for j in [i, i + 1, i + SIDE, i + SIDE + 1] {
+                    let offset = atlas.texels()[j as usize].point - atlas.texels()[i as usize].point;
+                    let over = e.cross(f).z;
+                    let apart = [offset.cross(f).z / over, e.cross(offset).z / over];
+                    let exact = parallelograms(&dipole, sides.map(|side| mm_per_unit * side), apart);
+                    let [found] =
+                        receiver.factor([i % SIDE, i / SIDE], ClusterId { level: 0, y: j / SIDE, x: j % SIDE });
+                    let rings = [i, j].map(|texel| corners(&atlas, mm_per_unit, texel));
+                    let allowed = allowed(&dipole, exact, rings.each_ref().map(Vec::as_slice));
+                    assert!((found - exact).abs() <= allowed, "{aspect} : 1, {length}, {}: {found} for {exact}", j - i);
+                    worst = worst.max((found - exact).abs() / allowed);
+                }
+            }
+        }
+    }
+    assert!(worst > 1e-3, "{worst} leaves nothing to test");
+}
+
+/// Texels on both sides of an edge, of the same length and of others, by exact integrals over one from points of the
+/// other. Lengths are those of the edge, in mean free paths.
+#[test]
+fn long_texels_across_an_edge_have_equation_10() {
+    let folds = [(180.0, 1.0), (30.0, 1.0), (90.0, 2.0), (90.0, 9.0), (120.0, 4.0), (60.0, 30.0)];
+    for (degrees, aspect) in folds.into_iter().step_by(by_form(3, 1)) {
+        let atlas = atlas(&folded([1.0, 1.0 / aspect, 0.5 / aspect], degrees), 2);
+        for dipole in media().into_iter().take(by_form(1, 3)) {
+            for length in [3.0, 30.0, 10.0, 100.0, 1000.0].into_iter().take(by_form(2, 5)) {
+                let mm_per_unit = length * dipole.mean_free_path();
+                let surface = surface(&atlas, mm_per_unit);
+                let factors = Factors::new(&surface, [dipole], TOLERANCE).expect("a tolerance");
+                for (i, j) in (0..4).map(|j| (1, j)) {
+                    let [found] = factors.factor([i % 2, i / 2], ClusterId { level: 0, y: j / 2, x: j % 2 });
+                    let exact = mean_of_contours(&atlas, mm_per_unit, &dipole, [i, j], found + 1e-5 * dipole.total());
+                    let rings = [i, j].map(|texel| corners(&atlas, mm_per_unit, texel));
+                    let allowed = allowed(&dipole, exact, rings.each_ref().map(Vec::as_slice));
+                    assert!(
+                        (found - exact).abs() <= allowed,
+                        "{degrees} degrees, {aspect} : 1, {length}, {i} to {j}: {found} for {exact}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Links of models of long texels under uniform light, against all pairs of texels.
+#[test]
+fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
+    let adaptive = LinkChoice::Adaptive { count: 64 };
+    let models = [
+        ("300 x 40 mm", plate(300.0, 40.0), 16, adaptive),
+        ("40 x 40 mm", plate(40.0, 40.0), 4, adaptive),
+        ("700 x 2 mm", plate(700.0, 2.0), 16, adaptive),
+        ("a cube of 300 mm", cuboid([300.0; 3]), 16, LinkChoice::Fixed { level: 2 }),
+    ];
+    for (name, mesh, side, choice) in models {
+        let atlas = atlas(&mesh, side);
+        let surface = surface(&atlas, 1.0);
+        let texels = (side * side) as usize;
+        let links = Links::new(&surface, &[marble()], choice, TOLERANCE, &|_, _| ()).expect("links");
+        let ones = IrradianceMeans::new(&surface, &vec![[1.0; 3]; texels], MeanWeighting::Area).expect("one per texel");
+        let reference = Reference::new(&atlas, 1.0, &marble()).expect("a scale");
+        let rows = 0..by_form(2, side as usize);
+        let exact = reference.radiosity_of_rows(&vec![1.0; texels], rows, &mut |_, _| ()).expect("one per texel");
+        for (texel, (found, exact)) in links.gather(&ones).iter().zip(&exact).enumerate() {
+            let [found, ..] = found;
+            assert!((found / exact - 1.0).abs() <= TOLERANCE, "{name}, texel {texel}: {found}, of all pairs {exact}");
+        }
+    }
+}
+
+/// Both sides of a thin sheet: far from its rim a texel gets what the plane returns from its own side, and from the
+/// other one what lies beyond a disc whose radius is the sheet's thickness.
+#[test]
+fn a_thin_sheet_has_light_from_both_sides() {
+    for ([length, width], media) in [([1e5, 8e4], &media()[..]), ([300.0, 240.0], &media()[..1])] {
+        for height in [0.1, 1.0] {
+            let atlas = atlas(&cuboid([length, width, height]), 16);
+            let surface = surface(&atlas, 1.0);
+            let is_inside = |point: DVec3| {
+                let from_rim = |at: f64, side: f32| at.min(f64::from(side) - at) / f64::from(side);
+                from_rim(point.x, length).min(from_rim(point.y, width)) > 0.3
+            };
+            let inside = (0..256).filter(|&texel: &u32| is_inside(atlas.texels()[texel as usize].point));
+            let inside: Vec<u32> = inside.step_by(by_form(7, 3)).collect();
+            assert!(inside.len() > 1, "no texels");
+            for dipole in media {
+                let factors = Factors::new(&surface, [*dipole], TOLERANCE).expect("a tolerance");
+                let mut receiver = factors.receiver();
+                let exact = dipole.total() + dipole.beyond(f64::from(height));
+                for texel in &inside {
+                    let [found] = receiver.factor([texel % 16, texel / 16], root(&surface));
+                    assert!(
+                        (found / exact - 1.0).abs() <= TOLERANCE,
+                        "{length}, {height}, {texel}: {found}, not {exact}"
+                    );
+                }
+            }
+        }
+    }
+}
