@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::bi_scale::texture::{HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
+use crate::bi_scale::texture::{HeightField, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
 use crate::cli::transfer::values::BrdfArg;
 use crate::cli::{Problem, given, view};
 use crate::io::{PictureFile, load_numbers};

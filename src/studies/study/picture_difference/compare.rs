@@ -113,7 +113,9 @@ impl PictureDifference {
         let perceptual = match self.perceptual(first, second) {
             // Depths and ids are compared by samples only.
             Err(error)
-                if error.error_code() == NO_COLOR && self.options.max_flip.is_none() && self.options.min_ssim.is_none() =>
+                if error.error_code() == NO_COLOR
+                    && self.options.max_flip.is_none()
+                    && self.options.min_ssim.is_none() =>
             {
                 None
             }

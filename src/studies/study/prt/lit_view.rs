@@ -76,7 +76,7 @@ impl LitView {
         original: &[[f64; 3]],
         exposure: f64,
         less: &str,
-    ) -> Result<(Vec<NamedPicture>, Vec<f64>, f64), PictureError> {
+    ) -> Result<(Vec<NamedPicture>, Vec<f64>, f64), InputError> {
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let difference: Vec<f64> = drawn.iter().zip(original).map(|(a, b)| mean(a) - mean(b)).collect();
         let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));

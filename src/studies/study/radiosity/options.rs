@@ -5,13 +5,14 @@ use std::str::FromStr;
 use super::change::Change;
 use super::method::{CardMethod, SolveMethod};
 use crate::atlas::MAX_SIDE;
+use crate::error::InputError;
 use crate::options::number;
 use crate::options::one_of::variants;
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
-use crate::radiosity::solve::{Options, Solver, UnknownSolver};
+use crate::radiosity::solve::{Options, Solver};
 use crate::scene::Color;
 use crate::study::StudyError;
 
@@ -156,7 +157,7 @@ impl FromStr for SolverChoice {
         }
         name.parse()
             .map(Self::Host)
-            .map_err(|e: UnknownSolver| e.to_string().replacen("expected ", "expected `card`, ", 1))
+            .map_err(|e: InputError| e.to_string().replacen("expected ", "expected `card`, ", 1))
     }
 }
 
