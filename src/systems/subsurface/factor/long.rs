@@ -33,7 +33,7 @@ const RATIO: f64 = 3.0;
 /// The width and the length of slivers, in mean free paths: narrower and longer than this.
 const SLIVER: [f64; 2] = [1.5, 1000.0];
 /// By how much light may differ within a piece, relative to its mean: anywhere, and at its middle.
-const MAX_DIFFERENCES: [f64; 2] = [0.6, 0.05];
+const MAX_DIFFERENCES: [f64; 2] = [0.4, 0.02];
 /// Pieces up to this size hide no light from their points, in diffusion lengths and mean free paths.
 const HIDES_NOTHING: [f64; 2] = [4.0, 300.0];
 /// Pieces smaller than this are not cut for light that differs, in mean free paths.
