@@ -40,10 +40,10 @@ impl fmt::Display for FilePlace {
 ///
 /// Two errors are equal if they are displayed alike under one code.
 #[derive(Clone)]
-pub struct InputError(Box<Parts>);
+pub struct InputError(Box<ErrorParts>);
 
 #[derive(Clone, Debug)]
-struct Parts {
+struct ErrorParts {
     code: &'static str,
     message: String,
     help: Option<String>,
@@ -63,7 +63,7 @@ impl InputError {
     /// An error with a code for programs, which is empty where the caller gives the code of its step
     /// ([`Self::coded`]). [`input_error`] formats the message.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self(Box::new(Parts { code, message: message.into(), help: None, place: None, cause: None }))
+        Self(Box::new(ErrorParts { code, message: message.into(), help: None, place: None, cause: None }))
     }
 
     /// Another error, shown as it is.

@@ -1,5 +1,6 @@
 //! The lowest rooms of Crossbar: meshes and rays, exact hits, elementary functions with the same bits everywhere, the
-//! one place that says equal, the error of every room, and the oracle for other people's hits. `crossbar` re-exports them.
+//! one place that says equal, the error of every room, and the oracle for other people's hits. `crossbar` re-exports
+//! them.
 
 pub mod compare;
 pub mod elementary;

@@ -391,8 +391,8 @@ impl Rules {
         if version.is_fragment_program() { LrpMode::TwoProducts } else { self.lrp }
     }
 
-    /// Whether MIN and MAX of a language are `a > b ? b : a` and `a > b ? a : b` in a format, of which a NaN is never the
-    /// greater (GL_ARB_fragment_program 3.11.5.16 and .17). NVIDIA's unit has a rule of its own in either language.
+    /// Whether MIN and MAX of a language are `a > b ? b : a` and `a > b ? a : b` in a format, where NaN is never the
+    /// greater one (GL_ARB_fragment_program 3.11.5.16 and .17). NVIDIA's unit has a rule of its own in either language.
     pub fn compares_in(version: Version, format: &Format) -> bool {
         version == Version::ArbFp1_0 && format.specials == Specials::Ieee
     }

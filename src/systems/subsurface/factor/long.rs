@@ -3,9 +3,9 @@
 //! - Two of these are cut in half across their longest sides until pieces are far. Texels that share an edge take a
 //!   number of pairs of pieces in proportion to the edge's length in mean free paths.
 //! - A triangle T and itself need no pieces. T and T + h have a triangle similar to T in common, of area
-//!   A (1 - g(h))^2, where g is the gauge of the difference body T - T, a hexagon. In polar coordinates of h the mean of
-//!   R_d over T x T is then `1 / A` times the integral around the hexagon, at distances rho, of
-//!   `integral of R_d(r) (1 - r / rho)^2 r dr = 1 / (pi rho) integral of G(r) (1 - r / rho) dr` from 0 to rho, by parts.
+//!   A (1 - g(h))^2, where g is the gauge of the difference body T - T, a hexagon. In polar coordinates of h the mean
+//!   of R_d over T x T is then `1 / A` times the integral around the hexagon, at distances rho, of `integral of R_d(r)
+//!   (1 - r / rho)^2 r dr = 1 / (pi rho) integral of G(r) (1 - r / rho) dr` from 0 to rho, by parts.
 //! - Long slivers would take pieces in proportion to their length, though light varies little along them: the mean
 //!   over a sliver is taken of contour integrals over the other texel, from points of pieces that are cut where these
 //!   differ. So is that over texels so vast that hardly any light leaves them.
