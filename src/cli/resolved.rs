@@ -119,8 +119,8 @@ mod tests {
             "crossbar reproduce figure-7 equation-11"
         );
         assert_eq!(
-            resolved(&["crossbar", "cpca", "error", "a.prt", "b.prt", "--json", "--csv", "c.csv"]),
-            "crossbar cpca error a.prt b.prt --csv c.csv"
+            resolved(&["crossbar", "cpca", "error", "a.npz", "b.npz", "--json", "--csv", "c.csv"]),
+            "crossbar cpca error a.npz b.npz --csv c.csv"
         );
     }
 

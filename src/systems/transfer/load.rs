@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::file::{self, MeshDigest, PrtFile, PrtFileError, PrtMeaning, parse_prt};
 use super::{Signal, SignalError};
-use crate::io::{NumbersError, ReadError, number_table, parse_single_numbers, read_limited};
+use crate::io::{NumbersError, ReadError, npz, number_table, parse_single_numbers, read_limited};
 
 /// Errors of reading a signal.
 #[non_exhaustive]
@@ -17,11 +17,11 @@ pub enum SignalFileError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Read(#[from] ReadError),
-    /// It is a `.prt` file that cannot be read.
+    /// It is a `.npz` file that cannot be read.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Prt(#[from] PrtFileError),
-    /// It is a `.prt` file of clusters alone.
+    /// It is a `.npz` file of clusters alone.
     #[error("{}: expected transfer, found clusters alone", path.display())]
     #[diagnostic(code(crossbar::signal::compressed), help("name the file that it was compressed from"))]
     NoTransfer { path: PathBuf },
@@ -35,8 +35,8 @@ pub enum SignalFileError {
     Signal { path: PathBuf, reason: SignalError },
 }
 
-/// Reads a signal from a file: the transfer of a `.prt` file, a NumPy array, or comma-separated values, recognised by
-/// the first bytes. Its numbers are f32, as in `.prt` files.
+/// Reads a signal from a file: the transfer of a `.npz` file, a NumPy array, or comma-separated values, recognised by
+/// the first bytes. Its numbers are f32, as transfer is stored.
 ///
 /// # Errors
 /// [`SignalFileError`].
@@ -53,7 +53,7 @@ pub fn load_signal_and_meaning(path: &Path) -> Result<(PrtMeaning, Option<MeshDi
     let unreadable = |source| ReadError::Unreadable { what: "signal", path: path.into(), source };
     let bytes = read_limited(path, limit).map_err(unreadable)?;
     let bytes = bytes.ok_or_else(|| ReadError::TooLong { what: "signal", path: path.into(), limit })?;
-    if bytes.starts_with(file::MAGIC) {
+    if bytes.starts_with(npz::MAGIC) {
         let PrtFile { meaning, mesh, transfer, .. } = parse_prt(&bytes, path)?;
         let signal = transfer.ok_or_else(|| SignalFileError::NoTransfer { path: path.into() })?;
         return Ok((meaning, mesh, signal));

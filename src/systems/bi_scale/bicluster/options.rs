@@ -32,8 +32,8 @@ pub enum BiclusterError {
          biclusters are of no matrix"
     )]
     Sum { row: u32, column: u32, holds: &'static str },
-    /// More distinct residuals than 31 bits can name.
-    #[error("expected at most {} distinct residuals, found more", i32::MAX)]
+    /// More distinct residuals than 31 bits can name, or one beyond the range of f64.
+    #[error("expected at most {} distinct residuals, all of them finite, found others", i32::MAX)]
     Residuals,
     /// More non-zeros than 32 bits can count.
     #[error("expected at most {} non-zeros, found {found}", u32::MAX)]

@@ -42,10 +42,11 @@ pub fn bicluster(
             return Ok(biclustering);
         }
     }
-    let (numbers, entries, begins) = KnownNumbers::new(matrix, options.drop);
+    let known = KnownNumbers::new(matrix, options.drop);
+    let (numbers, entries, begins) = known.ok_or(BiclusterError::Residuals)?;
     let mut search = Search::new((Lines::new(entries, begins), matrix.columns()), numbers, options);
     let biclustering = search.run(matrix, found).ok_or(BiclusterError::Residuals)?;
-    Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.exact(integer)))
+    Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.number(integer)))
 }
 
 /// State of the lines of one direction: rows or columns.
