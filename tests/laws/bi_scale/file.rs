@@ -92,7 +92,7 @@ fn values_have_types() {
         let data = members(&bytes(file)).into_iter().find(|(name, _)| name == "data.npy").expect("values").1;
         String::from_utf8_lossy(&data[21..24]).into_owned()
     };
-    assert_eq!(all_widths().each_ref().map(type_of), ["|i1", "<i2", "<i4"]);
+    assert_eq!(all_widths().each_ref().map(type_of), ["|i1", "<u2", "<i4"]);
     assert_eq!(tables().each_ref().map(type_of), ["<f8", "<f8", "<i4"]);
     let example = std::fs::read("docs/examples/court_biclusters.npz").expect("an example");
     let file = parsed(&example).expect("a file");
