@@ -10,7 +10,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar cpca precompute docs/examples/step.obj --part 1/2 --out step_1.part
       the first half of the work of a command; `--part 2/2` is the other, on another machine perhaps
-  crossbar merge step_1.part step_2.part --out step.prt
+  crossbar merge step_1.part step_2.part --out step.npz
       both, in any order: the file that one run of the command writes
 
 The parts hold their command, which is obeyed with their results in the place of its own work: what comes out is that of \

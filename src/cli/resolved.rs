@@ -135,8 +135,8 @@ mod tests {
         let again = shlex::split(&line).expect("a line that a shell reads");
         assert!(quoted.iter().all(|word| again.iter().any(|found| found == word)), "{line}");
         assert_eq!(
-            resolved(&["crossbar", "cpca", "error", "a.prt", "b.prt", "--json", "--csv", "c.csv"]),
-            "crossbar cpca error a.prt b.prt --csv c.csv"
+            resolved(&["crossbar", "cpca", "error", "a.npz", "b.npz", "--json", "--csv", "c.csv"]),
+            "crossbar cpca error a.npz b.npz --csv c.csv"
         );
     }
 

@@ -11,13 +11,13 @@ use crate::answers::{document_of as document, number, place, refused_line};
 use crate::crossbar;
 
 const STEP: &str = "docs/examples/step.obj";
-const SIGHT: &str = "docs/examples/step_all.prt";
-const CODED: &str = "docs/examples/step_all_small.prt";
+const SIGHT: &str = "docs/examples/step_all.npz";
+const CODED: &str = "docs/examples/step_all_small.npz";
 
 #[test]
 fn the_examples_are_made_by_the_commands() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let out = place(folder.path(), "out.prt");
+    let out = place(folder.path(), "out.npz");
     for threads in [1, 3] {
         let made = document(&format!("all-frequency precompute {STEP} --out {out} --threads {threads}"));
         assert_eq!(fs::read(&out).expect("written"), fs::read(SIGHT).expect("an example"), "{threads} threads");
@@ -36,7 +36,7 @@ fn the_examples_are_made_by_the_commands() {
 #[test]
 fn finished_segments_are_kept() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let [out, kept] = ["out.prt", "kept"].map(|name| place(folder.path(), name));
+    let [out, kept] = ["out.npz", "kept"].map(|name| place(folder.path(), name));
     let options =
         format!("all-frequency compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --resume {kept}");
     let in_all = document(&format!("{options} --out {out}"));
@@ -55,7 +55,7 @@ fn finished_segments_are_kept() {
     assert!(other.contains("segment-00.part: expected a result of crossbar"), "{other}");
     assert!(other.contains("--seed=2") && other.contains("found one of crossbar all-frequency compress"), "{other}");
     assert!(other.contains("--seed=1") && other.contains("name another folder"), "{other}");
-    let signal = place(folder.path(), "signal.prt");
+    let signal = place(folder.path(), "signal.npz");
     fs::copy(SIGHT, &signal).expect("a copy");
     let of_copy = options.replace(SIGHT, &signal);
     refused_line(&format!("{of_copy} --out {out}"));
@@ -69,7 +69,7 @@ fn finished_segments_are_kept() {
 #[test]
 fn errors_are_those_of_compression() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let [out, csv, page] = ["out.prt", "errors.csv", "page"].map(|name| place(folder.path(), name));
+    let [out, csv, page] = ["out.npz", "errors.csv", "page"].map(|name| place(folder.path(), name));
     let made = document(&format!(
         "all-frequency compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --out {out}"
     ));
@@ -91,7 +91,7 @@ fn errors_are_those_of_compression() {
 #[test]
 fn factors_go_from_one_command_to_the_next() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let [factors, sight, coded, page] = ["f", "sight.prt", "coded.prt", "page"].map(|name| place(folder.path(), name));
+    let [factors, sight, coded, page] = ["f", "sight.npz", "coded.npz", "page"].map(|name| place(folder.path(), name));
     document(&format!("all-frequency factor --brdf phong --side 8 --supersamples 1x1 --terms 4 --out {factors}"));
     let model = "fixtures/models/square.obj";
     let made = document(&format!("all-frequency precompute {model} --reflectance {factors} --out {sight}"));
@@ -116,7 +116,7 @@ fn factors_go_from_one_command_to_the_next() {
 fn a_model_stands_on_a_ground() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [out, ground, ground_model, small, page] =
-        ["on.prt", "on.ground.prt", "on.ground.obj", "small.prt", "page"].map(|name| place(folder.path(), name));
+        ["on.npz", "on.ground.npz", "on.ground.obj", "small.npz", "page"].map(|name| place(folder.path(), name));
     let alone = document(&format!("all-frequency precompute {STEP} --out {out}"));
     assert_eq!(alone["ground"], Value::Null);
     let made = document(&format!("all-frequency precompute {STEP} --ground 8 --out {out}"));
@@ -269,35 +269,35 @@ fn light_is_truncated_by_what_a_model_answers_to() {
 fn what_does_not_go_together_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let cases = [
-        ("all-frequency compress docs/examples/step_all.prt --out OUT", "--model <MODEL>"),
-        ("all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt", "--model <MODEL>"),
+        ("all-frequency compress docs/examples/step_all.npz --out OUT", "--model <MODEL>"),
+        ("all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz", "--model <MODEL>"),
         (
-            "all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --vectors 300 --out OUT",
+            "all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --vectors 300 --out OUT",
             "expected at most 256 `--vectors`, found 300",
         ),
-        ("all-frequency render docs/examples/step_all.prt --model white-box", "expected transfer of a mesh with"),
+        ("all-frequency render docs/examples/step_all.npz --model white-box", "expected transfer of a mesh with"),
         (
-            "cpca show docs/examples/step_all.prt",
-            "docs/examples/step_all.prt: expected a file of low-frequency transfer, found one of transfer of all frequencies",
+            "cpca show docs/examples/step_all.npz",
+            "docs/examples/step_all.npz: expected a file of low-frequency transfer, found one of transfer of all frequencies",
         ),
-        ("cpca show docs/examples/step_all.prt", "`crossbar all-frequency` takes it"),
-        ("all-frequency show docs/examples/step_biclusters.prt", "`crossbar bi-scale` takes it"),
-        ("cpca compress docs/examples/step_all.prt --out OUT", "`crossbar all-frequency` takes it"),
-        ("bi-scale bicluster docs/examples/step.prt --out OUT", "`crossbar cpca` takes it"),
-        ("bi-scale render docs/examples/step.prt --model white-box --texture mail", "`crossbar cpca` takes it"),
-        ("all-frequency compress docs/examples/signal.csv --model white-box --out OUT", "expected a .prt file"),
+        ("cpca show docs/examples/step_all.npz", "`crossbar all-frequency` takes it"),
+        ("all-frequency show docs/examples/step_biclusters.npz", "`crossbar bi-scale` takes it"),
+        ("cpca compress docs/examples/step_all.npz --out OUT", "`crossbar all-frequency` takes it"),
+        ("bi-scale bicluster docs/examples/step.npz --out OUT", "`crossbar cpca` takes it"),
+        ("bi-scale render docs/examples/step.npz --model white-box --texture mail", "`crossbar cpca` takes it"),
+        ("all-frequency compress docs/examples/signal.csv --model white-box --out OUT", "expected a .npz file"),
         (
-            "all-frequency show docs/examples/step_all.prt --vertex 70",
+            "all-frequency show docs/examples/step_all.npz --vertex 70",
             "expected a vertex below 70 (counted from 0), found 70",
         ),
-        ("cpca error docs/examples/step.prt docs/examples/step_all_small.prt", "`crossbar all-frequency` takes it"),
+        ("cpca error docs/examples/step.npz docs/examples/step_all_small.npz", "`crossbar all-frequency` takes it"),
         ("cpca precompute docs/examples/step.obj --ground 8 --out OUT", "unexpected argument '--ground'"),
         (
-            "all-frequency compress docs/examples/step_all_small.prt --model docs/examples/step.obj --out OUT",
+            "all-frequency compress docs/examples/step_all_small.npz --model docs/examples/step.obj --out OUT",
             "expected visibility",
         ),
     ];
-    let out = place(folder.path(), "y.prt");
+    let out = place(folder.path(), "y.npz");
     for (arguments, words) in cases {
         let said = refused_line(&arguments.replace("OUT", &out));
         assert!(said.contains(words), "{arguments}: {said}");

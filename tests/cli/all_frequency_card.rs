@@ -8,12 +8,12 @@ use serde_json::Value;
 use crate::answers::{document, number, place, refused};
 
 const MODEL: &str = "docs/examples/step.obj";
-const SIGHT: &str = "docs/examples/step_all.prt";
-const CODED: &str = "docs/examples/step_all_small.prt";
+const SIGHT: &str = "docs/examples/step_all.npz";
+const CODED: &str = "docs/examples/step_all_small.npz";
 
 /// Files of visibility and code of the model with ten glossy terms.
 fn glossy(folder: &Path) -> [String; 2] {
-    let [factors, sight, coded] = ["factors", "sight.prt", "coded.prt"].map(|name| place(folder, name));
+    let [factors, sight, coded] = ["factors", "sight.npz", "coded.npz"].map(|name| place(folder, name));
     let of_factors = ["--brdf", "cook-torrance", "--side", "16", "--supersamples", "1x1", "--terms", "10"];
     document(&[&["all-frequency", "factor"], &of_factors[..], &["--out", &factors]].concat());
     let of_sight = ["--reflectance", &factors, "--out", &sight];
@@ -114,9 +114,9 @@ fn what_no_card_takes_is_refused() {
     for (file, options, words) in [
         (CODED, "--weights fp16", "unexpected argument '--weights'"),
         (&coded, "--way colors --partial", "`--partial` is for `--way products` and `sums`, found `--way colors`"),
-        ("docs/examples/step_small.prt", "--way colors", "`crossbar cpca` takes it"),
-        (CODED, "--original docs/examples/step_all_small.prt", "expected visibility with the same reflectance"),
-        (&coded, "--original docs/examples/step_all.prt", "expected visibility with the same reflectance"),
+        ("docs/examples/step_small.npz", "--way colors", "`crossbar cpca` takes it"),
+        (CODED, "--original docs/examples/step_all_small.npz", "expected visibility with the same reflectance"),
+        (&coded, "--original docs/examples/step_all.npz", "expected visibility with the same reflectance"),
         (&coded, "--device r200", "runs no `ps_2_0` programs"),
         (&coded, "--device nv35 --map-format rgba16s", "nv35"),
         (&coded, "--map-format rgba32f", "filters no rgba32f textures"),

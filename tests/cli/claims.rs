@@ -13,6 +13,8 @@ use crossbar::io;
 use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
 use crossbar::transfer::file::parse_prt;
 
+use crate::archive::{members, text_of, with_member, with_metadata};
+
 /// Set in the process whose addresses are limited.
 const LIMITED: &str = "CROSSBAR_TEST_LIMITED";
 /// Bytes of a binary file in which every place is claimed over.
@@ -53,60 +55,51 @@ fn read_claims(good: &GoodFile) {
 
 /// The file with each of its numbers in turn replaced by a large one, checksums right.
 fn claims(good: &[u8]) -> Vec<Vec<u8>> {
-    let seals = seals(good);
     if let Some(text) = std::str::from_utf8(good).ok().filter(|text| !text.contains('\0')) {
-        let is_first = |at: usize| at == 0 || !text.as_bytes()[at - 1].is_ascii_digit();
-        let numbers = (0..good.len()).filter(|&at| good[at].is_ascii_digit() && is_first(at));
-        let end = |at: usize| at + good[at..].iter().take_while(|byte| byte.is_ascii_digit()).count();
-        return numbers.map(|at| [&good[..at], CLAIM.as_bytes(), &good[end(at)..]].concat()).collect();
+        return text_claims(text).into_iter().map(String::into_bytes).collect();
     }
-    let mut all = Vec::new();
-    for at in 0..good.len().min(HEAD).saturating_sub(3) {
+    let is_archive = good.starts_with(io::npz::MAGIC);
+    // Sizes of an archive stand at its end, too.
+    let last = if is_archive { good.len().saturating_sub(HEAD)..good.len() - 3 } else { 0..0 };
+    let mut all = if is_archive { claims_of_members(good) } else { Vec::new() };
+    for at in (0..good.len().min(HEAD).saturating_sub(3)).chain(last) {
         for with in [[0xff; 4], [0xff, 0xff, 0xff, 0x7f], [0x7f, 0xff, 0xff, 0xff]] {
             let mut bytes = good.to_vec();
             bytes[at..at + 4].copy_from_slice(&with);
-            seals.iter().for_each(|seal| seal.put(&mut bytes));
+            if good.starts_with(b"\x89PNG") {
+                let crc = crc32fast::hash(&bytes[12..29]);
+                bytes[29..33].copy_from_slice(&crc.to_be_bytes());
+            }
             all.push(bytes);
         }
     }
     all
 }
 
-/// A checksum of the bytes from `first` to `end`, behind them.
-struct Seal {
-    first: usize,
-    end: usize,
-    is_big: bool,
+fn text_claims(text: &str) -> Vec<String> {
+    let bytes = text.as_bytes();
+    let is_first = |at: usize| at == 0 || !bytes[at - 1].is_ascii_digit();
+    let numbers = (0..text.len()).filter(|&at| bytes[at].is_ascii_digit() && is_first(at));
+    let end = |at: usize| at + bytes[at..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    numbers.map(|at| [&text[..at], CLAIM, &text[end(at)..]].concat()).collect()
 }
 
-impl Seal {
-    fn put(&self, bytes: &mut [u8]) {
-        let crc = crc32fast::hash(&bytes[self.first..self.end]);
-        bytes[self.end..self.end + 4].copy_from_slice(&if self.is_big { crc.to_be_bytes() } else { crc.to_le_bytes() });
-    }
-}
-
-/// The checksums of a PNG's header, or of a `.prt` file, which stand wherever one is right.
-fn seals(good: &[u8]) -> Vec<Seal> {
-    if good.starts_with(b"\x89PNG") {
-        return vec![Seal { first: 12, end: 29, is_big: true }];
-    }
-    let (mut found, mut first) = (Vec::new(), 0);
-    if !good.starts_with(b"\x89PRT") {
-        return found;
-    }
-    let mut hasher = crc32fast::Hasher::new();
-    for end in 0..good.len() - 3 {
-        if end > first && hasher.clone().finalize().to_le_bytes() == good[end..end + 4] {
-            found.push(Seal { first, end, is_big: false });
-            (first, hasher) = (end + 4, crc32fast::Hasher::new());
+/// Claims of the metadata and of the arrays' headers.
+fn claims_of_members(good: &[u8]) -> Vec<Vec<u8>> {
+    let mut all = Vec::new();
+    for (name, array) in members(good) {
+        let begin = 10 + usize::from(u16::from_le_bytes([array[8], array[9]]));
+        for header in text_claims(std::str::from_utf8(&array[10..begin]).expect("text")) {
+            let length = (header.len() as u16).to_le_bytes();
+            let claim = [&array[..8], &length, header.as_bytes(), &array[begin..]].concat();
+            all.push(with_member(good, &name, |_| claim));
         }
-        if end >= first {
-            hasher.update(&good[end..=end]);
+        if name == "metadata.npy" {
+            let claims = text_claims(text_of(&array)).into_iter();
+            all.extend(claims.map(|text| with_metadata(good, |_| text)));
         }
     }
-    assert!(found.len() > 1, "a header and sections");
-    found
+    all
 }
 
 fn good_files() -> Vec<GoodFile> {
@@ -149,10 +142,10 @@ fn good_files() -> Vec<GoodFile> {
             drop(io::parse_light_sources(bytes, name));
         }),
         file("b.binary", merl, |bytes, name| drop(parse_merl(bytes, name))),
-        file("s.prt", stored("docs/examples/step_small.prt"), |bytes, name| drop(parse_prt(bytes, name))),
-        file("a.prt", stored("docs/examples/step_all_small.prt"), |bytes, name| {
+        file("s.npz", stored("docs/examples/step_small.npz"), |bytes, name| drop(parse_prt(bytes, name))),
+        file("a.npz", stored("docs/examples/step_all_small.npz"), |bytes, name| {
             drop(parse_all_frequency(bytes, name));
         }),
-        file("b.prt", stored("docs/examples/step_biclusters.prt"), |bytes, name| drop(parse_bi_scale(bytes, name))),
+        file("b.npz", stored("docs/examples/step_biclusters.npz"), |bytes, name| drop(parse_bi_scale(bytes, name))),
     ]
 }

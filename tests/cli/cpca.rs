@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::answers::{document, number, place, refused, refused_in};
 
-const STEP: [&str; 3] = ["docs/examples/step.obj", "docs/examples/step.prt", "docs/examples/step_small.prt"];
+const STEP: [&str; 3] = ["docs/examples/step.obj", "docs/examples/step.npz", "docs/examples/step_small.npz"];
 
 /// The commands write the example files, on any number of threads.
 #[test]
@@ -18,7 +18,7 @@ fn the_examples_are_made_by_the_commands() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [model, transfer, small] = STEP;
     for threads in ["1", "3"] {
-        let out = place(folder.path(), "out.prt");
+        let out = place(folder.path(), "out.npz");
         document(&["cpca", "precompute", model, "--order", "3", "--out", &out, "--threads", threads]);
         assert_eq!(fs::read(&out).expect("written"), fs::read(transfer).expect("an example"), "{threads} threads");
         let options = ["--clusters", "8", "--vectors", "3", "--out", &out, "--threads", threads];
@@ -68,16 +68,16 @@ fn what_does_not_go_together_is_refused() {
     let (square, signal) = (root("fixtures/models/square.obj"), root("docs/examples/signal.csv"));
     for (arguments, words) in [
         (&["render", &transfer, "--model", &square][..], "expected transfer of a mesh with"),
-        (&["compress", &small, "--out", "y.prt"], "expected transfer, found clusters alone"),
-        (&["compress", &transfer, "--clusters", "1000", "--out", "y.prt"], "expected 1 to"),
+        (&["compress", &small, "--out", "y.npz"], "expected transfer, found clusters alone"),
+        (&["compress", &transfer, "--clusters", "1000", "--out", "y.npz"], "expected 1 to"),
         (
-            &["compress", &transfer, "--vectors", "10", "--clusters", "2", "--out", "y.prt"],
+            &["compress", &transfer, "--vectors", "10", "--clusters", "2", "--out", "y.npz"],
             "expected at most 9 `--vectors`",
         ),
         (&["error", &transfer, &transfer], "expected clusters, found transfer alone"),
         (&["error", &signal, &small], "expected 24 points of 3 numbers"),
         (&["show", &small, "--vertex", "1000"], "expected a vertex below"),
-        (&["show", &model], "expected a .prt file, found another beginning"),
+        (&["show", &model], "expected a .npz file, found another beginning"),
     ] {
         let said = refused_in(folder.path(), &[&["cpca"], arguments].concat());
         assert!(said.contains(words), "{arguments:?}: {said}");
@@ -89,7 +89,7 @@ fn what_does_not_go_together_is_refused() {
 fn a_card_draws_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [model, ..] = STEP;
-    let [transfer, small, out] = ["x.prt", "y.prt", "out"].map(|name| place(folder.path(), name));
+    let [transfer, small, out] = ["x.npz", "y.npz", "out"].map(|name| place(folder.path(), name));
     let glossy = ["--kind", "glossy", "--order", "3", "--brdf", "phong:0.4,0.4,8", "--out", &transfer];
     document(&[&["cpca", "precompute", model][..], &glossy].concat());
     document(&["cpca", "compress", &transfer, "--clusters", "6", "--vectors", "3", "--out", &small]);
@@ -151,7 +151,7 @@ fn cards_refuse_what_they_have_no_programs_for() {
         assert!(!folder.path().join("out").exists(), "{arguments:?}");
         said
     };
-    let adaptive = place(folder.path(), "adaptive.prt");
+    let adaptive = place(folder.path(), "adaptive.npz");
     let options = ["--method", "adaptive", "--clusters", "8", "--vectors", "3", "--out", &adaptive];
     document(&[&["cpca", "compress", whole][..], &options].concat());
     assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer alone"));
@@ -205,9 +205,9 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
         assert_eq!(shown["mesh"]["tangents"], tangents);
         (out, shown["vertex"]["transfer"].as_array().expect("numbers").clone())
     };
-    let (texture, along_texture) = made("texture.prt", "texture");
-    let (axis, along_y) = made("axis.prt", "0,1,0");
-    let (_, along_x) = made("other.prt", "1,0,0");
+    let (texture, along_texture) = made("texture.npz", "texture");
+    let (axis, along_y) = made("axis.npz", "0,1,0");
+    let (_, along_x) = made("other.npz", "1,0,0");
     assert_eq!(along_texture, along_y);
     assert_ne!(along_texture, along_x);
     let render = ["cpca", "render", &texture, "--model", &model, "--size", "8x8", "--out", &page];
@@ -237,11 +237,11 @@ fn arrays_of_numpy_are_compressed() {
         document(&["cpca", "compress", signal, "--clusters", "3", "--vectors", "2", "--out", &out]);
         fs::read(&out).expect("written")
     };
-    assert_eq!(compressed(&array, "one.prt"), compressed(&table, "other.prt"));
+    assert_eq!(compressed(&array, "one.npz"), compressed(&table, "other.npz"));
     let at = bytes.windows(5).position(|word| word == b"False").expect("the order of the array");
     bytes[at..at + 5].copy_from_slice(b"True ");
     fs::write(&fortran, &bytes).expect("written");
-    let said = refused(&["cpca", "compress", &fortran, "--out", &place(folder.path(), "none.prt")]);
+    let said = refused(&["cpca", "compress", &fortran, "--out", &place(folder.path(), "none.npz")]);
     assert!(said.to_lowercase().contains("fortran"), "{said}");
 }
 
@@ -249,7 +249,7 @@ fn arrays_of_numpy_are_compressed() {
 #[test]
 fn iterations_of_quantisation_are_counted_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let ([_, transfer, _], out) = (STEP, place(folder.path(), "out.prt"));
+    let ([_, transfer, _], out) = (STEP, place(folder.path(), "out.npz"));
     let fits = |options: &[&str]| {
         let fixed = ["cpca", "compress", transfer, "--clusters", "8", "--vectors", "1", "--out", &out];
         let made = document(&[&fixed[..], options].concat());
@@ -270,7 +270,7 @@ fn iterations_of_quantisation_are_counted_apart() {
 fn clusters_are_made_coherent_on_their_mesh() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [model, transfer, _] = STEP;
-    let out = place(folder.path(), "out.prt");
+    let out = place(folder.path(), "out.npz");
     let compress = |options: &[&str]| {
         let fixed = ["cpca", "compress", transfer, "--clusters", "12", "--vectors", "2", "--out", &out];
         document(&[&fixed[..], options].concat())
@@ -308,7 +308,7 @@ fn clusters_are_made_coherent_on_their_mesh() {
 #[test]
 fn idle_options_of_compression_are_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let ([model, transfer, _], out) = (STEP, place(folder.path(), "out.prt"));
+    let ([model, transfer, _], out) = (STEP, place(folder.path(), "out.npz"));
     let signal = "docs/examples/signal.csv";
     for (from, options, words) in [
         (transfer, "--vectors 0 --method static", "`--method` is for clusters with vectors"),

@@ -4,6 +4,8 @@ mod all_frequency;
 mod all_frequency_card;
 mod alu;
 mod answers;
+#[path = "../archive.rs"]
+mod archive;
 mod atlas;
 mod bad_input;
 mod bi_scale;

@@ -25,7 +25,7 @@ const LARGE: &[&[&str]] = &[
     &["compare", "large.toml"],
     &["timeline", "large.toml", "--device", "r300"],
     &["diff", "large.png", "large.png"],
-    &["cpca", "compress", "large.csv", "--out", "y.prt"],
+    &["cpca", "compress", "large.csv", "--out", "y.npz"],
     &[
         "cpca",
         "precompute",
@@ -37,9 +37,9 @@ const LARGE: &[&[&str]] = &[
         "--order",
         "10",
         "--out",
-        "x.prt",
+        "x.npz",
     ],
-    &["cpca", "render", "step_small.prt", "--model", "step.obj", "--size", "16384x16384"],
+    &["cpca", "render", "step_small.npz", "--model", "step.obj", "--size", "16384x16384"],
     &["all-frequency", "factor", "--brdf", "phong", "--side", "48"],
     &["intersect", "--mesh", "square.obj", "--rays", "many.csv", "--out", "h.csv"],
     &["intersect", "--mesh", "large.obj", "--rays", "few.csv", "--out", "h.csv"],
@@ -69,7 +69,7 @@ fn inputs() -> tempfile::TempDir {
     put("medium.png", &picture(512));
     put("large.png", &picture(2048));
     put("large.csv", &b"0.25,0.5,-1\n".repeat(2_000_000));
-    for name in ["step.obj", "step_small.prt"] {
+    for name in ["step.obj", "step_small.npz"] {
         put(name, &fs::read(root.join("docs/examples").join(name)).expect("an example"));
     }
     put("large.obj", &b"v 0.0000000 0.0000000 0.0000000\n".repeat(500_000));
@@ -210,7 +210,7 @@ fn what_is_said_is_what_is_taken() {
         sized("run SIZE.toml --executor batch", "small", "medium"),
         sized("diff SIZE.png SIZE.png --out maps", "small", "medium"),
         sized("intersect --mesh square.obj --rays SIZE.csv --out h.csv", "few", "many"),
-        sized("cpca render step_small.prt --model step.obj --out prt --size SIZE", "64x64", "512x512"),
+        sized("cpca render step_small.npz --model step.obj --out prt --size SIZE", "64x64", "512x512"),
         sized("all-frequency factor --brdf phong --supersamples 1x1 --out f --side SIZE", "8", "32"),
         sized("intersect --mesh SIZE.obj --rays few.csv --out h.csv", "square", "medium"),
     ];

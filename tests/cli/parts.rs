@@ -12,15 +12,15 @@ use crate::{crossbar_in, start};
 
 /// Commands that split, on small input. The result goes to `out`, an ending behind it where it is a file.
 const COMMANDS: &[&str] = &[
-    "cpca precompute docs/examples/court.obj --order 3 --out out.prt",
+    "cpca precompute docs/examples/court.obj --order 3 --out out.npz",
     "cpca precompute docs/examples/step.obj --kind glossy --rows 9 --order 2 --degree 18 --brdf phong:0.2,0.6,9 \
-     --bounces 2 --channels rgb --out out.prt",
-    "cpca precompute docs/examples/step.obj --order 2 --brdf lambert:0 --material marble --mm-per-unit 10 --out out.prt",
-    "all-frequency precompute docs/examples/step.obj --out out.prt",
-    "all-frequency precompute docs/examples/step.obj --ground 5 --out out.prt",
-    "all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 15 --vectors 2 \
-     --iterations 2 --out out.prt",
-    "bi-scale precompute docs/examples/court.obj --directions 3 --samples 1 --matrix out.mtx --out out.prt",
+     --bounces 2 --channels rgb --out out.npz",
+    "cpca precompute docs/examples/step.obj --order 2 --brdf lambert:0 --material marble --mm-per-unit 10 --out out.npz",
+    "all-frequency precompute docs/examples/step.obj --out out.npz",
+    "all-frequency precompute docs/examples/step.obj --ground 5 --out out.npz",
+    "all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 15 --vectors 2 \
+     --iterations 2 --out out.npz",
+    "bi-scale precompute docs/examples/court.obj --directions 3 --samples 1 --matrix out.mtx --out out.npz",
     "leaky-teapot --size 24x16 --tessellation 1 --rays-per-edge 1 --format fp16 --format s3.12 --format fp32 --out out",
     "leaky-teapot --mesh docs/examples/step.obj --rays docs/examples/rays.csv --rays-per-edge 0 --device r200 \
      --device nv35 --out out",
@@ -117,7 +117,7 @@ fn merged_parts_are_the_files_of_one_run() {
 #[test]
 fn parts_that_were_killed_are_made_again() {
     let mut random = Random::new(11);
-    let command = "all-frequency precompute docs/examples/court.obj --ground 8 --out out.prt";
+    let command = "all-frequency precompute docs/examples/court.obj --ground 8 --out out.npz";
     let folder = copy_of_the_repository();
     let folder = folder.path();
     run(folder, &words(command));
@@ -141,7 +141,7 @@ fn parts_that_were_killed_are_made_again() {
     }
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     // Two merges at once into one file.
-    let merge = [&["merge"], &names[..], &["--out", "out.prt"]].concat();
+    let merge = [&["merge"], &names[..], &["--out", "out.npz"]].concat();
     let children = [start(folder, &merge), start(folder, &merge)];
     for mut child in children {
         assert!(child.wait().expect("a child").success());
@@ -188,35 +188,35 @@ fn parts_that_do_not_fit_are_refused() {
     let bytes = fs::read(folder.join("2.part")).expect("a part");
     let put = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).expect("written");
 
-    refuse("merge 2.part --out out.prt");
-    refuse("merge 2.part 1.part 2.part --out out.prt");
+    refuse("merge 2.part --out out.npz");
+    refuse("merge 2.part 1.part 2.part --out out.npz");
     fs::copy(folder.join("1.part"), folder.join("copy.part")).expect("a copy");
-    refuse("merge 2.part 1.part copy.part --out out.prt");
+    refuse("merge 2.part 1.part copy.part --out out.npz");
     run(folder, &words(&part(COMMANDS[0], "1/3", "third.part")));
-    refuse("merge 1.part third.part --out out.prt");
+    refuse("merge 1.part third.part --out out.npz");
     run(folder, &words(&part(COMMANDS[3], "2/2", "other.part")));
-    refuse("merge 1.part other.part --out out.prt");
+    refuse("merge 1.part other.part --out out.npz");
     put("short.part", &bytes[..bytes.len() - 1]);
-    refuse("merge 1.part short.part --out out.prt");
+    refuse("merge 1.part short.part --out out.npz");
     let mut edited = bytes.clone();
     let middle = bytes.len() - 100;
     edited[middle] ^= 1;
     put("edited.part", &edited);
-    refuse("merge 1.part edited.part --out out.prt");
+    refuse("merge 1.part edited.part --out out.npz");
     put("text.part", b"a text\nof lines\n");
-    refuse("merge 1.part text.part --out out.prt");
+    refuse("merge 1.part text.part --out out.npz");
     put("later.part", &[b"crossbar part, version 9\n{}\n", &bytes[..]].concat());
-    refuse("merge 1.part later.part --out out.prt");
-    refuse("merge 1.part nowhere.part --out out.prt");
-    refuse("merge 1.part docs --out out.prt");
+    refuse("merge 1.part later.part --out out.npz");
+    refuse("merge 1.part nowhere.part --out out.npz");
+    refuse("merge 1.part docs --out out.npz");
     let mtl = fs::read(folder.join("docs/examples/court.mtl")).expect("materials");
     put("docs/examples/court.mtl", &[&mtl[..], b"# another line\n"].concat());
-    refuse("merge 1.part 2.part --out out.prt");
+    refuse("merge 1.part 2.part --out out.npz");
     put("docs/examples/court.mtl", &mtl);
     refuse("merge 1.part 2.part --out docs");
     refuse("cpca precompute docs/examples/step.obj --part 3/2 --out x.part");
     insta::assert_snapshot!(said);
-    run(folder, &["merge", "1.part", "2.part", "--out", "out.prt"]);
+    run(folder, &["merge", "1.part", "2.part", "--out", "out.npz"]);
 }
 
 /// A part with a right digest, but of another program or of a command that does not split.
@@ -241,9 +241,9 @@ fn parts_of_other_programs_are_refused() {
     };
     let mut said = String::new();
     forged("same.part", &|_| ());
-    run(folder, &["merge", "same.part", "2.part", "--out", "out.prt"]);
+    run(folder, &["merge", "same.part", "2.part", "--out", "out.npz"]);
     forged("program.part", &|header| header["command"]["program"] = "0.0.9 (abcdef123)".into());
-    let ran = crossbar_in(folder, &["merge", "program.part", "2.part", "--out", "x.prt"], "");
+    let ran = crossbar_in(folder, &["merge", "program.part", "2.part", "--out", "x.npz"], "");
     assert!(ran.code == Some(2) && ran.stderr.contains("crossbar::part::program"), "{}", ran.stderr);
     let mut refuse = |line: &str| said.push_str(&format!("{}\n", refusal(folder, line)));
     forged("man.part", &|header| {
@@ -257,11 +257,11 @@ fn parts_of_other_programs_are_refused() {
     });
     refuse("merge options.part --out x");
     forged("count.part", &|header| header["count"] = 3.into());
-    refuse("merge count.part 2.part --out x.prt");
+    refuse("merge count.part 2.part --out x.npz");
     forged("number.part", &|header| header["part"] = serde_json::json!({ "number": 0, "of": 2 }));
-    refuse("merge number.part 2.part --out x.prt");
+    refuse("merge number.part 2.part --out x.npz");
     forged("results.part", &|header| header["part"] = serde_json::json!({ "number": 1, "of": 1 }));
-    refuse("merge results.part --out x.prt");
+    refuse("merge results.part --out x.npz");
     insta::assert_snapshot!(said);
 }
 
@@ -295,10 +295,10 @@ fn damage_is_noticed_wherever_it_is() {
             _ => damaged[random.below(bytes.len())] ^= 1 << random.below(8),
         }
         fs::write(folder.join("damaged.part"), &damaged).expect("written");
-        let ran = crossbar_in(folder, &["merge", "damaged.part", "2.part", "--out", "out.prt"], "");
+        let ran = crossbar_in(folder, &["merge", "damaged.part", "2.part", "--out", "out.npz"], "");
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{}", ran.stderr);
         assert!(ran.stderr.contains("crossbar::part::file"), "{}", ran.stderr);
-        assert!(!folder.join("out.prt").exists());
+        assert!(!folder.join("out.npz").exists());
     }
 }
 

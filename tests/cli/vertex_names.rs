@@ -36,8 +36,8 @@ fn errors_are_told_by_the_models_own_vertices() {
     let of = |name: &str| place(folder.path(), name);
     let (model, csv) = (of("square.obj"), of("errors.csv"));
     fs::write(&model, SQUARE).expect("written");
-    let [low, all] = ["low.prt", "all.prt"].map(of);
-    let small = of("small.prt");
+    let [low, all] = ["low.npz", "all.npz"].map(of);
+    let small = of("small.npz");
     document(&["cpca", "precompute", &model, "--order", "2", "--out", &low]);
     document(&["cpca", "compress", &low, "--clusters", "2", "--vectors", "0", "--out", &small]);
     let found = document(&["cpca", "error", &low, &small, "--model", &model, "--csv", &csv]);
@@ -61,7 +61,7 @@ fn errors_are_told_by_the_models_own_vertices() {
 fn shown_vertices_have_the_models_numbers() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let of = |name: &str| place(folder.path(), name);
-    let (model, file, csv) = (of("square.obj"), of("file.prt"), of("local.csv"));
+    let (model, file, csv) = (of("square.obj"), of("file.npz"), of("local.csv"));
     fs::write(&model, SQUARE).expect("written");
     for (command, options) in
         [("cpca", &["--order", "2"][..]), ("all-frequency", &[]), ("bi-scale", &["--directions", "2"])]
@@ -85,7 +85,7 @@ fn shown_vertices_have_the_models_numbers() {
 fn ways_to_store_transfer_are_off_at_vertices() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let of = |name: &str| place(folder.path(), name);
-    let (model, file, csv) = (of("square.obj"), of("file.prt"), of("errors.csv"));
+    let (model, file, csv) = (of("square.obj"), of("file.npz"), of("errors.csv"));
     fs::write(&model, SQUARE).expect("written");
     document(&["bi-scale", "precompute", &model, "--directions", "2", "--out", &file]);
     let small = ["--clusters", "2", "--vectors", "1", "--sample", "8", "--csv", &csv];
@@ -127,7 +127,7 @@ fn ways_to_store_transfer_are_off_at_vertices() {
 fn cards_write_radiance_of_vertices_too() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let of = |name: &str| place(folder.path(), name);
-    let (model, file, small, page) = (of("square.obj"), of("file.prt"), of("small.prt"), of("page"));
+    let (model, file, small, page) = (of("square.obj"), of("file.npz"), of("small.npz"), of("page"));
     fs::write(&model, SQUARE).expect("written");
     let plain = of("plain.npy");
     document(&["bi-scale", "texture", "plain", "--texels", "2", "--directions", "2", "--views", "2", "--out", &plain]);
@@ -164,7 +164,7 @@ fn cards_write_radiance_of_vertices_too() {
 fn vertices_at_one_place_have_the_numbers_that_faces_name() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let of = |name: &str| place(folder.path(), name);
-    let (model, file, page) = (of("fold.obj"), of("file.prt"), of("page"));
+    let (model, file, page) = (of("fold.obj"), of("file.npz"), of("page"));
     let text = "v 0 0 0\nv 0 0 0\nv 0 0 1\nv 0 1 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 1 0 0\n\
                 f 2//1 5//1 6//1\nf 1//2 4//2 3//2\n";
     fs::write(&model, text).expect("written");
@@ -187,7 +187,7 @@ fn array(page: &str) -> NumberTable<f64> {
 fn radiance_of_vertices_is_written_as_numbers() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let of = |name: &str| place(folder.path(), name);
-    let (model, file, page) = (of("square.obj"), of("file.prt"), of("page"));
+    let (model, file, page) = (of("square.obj"), of("file.npz"), of("page"));
     fs::write(&model, SQUARE).expect("written");
     let plain = of("plain.npy");
     document(&["bi-scale", "texture", "plain", "--texels", "2", "--directions", "2", "--views", "2", "--out", &plain]);

@@ -1,6 +1,8 @@
 //! Laws: what must hold of every input, by property tests and by formula.
 
 mod all_frequency;
+#[path = "../archive.rs"]
+mod archive;
 mod atlas;
 mod bi_scale;
 mod card;

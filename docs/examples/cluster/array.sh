@@ -3,7 +3,7 @@
 #
 #   PARTS=8 sbatch --array=1-8 docs/examples/cluster/array.sh     # all parts
 #   PARTS=8 sbatch --array=3 docs/examples/cluster/array.sh       # one that was killed, again
-#   crossbar merge out/parts/*-of-8 --out out/court.prt           # when all are there
+#   crossbar merge out/parts/*-of-8 --out out/court.npz           # when all are there
 #SBATCH --job-name=crossbar
 #SBATCH --cpus-per-task=1
 #SBATCH --output=out/parts/%a.log

@@ -57,10 +57,10 @@ slurmctld
 slurmd
 until sinfo --noheader --format=%T | grep -q idle; do sleep 0.5; done
 
-rm -rf out/parts out/cluster.prt out/whole.prt
+rm -rf out/parts out/cluster.npz out/whole.npz
 mkdir -p out/parts
 # One run, for the comparison; the options of a file's place come last.
-time "$CROSSBAR" $COMMAND --threads 1 --out out/whole.prt >/dev/null
+time "$CROSSBAR" $COMMAND --threads 1 --out out/whole.npz >/dev/null
 start=$(date +%s.%N)
 job=$(sbatch --parsable --array=1-$PARTS docs/examples/cluster/array.sh)
 # The last task is killed as soon as it runs.
@@ -68,15 +68,15 @@ until squeue --noheader --states=running --format=%K --job="$job" | grep -qx "$P
 scancel --signal=KILL --batch "${job}_$PARTS" || scancel "${job}_$PARTS"
 while squeue --noheader --job="$job" 2>/dev/null | grep -q .; do sleep 0.2; done
 ls out/parts
-if "$CROSSBAR" merge out/parts/*-of-$PARTS --out out/cluster.prt; then
+if "$CROSSBAR" merge out/parts/*-of-$PARTS --out out/cluster.npz; then
   echo 'a merge without the killed part was accepted' >&2
   exit 1
 fi
 sbatch --wait --array=$PARTS docs/examples/cluster/array.sh
-"$CROSSBAR" merge out/parts/*-of-$PARTS --out out/cluster.prt
+"$CROSSBAR" merge out/parts/*-of-$PARTS --out out/cluster.npz
 echo "array, kill, array again, merge: $(echo "$(date +%s.%N) - $start" | bc) s"
-cmp out/whole.prt out/cluster.prt
-for also in ground.prt ground.obj; do
+cmp out/whole.npz out/cluster.npz
+for also in ground.npz ground.obj; do
   if test -e "out/whole.$also"; then cmp "out/whole.$also" "out/cluster.$also"; fi
 done
 echo 'the merged files are those of one run'

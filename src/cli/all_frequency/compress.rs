@@ -22,9 +22,9 @@ use crate::transfer::visibility::SegmentCensus;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.prt
+  crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
       segment by segment, linear, coded in 16 bits
-  crossbar all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --weight-bits 8 --json --out small.prt
+  crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --weight-bits 8 --json --out small.npz
       in fewer bits; every segment's error for machines
 
 Transfer is nowhere stored whole: that of a segment is computed, compressed and coded before the next.";
@@ -33,8 +33,8 @@ Transfer is nowhere stored whole: that of a segment is computed, compressed and 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A .prt file with visibility, as `crossbar all-frequency precompute` writes it
-    #[arg(value_name = "X.prt")]
+    /// A .npz file with visibility, as `crossbar all-frequency precompute` writes it
+    #[arg(value_name = "X.npz")]
     signal: PathBuf,
 
     /// The model that it was made from
@@ -78,7 +78,7 @@ pub(super) struct Args {
     part: PartArgs,
 
     /// The file to write
-    #[arg(long, value_name = "Y.prt")]
+    #[arg(long, value_name = "Y.npz")]
     out: PathBuf,
 }
 

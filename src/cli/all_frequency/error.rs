@@ -18,21 +18,21 @@ use crate::study::prt::coded_errors;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj
+  crossbar all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj
       squared error of all vertices, and the largest
-  crossbar all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj --csv errors.csv --json
+  crossbar all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj --csv errors.csv --json
       and a line per vertex: its squared error, its squares, its number in the model's file, its place";
 
 /// Compare coded transfer with the original, which is computed again: error of each vertex, and the largest
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// The original: a .prt file with visibility
-    #[arg(value_name = "X.prt")]
+    /// The original: a .npz file with visibility
+    #[arg(value_name = "X.npz")]
     signal: PathBuf,
 
     /// Its compressed form
-    #[arg(value_name = "Y.prt")]
+    #[arg(value_name = "Y.npz")]
     compressed: PathBuf,
 
     /// The model of both

@@ -1,4 +1,4 @@
-//! The `.prt` files of `crossbar all-frequency`, the models that they were made from, and what is drawn of both.
+//! The `.npz` files of `crossbar all-frequency`, the models that they were made from, and what is drawn of both.
 
 use std::path::{Path, PathBuf};
 
@@ -56,11 +56,11 @@ pub(super) fn color(material: &Material) -> [f64; 3] {
 #[derive(Debug, clap::Args)]
 pub(super) struct LitArgs {
     /// Visibility or coded transfer; coded transfer is drawn where there are both
-    #[arg(value_name = "FILE.prt")]
+    #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
     /// A file with visibility of the same model: what compression costs
-    #[arg(long, value_name = "X.prt")]
+    #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
     #[command(flatten)]

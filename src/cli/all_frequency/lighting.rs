@@ -27,7 +27,7 @@ Examples:
       six faces instead; how much of the light flickers as it turns in 8 steps
   crossbar all-frequency lighting --light disk:1,0,2:5 --keep 40 --out light.csv --json
       what is left of a small source, as a table of the cube's texels, which `--light light.csv` draws with
-  crossbar all-frequency lighting --keep 200 --by transfer --transfer docs/examples/step_all.prt --model docs/examples/step.obj
+  crossbar all-frequency lighting --keep 200 --by transfer --transfer docs/examples/step_all.npz --model docs/examples/step.obj
       the coefficients that this model answers to most";
 
 /// Measure of importance of coefficients.
@@ -60,8 +60,8 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "WHAT", default_value = "area", requires = "keep")]
     by: ByArg,
 
-    /// Transfer for `--by transfer`: a .prt file with visibility, as `crossbar all-frequency precompute` writes it
-    #[arg(long, value_name = "X.prt", requires = "model")]
+    /// Transfer for `--by transfer`: a .npz file with visibility, as `crossbar all-frequency precompute` writes it
+    #[arg(long, value_name = "X.npz", requires = "model")]
     transfer: Option<PathBuf>,
 
     /// The model that it was made from
@@ -125,7 +125,7 @@ impl Args {
         let (Some(path), Some(model)) = (&self.transfer, &self.model) else {
             if self.by == ByArg::Transfer {
                 let what = "`--by transfer` asks for the response of a model, found none";
-                return Err(Problem::usage(what, "add `--transfer X.prt --model MODEL`").into());
+                return Err(Problem::usage(what, "add `--transfer X.npz --model MODEL`").into());
             }
             return Ok(None);
         };

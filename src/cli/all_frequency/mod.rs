@@ -20,16 +20,16 @@ Examples:
       reflectance as a sum of products of a function of view and one of light
   crossbar all-frequency lighting --light sky:1,-1,1 --keep 800
       light as Haar wavelets, and what 800 of them keep
-  crossbar all-frequency precompute docs/examples/step.obj --out step.prt
+  crossbar all-frequency precompute docs/examples/step.obj --out step.npz
       what every vertex sees
-  crossbar all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.prt
+  crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
       transfer, segment by segment, as clusters of principal components, coded
-  crossbar all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 64x48
+  crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
       pictures of it
-  crossbar all-frequency card docs/examples/step_all_small.prt --model docs/examples/step.obj --size 64x48
+  crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
       the same on an emulated card
 
-docs/prt-format.md specifies the files, docs/papers/all_frequency.md what is computed.";
+docs/npz.md says what is in the files, docs/papers/all_frequency.md what is computed.";
 
 /// Precomputed transfer for light of all frequencies, factored, compressed by segments and coded
 #[derive(Debug, clap::Args)]

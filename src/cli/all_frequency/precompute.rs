@@ -32,9 +32,9 @@ const RAYS: u64 = 128 << 20;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar all-frequency precompute docs/examples/step.obj --out step.prt
+  crossbar all-frequency precompute docs/examples/step.obj --out step.npz
       what each vertex sees, for light of all frequencies on a diffuse surface
-  crossbar all-frequency precompute docs/examples/step.obj --ground 24 --out step.prt
+  crossbar all-frequency precompute docs/examples/step.obj --ground 24 --out step.npz
       the same on a ground, which `crossbar all-frequency render` draws with its `--ground`
 
 The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes transfer of them.";
@@ -53,7 +53,7 @@ pub(super) struct Args {
     reflectance: Option<PathBuf>,
 
     /// Put the model on a diffuse ground of N x N vertices; the paper has 192. Written beside --out, with the endings
-    /// ground.prt and ground.obj: the ground's own file and its model
+    /// ground.npz and ground.obj: the ground's own file and its model
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1024))]
     ground: Option<u32>,
 
@@ -66,7 +66,7 @@ pub(super) struct Args {
     part: PartArgs,
 
     /// The file to write
-    #[arg(long, value_name = "X.prt")]
+    #[arg(long, value_name = "X.npz")]
     out: PathBuf,
 }
 
@@ -97,7 +97,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     };
     let (found, below) = found;
     save_all_frequency(&found.file, path).map_err(Problem::from)?;
-    let [ground_path, ground_mesh] = ["ground.prt", "ground.obj"].map(|ending| path.with_extension(ending));
+    let [ground_path, ground_mesh] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
     if let (Some(ground), Some(below)) = (&ground, &below) {
         save_all_frequency(&below.file, &ground_path).map_err(Problem::from)?;
         write_file(&ground_mesh, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;

@@ -11,11 +11,11 @@ use crate::study::prt::{AllFrequencyRendering, RenderedGround, TurnedFrames};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 64x48
+  crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
       under a clear sky with a sun: picture, a page
-  crossbar all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --original docs/examples/step_all.prt --keep 200 --size 64x48
+  crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --keep 200 --size 64x48
       beside the uncompressed transfer, with 200 coefficients of the light
-  crossbar all-frequency render docs/examples/step_all.prt --model docs/examples/step.obj --light red-and-blue --frames 4 --size 64x48
+  crossbar all-frequency render docs/examples/step_all.npz --model docs/examples/step.obj --light red-and-blue --frames 4 --size 64x48
       uncompressed, the light turned around z in four steps
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Every pixel takes its own view, on the host.";
@@ -28,7 +28,7 @@ pub(super) struct Args {
     lit: LitArgs,
 
     /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not
-    #[arg(long, value_name = "G.prt")]
+    #[arg(long, value_name = "G.npz")]
     ground: Option<PathBuf>,
 
     /// Its model [default: G.obj]

@@ -1,4 +1,4 @@
-//! `crossbar all-frequency show`: what is in a `.prt` file of transfer for all frequencies.
+//! `crossbar all-frequency show`: what is in a `.npz` file of transfer for all frequencies.
 
 use std::path::PathBuf;
 
@@ -18,21 +18,21 @@ use crate::report::{Cell, Findings, Table};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar all-frequency show docs/examples/step_all_small.prt
+  crossbar all-frequency show docs/examples/step_all_small.npz
       what is coded, in how many bytes
-  crossbar all-frequency show docs/examples/step_all_small.prt --vertex 12 --arrays arrays
+  crossbar all-frequency show docs/examples/step_all_small.npz --vertex 12 --arrays arrays
       and of one vertex: its cluster and weights in each segment; all of it as arrays of NumPy's
-  crossbar all-frequency show docs/examples/step_all.prt --at 0.5,0,0 --model docs/examples/step.obj --json
+  crossbar all-frequency show docs/examples/step_all.npz --at 0.5,0,0 --model docs/examples/step.obj --json
       the vertex nearest to a place of its model, for machines
 
 `crossbar all-frequency render --values csv` writes the radiance of all vertices under a light.";
 
-/// Show what a .prt file holds: visibility, coded segments, the code of a vertex
+/// Show what a .npz file holds: visibility, coded segments, the code of a vertex
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The file
-    #[arg(value_name = "FILE.prt")]
+    #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
     #[command(flatten)]

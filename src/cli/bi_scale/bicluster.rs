@@ -21,7 +21,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
-  crossbar bi-scale bicluster docs/examples/quarters.mtx --seed 7 --out biclusters.prt
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --seed 7 --out biclusters.npz
       other start points; what is written is for `crossbar bi-scale multiply`
   crossbar bi-scale bicluster docs/examples/quarters.mtx --seeds 8
       the cheapest of eight: seeds differ by up to a fifth
@@ -30,8 +30,9 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --drop 0.25
       with loss: what is off by a quarter stays so
 
-The sum of the biclusters equals the matrix bit for bit, whatever its numbers are. Products in single precision, on \
-host and cards, and in double precision round values that they do not hold; the summary counts these.";
+The sum of the biclusters equals the matrix bit for bit where its values are multiples of a power of two that 32 bits \
+hold; of other values residuals are rounded to double precision. Products in single precision, on host and cards, round \
+values that they do not hold. The summary counts both.";
 
 /// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
 #[derive(Debug, clap::Args)]
@@ -57,8 +58,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "B.csv")]
     csv: Option<PathBuf>,
 
-    /// Write the biclusters to a .prt file
-    #[arg(long, value_name = "X.prt")]
+    /// Write the biclusters to a .npz file
+    #[arg(long, value_name = "X.npz")]
     out: Option<PathBuf>,
 }
 
@@ -116,8 +117,12 @@ fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
     Problem::usage(format!("{}: {error}", path.display()), "name a smaller matrix")
 }
 
-/// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces. Values are exact: sums
-/// where no f64 holds them.
+/// Decimal digits that read back to the same number.
+fn digits(value: f64) -> String {
+    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
+}
+
+/// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces.
 fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
     let join = |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<String>>().join(" ");
     write_file(path, |out| {
@@ -127,7 +132,7 @@ fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
             let cost = rows.len() + 2 * columns.len() - 1;
             let rows = join(&mut rows.iter().map(u32::to_string));
             let places = join(&mut columns.iter().map(|entry| entry.index.to_string()));
-            let values = join(&mut columns.iter().map(|entry| biclusters.values().exact(entry.value).to_string()));
+            let values = join(&mut columns.iter().map(|entry| digits(biclusters.value(entry.value))));
             writeln!(out, "{number},{cost},{rows},{places},{values}")?;
         }
         Ok(())
@@ -165,17 +170,14 @@ impl Summary<'_> {
         ]
     }
 
-    /// Columns of biclusters whose value products in single precision round; those beyond its range; those whose value
-    /// products in double precision round.
-    fn rounded(&self) -> [usize; 3] {
-        let mut rounded = [0; 3];
+    /// Columns of biclusters whose value products in single precision round; those beyond its range.
+    fn rounded(&self) -> [usize; 2] {
+        let mut rounded = [0; 2];
         for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {
             let value = self.biclusters.value(entry.value);
-            let is_double = self.biclusters.values().is_double(entry.value);
             let single = value as f32;
-            rounded[0] += usize::from(single.is_finite() && !(is_double && f64::from(single) == value));
+            rounded[0] += usize::from(single.is_finite() && f64::from(single) != value);
             rounded[1] += usize::from(!single.is_finite());
-            rounded[2] += usize::from(!is_double);
         }
         rounded
     }
@@ -183,7 +185,7 @@ impl Summary<'_> {
     fn findings(&self) -> Findings {
         let values = value_counts(self.matrix);
         let rounded = self.rounded();
-        let [singles, beyond_singles, doubles] = rounded;
+        let [singles, beyond_singles] = rounded;
         let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
         let mut found = Findings::new("Biclusters");
         found.table(self.table(rounded));
@@ -194,14 +196,14 @@ impl Summary<'_> {
             "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
             "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
             "unit_bits": self.matrix.values().fraction_bits(), "distinct_values": self.matrix.values().table_len(),
-            "rounded_in_singles": singles, "beyond_singles": beyond_singles, "rounded_in_doubles": doubles,
+            "rounded_in_singles": singles, "beyond_singles": beyond_singles,
             "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
             "seed": self.seed, "seconds": self.seconds,
         }));
         found
     }
 
-    fn table(&self, counts: [usize; 3]) -> Table {
+    fn table(&self, counts: [usize; 2]) -> Table {
         let (before, after) = (self.flops_before(), self.biclusters.cost());
         let mut table = Table::new("Biclusters", &["figure", "value"]);
         table.push(["rows".into(), self.matrix.rows().into()]);
@@ -219,11 +221,7 @@ impl Summary<'_> {
         for (_, what, bytes) in self.bytes() {
             table.push([format!("bytes, {what}").into(), bytes.into()]);
         }
-        let rounded = [
-            "columns whose value single precision rounds",
-            "columns whose value is beyond single precision",
-            "columns whose value double precision rounds",
-        ];
+        let rounded = ["columns whose value single precision rounds", "columns whose value is beyond single precision"];
         for (what, count) in rounded.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
             table.push([what.into(), count.into()]);
         }

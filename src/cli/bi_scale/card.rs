@@ -17,9 +17,9 @@ use crate::study::prt::BiScaleOnCard;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --repeat 4 --size 64x48
+  crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --repeat 4 --size 64x48
       on the GeForce GTX 280: light times biclusters, then a bidirectional texture pass by pass
-  crossbar bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --sweep --size 64x48
+  crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --sweep --size 64x48
       light, local light, textures and targets made coarse one after the other: what shows
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv, with --values the radiance of \
@@ -31,7 +31,7 @@ docs/papers/bi_scale.md explains all of it.";
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// Biclusters, as `crossbar bi-scale bicluster` writes them
-    #[arg(value_name = "FILE.prt")]
+    #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
     #[command(flatten)]

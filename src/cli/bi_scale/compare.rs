@@ -28,11 +28,11 @@ use crate::transfer::grid::LIGHT_TEXELS;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale compare docs/examples/step_biclusters.prt --clusters 4 --vectors 2 --sample 300
+  crossbar bi-scale compare docs/examples/step_biclusters.npz --clusters 4 --vectors 2 --sample 300
       bytes and errors of compressed rows, clusters of rows, wavelets and harmonics beside biclusters
-  crossbar bi-scale compare docs/examples/step_biclusters.prt --model docs/examples/step.obj --light disk:1,0,2:5 --clusters 4 --sample 300 --json
+  crossbar bi-scale compare docs/examples/step_biclusters.npz --model docs/examples/step.obj --light disk:1,0,2:5 --clusters 4 --sample 300 --json
       what is rotated into frames of vertices too; figures for machines
-  crossbar bi-scale compare docs/examples/step_biclusters.prt --model docs/examples/step.obj --clusters 4 --sample 300 --csv errors.csv
+  crossbar bi-scale compare docs/examples/step_biclusters.npz --model docs/examples/step.obj --clusters 4 --sample 300 --csv errors.csv
       and a line per way and vertex: its squared error, its number in the model's file, its place
 
 Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
@@ -45,7 +45,7 @@ const HARMONICS_ORDER: usize = 5;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A matrix of 6,144 columns (.mtx or .prt), or its biclusters (.prt)
+    /// A matrix of 6,144 columns (.mtx or .npz), or its biclusters (.npz)
     #[arg(value_name = "FILE")]
     file: PathBuf,
 

@@ -58,7 +58,7 @@ fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
 }
 
-/// A Matrix Market file, or a `.prt` file of bi-scale transfer, by the ending of its name.
+/// A Matrix Market file, or a `.npz` file of bi-scale transfer, by the ending of its name.
 pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
     let is_text = is_text(path);
     // Per byte of a file 1.3 bytes of entries, which are sorted into rows, twice as much.

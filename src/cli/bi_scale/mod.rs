@@ -18,20 +18,20 @@ use super::{CommandLine, Out, Verdict, study};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale precompute docs/examples/court.obj --directions 4 --out court.prt
+  crossbar bi-scale precompute docs/examples/court.obj --directions 4 --out court.npz
       which light texels every vertex sees, by local direction
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       a sparse matrix as a sum of biclusters
-  crossbar bi-scale multiply docs/examples/court_biclusters.prt --light sky:1,-1,1
+  crossbar bi-scale multiply docs/examples/court_biclusters.npz --light sky:1,-1,1
       the light that reaches each local direction of each vertex
-  crossbar bi-scale texture mail --size 8 --directions 4 --views 4 --out mail.npy
+  crossbar bi-scale texture mail --texels 8 --directions 4 --views 4 --out mail.npy
       the response of a patch of heights by place, view and light
-  crossbar bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
+  crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
       pictures of both
-  crossbar bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
+  crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
       the same on an emulated card
 
-docs/prt-format.md specifies the files, docs/papers/bi_scale.md what is computed.";
+docs/npz.md says what is in the files, docs/papers/bi_scale.md what is computed.";
 
 /// Bi-scale transfer: a sparse matrix of visibility as biclusters, times bidirectional textures
 #[derive(Debug, clap::Args)]

@@ -20,9 +20,9 @@ use crate::transfer::light::CubeLight;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale multiply docs/examples/step_biclusters.prt --light sky:1,-1,1 --csv local.csv
+  crossbar bi-scale multiply docs/examples/step_biclusters.npz --light sky:1,-1,1 --csv local.csv
       light that reaches each local direction of each vertex, by biclusters (Algorithm 2)
-  crossbar bi-scale multiply docs/examples/step_biclusters.prt --light red-and-blue --json
+  crossbar bi-scale multiply docs/examples/step_biclusters.npz --light red-and-blue --json
       another light; figures for machines
 
 Of a matrix the product is taken row by row, in double precision; of biclusters in single precision, which rounds values \
@@ -32,7 +32,7 @@ that it does not hold.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A matrix of 6,144 columns (.mtx or .prt), or its biclusters (.prt)
+    /// A matrix of 6,144 columns (.mtx or .npz), or its biclusters (.npz)
     #[arg(value_name = "FILE")]
     file: PathBuf,
 

@@ -32,9 +32,9 @@ fn log2_samples() -> OneOf<u32> {
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale precompute docs/examples/step.obj --directions 8 --matrix step.mtx --out step.prt
+  crossbar bi-scale precompute docs/examples/step.obj --directions 8 --matrix step.mtx --out step.npz
       which light texels each vertex sees, and from which of its 64 local directions
-  crossbar bi-scale precompute docs/examples/court.obj --directions 4 --crease 40 --out court.prt
+  crossbar bi-scale precompute docs/examples/court.obj --directions 4 --crease 40 --out court.npz
       with normals that are smooth over edges up to 40 degrees";
 
 /// Compute which light texels each vertex of a model sees, by local direction: a sparse matrix
@@ -75,7 +75,7 @@ pub(super) struct Args {
     part: PartArgs,
 
     /// The file to write
-    #[arg(long, value_name = "X.prt")]
+    #[arg(long, value_name = "X.npz")]
     out: PathBuf,
 }
 

@@ -13,9 +13,9 @@ use crate::study::prt::{BiScaleRendering, TexturedSurface, TurnedFrames};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture floor=tiles --texture bricks --repeat 4 --texture-size 8 --texture-views 4 --size 64x48
+  crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture floor=tiles --texture bricks --repeat 4 --texture-size 8 --texture-views 4 --size 64x48
       textures by material, under a clear sky with a sun
-  crossbar bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --repeat 4 --texture-size 8 --texture-views 4 --reference --size 8x6
+  crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --repeat 4 --texture-size 8 --texture-views 4 --reference --size 8x6
       held against a picture by rays, the error told apart by causes: milliseconds per pixel
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Local light is interpolated over triangles, on the host.";
@@ -25,7 +25,7 @@ Written to --out: index.html (self-contained), pictures, picture.exr. Local ligh
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A matrix or its biclusters, as `crossbar bi-scale precompute` or `bicluster` wrote them
-    #[arg(value_name = "FILE.prt")]
+    #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
     #[command(flatten)]

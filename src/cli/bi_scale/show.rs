@@ -20,19 +20,19 @@ use crate::transfer::grid::{LIGHT_SIDE, face_row_column};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale show docs/examples/court_biclusters.prt
+  crossbar bi-scale show docs/examples/court_biclusters.npz
       values, and biclusters by size
-  crossbar bi-scale show docs/examples/step_biclusters.prt --vertex 12
+  crossbar bi-scale show docs/examples/step_biclusters.npz --vertex 12
       one vertex: the biclusters of its rows
   crossbar bi-scale show docs/examples/quarters.mtx --json
       any sparse matrix, for machines
-  crossbar bi-scale show docs/examples/step_biclusters.prt --matrix step.mtx
+  crossbar bi-scale show docs/examples/step_biclusters.npz --matrix step.mtx
       the matrix that the biclusters sum to
 
 `crossbar bi-scale multiply --csv` writes the light that reaches all local directions, `render --values csv` the \
 radiance of all vertices with their textures.";
 
-/// Show what a matrix or a .prt file of biclusters holds: values, sizes of biclusters, rows of a vertex
+/// Show what a matrix or a .npz file of biclusters holds: values, sizes of biclusters, rows of a vertex
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true, mut_arg("vertex", |a| a.help("A vertex, or a row of a matrix of something else, counted from 0")))]
 pub(super) struct Args {

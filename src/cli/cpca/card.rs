@@ -17,11 +17,11 @@ use crate::study::prt::OnCard;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+  crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
       on the Radeon 9700: picture, how far it is off the host's, modelled time of a frame
-  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --device r350 --weights unorm8 --target-format rgba16 --size 64x48
+  crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --device r350 --weights unorm8 --target-format rgba16 --size 64x48
       on the Radeon 9800, with weights of 8 bits, into 16 bits per channel
-  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --sweep --size 64x48
+  crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --sweep --size 64x48
       weights, maps, arithmetic and targets made coarse one after the other: what shows
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv, with --values the radiance of \
@@ -33,7 +33,7 @@ all of it.";
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// Clusters of transfer, as `crossbar cpca compress` writes them
-    #[arg(value_name = "FILE.prt")]
+    #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
     #[command(flatten)]

@@ -22,15 +22,15 @@ use crate::transfer::{Signal, load_signal_and_meaning};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar cpca compress docs/examples/step.prt --clusters 8 --vectors 3 --out small.prt
+  crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
       each vertex as the mean of its cluster and three weighted vectors
-  crossbar cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --method adaptive --iterations 20 --json --out small.prt
+  crossbar cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --method adaptive --iterations 20 --json --out small.npz
       vectors redistributed among the clusters; every step's error for machines
-  crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.prt
+  crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.npz
       a signal of one's own, a line of numbers per point
-  crossbar cpca compress docs/examples/step.prt --clusters 8 --max-error 0.001 --out small.prt
+  crossbar cpca compress docs/examples/step.npz --clusters 8 --max-error 0.001 --out small.npz
       as few vectors as leave a thousandth of the signal's squares
-  crossbar cpca compress docs/examples/step.prt --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.prt
+  crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.npz
       fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
 
 CSV and NumPy arrays hold a row per point. The file that is written holds the clusters and how they were made.";
@@ -39,7 +39,7 @@ CSV and NumPy arrays hold a row per point. The file that is written holds the cl
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A .prt file with transfer, a CSV table or an array of NumPy's (.npy)
+    /// A .npz file with transfer, a CSV table or an array of NumPy's (.npy)
     #[arg(value_name = "SIGNAL")]
     signal: PathBuf,
 
@@ -82,7 +82,7 @@ pub(super) struct Args {
     seed: u64,
 
     /// The file to write
-    #[arg(long, value_name = "Y.prt")]
+    #[arg(long, value_name = "Y.npz")]
     out: PathBuf,
 
     #[command(flatten)]

@@ -18,23 +18,23 @@ use crate::transfer::{Signal, load_signal_and_meaning};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt
+  crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz
       squared error of all vertices, the largest, and how many have how much
-  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt --csv errors.csv --json
+  crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz --csv errors.csv --json
       and a line per vertex: its cluster, its squared error, its squares
-  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt --model docs/examples/step.obj --csv errors.csv
+  crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz --model docs/examples/step.obj --csv errors.csv
       with the number of each vertex in the model's file, and its place";
 
 /// Compare a compressed signal with the original: error of each point, largest, histogram
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// The original: a .prt file with transfer, a CSV table or an array of NumPy's
+    /// The original: a .npz file with transfer, a CSV table or an array of NumPy's
     #[arg(value_name = "SIGNAL")]
     signal: PathBuf,
 
     /// Its compressed form
-    #[arg(value_name = "Y.prt")]
+    #[arg(value_name = "Y.npz")]
     compressed: PathBuf,
 
     /// The model that the transfer was made from: points are named by its vertices, too

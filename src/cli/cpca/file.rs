@@ -1,4 +1,4 @@
-//! The `.prt` files of `crossbar cpca`, and the models that they were made from.
+//! The `.npz` files of `crossbar cpca`, and the models that they were made from.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::transfer::clustering::Clustering;
 use crate::transfer::file::other_mesh_error;
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 
-/// A `.prt` file with the model that it was made from.
+/// A `.npz` file with the model that it was made from.
 pub(super) struct FileOfModel {
     pub(super) file: PrtFile,
     pub(super) model: Model,
@@ -54,7 +54,7 @@ pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
     }
 }
 
-/// A `.prt` file that has clusters, and these.
+/// A `.npz` file that has clusters, and these.
 pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
     view::require_file(path, 2, "name a smaller file")?;
     let mut file = load_prt(path, None)?;

@@ -16,20 +16,20 @@ use super::{CommandLine, Out, Verdict, study};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar cpca precompute docs/examples/step.obj --out step.prt
+  crossbar cpca precompute docs/examples/step.obj --out step.npz
       transfer of every vertex
-  crossbar cpca compress docs/examples/step.prt --clusters 8 --vectors 3 --out small.prt
+  crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
       the same by 8 clusters of 3 vectors
-  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt
+  crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz
       what compression costs
-  crossbar cpca show docs/examples/step_small.prt --vertex 12
+  crossbar cpca show docs/examples/step_small.npz --vertex 12
       what is in a file
-  crossbar cpca render docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+  crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
       pictures of it
-  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+  crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
       the same on an emulated card
 
-docs/prt-format.md specifies the files, docs/papers/cpca.md what is computed.";
+docs/npz.md says what is in the files, docs/papers/cpca.md what is computed.";
 
 /// Precomputed radiance transfer in harmonics, compressed by clustered principal components
 #[derive(Debug, clap::Args)]

@@ -27,13 +27,13 @@ use crate::transfer::file::save_prt;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar cpca precompute docs/examples/step.obj --out step.prt
+  crossbar cpca precompute docs/examples/step.obj --out step.npz
       diffuse transfer with shadows, light of order 5, the materials of the file
-  crossbar cpca precompute docs/examples/step.obj --kind glossy --rows 24 --brdf phong:0.2,0.6,20 --bounces 2 --out step.prt
+  crossbar cpca precompute docs/examples/step.obj --kind glossy --rows 24 --brdf phong:0.2,0.6,20 --bounces 2 --out step.npz
       matrices of 24 x 25 with two bounces, one glossy material
-  crossbar cpca precompute transfer-bird --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out bird.prt
+  crossbar cpca precompute transfer-bird --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out bird.npz
       an anisotropic material along the texture; the stand-in for the paper's bird, about a minute
-  crossbar cpca precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.prt
+  crossbar cpca precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.npz
       light that scatters below the surface, in three channels
 
 The file holds a matrix of 32-bit floats per vertex: `crossbar cpca compress` makes it small. It is written whole at the end: an interrupted \
@@ -101,7 +101,7 @@ pub(super) struct Args {
     part: PartArgs,
 
     /// The file to write
-    #[arg(long, value_name = "X.prt")]
+    #[arg(long, value_name = "X.npz")]
     out: PathBuf,
 }
 

@@ -13,11 +13,11 @@ use crate::transfer::file::{PrtFile, load_prt};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar cpca render docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+  crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
       under a clear sky with a sun: picture, clusters, a page
-  crossbar cpca render docs/examples/step_small.prt --model docs/examples/step.obj --original docs/examples/step.prt --light disk:1,0,2:20 --size 64x48
+  crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --original docs/examples/step.npz --light disk:1,0,2:20 --size 64x48
       beside the uncompressed transfer: differences, and the error of every vertex
-  crossbar cpca render docs/examples/step.prt --model docs/examples/step.obj --light red-and-blue --frames 8 --size 64x48
+  crossbar cpca render docs/examples/step.npz --model docs/examples/step.obj --light red-and-blue --frames 8 --size 64x48
       uncompressed, the light turned around z in eight steps
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";
@@ -27,11 +27,11 @@ Written to --out: index.html (self-contained), pictures, picture.exr. Vertex rad
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// Transfer or clusters; clusters are drawn where there are both
-    #[arg(value_name = "FILE.prt")]
+    #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
     /// Uncompressed transfer of the same model, to compare with
-    #[arg(long, value_name = "X.prt")]
+    #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `crossbar cpca show`: what is in a `.prt` file of low-frequency transfer.
+//! `crossbar cpca show`: what is in a `.npz` file of low-frequency transfer.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -19,13 +19,13 @@ use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar cpca show docs/examples/step_small.prt
+  crossbar cpca show docs/examples/step_small.npz
       the header, and the clusters with their spectra
-  crossbar cpca show docs/examples/step_small.prt --vertex 12
+  crossbar cpca show docs/examples/step_small.npz --vertex 12
       one vertex: its cluster, its weights, its transfer
-  crossbar cpca show docs/examples/step.prt --at 0.5,0,0 --model docs/examples/step.obj --json
+  crossbar cpca show docs/examples/step.npz --at 0.5,0,0 --model docs/examples/step.obj --json
       the vertex nearest to a place of its model, for machines
-  crossbar cpca show docs/examples/step_small.prt --arrays arrays
+  crossbar cpca show docs/examples/step_small.npz --arrays arrays
       transfer, means, vectors, weights and clusters as arrays of NumPy's
 
 `crossbar cpca render --values csv` writes the radiance of all vertices under a light.";
@@ -33,12 +33,12 @@ Examples:
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;
 
-/// Show what a .prt file holds: header, clusters with spectra, transfer and weights of a vertex
+/// Show what a .npz file holds: header, clusters with spectra, transfer and weights of a vertex
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true, mut_arg("vertex", |a| a.help("A vertex, or another point, counted from 0")))]
 pub(super) struct Args {
     /// The file
-    #[arg(value_name = "FILE.prt")]
+    #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! The model of a `.prt` file: its mesh, and the vertices that transfer belongs to.
+//! The model of a `.npz` file: its mesh, and the vertices that transfer belongs to.
 
 use std::path::Path;
 

@@ -14,6 +14,7 @@ pub mod matrix_market;
 pub mod model;
 pub mod model_note;
 pub mod npy;
+pub mod npz;
 mod number;
 pub mod number_table;
 mod numbers;
@@ -38,6 +39,7 @@ pub use matrix_market::{CoordinateMatrix, load_matrix_market, parse_matrix_marke
 pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, load_scene_with};
 pub use model_note::ModelNote;
 pub use npy::{NumberArray, parse_npy, parse_npy_array, parse_single_npy, write_npy, write_npy_array};
+pub use npz::{NpzReader, NpzWriter};
 pub use number::{NumberError, parse_f32, parse_f64, to_f32};
 pub use number_table::{NumberTable, parse_number_table, parse_single_table};
 pub use numbers::{load_npy_array, load_numbers, parse_numbers, parse_single_numbers};

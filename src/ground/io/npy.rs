@@ -21,6 +21,13 @@ fn size_error(name: &Path, expected: &str, found: String) -> InputError {
     input_error!("crossbar::npy::size" => "expected {expected} of numbers, found {found}").at(name)
 }
 
+fn type_error(name: &Path, found: &str) -> InputError {
+    input_error!("crossbar::npy::dtype" =>
+        "expected numbers of type <f4, <f8, >f4 or >f8, found {}", quoted(found.as_bytes());
+        help "convert the array: a.astype('<f4')")
+    .at(name)
+}
+
 /// Numbers along any number of axes, in C order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberArray<T = f32> {
@@ -60,55 +67,79 @@ pub fn parse_npy_array(bytes: &[u8], name: &Path) -> Result<NumberArray, InputEr
     array(bytes, name, |number| number, to_f32)
 }
 
+/// An array of any type of 1 to 8 bytes, in C order; its numbers are still bytes.
+#[derive(Debug)]
+pub(super) struct NpyView<'a> {
+    /// Byte order, kind and size, such as `<f4`.
+    pub(super) descr: String,
+    /// Bytes of a number.
+    pub(super) size: usize,
+    pub(super) shape: Vec<usize>,
+    /// As many bytes as shape and type say.
+    pub(super) data: &'a [u8],
+}
+
+impl<'a> NpyView<'a> {
+    /// The bits of each little-endian number.
+    pub(super) fn elements(&self) -> impl Iterator<Item = u64> + use<'a> {
+        self.data.chunks_exact(self.size).map(|bytes| {
+            let mut wide = [0; 8];
+            wide[..bytes.len()].copy_from_slice(bytes);
+            u64::from_le_bytes(wide)
+        })
+    }
+}
+
+/// Reads the header of an array.
+pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, InputError> {
+    let (text, data) = split(bytes, name)?;
+    let header = Header::parse(text).map_err(|(what, expected)| header_error(name, what, expected, quoted(text)));
+    let Header { descr, fortran_order, shape } = header?;
+    if fortran_order {
+        return Err(input_error!("crossbar::npy::order" =>
+            "expected an array in C order, found Fortran order"; help "convert the array: numpy.ascontiguousarray(a)")
+        .at(name));
+    }
+    let size = match descr.as_bytes() {
+        [b'<' | b'>' | b'|', b'f' | b'i' | b'u', size @ (b'1' | b'2' | b'4' | b'8')] => usize::from(size - b'0'),
+        _ => return Err(type_error(name, &descr)),
+    };
+    let count = shape.iter().try_fold(1_usize, |product, &axis| product.checked_mul(axis));
+    let Some(count) = count.filter(|_| !shape.is_empty()) else {
+        return Err(size_error(name, "a shape", format!("{shape:?}")));
+    };
+    if count.checked_mul(size) != Some(data.len()) {
+        return Err(size_error(name, &format!("{count} x {size} bytes"), format!("{} bytes", data.len())));
+    }
+    Ok(NpyView { descr, size, shape, data })
+}
+
 fn array<T>(
     bytes: &[u8],
     name: &Path,
     of_single: fn(f32) -> T,
     of_double: fn(f64) -> Result<T, NumberError>,
 ) -> Result<NumberArray<T>, InputError> {
-    let (text, data) = split(bytes, name)?;
-    let header = Header::parse(text).map_err(|(what, expected)| header_error(name, what, expected, quoted(text)))?;
-    if header.fortran_order {
-        return Err(input_error!("crossbar::npy::order" =>
-            "expected an array in C order, found Fortran order"; help "convert the array: numpy.ascontiguousarray(a)")
-        .at(name));
+    let NpyView { descr, shape, data, .. } = view(bytes, name)?;
+    if data.is_empty() {
+        return Err(size_error(name, "a shape", format!("{shape:?}")));
     }
-    let unknown = || {
-        input_error!("crossbar::npy::dtype" =>
-            "expected numbers of type <f4, <f8, >f4 or >f8, found {}", quoted(header.descr.as_bytes());
-            help "convert the array: a.astype('<f4')")
-        .at(name)
-    };
-    let (is_big, size) = match header.descr.as_str() {
-        "<f4" => (false, 4),
-        "<f8" => (false, 8),
-        ">f4" => (true, 4),
-        ">f8" => (true, 8),
-        _ => return Err(unknown()),
-    };
-    let wrong = |expected: String| size_error(name, &expected, format!("{:?}", header.shape));
-    let count = header.shape.iter().try_fold(1_usize, |product, &axis| product.checked_mul(axis));
-    let Some(count) = count.filter(|&count| count > 0 && !header.shape.is_empty()) else {
-        return Err(wrong("a shape".to_owned()));
-    };
-    if count.checked_mul(size) != Some(data.len()) {
-        let found = format!("{} bytes", data.len());
-        return Err(size_error(name, &format!("{count} x {size} bytes"), found));
-    }
-    let values = match size {
-        4 => data
+    let is_big = descr.starts_with('>');
+    let values = match descr.as_str() {
+        "<f4" | ">f4" => data
             .as_chunks()
             .0
             .iter()
             .map(|&b| of_single(if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) }))
             .collect(),
-        _ => doubles(data, is_big, of_double).map_err(|(index, bits)| {
+        "<f8" | ">f8" => doubles(data, is_big, of_double).map_err(|(index, bits)| {
             input_error!("crossbar::npy::range" =>
                 "number {index} (counted from 0) is too large for a 32-bit float: {:e}", f64::from_bits(bits))
             .at(name)
         })?,
+        _ => return Err(type_error(name, &descr)),
     };
-    Ok(NumberArray { shape: header.shape, values })
+    Ok(NumberArray { shape, values })
 }
 
 fn doubles<T>(data: &[u8], is_big: bool, read: fn(f64) -> Result<T, NumberError>) -> Result<Vec<T>, (usize, u64)> {
@@ -235,19 +266,21 @@ pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
 /// If the number of values differs from the shape's product, or a header cannot hold all axes.
 pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> io::Result<()> {
     assert_eq!(values.len(), shape.iter().product::<usize>(), "as many as the shape says");
+    out.write_all(&beginning("<f4", shape))?;
+    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
+}
+
+/// What stands before the numbers of an array, in version 1.
+pub(super) fn beginning(descr: &str, shape: &[usize]) -> Vec<u8> {
     let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
     // A Python tuple of one element has a trailing comma.
     let shape = format!("({}{})", axes.join(", "), if shape.len() == 1 { "," } else { "" });
-    let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
+    let mut header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
     assert!(header.len() < 60_000, "a shape of fewer axes");
     // Data begin at a multiple of 64 bytes, after a line feed.
     let padding = (MAGIC.len() + 4 + header.len() + 1).next_multiple_of(64) - (MAGIC.len() + 4 + header.len() + 1);
     header.extend(std::iter::repeat_n(' ', padding).chain(['\n']));
-    out.write_all(MAGIC)?;
-    out.write_all(&[1, 0])?;
-    out.write_all(&(header.len() as u16).to_le_bytes())?;
-    out.write_all(header.as_bytes())?;
-    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
+    [MAGIC, &[1, 0], &(header.len() as u16).to_le_bytes(), header.as_bytes()].concat()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Tables of numbers, row by row: comma-separated values, and NumPy's arrays ([`super::npy`]).
 //!
 //! Comma-separated: a row per line, as many numbers in each; a first line without any number is a header. Numbers are
-//! read as f64 where they are computed with as such, and as f32 where they are stored so: signals, as `.prt` files hold
+//! read as f64 where they are computed with as such, and as f32 where they are stored so: signals, as `.npz` files hold
 //! them.
 
 use std::path::Path;

@@ -43,7 +43,7 @@ pub fn load_numbers(path: &Path, what: &'static str, limit: u64) -> Result<Numbe
 /// # Errors
 /// [`InputError`].
 pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<NumberArray, InputError> {
-    Ok(parse_npy_array(&read_file(path, what, limit)?, path)?)
+    parse_npy_array(&read_file(path, what, limit)?, path)
 }
 
 #[cfg(test)]

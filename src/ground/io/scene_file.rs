@@ -92,7 +92,7 @@ pub fn load(path: &Path) -> Result<Scene, InputError> {
 /// [`load`] with options for the model, and what the user should know of it. Views and point lights stay as they are.
 pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), InputError> {
     if is_model(path) {
-        return Ok(load_scene_with(path, options)?);
+        return load_scene_with(path, options);
     }
     let read = read_limited(path, LONGEST).map_err(|source| {
         input_error!("crossbar::scene::unreadable" =>

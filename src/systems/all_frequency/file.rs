@@ -1,34 +1,29 @@
-//! The `.prt` file of all-frequency transfer: conventions 2 of the same version. docs/prt-format.md specifies it.
+//! Files of all-frequency transfer. docs/npz.md says what is inside.
 //!
-//! Raw transfer is nowhere stored, since it takes gigabytes: visibility and reflectance are, of which each segment is
-//! computed when it is needed, and coded transfer.
+//! A file never stores raw transfer, which takes gigabytes. It stores visibility and reflectance, from which each segment
+//! is computed when it is needed, and coded transfer.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::code::{BLOCK_ROWS, CodeOptions, CodedSegment, CodedTransfer, ScaleOf, SparseRows};
+use crate::all_frequency::code::{BLOCK_ROWS, CodeOptions, CodedSegment, CodedTransfer, SparseRows};
 use crate::all_frequency::factor::ProductFactors;
 use crate::error::InputError;
-use crate::io::{WriteError, write_file};
+use crate::io::{NpzReader, NpzWriter, WriteError, write_file};
 use crate::sphere::ParabolicMap;
-use crate::transfer::file::other_mesh_error;
-use crate::transfer::file::read::{Reader, bytes_of};
-use crate::transfer::file::write::{Section, digest_fields, tangent_fields};
-use crate::transfer::file::{MAGIC, MeshDigest, PrtKind, VERSION};
+use crate::transfer::file::kind::{begin_reading, begin_writing, bytes_of, contradiction};
+use crate::transfer::file::{MeshDigest, PrtKind, front, other_mesh_error};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps};
 
-const FACTORS: &[u8; 4] = b"FACT";
-const VISIBILITY: &[u8; 4] = b"VISI";
-const CODE: &[u8; 4] = b"CODE";
-/// Fields of 32 bits between the conventions and the axis of tangents.
-const FIELDS: usize = 8;
 /// Texels along an edge of a parabolic map, at most.
-const MAX_SIDE: u32 = 1 << 12;
+const MAX_SIDE: usize = 1 << 12;
+/// Light coefficients of a segment.
+const COEFFICIENTS: usize = Segmentation::Quarters.len();
 
 /// All-frequency transfer of a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +38,22 @@ pub struct AllFrequencyFile {
     pub visibility: Option<VisibilityMaps>,
     /// Transfer, compressed and coded.
     pub coded: Option<CodedTransfer>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Metadata {
+    mesh: MeshDigest,
+    hats: BasisWidth,
+    terms: usize,
+    /// Sides of the maps of G and F.
+    factors: Option<[usize; 2]>,
+    code: Option<Code>,
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
+struct Code {
+    segments: usize,
+    options: CodeOptions,
 }
 
 /// Reads a file; of `mesh`, if one is given.
@@ -60,53 +71,27 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
 /// # Errors
 /// [`InputError`].
 pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, InputError> {
-    let mut reader = Reader { bytes, at: 0, name };
-    reader.begin(PrtKind::AllFrequency)?;
-    let mut fields = [0; FIELDS];
-    for field in &mut fields {
-        *field = reader.integer("header")?;
+    let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::AllFrequency)?;
+    let Metadata { mesh, hats, terms, factors, code } = metadata;
+    if !(1..=1024).contains(&terms) {
+        return Err(arrays.refuse("terms of the reflectance", "1 to 1024", terms.to_string()));
     }
-    let [terms, hats, sections, digest @ .., tangents] = fields;
-    let axis = reader.doubles(3, "axis of tangents")?;
-    reader.checksum(0, "the header")?;
-    for (field, found, expected) in [
-        ("terms of the reflectance", terms, 1..=1024),
-        ("width of hats in texels", hats, 1..=2),
-        ("number of sections", sections, 1..=3),
-    ] {
-        if !expected.contains(&found) {
-            let expected = format!("{} to {}", expected.start(), expected.end());
-            return Err(reader.field(field, expected, found.to_string()));
+    let reflectance = match factors {
+        Some([view, light]) => {
+            let view = factor(&mut arrays, "G", view, terms)?;
+            Reflectance::Factored(ProductFactors::new(terms, view, factor(&mut arrays, "F", light, terms)?))
         }
-    }
-    let Some(tangents) = reader.tangents(tangents, DVec3::from_slice(&axis))? else {
-        return Err(reader.field("tangents", "those of a mesh", "none"));
+        None => Reflectance::Diffuse,
     };
-    let [vertices, triangles, vertex_crc, triangle_crc] = digest;
-    let mesh = MeshDigest { tangents, vertices, triangles, vertex_crc, triangle_crc };
-    let hats = if hats == 1 { BasisWidth::OneTexel } else { BasisWidth::TwoTexels };
-    let mut file = AllFrequencyFile { mesh, hats, reflectance: Reflectance::Diffuse, visibility: None, coded: None };
-    let mut before = 0;
-    for _ in 0..sections {
-        let (tag, mut section) = reader.section()?;
-        let order = [FACTORS, VISIBILITY, CODE].iter().position(|known| **known == tag).map_or(0, |at| at + 1);
-        if order <= before {
-            let found = format!("{:?}", String::from_utf8_lossy(&tag));
-            return Err(reader.field("section", "\"FACT\", \"VISI\", \"CODE\", each at most once", found));
-        }
-        before = order;
-        match &tag {
-            FACTORS => file.reflectance = Reflectance::Factored(section.factors(terms as usize)?),
-            VISIBILITY => file.visibility = Some(section.visibility(vertices as usize)?),
-            _ => file.coded = Some(section.coded(terms as usize, vertices as usize)?),
-        }
-        section.end()?;
+    let vertices = mesh.vertices as usize;
+    let visibility = arrays.has("visibility").then(|| visibility(&mut arrays, vertices)).transpose()?;
+    let coded = code.map(|code| coded(&mut arrays, terms, vertices, code)).transpose()?;
+    let file = AllFrequencyFile { mesh, hats, reflectance, visibility, coded };
+    if let Some((field, expected, found)) = file.fault(terms) {
+        return Err(arrays.refuse(field, expected, found));
     }
-    reader.end()?;
-    match file.fault(terms as usize) {
-        Some((field, expected, found)) => Err(reader.field(field, expected, found)),
-        None => Ok(file),
-    }
+    arrays.finish()?;
+    Ok(file)
 }
 
 impl AllFrequencyFile {
@@ -138,87 +123,82 @@ impl AllFrequencyFile {
         let coded = self.coded.as_ref()?;
         let last = coded.segments.last().map_or(0, |part| part.segment);
         let shape = [coded.rows, coded.coefficients, last.max(23)];
-        if shape != [terms, Segmentation::Quarters.len(), 23] {
+        if shape != [terms, COEFFICIENTS, 23] {
             return Some(("shape of coded transfer", format!("{terms} x 256 in 24 segments"), format!("{shape:?}")));
         }
         coded.fault().map(|what| ("coded transfer", "parts that go together".to_owned(), format!("other {what}")))
     }
 }
 
-impl Reader<'_> {
-    fn factors(&mut self, terms: usize) -> Result<ProductFactors, InputError> {
-        let mut map = |what| {
-            let side = self.integer(what)?;
-            if !(1..=MAX_SIDE).contains(&side) {
-                return Err(self.field(what, format!("1 to {MAX_SIDE}"), side.to_string()));
-            }
-            let values = self.doubles((side as usize).pow(2).saturating_mul(terms), what)?;
-            if !values.iter().all(|value| value.is_finite()) {
-                return Err(self.field(what, "finite numbers", "others"));
-            }
-            Ok((ParabolicMap::new(side as usize), values))
-        };
-        let (view, light) = (map("the map of view factors")?, map("the map of light factors")?);
-        Ok(ProductFactors::new(terms, view, light))
+fn factor(
+    arrays: &mut NpzReader<'_>,
+    name: &str,
+    side: usize,
+    terms: usize,
+) -> Result<(ParabolicMap, Vec<f64>), InputError> {
+    if !(1..=MAX_SIDE).contains(&side) {
+        return Err(arrays.refuse(name, format!("1 to {MAX_SIDE} texels along an edge"), side.to_string()));
     }
+    Ok((ParabolicMap::new(side), arrays.doubles(name, &[side, side, terms])?))
+}
 
-    fn visibility(&mut self, vertices: usize) -> Result<VisibilityMaps, InputError> {
-        let words = self.numbers(vertices.saturating_mul(VISIBILITY_BYTES / 8), "visibility")?;
-        let words = words.iter().map(|&bytes| u64::from_le_bytes(bytes)).collect();
-        VisibilityMaps::from_words(words).ok_or_else(|| self.field("visibility", "whole maps", "others"))
-    }
+/// Two words per row of 128 directions.
+const fn visibility_shape(vertices: usize) -> [usize; 4] {
+    [vertices, 6, 128, VISIBILITY_BYTES / 8 / (6 * 128)]
+}
 
-    fn coded(&mut self, rows: usize, vertices: usize) -> Result<CodedTransfer, InputError> {
-        let coefficients = self.integer("light coefficients of a segment")? as usize;
-        let [representative_bits, weight_bits, scale, zero] = self.array("bits")?;
-        let scale = match (scale, zero) {
-            (0, 0) => ScaleOf::Representative,
-            (1, 0) => ScaleOf::Segment,
-            _ => return Err(self.field("scale", "0 or 1", scale.to_string())),
-        };
-        let options = CodeOptions { representative_bits, weight_bits, scale };
-        let count = self.integer("number of segments")?;
-        let columns = rows.saturating_mul(coefficients);
-        let segments = (0..count).map(|_| self.coded_segment(columns)).collect::<Result<_, _>>()?;
-        Ok(CodedTransfer { rows, coefficients, vertices, options, segments })
-    }
+fn visibility(arrays: &mut NpzReader<'_>, vertices: usize) -> Result<VisibilityMaps, InputError> {
+    let words = arrays.words("visibility", &visibility_shape(vertices))?;
+    VisibilityMaps::from_words(words).ok_or_else(|| arrays.refuse("visibility", "whole maps", "others"))
+}
 
-    fn shorts(&mut self, count: usize, what: &'static str) -> Result<Vec<i16>, InputError> {
-        Ok(self.numbers(count, what)?.iter().map(|&bytes| i16::from_le_bytes(bytes)).collect())
-    }
-
-    fn coded_segment(&mut self, columns: usize) -> Result<CodedSegment, InputError> {
-        let what = "a coded segment";
-        let [segment, vertices, clusters, nonzeros] =
-            [self.integer(what)?, self.integer(what)?, self.integer(what)?, self.integer(what)?].map(|n| n as usize);
-        let of_vertices = self.integers(vertices, what)?;
-        let cluster_of = self.numbers(vertices, what)?.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
-        let counts = self.numbers(clusters, what)?.iter().map(|&[count]| count).collect::<Vec<u8>>();
-        let rows: usize = counts.iter().map(|&count| usize::from(count)).sum();
-        let mut steps = || -> Result<Vec<f32>, InputError> {
-            Ok(self.numbers(rows, what)?.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect())
-        };
-        let (representative_steps, weight_steps) = (steps()?, steps()?);
-        let of_columns = self.numbers(rows.div_ceil(BLOCK_ROWS).saturating_mul(columns), what)?;
-        let of_columns = of_columns.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
-        let row_in_block = self.numbers(nonzeros, what)?.iter().map(|&[row]| row).collect();
-        let numbers = self.shorts(nonzeros, what)?;
-        let weights = self.integer(what)? as usize;
-        let weights = self.shorts(weights, what)?;
-        let representatives = SparseRows::from_parts(rows, columns, of_columns, row_in_block, numbers);
-        let representatives = representatives
-            .ok_or_else(|| self.field("representatives", "numbers other than 0 in order of rows", "others"))?;
-        Ok(CodedSegment {
+fn coded(
+    arrays: &mut NpzReader<'_>,
+    terms: usize,
+    vertices: usize,
+    Code { segments, options }: Code,
+) -> Result<CodedTransfer, InputError> {
+    let columns = terms * COEFFICIENTS;
+    let sizes: Vec<u32> = arrays.integers("segments", &[segments, 5])?;
+    let sizes: Vec<[usize; 5]> = sizes.as_chunks().0.iter().map(|sizes| sizes.map(|size| size as usize)).collect();
+    let total = |at: usize| sizes.iter().map(|sizes| sizes[at]).sum::<usize>();
+    let of_vertices = arrays.integers("vertices", &[total(1)])?;
+    let cluster_of = arrays.integers("clusters", &[total(1)])?;
+    let counts: Vec<u8> = arrays.integers("representatives", &[total(2)])?;
+    let mut rest = &counts[..];
+    let sum = |sizes: &[usize; 5]| front(&mut rest, sizes[2]).into_iter().map(usize::from).sum::<usize>();
+    let rows: Vec<usize> = sizes.iter().map(sum).collect();
+    let (blocks, all_rows): (usize, usize) =
+        (rows.iter().map(|rows| rows.div_ceil(BLOCK_ROWS)).sum(), rows.iter().sum());
+    let representative_steps = arrays.singles("representative_steps", &[all_rows])?;
+    let weight_steps = arrays.singles("weight_steps", &[all_rows])?;
+    let of_columns = arrays.integers("nonzeros", &[blocks, terms, COEFFICIENTS])?;
+    let row_in_block = arrays.integers("rows", &[total(3)])?;
+    let numbers = arrays.integers("numbers", &[total(3)])?;
+    let weights = arrays.integers("weights", &[total(4)])?;
+    let (mut of_vertices, mut cluster_of, mut counts) = (&of_vertices[..], &cluster_of[..], &counts[..]);
+    let (mut representative_steps, mut weight_steps) = (&representative_steps[..], &weight_steps[..]);
+    let (mut of_columns, mut row_in_block) = (&of_columns[..], &row_in_block[..]);
+    let (mut numbers, mut weights) = (&numbers[..], &weights[..]);
+    let segment = |(&[segment, vertices, clusters, nonzeros, of_weights], rows): (&[usize; 5], usize)| {
+        let in_columns = front(&mut of_columns, rows.div_ceil(BLOCK_ROWS) * columns);
+        let (in_rows, numbers) = (front(&mut row_in_block, nonzeros), front(&mut numbers, nonzeros));
+        let representatives = SparseRows::from_parts(rows, columns, in_columns, in_rows, numbers);
+        Some(CodedSegment {
             segment,
-            vertices: of_vertices,
-            cluster_of,
-            counts,
-            representatives,
-            representative_steps,
-            weights,
-            weight_steps,
+            vertices: front(&mut of_vertices, vertices),
+            cluster_of: front(&mut cluster_of, vertices),
+            counts: front(&mut counts, clusters),
+            representatives: representatives?,
+            representative_steps: front(&mut representative_steps, rows),
+            weights: front(&mut weights, of_weights),
+            weight_steps: front(&mut weight_steps, rows),
         })
-    }
+    };
+    let segments: Option<Vec<CodedSegment>> = sizes.iter().zip(rows).map(segment).collect();
+    let segments =
+        segments.ok_or_else(|| arrays.refuse("representatives", "numbers other than 0 in order of rows", "others"))?;
+    Ok(CodedTransfer { rows: terms, coefficients: COEFFICIENTS, vertices, options, segments })
 }
 
 /// Writes a file completely or not at all.
@@ -235,70 +215,49 @@ pub fn save_all_frequency(file: &AllFrequencyFile, path: &Path) -> Result<(), Wr
 /// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts contradict each other.
 pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::Result<()> {
     let terms = file.reflectance.terms();
-    if let Some((field, expected, found)) = file.fault(terms) {
-        let message = format!("{field}: expected {expected}, found {found}");
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+    if let Some(fault) = file.fault(terms) {
+        return Err(contradiction(fault));
     }
     let factors = if let Reflectance::Factored(factors) = &file.reflectance { Some(factors) } else { None };
-    let sections = [factors.is_some(), file.visibility.is_some(), file.coded.is_some()];
-    let hats = if file.hats == BasisWidth::OneTexel { 1 } else { 2 };
-    let (tangents, axis) = tangent_fields(file.mesh.tangents);
-    let mut header = MAGIC.to_vec();
-    let first = [VERSION, PrtKind::AllFrequency as u32, terms as u32, hats, sections.map(u32::from).iter().sum()];
-    let fields = first.into_iter().chain(digest_fields(file.mesh)).chain([tangents]);
-    header.extend(fields.flat_map(u32::to_le_bytes));
-    header.extend(axis.into_iter().flat_map(f64::to_le_bytes));
-    header.extend(crc32fast::hash(&header).to_le_bytes());
-    out.write_all(&header)?;
+    let sides = |factors: &ProductFactors| [factors.view_map().side(), factors.light_map().side()];
+    let code = |coded: &CodedTransfer| Code { segments: coded.segments.len(), options: coded.options };
+    let (factor_sides, code) = (factors.map(sides), file.coded.as_ref().map(code));
+    let metadata = Metadata { mesh: file.mesh, hats: file.hats, terms, factors: factor_sides, code };
+    let mut arrays = begin_writing(out, PrtKind::AllFrequency, &metadata)?;
     if let Some(factors) = factors {
-        let (sides, values) = ([factors.view_map().side(), factors.light_map().side()], factors.values());
-        let mut section = Section::begin(out, FACTORS, 8 + 8 * (values[0].len() + values[1].len()) as u64)?;
-        for (side, values) in sides.into_iter().zip(values) {
-            section.write(&(side as u32).to_le_bytes())?;
-            section.write_all(values.iter().map(|value| value.to_le_bytes()))?;
+        for ((name, side), values) in ["G", "F"].into_iter().zip(sides(factors)).zip(factors.values()) {
+            arrays.doubles(name, &[side, side, terms], values.iter())?;
         }
-        section.end()?;
     }
     if let Some(maps) = &file.visibility {
-        let mut section = Section::begin(out, VISIBILITY, 8 * maps.words().len() as u64)?;
-        section.write_all(maps.words().iter().map(|word| word.to_le_bytes()))?;
-        section.end()?;
+        arrays.words("visibility", &visibility_shape(maps.len()), maps.words())?;
     }
     if let Some(coded) = &file.coded {
-        let length = coded.segments.iter().map(segment_bytes).sum::<u64>();
-        let mut section = Section::begin(out, CODE, 12 + length)?;
-        write_coded(coded, &mut section)?;
-        section.end()?;
+        write_coded(coded, &mut arrays)?;
     }
-    Ok(())
+    arrays.finish()
 }
 
-/// Bytes of a segment in the file.
-fn segment_bytes(part: &CodedSegment) -> u64 {
-    let (columns, rows, values) = part.representatives.parts();
-    let vertices = 6 * part.vertices.len() + part.counts.len() + 8 * part.weight_steps.len();
-    (20 + vertices + 2 * columns.len() + rows.len() + 2 * values.len() + 2 * part.weights.len()) as u64
-}
-
-fn write_coded(coded: &CodedTransfer, section: &mut Section<'_>) -> io::Result<()> {
-    section.write(&(coded.coefficients as u32).to_le_bytes())?;
-    let scale = u8::from(coded.options.scale == ScaleOf::Segment);
-    section.write(&[coded.options.representative_bits, coded.options.weight_bits, scale, 0])?;
-    section.write(&(coded.segments.len() as u32).to_le_bytes())?;
-    for part in &coded.segments {
-        let (columns, rows, values) = part.representatives.parts();
-        let counts = [part.segment, part.vertices.len(), part.counts.len(), values.len()];
-        section.write_all(counts.into_iter().map(|count| (count as u32).to_le_bytes()))?;
-        section.write_all(part.vertices.iter().map(|vertex| vertex.to_le_bytes()))?;
-        section.write_all(part.cluster_of.iter().map(|cluster| cluster.to_le_bytes()))?;
-        section.write(&part.counts)?;
-        section.write_all(part.representative_steps.iter().map(|step| step.to_le_bytes()))?;
-        section.write_all(part.weight_steps.iter().map(|step| step.to_le_bytes()))?;
-        section.write_all(columns.iter().map(|count| count.to_le_bytes()))?;
-        section.write(rows)?;
-        section.write_all(values.iter().map(|value| value.to_le_bytes()))?;
-        section.write(&(part.weights.len() as u32).to_le_bytes())?;
-        section.write_all(part.weights.iter().map(|weight| weight.to_le_bytes()))?;
-    }
-    Ok(())
+fn write_coded(coded: &CodedTransfer, arrays: &mut NpzWriter<'_>) -> io::Result<()> {
+    let parts = || coded.segments.iter();
+    let sparse = || parts().map(|part| part.representatives.parts());
+    let sizes = |part: &CodedSegment| {
+        let counts = [part.vertices.len(), part.counts.len(), part.representatives.nonzeros(), part.weights.len()];
+        [part.segment, counts[0], counts[1], counts[2], counts[3]].map(|count| count as u32)
+    };
+    let [vertices, clusters, nonzeros, weights] =
+        [1, 2, 3, 4].map(|at: usize| parts().map(|part| sizes(part)[at] as usize).sum::<usize>());
+    let rows = parts().map(|part| part.representative_steps.len()).sum();
+    let blocks = parts().map(|part| part.representatives.block_count()).sum();
+    arrays.integers("segments", &[coded.segments.len(), 5], parts().flat_map(sizes))?;
+    arrays.integers("vertices", &[vertices], parts().flat_map(|part| part.vertices.iter().copied()))?;
+    arrays.integers("clusters", &[vertices], parts().flat_map(|part| part.cluster_of.iter().copied()))?;
+    arrays.integers("representatives", &[clusters], parts().flat_map(|part| part.counts.iter().copied()))?;
+    arrays.singles("representative_steps", &[rows], parts().flat_map(|part| &part.representative_steps))?;
+    arrays.singles("weight_steps", &[rows], parts().flat_map(|part| &part.weight_steps))?;
+    let columns = sparse().flat_map(|(columns, ..)| columns.iter().copied());
+    arrays.integers("nonzeros", &[blocks, coded.rows, coded.coefficients], columns)?;
+    arrays.integers("rows", &[nonzeros], sparse().flat_map(|(_, rows, _)| rows.iter().copied()))?;
+    arrays.integers("numbers", &[nonzeros], sparse().flat_map(|(.., numbers)| numbers.iter().copied()))?;
+    arrays.integers("weights", &[weights], parts().flat_map(|part| part.weights.iter().copied()))
 }

@@ -4,7 +4,7 @@
 //! - [`Reflectance`]: these factors, or the exact term of a diffuse surface;
 //! - [`transfer`]: matrices of vertices (section 4), over the light texels of [`grid`](crate::transfer::grid);
 //! - [`compressed`]: each lighting segment's transfer by clusters of linear combinations (section 5);
-//! - [`mod@file`]: compressed transfer in `.prt` files;
+//! - [`mod@file`]: compressed transfer in `.npz` files;
 //! - [`code`]: that as integers of a few bits, representatives without their zeros (section 4);
 //! - [`shade`]: transferred radiance from coded transfer and light (section 6);
 //! - [`kernels`], [`on_card`]: transferred radiance drawn by vertex and pixel programs (section 6);

@@ -1,7 +1,7 @@
 //! Sparse matrices: the transfer matrix T, or any matrix of finite numbers.
 //!
 //! Averaging 2^m x 2^m visibility samples gives multiples of 2^-2m (section IV-A), which entries hold as integers;
-//! other numbers are in a table ([`EntryValues`]). Either way values are subtracted without rounding, so that
+//! other numbers are in a table ([`EntryValues`]). Multiples of a unit are subtracted without rounding, so that
 //! "lossless" means equal.
 
 use super::values::EntryValues;
@@ -68,18 +68,22 @@ impl SparseMatrix {
         let values = match in_units {
             Some(fraction_bits) => EntryValues::units(fraction_bits),
             None => {
-                let mut distinct: Vec<f64> = values().collect();
-                distinct.sort_unstable_by(f64::total_cmp);
-                distinct.dedup();
-                ensure!(
-                    i32::try_from(distinct.len()).is_ok(),
-                    "expected at most {} distinct values, found {}",
-                    i32::MAX,
-                    distinct.len()
-                );
-                EntryValues::of_doubles(distinct)
+                let table = EntryValues::table(None, values());
+                let found = table.table_len().unwrap_or(0);
+                ensure!(i32::try_from(found).is_ok(), "expected at most {} distinct values, found {found}", i32::MAX);
+                table
             }
         };
+        Self::of_entries(matrix, values)
+    }
+
+    /// A matrix in units of 2^-`fraction_bits`, of multiples of these that 32 bits hold.
+    pub(super) fn in_units(matrix: &CoordinateMatrix, fraction_bits: u32) -> Result<Self, InputError> {
+        Self::of_entries(matrix, EntryValues::units(fraction_bits))
+    }
+
+    /// Entries that have these values, or are 0.
+    fn of_entries(matrix: &CoordinateMatrix, values: EntryValues) -> Result<Self, InputError> {
         let mut sparse = Self::of_values(matrix.columns, values)?;
         let mut rows = matrix.entries.chunk_by(|a, b| a.0 == b.0).peekable();
         let mut row = Vec::new();

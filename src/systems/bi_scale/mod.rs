@@ -2,8 +2,8 @@
 //!
 //! - [`directions`]: the local directions to which light is transferred (section VI-A);
 //! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a sparse [`matrix`];
-//! - [`values`]: the numbers that its integers stand for, and those of its biclusters, [`exact`];
-//! - [`mod@file`]: transfer and biclusters in `.prt` files;
+//! - [`values`]: the numbers that its integers stand for, and those of its biclusters;
+//! - [`mod@file`]: transfer and biclusters in `.npz` files;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
 //! - [`baselines`]: baselines, other ways to store transfer (section VI-B);
@@ -14,9 +14,7 @@
 pub mod baselines;
 pub mod bicluster;
 pub mod directions;
-pub mod exact;
 pub mod file;
-mod file_table;
 pub mod kernels;
 pub mod matrix;
 pub mod on_card;

@@ -17,14 +17,29 @@
 //! and says nothing of edges, corners or solid angles. Read as a bilinear hat, it reaches one texel from its center:
 //! two texels wide. The other reading, one texel wide, can only sum to 1 as a box.
 
+use serde::{Deserialize, Serialize};
+
 use super::grid::{
     FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, SUPERSAMPLES, Segmentation, face_row_column,
 };
 use crate::sphere::CUBE_FACES;
 
 /// The width of the hat function of a light texel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::EnumString,
+    strum::VariantNames,
+)]
 #[strum(serialize_all = "kebab-case")]
+#[serde(rename_all = "kebab-case")]
 pub enum BasisWidth {
     /// The texel alone: a box.
     OneTexel,

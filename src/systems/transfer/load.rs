@@ -5,10 +5,10 @@ use std::path::Path;
 use super::Signal;
 use super::file::{self, MeshDigest, PrtFile, PrtMeaning, parse_prt};
 use crate::error::{InputError, input_error};
-use crate::io::{number_table, parse_single_numbers, read_file};
+use crate::io::{npz, number_table, parse_single_numbers, read_file};
 
-/// Reads a signal from a file: the transfer of a `.prt` file, a NumPy array, or comma-separated values, recognised by
-/// the first bytes. Its numbers are f32, as in `.prt` files.
+/// Reads a signal from a file: the transfer of a `.npz` file, a NumPy array, or comma-separated values, recognised by
+/// the first bytes. Its numbers are f32, as transfer is stored.
 ///
 /// # Errors
 /// [`InputError`].
@@ -23,7 +23,7 @@ pub fn load_signal(path: &Path) -> Result<Signal, InputError> {
 pub fn load_signal_and_meaning(path: &Path) -> Result<(PrtMeaning, Option<MeshDigest>, Signal), InputError> {
     let limit = file::MAX_BYTES.max(number_table::MAX_BYTES);
     let bytes = read_file(path, "signal", limit)?;
-    if bytes.starts_with(file::MAGIC) {
+    if bytes.starts_with(npz::MAGIC) {
         let PrtFile { meaning, mesh, transfer, .. } = parse_prt(&bytes, path)?;
         let signal = transfer.ok_or_else(|| {
             input_error!("crossbar::signal::compressed" =>

@@ -11,7 +11,7 @@
 //! - [`light`]: light as coefficients over the cube; [`visibility`]: the directions that each vertex sees;
 //! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;
 //! - [`clustering`]: clustered principal components of any signal;
-//! - [`mod@file`]: the container of `.prt` files; [`load_signal`] reads a signal from one, or from NPY or CSV;
+//! - [`mod@file`]: files of transfer (`.npz`); [`load_signal`] reads a signal from one, or from NPY or CSV;
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
 pub mod brdf;

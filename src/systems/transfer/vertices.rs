@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::frame::LocalFrame;
 use crate::error::{InputError, ensure, input_error};
@@ -11,7 +12,8 @@ use crate::geom::Mesh;
 use crate::geom::vector::{place_bits, unit, wide};
 
 /// The source of the tangents.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
 pub enum Tangents {
     /// Any direction perpendicular to the normal, for isotropic materials.
     #[default]
@@ -29,6 +31,30 @@ impl fmt::Display for Tangents {
             Self::Any => f.write_str("any"),
             Self::Texture => f.write_str("texture"),
             Self::Along(DVec3 { x, y, z }) => write!(f, "{x},{y},{z}"),
+        }
+    }
+}
+
+impl From<Tangents> for String {
+    fn from(tangents: Tangents) -> Self {
+        tangents.to_string()
+    }
+}
+
+/// Of what [`Display`](fmt::Display) writes.
+impl TryFrom<String> for Tangents {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let axis = || {
+            let numbers: Vec<f64> = text.split(',').map(|number| number.parse().ok()).collect::<Option<_>>()?;
+            let axis = DVec3::from_array(numbers.try_into().ok()?);
+            unit(axis).map(|_| Self::Along(axis))
+        };
+        match text.as_str() {
+            "any" => Ok(Self::Any),
+            "texture" => Ok(Self::Texture),
+            _ => axis().ok_or_else(|| format!("expected tangents `any`, `texture` or an axis, found `{text}`")),
         }
     }
 }

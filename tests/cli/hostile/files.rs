@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 
+use crossbar::io::NpzWriter;
 use rayon::prelude::*;
 
 use super::{Files, assert_refused};
@@ -21,11 +22,11 @@ fn hostile_files() {
         &["bi-scale", "bicluster", "IN"],
         &["bi-scale", "multiply", "IN"],
         &["bi-scale", "compare", "IN"],
-        &["cpca", "compress", "IN", "--out", "y.prt"],
+        &["cpca", "compress", "IN", "--out", "y.npz"],
         &["cpca", "error", "IN", "IN"],
         &["all-frequency", "factor", "--table", "IN"],
         &["all-frequency", "factor", "--merl", "IN"],
-        &["cpca", "precompute", "IN", "--out", "x.prt"],
+        &["cpca", "precompute", "IN", "--out", "x.npz"],
         &["cpca", "show", "IN"],
         &["bi-scale", "texture", "IN", "--out", "b.npy"],
         &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--all-pairs", "no"],
@@ -90,7 +91,7 @@ fn claims_of_size() {
         ("rows.mtx", &mtx("4294967295 1 1")),
         ("both.mtx", &mtx("4000000000 4000000000 1")),
         ("columns.mtx", &mtx("1 4294967295 1")),
-        ("claims.prt", &prt),
+        ("claims.npz", &prt),
     ];
     for (name, _) in &files {
         for verb in ["bicluster", "multiply", "compare"] {
@@ -103,20 +104,20 @@ fn claims_of_size() {
     }
 }
 
-/// A `.prt` file without biclusters, with right checksums, that claims a matrix of this size.
+/// A file without biclusters that claims a matrix of this size.
 fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
-    let ended = |mut bytes: Vec<u8>| {
-        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
-        bytes
-    };
-    let [version, conventions, sections] = [1_u32, 3, 1];
-    let fields = [version, conventions, 0, 0, rows, columns, 0, sections, 0, 0, 0, 0, 0];
-    let header =
-        [b"\x89PRT\r\n\x1a\n".to_vec(), fields.iter().flat_map(|field| field.to_le_bytes()).collect(), vec![0; 24]];
-    // No biclusters; column indices take two bytes and values one.
-    let body = [0, 0, 0, 0, 2, 1, 0, 0];
-    let section = [&b"BICL"[..], &(body.len() as u64).to_le_bytes(), &body].concat();
-    [ended(header.concat()), ended(section)].concat()
+    let metadata = format!(
+        r#"{{"kind":"bi-scale","version":1,"meaning":null,"shape":{{"rows":{rows},"columns":{columns},"fraction_bits":0}},
+        "entries":null,"biclusters":{{"count":0,"rows":0,"columns":0}}}}"#
+    );
+    let mut bytes = Vec::new();
+    let mut arrays = NpzWriter::new(&mut bytes);
+    arrays.bytes("metadata", metadata.as_bytes()).expect("written");
+    for name in ["r", "l", "j", "k", "t"] {
+        arrays.integers(name, &[0], std::iter::empty::<u32>()).expect("written");
+    }
+    arrays.finish().expect("written");
+    bytes
 }
 
 /// A PNG file whose header claims `side` x `side` RGBA pixels, followed by `length` arbitrary bytes.

@@ -231,7 +231,7 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
 
 /// A file of transfer without how it was made; other files as they are.
 fn without_provenance(bytes: Vec<u8>) -> Vec<u8> {
-    match parse_prt(&bytes, Path::new("a.prt")) {
+    match parse_prt(&bytes, Path::new("a.npz")) {
         Ok(file) => {
             let mut bare = Vec::new();
             write_prt(&PrtFile { provenance: None, ..file }, &mut bare).expect("written");
@@ -262,10 +262,10 @@ fn inputs() -> &'static Path {
         put("heights.csv", "0,0.1\n0.2,0\n");
         for line in [
             "all-frequency factor --brdf phong --side 4 --supersamples 1x1 --terms 2 --out factors",
-            "all-frequency precompute docs/examples/step.obj --ground 3 --out on.prt",
-            "all-frequency precompute square.obj --reflectance factors --out glossy_sight.prt",
-            "all-frequency compress glossy_sight.prt --model square.obj --vectors 3 --out glossy.prt",
-            "bi-scale precompute docs/examples/court.obj --directions 2 --out court.prt",
+            "all-frequency precompute docs/examples/step.obj --ground 3 --out on.npz",
+            "all-frequency precompute square.obj --reflectance factors --out glossy_sight.npz",
+            "all-frequency compress glossy_sight.npz --model square.obj --vectors 3 --out glossy.npz",
+            "bi-scale precompute docs/examples/court.obj --directions 2 --out court.npz",
             "bi-scale precompute docs/examples/court.obj --directions 2 --part 1/2 --out court_1.part",
             "bi-scale precompute docs/examples/court.obj --directions 2 --part 2/2 --out court_2.part",
             "bi-scale texture plain --texels 2 --directions 4 --views 2 --out plain.npy",

@@ -170,60 +170,60 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &[
-            "cpca precompute docs/examples/room.obj --order 2 --degree 18 --out OUT.prt",
-            "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --brdf phong:0.2,0.3,4 --out OUT.prt",
-            "cpca precompute odd.obj --kind glossy --order 2 --rows 4 --degree 18 --bounces 1 --out OUT.prt",
-            "cpca precompute square.obj --order 2 --degree 18 --material marble --mm-per-unit 10 --out OUT.prt",
+            "cpca precompute docs/examples/room.obj --order 2 --degree 18 --out OUT.npz",
+            "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --brdf phong:0.2,0.3,4 --out OUT.npz",
+            "cpca precompute odd.obj --kind glossy --order 2 --rows 4 --degree 18 --bounces 1 --out OUT.npz",
+            "cpca precompute square.obj --order 2 --degree 18 --material marble --mm-per-unit 10 --out OUT.npz",
         ],
         options: "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=marble@3 --mm-per-unit=2@3 --channels=rgb \
-                  --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.prt \
+                  --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.npz \
                   --model-up=y --strict@2",
     },
     Tried {
         bases: &[
-            "cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --out OUT.prt",
-            "cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --max-error 0.1 --out OUT.prt",
-            "cpca compress docs/examples/step.prt --clusters 9 --vectors 2 --model docs/examples/step.obj \
-             --reclassify 0.5 --out OUT.prt",
-            "cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --model odd.obj --reclassify 0.5 --out OUT.prt",
+            "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --out OUT.npz",
+            "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --max-error 0.1 --out OUT.npz",
+            "cpca compress docs/examples/step.npz --clusters 9 --vectors 2 --model docs/examples/step.obj \
+             --reclassify 0.5 --out OUT.npz",
+            "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --model odd.obj --reclassify 0.5 --out OUT.npz",
         ],
         options: "--clusters=5@0,1,2 --vectors=1@0,2 --max-error=0.02@0,1,2 --grow=clusters@0,1,2 --method=adaptive@0,1,2 \
                   --linear@0,1,2 --iterations=1@0,2 --vq-iterations=1@0,1,2 --seed=2@0,1,2 \
                   --model=white-box@0,1,2 --reclassify=0@0,1,2 --refit@0,1,2 --supercluster-size=2@0,1,2 \
-                  --out=other.prt@0,1,2 --model-up=y --strict@3",
+                  --out=other.npz@0,1,2 --model-up=y --strict@3",
     },
     Tried {
         bases: &[
-            "cpca error docs/examples/step.prt docs/examples/step_small.prt",
-            "cpca error docs/examples/step.prt docs/examples/step_small.prt --model docs/examples/step.obj",
-            "cpca error docs/examples/step.prt docs/examples/step_small.prt --model odd.obj",
+            "cpca error docs/examples/step.npz docs/examples/step_small.npz",
+            "cpca error docs/examples/step.npz docs/examples/step_small.npz --model docs/examples/step.obj",
+            "cpca error docs/examples/step.npz docs/examples/step_small.npz --model odd.obj",
         ],
         options: "--csv=other.csv@0,1 --model=docs/examples/step.obj@0 --model-up=y --strict@2",
     },
     Tried {
         bases: &[
-            "cpca show docs/examples/step_small.prt",
-            "cpca show docs/examples/step.prt --at 0,0,0 --model docs/examples/step.obj",
-            "cpca show docs/examples/step.prt --at 0,0,0 --model odd.obj",
+            "cpca show docs/examples/step_small.npz",
+            "cpca show docs/examples/step.npz --at 0,0,0 --model docs/examples/step.obj",
+            "cpca show docs/examples/step.npz --at 0,0,0 --model odd.obj",
         ],
         options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --arrays=other@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[
-            "cpca render docs/examples/step.prt --model docs/examples/step.obj --size 8x6 --out OUT",
-            "cpca render docs/examples/step.prt --model odd.obj --size 8x6 --out OUT",
-            "cpca render docs/examples/step_small.prt --model docs/examples/step.obj --frames 2 --size 8x6 --out OUT",
+            "cpca render docs/examples/step.npz --model docs/examples/step.obj --size 8x6 --out OUT",
+            "cpca render docs/examples/step.npz --model odd.obj --size 8x6 --out OUT",
+            "cpca render docs/examples/step_small.npz --model docs/examples/step.obj --frames 2 --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--original=docs/examples/step.prt@0,2 --window=hann@0,2 --values=npy@0,2 --frames=3@0,2 --turn=camera@2 \
+            "--original=docs/examples/step.npz@0,2 --window=hann@0,2 --values=npy@0,2 --frames=3@0,2 --turn=camera@2 \
              --out=other@0,2",
             picture!("1")
         ),
     },
     Tried {
         bases: &[
-            "cpca card docs/examples/step_small.prt --model docs/examples/step.obj --size 8x6 --out OUT",
-            "cpca card docs/examples/step_small.prt --model odd.obj --size 8x6 --out OUT",
+            "cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 8x6 --out OUT",
+            "cpca card docs/examples/step_small.npz --model odd.obj --size 8x6 --out OUT",
         ],
         options: concat!(
             "--window=hann@0 --weights=unorm8@0 --map-side=8@0 --map-format=rgba8s@0 --out=other@0",
@@ -249,68 +249,68 @@ pub(super) const TABLE: &[Tried] = &[
         bases: &[
             "all-frequency lighting --light disk:1,0,2:5",
             "all-frequency lighting --light disk:1,0,2:20 --keep 60 --frames 2 --out OUT.csv",
-            "all-frequency lighting --light disk:1,0,2:20 --keep 60 --by transfer --transfer docs/examples/step_all.prt \
+            "all-frequency lighting --light disk:1,0,2:20 --keep 60 --by transfer --transfer docs/examples/step_all.npz \
              --model docs/examples/step.obj",
-            "all-frequency lighting --keep 60 --by transfer --transfer docs/examples/step_all.prt --model odd.obj",
+            "all-frequency lighting --keep 60 --by transfer --transfer docs/examples/step_all.npz --model odd.obj",
         ],
         options: "--light=red-and-blue --segments=6 --keep=9 --by=magnitude@1 --frames=3 \
-                  --transfer=docs/examples/step_all_small.prt --model=white-box --coefficients=other.csv \
+                  --transfer=docs/examples/step_all_small.npz --model=white-box --coefficients=other.csv \
                   --out=other.csv --model-up=y --strict@3",
     },
     Tried {
         bases: &[
-            "all-frequency precompute docs/examples/room.obj --out OUT.prt",
-            "all-frequency precompute odd.obj --out OUT.prt",
+            "all-frequency precompute docs/examples/room.obj --out OUT.npz",
+            "all-frequency precompute odd.obj --out OUT.npz",
         ],
-        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.prt --model-up=y \
+        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y \
                   --strict@1",
     },
     Tried {
         bases: &[
-            "all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 15 \
-             --vectors 2 --iterations 2 --out OUT.prt",
-            "all-frequency compress docs/examples/step_all.prt --model odd.obj --out OUT.prt",
+            "all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 15 \
+             --vectors 2 --iterations 2 --out OUT.npz",
+            "all-frequency compress docs/examples/step_all.npz --model odd.obj --out OUT.npz",
         ],
         options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --method=static@0 --iterations=1@0 --seed=2@0 \
-                  --bits=8@0 --weight-bits=8@0 --resume=kept@0 --part=1/2@0 --out=other.prt@0 \
+                  --bits=8@0 --weight-bits=8@0 --resume=kept@0 --part=1/2@0 --out=other.npz@0 \
                   --model-up=y --strict@1",
     },
     Tried {
         bases: &[
-            "all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj",
-            "all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model odd.obj",
+            "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj",
+            "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model odd.obj",
         ],
         options: "--model=white-box --csv=other.csv@0 --model-up=y --strict@1",
     },
     Tried {
         bases: &[
-            "all-frequency show docs/examples/step_all_small.prt",
-            "all-frequency show docs/examples/step_all.prt --at 0,0,0 --model docs/examples/step.obj",
-            "all-frequency show docs/examples/step_all.prt --at 0,0,0 --model odd.obj",
+            "all-frequency show docs/examples/step_all_small.npz",
+            "all-frequency show docs/examples/step_all.npz --at 0,0,0 --model docs/examples/step.obj",
+            "all-frequency show docs/examples/step_all.npz --at 0,0,0 --model odd.obj",
         ],
         options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --arrays=other@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[
-            "all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 8x6 --out OUT",
-            "all-frequency render docs/examples/step_all_small.prt --model odd.obj --size 8x6 --out OUT",
-            "all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 8x6 --frames 2 \
-             --ground on.ground.prt --out OUT",
+            "all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 8x6 --out OUT",
+            "all-frequency render docs/examples/step_all_small.npz --model odd.obj --size 8x6 --out OUT",
+            "all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 8x6 --frames 2 \
+             --ground on.ground.npz --out OUT",
         ],
         options: concat!(
-            "--original=docs/examples/step_all.prt@0,2 --keep=9@0,2 --ground=on.ground.prt@0 --ground-model=white-box@0,2 \
+            "--original=docs/examples/step_all.npz@0,2 --keep=9@0,2 --ground=on.ground.npz@0 --ground-model=white-box@0,2 \
              --values=csv@0,2 --frames=3@0,2 --turn=camera@2 --out=other@0,2",
             picture!("1")
         ),
     },
     Tried {
         bases: &[
-            "all-frequency card glossy.prt --model square.obj --size 8x6 --out OUT",
-            "all-frequency card docs/examples/step_all_small.prt --model odd.obj --size 8x6 --out OUT",
-            "all-frequency card glossy.prt --model square.obj --way colors --size 8x6 --out OUT",
+            "all-frequency card glossy.npz --model square.obj --size 8x6 --out OUT",
+            "all-frequency card docs/examples/step_all_small.npz --model odd.obj --size 8x6 --out OUT",
+            "all-frequency card glossy.npz --model square.obj --way colors --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--original=glossy_sight.prt@0,2 --keep=9@0,2 --way=sums@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
+            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=sums@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
              --partial@0,2 --out=other@0,2",
             card!("nv35"),
             picture!("1")
@@ -318,30 +318,30 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &[
-            "bi-scale precompute docs/examples/court.obj --directions 2 --out OUT.prt",
-            "bi-scale precompute odd.obj --directions 2 --out OUT.prt",
+            "bi-scale precompute docs/examples/court.obj --directions 2 --out OUT.npz",
+            "bi-scale precompute odd.obj --directions 2 --out OUT.npz",
         ],
         options: "--directions=3 --horizon=normal@0 --samples=1@0 --crease=10@0 --tangents=1,2,3@0 --matrix=other.mtx \
-                  --part=2/3 --out=other.prt --model-up=y --strict@1",
+                  --part=2/3 --out=other.npz --model-up=y --strict@1",
     },
     Tried {
-        bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.prt"],
-        options: "--seed=2 --seeds=3 --drop=0.25 --csv=other.csv --out=other.prt",
+        bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"],
+        options: "--seed=2 --seeds=3 --drop=0.25 --csv=other.csv --out=other.npz",
     },
     Tried {
         bases: &[
-            "bi-scale multiply docs/examples/court_biclusters.prt",
-            "bi-scale multiply docs/examples/court_biclusters.prt --csv OUT.csv --model docs/examples/court.obj",
-            "bi-scale multiply docs/examples/court_biclusters.prt --csv OUT.csv --model odd.obj",
+            "bi-scale multiply docs/examples/court_biclusters.npz",
+            "bi-scale multiply docs/examples/court_biclusters.npz --csv OUT.csv --model docs/examples/court.obj",
+            "bi-scale multiply docs/examples/court_biclusters.npz --csv OUT.csv --model odd.obj",
         ],
         options: "--light=red-and-blue@0,1 --csv=other.csv@0,1 --model=white-box@0,1 --model-up=y \
                   --strict@2",
     },
     Tried {
         bases: &[
-            "bi-scale compare court.prt --clusters 2 --vectors 2 --sample 60",
-            "bi-scale compare court.prt --model docs/examples/court.obj --clusters 2 --vectors 2 --sample 60",
-            "bi-scale compare court.prt --model odd.obj",
+            "bi-scale compare court.npz --clusters 2 --vectors 2 --sample 60",
+            "bi-scale compare court.npz --model docs/examples/court.obj --clusters 2 --vectors 2 --sample 60",
+            "bi-scale compare court.npz --model odd.obj",
         ],
         options: "--model=white-box --light=red-and-blue@0,1 --clusters=3@0,1 --vectors=1@0,1 \
                   --linear@0,1 --sample=40@0,1 --seed=2@0,1 --wavelets=5@0,1 --priority=magnitude@0,1 \
@@ -358,18 +358,18 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &[
-            "bi-scale show docs/examples/court_biclusters.prt",
-            "bi-scale show court.prt --at 0,0,0 --model docs/examples/court.obj",
-            "bi-scale show court.prt --at 0,0,0 --model odd.obj",
+            "bi-scale show docs/examples/court_biclusters.npz",
+            "bi-scale show court.npz --at 0,0,0 --model docs/examples/court.obj",
+            "bi-scale show court.npz --at 0,0,0 --model odd.obj",
         ],
         options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --matrix=other.mtx@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[
-            "bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture bumps \
+            "bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture bumps \
              --texture-size 4 --texture-views 2 --size 8x6 --out OUT",
-            "bi-scale render docs/examples/court_biclusters.prt --model odd.obj --texture bumps --size 8x6 --out OUT",
-            "bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture plain.npy \
+            "bi-scale render docs/examples/court_biclusters.npz --model odd.obj --texture bumps --size 8x6 --out OUT",
+            "bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture plain.npy \
              --frames 2 --size 8x6 --out OUT",
         ],
         options: concat!(
@@ -380,9 +380,9 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &[
-            "bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture bumps \
+            "bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture bumps \
              --texture-size 4 --texture-views 2 --size 8x6 --out OUT",
-            "bi-scale card docs/examples/court_biclusters.prt --model odd.obj --texture bumps --size 8x6 --out OUT",
+            "bi-scale card docs/examples/court_biclusters.npz --model odd.obj --texture bumps --size 8x6 --out OUT",
         ],
         options: concat!(
             "--texture=wall=tiles@0 --repeat=3@0 --texture-size=5@0 --texture-views=3@0 --crease=10 --texture-format=rgba16f@0 --out=other@0",
@@ -390,7 +390,7 @@ pub(super) const TABLE: &[Tried] = &[
             picture!("1")
         ),
     },
-    Tried { bases: &["merge court_2.part court_1.part --out OUT.prt"], options: "--out=other.prt" },
+    Tried { bases: &["merge court_2.part court_1.part --out OUT.npz"], options: "--out=other.npz" },
     Tried {
         bases: &["measure docs/examples/measured.csv --device nv25"],
         options: "--device=nv20 --switch=rounding=rtz",

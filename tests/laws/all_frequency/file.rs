@@ -13,6 +13,7 @@ use proptest::prelude::*;
 
 use super::coding::compressed;
 use super::{all, clutter, factors, trace, vertices};
+use crate::archive::{archive, members};
 
 fn bytes(file: &AllFrequencyFile) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -21,7 +22,7 @@ fn bytes(file: &AllFrequencyFile) -> Vec<u8> {
 }
 
 fn parsed(bytes: &[u8]) -> Result<AllFrequencyFile, String> {
-    parse_all_frequency(bytes, Path::new("a.prt")).map_err(|error| error.to_string())
+    parse_all_frequency(bytes, Path::new("a.npz")).map_err(|error| error.to_string())
 }
 
 /// Everything of two triangles: factors of 3 terms, visibility, coded transfer.
@@ -64,7 +65,7 @@ fn what_is_written_is_read_in_all_its_parts() {
         }
         assert_eq!(read, file);
         let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("a.prt");
+        let path = folder.path().join("a.npz");
         save_all_frequency(&file, &path).expect("saved");
         assert!(load_all_frequency(&path, Some(&file.mesh)).is_ok());
         let other = MeshDigest { triangle_crc: !file.mesh.triangle_crc, ..file.mesh };
@@ -75,25 +76,25 @@ fn what_is_written_is_read_in_all_its_parts() {
 
 #[test]
 fn every_flipped_bit_and_every_cut_is_seen() {
-    let whole = bytes(&small());
+    let file = small();
+    let whole = bytes(&file);
     for length in 0..whole.len() {
         assert!(parsed(&whole[..length]).is_err(), "{length} of {} bytes", whole.len());
     }
     for at in 0..whole.len() {
         let mut damaged = whole.clone();
         damaged[at] ^= 1 << (at % 8);
-        assert!(parsed(&damaged).is_err(), "byte {at}");
+        // Bits that no reader looks at, such as the date of a member, change nothing.
+        assert!(parsed(&damaged).is_ok_and(|read| read == file) || parsed(&damaged).is_err(), "byte {at}");
     }
-    let message = format!("a.prt: expected the end of the file at {}, found 1 more bytes", whole.len());
-    assert_eq!(parsed(&[&whole[..], b"x"].concat()), Err(message));
 }
 
 #[test]
 fn files_of_the_other_kind_are_told_apart() {
     let ours = bytes(&small());
-    let error = parse_prt(&ours, Path::new("a.prt")).expect_err("refused").to_string();
-    assert_eq!(error, "a.prt: expected a file of low-frequency transfer, found one of transfer of all frequencies");
-    let other = std::fs::read("docs/examples/step.prt").expect("an example");
+    let error = parse_prt(&ours, Path::new("a.npz")).expect_err("refused").to_string();
+    assert_eq!(error, "a.npz: expected a file of low-frequency transfer, found one of transfer of all frequencies");
+    let other = std::fs::read("docs/examples/step.npz").expect("an example");
     assert!(parsed(&other).is_err());
 }
 
@@ -117,17 +118,14 @@ fn parts_of_unlike_shapes_are_not_written() {
 
 proptest! {
     #[test]
-    fn forged_contents_never_panic(at in 0..4096_usize, value in any::<[u8; 4]>()) {
-        // A field of the coded section changed, and the checksum made right again.
-        let mut whole = bytes(&small());
-        let begin = 8 + 10 * 4 + 24 + 4;
-        let end = whole.len() - 4;
-        let at = begin + 12 + at % (end - begin - 16);
-        whole[at..at + 4].copy_from_slice(&value);
-        let crc = crc32fast::hash(&whole[begin..end]);
-        whole[end..].copy_from_slice(&crc.to_le_bytes());
-        if let Ok(read) = parsed(&whole) {
-            prop_assert_eq!(bytes(&read), whole);
+    fn forged_contents_never_panic(which: prop::sample::Index, at: prop::sample::Index, value: u8) {
+        // A place of a member changed, and its checksum made right again.
+        let mut members = members(&bytes(&small()));
+        let which = which.index(members.len());
+        let at = at.index(members[which].1.len());
+        members[which].1[at] = value;
+        if let Ok(read) = parsed(&archive(&members)) {
+            prop_assert_eq!(parsed(&bytes(&read)), Ok(read));
         }
     }
 }

@@ -1,18 +1,21 @@
-//! The `.prt` file: what is written is read, what is damaged is refused.
+//! Files of low-frequency transfer: what is written is read, what is damaged is refused.
 
 use std::path::Path;
 
 use crossbar::geom::Mesh;
+use crossbar::io::npz::MAGIC;
 use crossbar::io::{NumberTable, parse_number_table, parse_single_npy, write_npy};
 use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crossbar::transfer::file::{MAGIC, MeshDigest, PrtFile, PrtMeaning, load_prt, parse_prt, save_prt, write_prt};
+use crossbar::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt, parse_prt, save_prt, write_prt};
 use crossbar::transfer::synthetic::torus_signal;
 use crossbar::transfer::{Signal, Tangents, Vertices, load_signal};
 use glam::DVec3;
 use proptest::prelude::*;
 
+use crate::archive::{archive, members, with_member, with_metadata};
+
 fn name() -> &'static Path {
-    Path::new("a.prt")
+    Path::new("a.npz")
 }
 
 fn bytes(file: &PrtFile) -> Vec<u8> {
@@ -70,7 +73,7 @@ fn what_is_written_is_read_in_all_its_parts() {
         assert_eq!(parsed(&bytes(&file)), Ok(file.clone()));
         assert_eq!(file.points(), 12);
         let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("a.prt");
+        let path = folder.path().join("a.npz");
         save_prt(&file, &path).expect("saved");
         assert_eq!(load_prt(&path, file.mesh.as_ref()).expect("loaded"), file);
         match (&file.transfer, load_signal(&path)) {
@@ -81,69 +84,63 @@ fn what_is_written_is_read_in_all_its_parts() {
     }
 }
 
+/// Bits that no reader looks at, such as the date of a member, change nothing.
 #[test]
 fn every_flipped_bit_and_every_cut_is_seen() {
-    let whole = bytes(&small());
+    let file = small();
+    let whole = bytes(&file);
     for length in 0..whole.len() {
         assert!(parsed(&whole[..length]).is_err(), "{length} of {} bytes", whole.len());
     }
-    for at in 0..whole.len() {
-        for bit in 0..8 {
-            let mut damaged = whole.clone();
-            damaged[at] ^= 1 << bit;
-            assert!(parsed(&damaged).is_err(), "bit {bit} of byte {at}");
-        }
+    for at in 0..8 * whole.len() {
+        let mut damaged = whole.clone();
+        damaged[at / 8] ^= 1 << (at % 8);
+        assert!(parsed(&damaged).is_ok_and(|read| read == file) || parsed(&damaged).is_err(), "bit {at}");
     }
-    let longer = [&whole[..], b"x"].concat();
-    let message = format!("a.prt: expected the end of the file at {}, found 1 more bytes", whole.len());
-    assert_eq!(parsed(&longer), Err(message));
-}
-
-/// Replaces a field of the header and makes its checksum right again.
-fn forged<const N: usize>(bytes: &[u8], at: usize, field: [u8; N]) -> Vec<u8> {
-    let mut bytes = bytes.to_vec();
-    bytes[at..at + N].copy_from_slice(&field);
-    let functions = u32::from_le_bytes(bytes[20..24].try_into().expect("four"));
-    let end = 84 + 2 * (functions as usize).min(2);
-    let crc = crc32fast::hash(&bytes[..end]);
-    bytes[end..end + 4].copy_from_slice(&crc.to_le_bytes());
-    bytes
+    // Every bit of an array and of its header is under its checksum.
+    let at = whole.windows(6).position(|bytes| bytes == b"\x93NUMPY").expect("an array");
+    let mut damaged = whole;
+    damaged[at + 100] ^= 1;
+    let error = parsed(&damaged).expect_err("damaged");
+    assert!(error.starts_with("a.npz: member `metadata.npy`: ") && error.contains("checksum"), "{error}");
 }
 
 #[test]
-fn forged_headers_are_refused_by_name() {
+fn forged_metadata_are_refused_by_name() {
     let whole = bytes(&small());
-    assert_eq!(forged(&whole, 12, [1, 0, 0, 0]), whole, "the header's checksum is where it is thought to be");
-    let error = |at: usize, field: u32| parsed(&forged(&whole, at, field.to_le_bytes())).expect_err("refused");
-    assert_eq!(error(8, 2), "a.prt: expected a .prt file of version 1 to 1, found version 2");
-    assert_eq!(error(12, 7), "a.prt: conventions: expected 1 to 3, found 7");
-    assert_eq!(error(28, 2), "a.prt: albedo: expected 0 to 1, found 2");
-    assert_eq!(error(36, 0), "a.prt: number of sections: expected 1 to 4, found 0");
-    assert!(error(36, 1).contains("expected the end of the file"), "{}", error(36, 1));
-    assert_eq!(error(40, 11), "a.prt: vertices of the mesh: expected 12, found 11");
-    assert_eq!(error(56, 4), "a.prt: tangents: expected 0 to 3, found 4");
-    assert_eq!(error(56, 2), "a.prt: axis of tangents: expected zeros, found 0,-0.5,2");
-    assert!(error(56, 0).starts_with("a.prt: mesh's digest: expected 0 to 0, found"), "{}", error(56, 0));
-    let axis = |axis: [f64; 3]| {
-        let field: [u8; 24] = std::array::from_fn(|i| axis[i / 8].to_le_bytes()[i % 8]);
-        parsed(&forged(&whole, 60, field)).expect_err("refused")
+    let forged = |from: &str, to: &str| {
+        let changed = with_metadata(&whole, |text| {
+            assert!(text.contains(from), "{text}");
+            text.replacen(from, to, 1)
+        });
+        parsed(&changed)
     };
-    assert_eq!(axis([0.0; 3]), "a.prt: axis of tangents: expected a finite length above 0, found 0,0,0");
-    assert!(axis([1.0, f64::NAN, 0.0]).ends_with("found 1,NaN,0") && axis([1e300; 3]).contains("a finite length"));
+    assert_eq!(forged("points", "points"), Ok(small()), "the same again");
+    let error = |from: &str, to: &str| forged(from, to).expect_err("refused");
+    assert_eq!(error("\"version\":1", "\"version\":2"), "a.npz: version: expected 1, found 2");
+    assert!(error("low-frequency", "other").contains("metadata: expected JSON as docs/npz.md has it, found unknown"));
+    assert_eq!(error("\"channels\":1", "\"channels\":2"), "a.npz: channels: expected 1 or 3, found 2");
+    assert!(error("[0,3]", "[3,0]").contains("exit functions: expected at least one of 0 to 99, in increasing order"));
+    assert_eq!(error("\"light_order\":2", "\"light_order\":11"), "a.npz: light order: expected 1 to 10, found 11");
+    assert_eq!(error("\"vertices\":12", "\"vertices\":11"), "a.npz: vertices of the mesh: expected 12, found 11");
+    assert!(error("0,-0.5,2", "0,0,0").contains("an axis, found `0,0,0`"));
+    assert!(error("0,-0.5,2", "1,NaN,0").contains("an axis, found `1,NaN,0`"));
+    assert!(error("\"clusters=3", "\"\\u0007").contains("provenance: expected a line of 1 to 4096 bytes"));
+    assert!(error("{", "[").contains("metadata: expected JSON"));
     // Counts far beyond the bytes that are there: refused before anything of that size is allocated.
-    for at in [16, 20, 24, 32] {
-        for field in [3, 1000, u32::MAX] {
-            assert!(error(at, field).starts_with("a.prt: "), "{at}: {field}");
+    for field in ["points", "count", "vectors", "weights", "light_order"] {
+        for claim in ["1000", "4294967295", "18446744073709551615", "-1", "1e400"] {
+            assert!(error(&format!("\"{field}\":"), &format!("\"{field}\":{claim},\"x\":")).starts_with("a.npz: "));
         }
     }
-    assert_eq!(parsed(b"\x93NUMPY"), Err("a.prt: expected a .prt file, found another beginning".to_owned()));
-    assert!(parsed(MAGIC).expect_err("cut").contains("expected 4 bytes of header at 8, found 0"));
+    assert_eq!(parsed(b"\x93NUMPY"), Err("a.npz: expected a .npz file, found another beginning".to_owned()));
+    assert!(parsed(MAGIC).expect_err("cut").starts_with("a.npz: "));
 }
 
 #[test]
 fn another_mesh_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("a.prt");
+    let path = folder.path().join("a.npz");
     save_prt(&small(), &path).expect("saved");
     let mesh = small().mesh.expect("a mesh");
     let others = [
@@ -204,31 +201,33 @@ fn parts_that_do_not_go_together_are_not_written() {
     }
 }
 
-/// Sections out of order, twice, or with text that is none.
+/// Arrays that are missing, of another shape or type, or more than there should be.
 #[test]
-fn forged_sections_are_refused_by_name() {
-    let whole = PrtFile { transfer: None, ..small() };
-    let without = |whole: &PrtFile| bytes(&PrtFile { superclusters: None, provenance: None, ..whole.clone() });
-    let forged = |sections: &[(&[u8; 4], &[u8])]| {
-        let section = |&(tag, body): &(&[u8; 4], &[u8])| {
-            let all = [&tag[..], &(body.len() as u64).to_le_bytes(), body].concat();
-            let crc = crc32fast::hash(&all).to_le_bytes();
-            [all, crc.to_vec()].concat()
-        };
-        let mut all = forged(&without(&whole), 36, (1 + sections.len() as u32).to_le_bytes());
-        all.extend(sections.iter().flat_map(section));
-        parsed(&all)
-    };
-    let (groups, line) = ((b"SUPR", &[0; 12][..]), (b"MADE", &b"a"[..]));
-    assert!(forged(&[groups, line]).is_ok() && forged(&[line]).is_ok());
-    for wrong in [&[line, groups][..], &[line, line], &[groups, groups], &[(b"CLUS", &[][..])], &[(b"ELSE", &[][..])]] {
-        let error = forged(wrong).expect_err("refused");
-        assert!(error.contains("in this order, each at most once, found"), "{error}");
+fn forged_arrays_are_refused_by_name() {
+    let whole = bytes(&small());
+    let array = |name: &str| members(&whole).into_iter().find(|(other, _)| other == name).expect("an array").1;
+    let put = |name: &str, other: &str| parsed(&with_member(&whole, name, |_| array(other))).expect_err("refused");
+    assert_eq!(put("x_0.npy", "M_p.npy"), "a.npz: x_0: expected numbers of type <f8, found `<f4`");
+    assert!(put("x_0.npy", "x_i.npy").starts_with("a.npz: x_0: expected the shape [3, 1, 2, 4], found ["));
+    assert_eq!(
+        put("k_p.npy", "w_p.npy"),
+        "a.npz: k_p: expected numbers of type |u1 |i1 <u2 <i2 <u4 <i4 <i8, found `<f8`"
+    );
+    for name in members(&whole).into_iter().map(|(name, _)| name) {
+        let without: Vec<_> = members(&whole).into_iter().filter(|(other, _)| *other != name).collect();
+        let read = parsed(&archive(&without));
+        // Transfer and superclusters may be missing.
+        assert_eq!(read.is_ok(), ["M_p.npy", "superclusters.npy"].contains(&name.as_str()), "{name}: {read:?}");
     }
-    assert!(forged(&[(b"MADE", &[255][..])]).expect_err("refused").contains("provenance: expected UTF-8"));
-    assert!(forged(&[(b"MADE", &[][..])]).expect_err("refused").contains("provenance: expected a line"));
-    assert!(forged(&[(b"SUPR", &[0; 11][..])]).is_err() && forged(&[(b"SUPR", &[0; 16][..])]).is_err());
-    assert!(forged(&[(b"SUPR", &[1; 12][..])]).expect_err("refused").contains("superclusters: expected 0 to 0"));
+    let mut more = members(&whole);
+    more.push(("else.npy".to_owned(), array("x_0.npy")));
+    assert_eq!(parsed(&archive(&more)), Err("a.npz: arrays: expected no others, found `else`".to_owned()));
+    more.last_mut().expect("a member").0 = "else".to_owned();
+    assert_eq!(parsed(&archive(&more)), Err("a.npz: member `else`: expected a name that ends in .npy".to_owned()));
+    let not_finite = with_member(&whole, "w_p.npy", |array| [&array[..array.len() - 2], &[0xf8, 0x7f]].concat());
+    assert!(parsed(&not_finite).expect_err("refused").contains("w_p: expected finite numbers, found another at"));
+    let ordered = with_member(&whole, "superclusters.npy", |array| [&array[..array.len() - 3], &[1, 0, 1]].concat());
+    assert!(parsed(&ordered).expect_err("refused").contains("superclusters: expected 0 to 0"));
 }
 
 /// The same bytes for any number of threads.
@@ -265,16 +264,17 @@ proptest! {
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
     }
 
-    /// Anything behind the magic, with right checksums or wrong ones: an error or a file, no panic.
+    /// Anything behind the magic, and members with a changed place and right checksums: an error or a file, no panic.
     #[test]
-    fn noise_is_no_file(noise in prop::collection::vec(any::<u8>(), 0..200), at in 8..300_usize, with in any::<[u8; 4]>()) {
-        let _ = parsed(&[&MAGIC[..], &noise].concat());
-        let mut changed = bytes(&small());
-        changed[at..at + 4].copy_from_slice(&with);
-        let end = 88;
-        let crc = crc32fast::hash(&changed[..end]);
-        changed[end..end + 4].copy_from_slice(&crc.to_le_bytes());
-        let _ = parsed(&changed);
+    fn noise_is_no_file(noise in prop::collection::vec(any::<u8>(), 0..200), which: prop::sample::Index, at: prop::sample::Index, with: u8) {
+        prop_assert!(parsed(&[MAGIC, &noise].concat()).is_err());
+        let mut members = members(&bytes(&small()));
+        let which = which.index(members.len());
+        let at = at.index(members[which].1.len());
+        members[which].1[at] = with;
+        if let Ok(read) = parsed(&archive(&members)) {
+            prop_assert_eq!(parsed(&bytes(&read)), Ok(read));
+        }
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! Quantisation: numbers as integer multiples of a step.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{InputError, ensure};
 
 /// Options of the quantisation. The paper uses 16 bits for both.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CodeOptions {
     /// Bits of a representative's numbers, including the sign: 2 to 16.
     pub representative_bits: u8,
@@ -15,8 +17,9 @@ pub struct CodeOptions {
 
 /// The numbers that share a step, which the paper leaves open.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 pub enum ScaleOf {
     /// Each representative has a step, and the weights of that representative have another.
     Representative,

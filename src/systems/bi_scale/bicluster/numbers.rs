@@ -3,9 +3,6 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use num_bigint::{BigInt, BigUint};
-
-use crate::bi_scale::exact::ExactNumber;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
 /// Numbers behind the integers of a search; 0 stands for 0.
@@ -52,73 +49,56 @@ impl SearchNumbers for UnitNumbers {
     }
 }
 
-/// Any numbers, by the order in which they were met first.
-#[derive(Debug)]
+/// Any numbers, by the order in which they were met first. A difference is rounded to the nearest f64; it is 0 for
+/// equal numbers alone.
+#[derive(Debug, Default)]
 pub(super) struct KnownNumbers {
-    /// All numbers are multiples of 2^this, and are kept as such.
-    exponent: i32,
-    numbers: Vec<BigInt>,
-    known: BTreeMap<BigInt, i32>,
-    drop: BigUint,
+    numbers: Vec<f64>,
+    /// The integer of each number, by its bits.
+    known: BTreeMap<u64, i32>,
+    drop: f64,
 }
 
 impl KnownNumbers {
-    /// The numbers of a matrix, and its entries by these, row by row.
-    pub(super) fn new(matrix: &SparseMatrix, drop: f64) -> (Self, Vec<MatrixEntry>, Vec<usize>) {
+    /// The numbers of a matrix, and its entries by these, row by row; `None` if there are more numbers than integers.
+    pub(super) fn new(matrix: &SparseMatrix, drop: f64) -> Option<(Self, Vec<MatrixEntry>, Vec<usize>)> {
+        let mut known = Self { drop, ..Self::default() };
+        known.integer(0.0);
         let (mut entries, begins) = matrix.to_rows();
-        let mut distinct: Vec<i32> = entries.iter().map(|entry| entry.value).collect();
-        distinct.sort_unstable();
-        distinct.dedup();
-        let exact: Vec<ExactNumber> = distinct.iter().map(|&entry| matrix.values().exact(entry)).collect();
-        let exponent = exact.iter().map(ExactNumber::exponent).min().unwrap_or(0);
-        let units = |number: &ExactNumber| number.in_units(exponent).expect("a multiple of the finest number");
-        let mut known =
-            Self { exponent, numbers: Vec::new(), known: BTreeMap::new(), drop: units_below(drop, exponent) };
-        known.integer(BigInt::ZERO);
-        let integers: Vec<Option<i32>> = exact.iter().map(|number| known.integer(units(number))).collect();
         for entry in &mut entries {
-            let at = distinct.binary_search(&entry.value).expect("an entry of the matrix");
-            entry.value = integers[at].expect("fewer numbers than integers");
+            entry.value = known.integer(matrix.value(entry.value))?;
         }
-        (known, entries, begins)
+        Some((known, entries, begins))
     }
 
     /// The number that an integer stands for.
-    pub(super) fn exact(&self, integer: i32) -> ExactNumber {
-        ExactNumber::new(self.numbers[integer as usize].clone(), self.exponent)
+    pub(super) fn number(&self, integer: i32) -> f64 {
+        self.numbers[integer as usize]
     }
 
-    fn integer(&mut self, number: BigInt) -> Option<i32> {
-        if let Some(&integer) = self.known.get(&number) {
+    fn integer(&mut self, number: f64) -> Option<i32> {
+        if let Some(&integer) = self.known.get(&number.to_bits()) {
             return Some(integer);
         }
         let integer = i32::try_from(self.numbers.len()).ok()?;
-        self.numbers.push(number.clone());
-        self.known.insert(number, integer);
+        self.numbers.push(number);
+        self.known.insert(number.to_bits(), integer);
         Some(integer)
     }
 }
 
-/// The largest multiple of 2^`exponent`, in units of it, that is not above a number; 0 of what is negative or not a
-/// number.
-fn units_below(number: f64, exponent: i32) -> BigUint {
-    let exact = ExactNumber::of(if number > 0.0 { number.min(f64::MAX) } else { 0.0 });
-    let (magnitude, shift) = (exact.whole().magnitude(), exact.exponent() - exponent);
-    if shift >= 0 { magnitude << shift.unsigned_abs() } else { magnitude >> shift.unsigned_abs() }
-}
-
 impl SearchNumbers for KnownNumbers {
     fn difference(&mut self, value: i32, t: i32) -> Option<i32> {
-        let difference = &self.numbers[value as usize] - &self.numbers[t as usize];
-        self.integer(difference)
+        let difference = self.number(value) - self.number(t);
+        if difference.is_finite() { self.integer(difference) } else { None }
     }
 
     fn order(&self, a: i32, b: i32) -> Ordering {
-        self.numbers[a as usize].cmp(&self.numbers[b as usize])
+        self.number(a).total_cmp(&self.number(b))
     }
 
     fn is_dropped(&self, residual: i32) -> bool {
-        *self.numbers[residual as usize].magnitude() <= self.drop
+        self.number(residual).abs() <= self.drop
     }
 }
 
@@ -131,7 +111,7 @@ mod tests {
         let mut matrix = SparseMatrix::new(3, 1).unwrap();
         matrix.push_row(&[MatrixEntry { index: 1, value: 4 }]).unwrap();
         matrix.push_row(&[MatrixEntry { index: 0, value: -3 }, MatrixEntry { index: 2, value: 1 }]).unwrap();
-        let (mut numbers, entries, begins) = KnownNumbers::new(&matrix, 0.75);
+        let (mut numbers, entries, begins) = KnownNumbers::new(&matrix, 0.75).unwrap();
         assert_eq!(begins, [0, 1, 3]);
         let [four, minus_three, one] = [0, 1, 2].map(|at: usize| entries[at].value);
         let difference = numbers.difference(one, minus_three);
@@ -139,8 +119,11 @@ mod tests {
         assert_eq!(numbers.difference(one, one), Some(0));
         assert_eq!(numbers.order(minus_three, one), Ordering::Less);
         assert_eq!([four, minus_three, one].map(|integer| numbers.is_dropped(integer)), [false, false, true]);
-        assert_eq!(numbers.exact(minus_three), ExactNumber::of(-1.5));
-        assert_eq!([0.2, -1.0, f64::NAN].map(|drop| units_below(drop, 0)), [0_u8, 0, 0].map(BigUint::from));
+        assert_eq!(numbers.number(minus_three), -1.5);
+        let [largest, least] = [f64::MAX, f64::MIN].map(|number| numbers.integer(number).unwrap());
+        assert_eq!(numbers.difference(largest, least), None);
+        numbers.drop = f64::NAN;
+        assert!(!numbers.is_dropped(one));
     }
 
     #[test]

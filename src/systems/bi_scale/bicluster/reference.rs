@@ -1,32 +1,28 @@
-//! Algorithm 1 literally: a dense matrix, every operation tried, each evaluated by equation 9. Numbers are whole
-//! multiples of the finest f64, 2^-1074, in integers of any length.
+//! Algorithm 1 literally: a dense matrix of f64, every operation tried, each evaluated by equation 9.
 
 use std::collections::BTreeSet;
 
-use num_bigint::BigInt;
-
 use super::draw::start;
 use super::{Bicluster, BiclusterOptions, Biclustering};
-use crate::bi_scale::exact::ExactNumber;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
 /// A submatrix T_b: its rows, and its columns with the values t of the bicluster.
 #[derive(Clone, Debug)]
 struct Submatrix {
     rows: Vec<usize>,
-    columns: Vec<(usize, BigInt)>,
+    columns: Vec<(usize, f64)>,
 }
 
 impl Submatrix {
     /// Equation 9: 2 nnz(M) - (r + 2l - 1) - 2 nnz(M_R), where M_R is M less the bicluster.
-    fn reduction(&self, matrix: &[Vec<BigInt>]) -> i64 {
+    fn reduction(&self, matrix: &[Vec<f64>]) -> i64 {
         let mut nonzeros = 0;
         let mut residual_nonzeros = 0;
         for &row in &self.rows {
             for (column, t) in &self.columns {
-                let value = &matrix[row][*column];
-                nonzeros += i64::from(*value != BigInt::ZERO);
-                residual_nonzeros += i64::from(value != t);
+                let value = matrix[row][*column];
+                nonzeros += i64::from(value != 0.0);
+                residual_nonzeros += i64::from(value != *t);
             }
         }
         let cost = (self.rows.len() + 2 * self.columns.len()).cast_signed() as i64 - 1;
@@ -45,7 +41,7 @@ impl Submatrix {
     }
 
     /// The same for a column. Also `None` if a column is 0 in all rows, and so has no value.
-    fn with_column_changed(&self, column: usize, matrix: &[Vec<BigInt>]) -> Option<Self> {
+    fn with_column_changed(&self, column: usize, matrix: &[Vec<f64>]) -> Option<Self> {
         let mut changed = self.clone();
         match changed.columns.iter().position(|(inside, _)| *inside == column) {
             None => changed.columns.push((column, self.most_frequent(column, matrix)?)),
@@ -56,18 +52,17 @@ impl Submatrix {
     }
 
     /// The most frequent value other than 0 in the rows of a column, the lowest of equally frequent ones.
-    fn most_frequent(&self, column: usize, matrix: &[Vec<BigInt>]) -> Option<BigInt> {
-        let values: Vec<&BigInt> =
-            self.rows.iter().map(|&row| &matrix[row][column]).filter(|value| **value != BigInt::ZERO).collect();
-        let count = |value: &BigInt| values.iter().filter(|other| **other == value).count();
-        values.iter().copied().max_by(|a, b| count(a).cmp(&count(b)).then(b.cmp(a))).cloned()
+    fn most_frequent(&self, column: usize, matrix: &[Vec<f64>]) -> Option<f64> {
+        let values = || self.rows.iter().map(|&row| matrix[row][column]).filter(|&value| value != 0.0);
+        let count = |value: f64| values().filter(|&other| other == value).count();
+        values().max_by(|&a, &b| count(a).cmp(&count(b)).then(b.total_cmp(&a)))
     }
 
     /// The bicluster; values are appended to `numbers`, and named by their index there.
-    fn bicluster(mut self, numbers: &mut Vec<BigInt>) -> Bicluster {
+    fn bicluster(mut self, numbers: &mut Vec<f64>) -> Bicluster {
         self.rows.sort_unstable();
-        self.columns.sort_unstable();
-        let entry = |(column, t): (usize, BigInt)| {
+        self.columns.sort_unstable_by_key(|&(column, _)| column);
+        let entry = |(column, t): (usize, f64)| {
             let value = i32::try_from(numbers.len()).expect("fewer numbers than 2^31");
             numbers.push(t);
             MatrixEntry { index: column as u32, value }
@@ -86,13 +81,12 @@ impl Submatrix {
 pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     let mut left = dense(matrix);
     assert!(options.drop >= 0.0, "a size");
-    let drop = whole(options.drop);
     let (mut dropped, mut numbers) = (BTreeSet::new(), Vec::new());
     let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
     // Line 2: until no element is left.
     while let Some((row, column)) = choose(&left, options.seed, found.len()) {
         // Lines 5 and 6.
-        let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column].clone())] };
+        let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column])] };
         // Lines 7 to 20.
         while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
             submatrix = better;
@@ -100,52 +94,39 @@ pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclusteri
         // Lines 15 and 16: what is taken away is the bicluster, so that the residual stays.
         for &row in &submatrix.rows {
             for (column, t) in &submatrix.columns {
-                let value = &left[row][*column] - t;
-                let is_small = value != BigInt::ZERO && value.magnitude() <= drop.magnitude();
+                let value = left[row][*column] - t;
+                let is_small = value != 0.0 && value.abs() <= options.drop;
                 let goes = is_small && dropped.insert((row, *column));
-                left[row][*column] = if goes { BigInt::ZERO } else { value };
+                left[row][*column] = if goes { 0.0 } else { value };
             }
         }
         found.push(&submatrix.bicluster(&mut numbers));
     }
-    let number = |index: i32| ExactNumber::new(numbers[index as usize].clone(), ExactNumber::LEAST_EXPONENT);
-    found.with_numbers(matrix.values().fraction_bits(), number)
+    found.with_numbers(matrix.values().fraction_bits(), |index| numbers[index as usize])
 }
 
-fn dense(matrix: &SparseMatrix) -> Vec<Vec<BigInt>> {
+fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
     let row = |row| {
-        let mut values = vec![BigInt::ZERO; matrix.columns()];
+        let mut values = vec![0.0; matrix.columns()];
         for entry in matrix.row(row) {
-            values[entry.index as usize] = whole(matrix.value(entry.value));
+            values[entry.index as usize] = matrix.value(entry.value);
         }
         values
     };
     (0..matrix.rows()).map(row).collect()
 }
 
-/// A number in units of 2^-1074.
-fn whole(value: f64) -> BigInt {
-    assert!(value.is_finite(), "a finite number");
-    let fraction = BigInt::from(value.to_bits() % (1 << 52));
-    let exponent = value.to_bits() / (1 << 52) % (1 << 11);
-    let magnitude = match exponent {
-        0 => fraction,
-        normal => (BigInt::from(1_u64 << 52) + fraction) * BigInt::from(2).pow(normal as u32 - 1),
-    };
-    if value < 0.0 { -magnitude } else { magnitude }
-}
-
 /// The element that the next bicluster starts at, row and column.
-fn choose(left: &[Vec<BigInt>], seed: u64, number: usize) -> Option<(usize, usize)> {
+fn choose(left: &[Vec<f64>], seed: u64, number: usize) -> Option<(usize, usize)> {
     let places = left.iter().enumerate().flat_map(|(row, values)| {
-        values.iter().enumerate().filter(|(_, value)| **value != BigInt::ZERO).map(move |(column, _)| (row, column))
+        values.iter().enumerate().filter(|(_, value)| **value != 0.0).map(move |(column, _)| (row, column))
     });
     let places: Vec<(usize, usize)> = places.collect();
     (!places.is_empty()).then(|| places[start(seed, number as u64, places.len() as u64) as usize])
 }
 
 /// The submatrix after the operation that reduces the cost most; `None` if none reduces it.
-fn best_operation(submatrix: &Submatrix, left: &[Vec<BigInt>], deletion: bool) -> Option<Submatrix> {
+fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>], deletion: bool) -> Option<Submatrix> {
     let rows = (0..left.len()).filter(|row| deletion || !submatrix.rows.contains(row));
     let is_inside = |column: usize| submatrix.columns.iter().any(|(inside, _)| *inside == column);
     let columns = (0..left[0].len()).filter(|&column| deletion || !is_inside(column));

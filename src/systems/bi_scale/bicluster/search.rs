@@ -41,12 +41,15 @@ pub fn bicluster(
             return Ok(biclustering);
         }
     }
-    let (numbers, entries, begins) = KnownNumbers::new(matrix, options.drop);
+    let known = KnownNumbers::new(matrix, options.drop);
+    let (numbers, entries, begins) = known.ok_or_else(residuals_error)?;
     let mut search = Search::new((Lines::new(entries, begins), matrix.columns()), numbers, options);
-    let biclustering = search
-        .run(matrix, found)
-        .ok_or_else(|| input_error!("expected at most {} distinct residuals, found more", i32::MAX))?;
-    Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.exact(integer)))
+    let biclustering = search.run(matrix, found).ok_or_else(residuals_error)?;
+    Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.number(integer)))
+}
+
+fn residuals_error() -> InputError {
+    input_error!("expected at most {} distinct residuals, all of them finite, found others", i32::MAX)
 }
 
 /// State of the lines of one direction: rows or columns.

@@ -1,6 +1,5 @@
 //! Biclusters.
 
-use crate::bi_scale::exact::ExactNumber;
 use crate::bi_scale::matrix::MatrixEntry;
 use crate::bi_scale::values::EntryValues;
 
@@ -73,27 +72,12 @@ impl Biclustering {
 
     /// The same with other integers for values, by the number of each: in units of 2^-`fraction_bits` where there are
     /// such and 32 bits hold all, else in a table.
-    pub(super) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> ExactNumber) -> Self {
-        let mut integers: Vec<i32> = self.columns.iter().map(|entry| entry.value).collect();
-        integers.sort_unstable();
-        integers.dedup();
-        let mut numbers: Vec<(ExactNumber, i32)> = integers.iter().map(|&integer| (number(integer), integer)).collect();
-        numbers.sort_unstable();
-        let mut distinct: Vec<ExactNumber> = numbers.iter().map(|(number, _)| number.clone()).collect();
-        distinct.dedup();
-        let (values, entries) = EntryValues::of_numbers(fraction_bits, &distinct);
-        let mut of_integers: Vec<(i32, i32)> = Vec::with_capacity(numbers.len());
-        let mut at = 0;
-        for (number, integer) in numbers {
-            at += usize::from(number != distinct[at]);
-            of_integers.push((integer, entries[at]));
-        }
-        of_integers.sort_unstable();
+    pub(super) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
+        self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
         for entry in &mut self.columns {
-            let at = of_integers.binary_search_by_key(&entry.value, |(integer, _)| *integer);
-            entry.value = of_integers[at.expect("one of the integers")].1;
+            entry.value = self.values.entry(number(entry.value)).expect("one of the numbers");
         }
-        Self { values, ..self }
+        self
     }
 
     /// The numbers that the values of columns stand for.
@@ -101,7 +85,7 @@ impl Biclustering {
         &self.values
     }
 
-    /// The number that a value of a column stands for; the nearest f64 where it is a residual that no f64 holds.
+    /// The number that a value of a column stands for.
     ///
     /// # Panics
     /// If there can be no such value.

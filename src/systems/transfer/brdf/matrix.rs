@@ -42,7 +42,7 @@ impl ExitBasis {
     }
 
     /// The basis with the given functions, l (l + 1) + m, increasing; function 0 alone stands for radiance, as in
-    /// `.prt` files.
+    /// `.npz` files.
     ///
     /// # Errors
     /// [`InputError`] for no functions.

@@ -2,11 +2,13 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::transfer::{LocalFrame, Tangents, Vertices};
 
 /// Counts and checksums of the vertices at which transfer is computed. A mesh with other positions, normals, tangents
 /// or triangles, or with the same in another order, has another digest, except with probability 2^-32.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeshDigest {
     /// The source of the tangents.
     pub tangents: Tangents,

@@ -1,4 +1,4 @@
-//! Errors of reading `.prt` files.
+//! Errors of reading files of transfer.
 
 use std::path::Path;
 

@@ -1,35 +1,37 @@
-//! The system that a `.prt` file belongs to.
+//! The metadata of a file: the system that it belongs to, and what its arrays do not say themselves.
 
-use super::VERSION;
+use std::io;
+use std::path::Path;
 
-/// The system that a `.prt` file belongs to: the number of its conventions, which docs/prt-format.md specifies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::FromRepr)]
-#[repr(u32)]
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::MAX_BYTES;
+use crate::error::{InputError, input_error};
+use crate::io::{NpzReader, NpzWriter, read_file};
+
+/// The version of all files.
+const VERSION: u32 = 1;
+/// The array of the metadata: JSON in UTF-8.
+const METADATA: &str = "metadata";
+
+/// The system that a file of transfer belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum PrtKind {
     /// [`PrtFile`](super::PrtFile): real orthonormal harmonics, function l(l+1)+m, no Condon-Shortley sign (l = 1 is y,
     /// z, x), light in the axes of the mesh, exit radiance in those of the vertex with its normal as z.
     #[strum(to_string = "low-frequency transfer")]
-    LowFrequency = 1,
+    LowFrequency,
     /// [`AllFrequencyFile`](crate::all_frequency::file::AllFrequencyFile).
     #[strum(to_string = "transfer of all frequencies")]
-    AllFrequency = 2,
+    AllFrequency,
     /// [`BiScaleFile`](crate::bi_scale::file::BiScaleFile).
     #[strum(to_string = "bi-scale transfer")]
-    BiScale = 3,
+    BiScale,
 }
 
 impl PrtKind {
-    /// The latest version of any kind.
-    pub(super) const LATEST_VERSION: u32 = Self::BiScale.latest_version();
-
-    /// The latest version of such files.
-    pub const fn latest_version(self) -> u32 {
-        match self {
-            Self::LowFrequency | Self::AllFrequency => VERSION,
-            Self::BiScale => 2,
-        }
-    }
-
     /// The command that takes such files.
     pub const fn command(self) -> &'static str {
         match self {
@@ -38,4 +40,63 @@ impl PrtKind {
             Self::BiScale => "bi-scale",
         }
     }
+}
+
+/// What all metadata begin with.
+#[derive(Serialize, Deserialize)]
+struct Head {
+    kind: PrtKind,
+    version: u32,
+}
+
+#[derive(Serialize)]
+struct Metadata<'a, T> {
+    #[serde(flatten)]
+    head: Head,
+    #[serde(flatten)]
+    rest: &'a T,
+}
+
+/// All bytes of a file of any kind.
+pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
+    read_file(path, ".npz file", MAX_BYTES)
+}
+
+/// The arrays of a file of a kind, and its metadata.
+pub(crate) fn begin_reading<'a, T: DeserializeOwned>(
+    bytes: &'a [u8],
+    name: &'a Path,
+    expected: PrtKind,
+) -> Result<(NpzReader<'a>, T), InputError> {
+    let mut arrays = NpzReader::new(bytes, name)?;
+    let json = arrays.bytes(METADATA)?;
+    let invalid = |error: serde_json::Error| arrays.refuse(METADATA, "JSON as docs/npz.md has it", error.to_string());
+    let Head { kind, version } = serde_json::from_slice(json).map_err(invalid)?;
+    if kind != expected {
+        return Err(input_error!("crossbar::prt::kind" =>
+            "expected a file of {expected}, found one of {kind}"; help "`crossbar {}` takes it", kind.command())
+        .at(name));
+    }
+    if version != VERSION {
+        return Err(arrays.refuse("version", VERSION.to_string(), version.to_string()));
+    }
+    let rest = serde_json::from_slice(json).map_err(invalid)?;
+    Ok((arrays, rest))
+}
+
+/// Begins a file of a kind with its metadata.
+pub(crate) fn begin_writing<'a>(
+    out: &'a mut dyn io::Write,
+    kind: PrtKind,
+    rest: &impl Serialize,
+) -> io::Result<NpzWriter<'a>> {
+    let mut arrays = NpzWriter::new(out);
+    let metadata = Metadata { head: Head { kind, version: VERSION }, rest };
+    arrays.bytes(METADATA, &serde_json::to_vec(&metadata)?)?;
+    Ok(arrays)
+}
+
+/// The error of contents that contradict each other, before anything is written.
+pub(crate) fn contradiction((field, expected, found): (&str, String, String)) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, format!("{field}: expected {expected}, found {found}"))
 }

@@ -1,47 +1,29 @@
-//! The `.prt` file: transfer of a mesh, its clusters, or both, with all conventions in its header. docs/prt-format.md
-//! specifies it.
+//! Files of transfer: NumPy's archives of arrays (`.npz`), with metadata as JSON. docs/npz.md says what is inside.
 //!
-//! Checksums cover every byte; a file is read completely or refused. Equal contents have equal bytes.
+//! [`PrtFile`] is the low-frequency kind: transfer of a mesh, its clusters, or both.
 
+mod arrays;
 mod digest;
 mod error;
-mod kind;
-pub(crate) mod read;
-pub(crate) mod write;
+pub(crate) mod kind;
 
+use serde::{Deserialize, Serialize};
+
+pub use arrays::{load_prt, parse_prt, save_prt, write_prt};
 pub use digest::MeshDigest;
 pub use error::other_mesh_error;
 pub use kind::PrtKind;
-pub use read::{load_prt, parse_prt};
-pub use write::{save_prt, write_prt};
 
 use super::Signal;
 use super::clustering::Clustering;
 
-/// The first bytes of a file: they are no valid text, and are changed by programs that convert line ends.
-pub const MAGIC: &[u8; 8] = b"\x89PRT\r\n\x1a\n";
-/// The version of all files but those of bi-scale transfer with tables of values.
-pub const VERSION: u32 = 1;
 /// Largest size of a file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
-
-/// Codes of [`Tangents`](crate::transfer::Tangents); 0 without a mesh.
-const ANY_TANGENTS: u32 = 1;
-const TEXTURE_TANGENTS: u32 = 2;
-const AXIS_TANGENTS: u32 = 3;
-
-const TRANSFER: &[u8; 4] = b"TRAN";
-const CLUSTERING: &[u8; 4] = b"CLUS";
-const SUPERCLUSTERS: &[u8; 4] = b"SUPR";
-const PROVENANCE: &[u8; 4] = b"MADE";
-
-/// Sections in their order.
-const SECTIONS: [&[u8; 4]; 4] = [TRANSFER, CLUSTERING, SUPERCLUSTERS, PROVENANCE];
 
 /// Longest line that says how a file was made, in bytes.
 const MAX_PROVENANCE: usize = 4096;
 
-/// The contents of a `.prt` file.
+/// The contents of a file of low-frequency transfer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrtFile {
     /// The meaning of the numbers of a point.
@@ -60,7 +42,8 @@ pub struct PrtFile {
 }
 
 /// The meaning of the numbers of a point.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PrtMeaning {
     /// Numbers without a meaning.
     Numbers {
@@ -92,10 +75,21 @@ impl PrtMeaning {
         }
     }
 
+    /// The shape of an array of so many points.
+    fn shape(&self, points: usize) -> Vec<usize> {
+        match self {
+            Self::Numbers { dimension } => vec![points, *dimension as usize],
+            Self::Transfer { channels, exit_functions, light_order, .. } => {
+                let columns = (*light_order as usize).pow(2);
+                vec![points, *channels as usize, exit_functions.len(), columns]
+            }
+        }
+    }
+
     /// The first invalid value: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, &'static str, String)> {
         let Self::Transfer { channels, exit_functions, light_order, .. } = self else {
-            return None;
+            return (*self == Self::Numbers { dimension: 0 }).then(|| ("numbers per point", "some", "none".to_owned()));
         };
         if ![1, 3].contains(channels) {
             return Some(("channels", "1 or 3", channels.to_string()));
@@ -111,6 +105,16 @@ impl PrtMeaning {
         }
         None
     }
+}
+
+/// Cuts off so many values.
+///
+/// # Panics
+/// If there are fewer.
+pub(crate) fn front<T: Clone>(values: &mut &[T], count: usize) -> Vec<T> {
+    let (front, rest) = values.split_at(count);
+    *values = rest;
+    front.to_vec()
 }
 
 /// The largest order of harmonics.
