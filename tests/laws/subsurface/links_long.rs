@@ -150,7 +150,8 @@ fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
         ("700 x 2 mm", plate(700.0, 2.0), 16, adaptive),
         ("a cube of 300 mm", cuboid([300.0; 3]), 16, LinkChoice::Fixed { level: 2 }),
     ];
-    for (name, mesh, side, choice) in models {
+    // The plate of 700 mm and the cube take a minute together.
+    for (name, mesh, side, choice) in models.into_iter().take(by_form(2, 4)) {
         let atlas = atlas(&mesh, side);
         let surface = surface(&atlas, 1.0);
         let texels = (side * side) as usize;

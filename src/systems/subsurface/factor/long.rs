@@ -41,7 +41,7 @@ const LEAST_SIZE: f64 = 0.1;
 /// Parts with less area over the square of their outline have no normal to rely on.
 const LEAST_AREA: f64 = 1e-9;
 /// Of vast texels with longer outlines, in mean free paths, all light stays in its texel: within 1e-5, but for sheets
-/// that coordinates can hardly express.
+/// that coordinates can hardly express. So it does in slivers without a normal.
 const MAX_VAST: f64 = 4e6;
 
 /// The surface under a texel.
@@ -77,9 +77,10 @@ pub(super) fn long_mean<const N: usize>(
     });
     let parts = [&p, &q];
     let is_vast = parts.iter().all(|part| kernel.keeps_light(part.outline, part.area))
-        || parts.iter().all(|part| part.outline > MAX_OUTLINE * kernel.depth() && part.has_normal());
+        || parts.iter().all(|part| part.outline > MAX_OUTLINE * kernel.depth());
+    let is_line = parts.iter().any(|part| part.is_long(kernel.depth()) && !part.has_normal());
     let slivers = parts.map(|part| part.is_sliver(kernel.depth()));
-    if is_vast && p.outline.max(q.outline) > MAX_VAST * kernel.depth() {
+    if is_line || is_vast && p.outline.max(q.outline) > MAX_VAST * kernel.depth() {
         let stays = f64::from(u8::from(from == to)) / p.area;
         return kernel.dipoles().each_ref().map(|dipole| stays * dipole.total());
     }
@@ -193,10 +194,12 @@ impl Part {
         self.area > LEAST_AREA * self.outline * self.outline
     }
 
+    fn is_long(&self, depth: f64) -> bool {
+        self.outline > 2.0 * SLIVER[1] * depth
+    }
+
     fn is_sliver(&self, depth: f64) -> bool {
-        let [width, length] = SLIVER;
-        let is_long = self.outline > 2.0 * length * depth && self.has_normal();
-        is_long && 2.0 * self.area < width * depth * self.outline
+        self.is_long(depth) && 2.0 * self.area < SLIVER[0] * depth * self.outline
     }
 }
 
