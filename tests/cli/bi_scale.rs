@@ -99,7 +99,7 @@ fn the_cheapest_seed_is_kept() {
     assert_eq!(best["seed"], first);
 }
 
-/// Numbers without a unit whose residuals are not rounded: the biclusters' file gives back the matrix, number by number.
+/// Numbers without a unit whose residuals are not rounded: the biclusters' file gives back the matrix.
 #[test]
 fn any_numbers_come_back_from_files() {
     let folder = tempfile::tempdir().expect("a folder for the test");

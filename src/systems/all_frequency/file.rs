@@ -1,7 +1,7 @@
 //! Files of all-frequency transfer. docs/npz.md says what is inside.
 //!
-//! A file never stores raw transfer, which takes gigabytes. It stores visibility and reflectance, from which each segment
-//! is computed when it is needed, and coded transfer.
+//! A file never stores raw transfer, which takes gigabytes. It stores visibility and reflectance, from which each
+//! segment is computed when it is needed, and coded transfer.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -41,7 +41,7 @@ pub struct AllFrequencyFile {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Metadata {
+struct TransferMetadata {
     mesh: MeshDigest,
     hats: BasisWidth,
     terms: usize,
@@ -72,7 +72,7 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
 /// [`InputError`].
 pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, InputError> {
     let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::AllFrequency)?;
-    let Metadata { mesh, hats, terms, factors, code } = metadata;
+    let TransferMetadata { mesh, hats, terms, factors, code } = metadata;
     if !(1..=1024).contains(&terms) {
         return Err(arrays.refuse("terms of the reflectance", "1 to 1024", terms.to_string()));
     }
@@ -222,7 +222,7 @@ pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::
     let sides = |factors: &ProductFactors| [factors.view_map().side(), factors.light_map().side()];
     let code = |coded: &CodedTransfer| Code { segments: coded.segments.len(), options: coded.options };
     let (factor_sides, code) = (factors.map(sides), file.coded.as_ref().map(code));
-    let metadata = Metadata { mesh: file.mesh, hats: file.hats, terms, factors: factor_sides, code };
+    let metadata = TransferMetadata { mesh: file.mesh, hats: file.hats, terms, factors: factor_sides, code };
     let mut arrays = begin_writing(out, PrtKind::AllFrequency, &metadata)?;
     if let Some(factors) = factors {
         for ((name, side), values) in ["G", "F"].into_iter().zip(sides(factors)).zip(factors.values()) {

@@ -40,7 +40,7 @@ pub struct BiScaleFile {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Metadata {
+struct MatrixMetadata {
     meaning: Option<BiScaleMeaning>,
     shape: Shape,
     /// Entries of the matrix.
@@ -70,7 +70,7 @@ pub fn load_bi_scale(path: &Path) -> Result<BiScaleFile, InputError> {
 /// [`InputError`].
 pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputError> {
     let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::BiScale)?;
-    let Metadata { meaning, shape, entries, biclusters } = metadata;
+    let MatrixMetadata { meaning, shape, entries, biclusters } = metadata;
     for (field, found, expected) in [
         ("rows", shape.rows, 1..=u32::MAX as usize),
         ("columns", shape.columns, 1..=u32::MAX as usize),
@@ -235,7 +235,7 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
     };
     let entries = file.matrix.as_ref().map(SparseMatrix::nonzeros);
     let biclusters = file.biclusters.as_ref().map(sizes);
-    let metadata = Metadata { meaning: file.meaning, shape, entries, biclusters };
+    let metadata = MatrixMetadata { meaning: file.meaning, shape, entries, biclusters };
     let mut arrays = begin_writing(out, PrtKind::BiScale, &metadata)?;
     if let Some(matrix) = &file.matrix {
         let rows = || (0..matrix.rows()).map(|row| matrix.row(row));
