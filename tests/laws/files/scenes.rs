@@ -308,7 +308,7 @@ fn names_run_to_the_end_of_their_line() {
     assert_eq!(albedos(&["blue"], "my b.mtl").0, [blue]);
     write("a.mtl b.mtl", "newmtl blue\nKd 0.6 0.6 0.6\n");
     assert_eq!(albedos(&["blue"], "a.mtl b.mtl").0, [[0.6; 3]], "a file of this name counts first");
-    for (line, missing) in [("none.mtl", "none.mtl"), ("a.mtl c.mtl", "c.mtl"), ("a.mtl c", "c")] {
+    for (line, missing) in [("none.mtl", "none.mtl"), ("a.mtl d.mtl", "d.mtl"), ("a.mtl d", "d")] {
         write("m.obj", &text(line, &["blue"]));
         let error = load_scene_with(&model, ModelOptions::default()).expect_err(line).to_string();
         let expected = format!("m.obj:1: cannot read the material library {}", folder.path().join(missing).display());
