@@ -262,7 +262,7 @@ pub(crate) fn all() -> Vec<Suite> {
                     continue;
                 }
                 let name = format!("programs::{}::{}::{}", version_name(version), family.name(), group.name());
-                let seeds = if vertex { 5 } else { 6 };
+                let seeds = if vertex { 12 } else { 6 };
                 out.push(Suite::new(name, Kind::Program(version, family, group), seeds));
             }
         }

@@ -450,12 +450,10 @@ mod tests {
             part(DVec3::new(50.0, -20.0, -1.0), DVec3::new(5.0, 0.0, 0.0), DVec3::new(0.0, 40.0, 0.0)),
         ];
         let kernel = kernel(0.01);
-        for (k, q) in others.iter().enumerate() {
+        for q in &others {
             let light = Light { kernel: &kernel, part: q, cluster: &q.pieces[0].moments, is_vast: false };
             let [found] = light.mean_over(&p);
             assert_relative_eq!(found, by_pieces(&p, q), max_relative = 0.01);
-            let vast = Light { is_vast: true, ..light };
-            assert!((vast.mean_over(&p)[0] - found).abs() * q.area < 0.02 * dipole().total(), "{k}");
         }
     }
 }
