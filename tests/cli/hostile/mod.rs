@@ -270,7 +270,10 @@ fn what_is_wrong_is_said() {
         ),
         ("cpca render x.npz --model white-box --light disk:0,0,1:1e300", "at most 180 degrees, found `1e300`"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sun:1,1,1", "directional:X,Y,Z:R,G,B"),
-        ("subsurface stand-in-head --mm-per-unit 1 --material marble --light ambient:0,0,0", "expected light on the model"),
+        (
+            "subsurface stand-in-head --mm-per-unit 1 --material marble --light ambient:0,0,0",
+            "expected light on the model",
+        ),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --device r200", "r200"),
         ("timeline --eye-rays -1,2", "found `-1x2`"),
         ("run nowhere.toml --trace -1,2", "expected a pixel as `3,4`, column and row from 0; found `-1,2`"),
