@@ -27,9 +27,9 @@ pub struct RadiosityOptions {
     #[arg(long, value_name = "N", conflicts_with = "patches", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub per_side: Option<u32>,
 
-    /// Where form factors come from: unoccluded (as if nothing stood between any two patches), rays[:N] (closed forms
-    /// and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default), or hemicube[:N]
-    /// (pictures of the scene from each patch, drawn by the emulated card, N pixels wide, 64 by default).
+    /// Where form factors come from: unoccluded (as if nothing stood between any two patches), rays or rays:N (closed
+    /// forms and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default), or hemicube or
+    /// hemicube:N (pictures of the scene from each patch, drawn by the emulated card, N pixels wide, 64 by default).
     #[arg(long, value_name = "HOW", default_value = "rays")]
     pub factors: Factors,
 
