@@ -1,4 +1,4 @@
-//! Options and errors of biclustering.
+//! Options of biclustering.
 
 /// Options of Algorithm 1 that the paper leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
