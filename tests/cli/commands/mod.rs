@@ -115,7 +115,8 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
     crossbar_in(folder, &words, input)
 }
 
-/// A message if the command does not end as its text says; `None` if it does.
+/// A message if the command does not end as its text says; `None` if it does. A program of `CROSSBAR_PROGRAM` without the
+/// feature `wgpu` may refuse what the text builds with it, but must name the feature.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();
     let (arguments, expected) = match exemption(&command.arguments) {
@@ -124,6 +125,10 @@ fn fault(command: &Command) -> Option<String> {
         Some(_) => ([&command.arguments[..], &["--help".to_owned()]].concat(), 0),
     };
     let ran = run(root.path(), &arguments, &command.input);
+    let is_other_program = std::env::var_os("CROSSBAR_PROGRAM").is_some();
+    if is_other_program && command.with_wgpu && ran.stderr.contains("the feature `wgpu` is off") {
+        return (ran.code != Some(2)).then(|| format!("{}: expected exit code 2\n{}", command.place, ran.transcript()));
+    }
     (ran.code != Some(expected)).then(|| format!("{}: `{}`\n{}", command.place, arguments.join(" "), ran.transcript()))
 }
 

@@ -11,6 +11,8 @@ pub(crate) struct Command {
     pub(crate) input: String,
     pub(crate) arguments: Vec<String>,
     pub(crate) code: i32,
+    /// Whether the text builds the program with the feature `wgpu`, which the documented release lacks.
+    pub(crate) with_wgpu: bool,
 }
 
 /// A command of cargo: its arguments, and its place in the text.
@@ -72,7 +74,8 @@ impl Line {
         // The redirection of output is the shell's part.
         let arguments = arguments.split(|word| word == ">").next().unwrap_or_default().to_vec();
         let code = self.comment.split_once("exit code ").and_then(|(_, code)| code.split(' ').next()?.parse().ok());
-        Some(Command { place: self.place.clone(), input, arguments, code: code.unwrap_or(0) })
+        let with_wgpu = words.windows(2).any(|pair| pair == ["--features", "wgpu"]);
+        Some(Command { place: self.place.clone(), input, arguments, code: code.unwrap_or(0), with_wgpu })
     }
 
     fn of_cargo(&self) -> Option<CargoCommand> {
