@@ -2,9 +2,8 @@
 //!
 //! *Flat*: each pixel fetches its patch's texel of the radiosity texture. *Smooth*: the texture is resampled first
 //! into one of corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the
-//! host. [`RadiosityAtlas`]: the same as a texture of a meshed atlas.
+//! host.
 
-mod atlas;
 mod corners;
 mod fans;
 mod resample;
@@ -21,7 +20,6 @@ use super::{Patches, kernels};
 use crate::card::{NearestTarget, Texels};
 use crate::picture::Picture;
 use crate::scene::Camera;
-pub use atlas::{AtlasPower, RadiosityAtlas};
 use corners::CornerSets;
 pub use corners::{SmoothVertex, at_corners};
 use fans::in_patch;
