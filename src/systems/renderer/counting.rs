@@ -18,8 +18,6 @@ pub enum RayKind {
     Refraction,
     /// From a diffuse surface into a random direction, for indirect light.
     Gather,
-    /// From a light.
-    Photon,
 }
 
 /// Number of rays cast, per kind.
@@ -35,8 +33,6 @@ pub struct RayCounts {
     pub refraction: u64,
     /// Gather rays.
     pub gather: u64,
-    /// Photon rays.
-    pub photon: u64,
     /// Bundles in which the rays were cast.
     pub bundles: u64,
 }
@@ -44,18 +40,17 @@ pub struct RayCounts {
 impl RayCounts {
     /// Total number of rays.
     pub fn rays(&self) -> u64 {
-        self.eye + self.shadow + self.reflection + self.refraction + self.gather + self.photon
+        self.eye + self.shadow + self.reflection + self.refraction + self.gather
     }
 
     /// Count of each kind with its name, in the order of [`RayKind`].
-    pub fn kinds(&self) -> [(&'static str, u64); 6] {
+    pub fn kinds(&self) -> [(&'static str, u64); 5] {
         [
             ("eye", self.eye),
             ("shadow", self.shadow),
             ("reflection", self.reflection),
             ("refraction", self.refraction),
             ("gather", self.gather),
-            ("photon", self.photon),
         ]
     }
 
@@ -66,7 +61,6 @@ impl RayCounts {
             RayKind::Reflection => &mut self.reflection,
             RayKind::Refraction => &mut self.refraction,
             RayKind::Gather => &mut self.gather,
-            RayKind::Photon => &mut self.photon,
         } += rays;
     }
 }
@@ -78,7 +72,6 @@ impl AddAssign for RayCounts {
         self.reflection += other.reflection;
         self.refraction += other.refraction;
         self.gather += other.gather;
-        self.photon += other.photon;
         self.bundles += other.bundles;
     }
 }
@@ -86,11 +79,11 @@ impl AddAssign for RayCounts {
 /// Progress of a rendering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderProgress {
-    /// Current stage: `photons` or `samples`.
+    /// Current stage: `samples` or `pixels`.
     pub what: &'static str,
-    /// Samples or photons done.
+    /// Samples or pixels done.
     pub done: u64,
-    /// Samples or photons in total.
+    /// Samples or pixels in total.
     pub total: u64,
     /// Rays cast since the beginning, of any kind.
     pub rays: u64,

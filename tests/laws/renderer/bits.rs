@@ -2,8 +2,7 @@
 
 use crossbar::geom::exact::Sides;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::renderer::photon::Photons;
-use crossbar::renderer::{Lens, RenderedPicture, Settings, distributed, eye, path, photon, whitted};
+use crossbar::renderer::{Lens, RenderedPicture, Settings, distributed, eye, path, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 use crossbar::tracer::Caster;
 use refsim::device::Profile;
@@ -13,7 +12,7 @@ use super::{host, of, room, room_camera, settings};
 
 type Render = fn(&Scene, &Camera, &Settings, &mut dyn Caster) -> RenderedPicture;
 
-const RENDERERS: [(&str, Render); 5] = [
+const RENDERERS: [(&str, Render); 4] = [
     ("eye", |scene, camera, settings, caster| {
         eye::render(scene, camera, settings, caster, &mut |_| {}).expect("a picture")
     }),
@@ -25,10 +24,6 @@ const RENDERERS: [(&str, Render); 5] = [
     }),
     ("path", |scene, camera, settings, caster| {
         path::render(scene, camera, settings, path::Direct::Both, caster, &mut |_| {}).expect("a picture")
-    }),
-    ("photon", |scene, camera, settings, caster| {
-        let photons = Photons { global: 500, caustic: 500, nearest: 10, radius: 0.4, gather: 3 };
-        photon::render(scene, camera, settings, &photons, caster, &mut |_| {}).expect("a picture")
     }),
 ];
 

@@ -5,7 +5,6 @@ mod bits;
 mod direct;
 mod form_factors;
 mod furnace;
-mod photons;
 mod points;
 mod whitted;
 
