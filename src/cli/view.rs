@@ -41,7 +41,7 @@ pub(super) fn framing(
     let Some([low, high]) = mesh.bounds() else {
         return Err(Problem::usage(
             "the mesh has no triangles",
-            "name an OBJ, PLY, STL or glTF file with at least one face",
+            "name an OBJ or PLY file with at least one face",
         )
         .into());
     };
@@ -121,7 +121,7 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Refuses a mesh, a Wavefront OBJ, PLY, STL or glTF file, whose text would take more memory than there is.
+/// Refuses a mesh, a Wavefront OBJ or PLY file, whose text would take more memory than there is.
 pub(super) fn require_mesh(path: &Path) -> Result<(), MemoryError> {
     require_file(path, 12, "name a smaller mesh")
 }

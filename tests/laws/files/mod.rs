@@ -2,10 +2,8 @@
 
 mod cases;
 mod foreign_obj;
-mod gltf;
 mod models;
 mod mutation;
 mod pictures;
 mod ply;
 mod scenes;
-mod stl;
