@@ -5,6 +5,7 @@ pub mod atomic;
 pub mod cube_map;
 pub mod error;
 mod faces;
+mod headed_table;
 mod inputs;
 pub mod irradiances;
 pub mod light_sources;
