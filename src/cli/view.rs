@@ -39,11 +39,9 @@ pub(super) fn framing(
     (eye, target, up): Placement,
 ) -> miette::Result<Camera> {
     let Some([low, high]) = mesh.bounds() else {
-        return Err(Problem::usage(
-            "the mesh has no triangles",
-            "name an OBJ or PLY file with at least one face",
-        )
-        .into());
+        return Err(
+            Problem::usage("the mesh has no triangles", "name an OBJ or PLY file with at least one face").into()
+        );
     };
     let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
     let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);

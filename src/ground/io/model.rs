@@ -25,11 +25,7 @@ impl ModelFormat {
     fn of(bytes: &[u8], path: &Path) -> Self {
         let ending = |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
         let bytes = unmarked(bytes);
-        if ending("ply") || bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
-            Self::Ply
-        } else {
-            Self::Obj
-        }
+        if ending("ply") || bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") { Self::Ply } else { Self::Obj }
     }
 }
 

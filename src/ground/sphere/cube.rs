@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::elementary::atan2;
 
-
 /// Face of a cube around the origin, at distance 1, with the directions of its texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceAxes {

@@ -134,14 +134,7 @@ fn run(
         None => sweep.runs(0..sweep.count(), progress)?,
     };
     let sweep = sweep.rows(&runs);
-    Ok(Computed::Whole(RadiosityOutcome {
-        found_sums: room.found_sums,
-        exposure,
-        rows,
-        frames,
-        sweep,
-        patches,
-    }))
+    Ok(Computed::Whole(RadiosityOutcome { found_sums: room.found_sums, exposure, rows, frames, sweep, patches }))
 }
 
 /// Builds a method's row with its error and pictures.

@@ -1,6 +1,6 @@
 //! Rays in flight.
 
-use crate::geom::{Hit, Ray};
+use crate::geom::Ray;
 use crate::tracer::Best;
 use crate::tracer::triangle_test::HostRay;
 

@@ -25,7 +25,6 @@ use std::collections::{BTreeMap, VecDeque};
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::Executor;
-use refsim::timing::host::HostOperation;
 
 use super::ray_tree::RayTree;
 use super::{Crossbar, EngineError};
