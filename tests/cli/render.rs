@@ -21,8 +21,11 @@ const BROKEN: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\
 
 #[test]
 fn every_renderer_makes_the_same_picture_twice() {
-    for renderer in ["eye", "whitted", "distributed", "path"] {
-        let arguments = ["cornell-box", "--renderer", renderer, "--size", "8x8", "--samples", "2"];
+    for renderer in ["eye", "whitted", "distributed", "path", "photon"] {
+        let mut arguments = vec!["cornell-box", "--renderer", renderer, "--size", "8x8", "--samples", "2"];
+        if renderer == "photon" {
+            arguments.extend(["--photons", "200"]);
+        }
         let (first, one) = render(&arguments);
         assert_eq!((first.code, first.stderr.as_str()), (Some(0), ""), "{renderer}");
         let mut again = arguments.to_vec();

@@ -83,6 +83,8 @@ pub(super) enum Renderer {
     Distributed,
     /// All light, by random walks, unbiased
     Path,
+    /// All light, by photon maps and final gather
+    Photon,
 }
 
 impl Renderer {
@@ -93,6 +95,7 @@ impl Renderer {
             Self::Whitted => "Ray tracing after Whitted",
             Self::Distributed => "Distributed ray tracing",
             Self::Path => "Path tracing",
+            Self::Photon => "Photon mapping",
         }
     }
 }
@@ -133,6 +136,14 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
     pub(super) lens: Option<Lens>,
 
+    /// Photons for each map of photon mapping [default: 100000]
+    #[arg(long, value_name = "N")]
+    pub(super) photons: Option<u32>,
+
+    /// Gather rays of each hit of photon mapping; 0 shows the map itself [default: 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
+    pub(super) gather: Option<u32>,
+
     /// Caster of rays, which finds first hits [default: host]
     #[arg(long, value_enum, value_name = "C")]
     pub(super) caster: Option<CasterArg>,
@@ -150,6 +161,10 @@ impl LightArgs {
 
     /// Refuses what a renderer has no use for; `None` is a mesh that is shaded without light.
     pub(super) fn refuse_others(&self, renderer: Option<Renderer>) -> Result<(), Problem> {
+        let is_photon = renderer == Some(Renderer::Photon);
+        let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];
+        let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
+        given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
         let ambient = [("--ambient", self.ambient.is_some() && renderer != Some(Renderer::Whitted))];
         given::refuse(ambient, "Whitted's model", "add `--renderer whitted`, or leave it out")?;
         let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);

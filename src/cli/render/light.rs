@@ -14,6 +14,7 @@ use crate::cli::caster::{self, CasterArg};
 use crate::cli::{CommandLine, MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
+use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
 use crate::report::digits::count;
 use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
@@ -32,7 +33,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
         (caster == CasterArg::Engine).then(|| args.device.clone().unwrap_or_else(|| view::DEFAULT_DEVICE.to_owned()));
     let caster = caster.choose(args.device.as_deref(), args.executor, &args.gpu)?;
     let camera = camera(args, &asked.scene)?;
-    require_memory(args)?;
+    require_memory(args, renderer, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
     let mut caster = caster.build(asked.scene.mesh(), args.sides)?;
@@ -60,11 +61,21 @@ fn rays(picture: &RenderedPicture) -> Table {
     table
 }
 
-/// Checks the memory of the picture and its files.
-fn require_memory(args: &Args) -> Result<(), MemoryError> {
+/// Checks the memory of the picture, its files and the photons.
+fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), MemoryError> {
     const PER_PIXEL: u64 = 400;
-    let need = memory::of_pixels(args.size.width, args.size.height, PER_PIXEL, 0);
-    memory::require(format_args!("a lit picture of {} pixels", args.size), need, SMALLER)
+    const PER_PHOTON: u64 = 450;
+    let photons = match renderer {
+        Renderer::Photon => {
+            let usual = Photons::for_scene(scene);
+            let [global, caustic] = [usual.global, usual.caustic].map(|n| u64::from(args.light.photons.unwrap_or(n)));
+            (global + caustic) * PER_PHOTON
+        }
+        _ => 0,
+    };
+    let need = memory::of_pixels(args.size.width, args.size.height, PER_PIXEL, photons);
+    let help = if photons > 0 { "ask for a smaller `--size` or fewer `--photons`" } else { SMALLER };
+    memory::require(format_args!("a lit picture of {} pixels", args.size), need, help)
 }
 
 /// Half a step of single precision, the host's.
@@ -92,7 +103,7 @@ fn check_lights(renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
         _ => !points && !emitters,
     };
     let help = match emitters {
-        true => "use `--renderer distributed` or `path`, which its emitters light",
+        true => "use `--renderer distributed`, `path` or `photon`, which its emitters light",
         false => "use `--renderer eye`, which brings its own lamp",
     };
     if dark { Err(Problem::usage("the scene has no lights that this renderer knows", help)) } else { Ok(()) }
@@ -121,6 +132,10 @@ fn trace(
         ambient: [light.ambient.unwrap_or(0.08) as f32; 3],
         ..Settings::default()
     };
+    let mut photons = Photons::for_scene(scene);
+    photons.global = light.photons.unwrap_or(photons.global);
+    photons.caustic = light.photons.unwrap_or(photons.caustic);
+    photons.gather = light.gather.unwrap_or(photons.gather);
     let (start, bar) =
         (Instant::now(), ProgressBar::new("rendering", 1).quicker("fewer `--samples` or a smaller `--size`"));
     let mut watch = |progress: crate::renderer::RenderProgress| {
@@ -133,6 +148,7 @@ fn trace(
         Renderer::Whitted => whitted::render(scene, camera, &settings, caster, watch),
         Renderer::Distributed => distributed::render(scene, camera, &settings, caster, watch),
         Renderer::Path => path::render(scene, camera, &settings, path::Direct::Both, caster, watch),
+        Renderer::Photon => photon::render(scene, camera, &settings, &photons, caster, watch),
     };
     let picture = picture.into_diagnostic()?;
     if light.time {

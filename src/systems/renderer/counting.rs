@@ -18,6 +18,8 @@ pub enum RayKind {
     Refraction,
     /// From a diffuse surface into a random direction, for indirect light.
     Gather,
+    /// From a light.
+    Photon,
 }
 
 /// Number of rays cast, per kind.
@@ -33,6 +35,8 @@ pub struct RayCounts {
     pub refraction: u64,
     /// Gather rays.
     pub gather: u64,
+    /// Photon rays.
+    pub photon: u64,
     /// Bundles in which the rays were cast.
     pub bundles: u64,
 }
@@ -40,17 +44,18 @@ pub struct RayCounts {
 impl RayCounts {
     /// Total number of rays.
     pub fn rays(&self) -> u64 {
-        self.eye + self.shadow + self.reflection + self.refraction + self.gather
+        self.eye + self.shadow + self.reflection + self.refraction + self.gather + self.photon
     }
 
     /// Count of each kind with its name, in the order of [`RayKind`].
-    pub fn kinds(&self) -> [(&'static str, u64); 5] {
+    pub fn kinds(&self) -> [(&'static str, u64); 6] {
         [
             ("eye", self.eye),
             ("shadow", self.shadow),
             ("reflection", self.reflection),
             ("refraction", self.refraction),
             ("gather", self.gather),
+            ("photon", self.photon),
         ]
     }
 
@@ -61,6 +66,7 @@ impl RayCounts {
             RayKind::Reflection => &mut self.reflection,
             RayKind::Refraction => &mut self.refraction,
             RayKind::Gather => &mut self.gather,
+            RayKind::Photon => &mut self.photon,
         } += rays;
     }
 }
@@ -72,6 +78,7 @@ impl AddAssign for RayCounts {
         self.reflection += other.reflection;
         self.refraction += other.refraction;
         self.gather += other.gather;
+        self.photon += other.photon;
         self.bundles += other.bundles;
     }
 }
@@ -79,11 +86,11 @@ impl AddAssign for RayCounts {
 /// Progress of a rendering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderProgress {
-    /// Current stage: `samples` or `pixels`.
+    /// Current stage: `photons` or `samples`.
     pub what: &'static str,
-    /// Samples or pixels done.
+    /// Samples or photons done.
     pub done: u64,
-    /// Samples or pixels in total.
+    /// Samples or photons in total.
     pub total: u64,
     /// Rays cast since the beginning, of any kind.
     pub rays: u64,

@@ -60,7 +60,7 @@ impl Shade for Distributed<'_> {
 
 /// Direct light: the diffuse part by one point of the emitters; both parts by the point lights, which no ray from a
 /// lobe could hit.
-fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
     let has_diffuse = lobes.albedo.max_element() > 0.0;
     let area = has_diffuse.then(|| lights.area(surfel, flight.rng, flight.depth)).flatten();
     let area = area.map(|arriving| (arriving, lobes.diffuse()));
@@ -75,7 +75,7 @@ fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lo
 }
 
 /// Samples the glossy lobe with one ray.
-fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
+pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
     let Some(chosen) = lobes.gloss().choose(surfel, 0.0, flight.rng.pair(flight.depth, 4)) else { return };
     let weight = flight.weight * chosen.weight;
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, RayKind::Reflection, weight)));
@@ -84,7 +84,7 @@ fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scat
 /// Continues at a mirror with one ray; at glass with both rays at the first hit of an eye ray, since a random choice
 /// there is visible as noise, afterwards with one. The two rays have random numbers of their own: with the same ones
 /// the noise of both would add up.
-fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+pub(super) fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     let chosen = if flight.depth == 0 {
         specular_rays(surfel)
     } else {

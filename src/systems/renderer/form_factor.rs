@@ -7,7 +7,9 @@
 
 use std::f64::consts::PI;
 
+use super::counting::CountingCaster;
 use super::sampling::triangle;
+use super::visibility::visible;
 use crate::geom::Ray;
 use crate::geom::random::CounterRng;
 use crate::scene::Scene;
@@ -40,11 +42,12 @@ pub fn form_factor(
     let (from, to) = (Patch::new(scene, a), Patch::new(scene, b));
     let pairs = (0..u64::from(samples)).map(|sample| pair(&from, &to, CounterRng::new(seed), sample));
     let pairs: Vec<Option<(f64, Ray)>> = pairs.collect();
-    let rays: Vec<Ray> = pairs.iter().flatten().map(|pair| pair.1).collect();
-    let occluded = caster.occluded(&rays)?;
+    let rays: Vec<Option<Ray>> = pairs.iter().flatten().map(|pair| Some(pair.1)).collect();
+    let mut ignore = |_| {};
+    let (seen, _) = visible(&rays, &mut CountingCaster::new(caster, &mut ignore))?;
     let (mut sum, mut squares) = (0.0, 0.0);
-    for ((value, _), occluded) in pairs.into_iter().flatten().zip(occluded) {
-        if !occluded {
+    for ((value, _), seen) in pairs.into_iter().flatten().zip(seen) {
+        if seen {
             sum += value;
             squares += value * value;
         }

@@ -1,6 +1,8 @@
 //! Light sampling: emitting triangles and point lights.
 
-use super::sampling::{DiscreteDistribution, triangle};
+use std::f64::consts::PI;
+
+use super::sampling::{DiscreteDistribution, cosine, sphere, triangle};
 use super::surfel::Surfel;
 use super::vector::mean;
 use super::wave::SampleRng;
@@ -20,6 +22,14 @@ pub(super) struct LightSample {
     pub(super) light: DVec3,
     /// Probability density over solid angle; infinite for points, which no other sampling strategy can hit.
     pub(super) density: f64,
+}
+
+/// Emitted light sample.
+pub(super) struct EmissionSample {
+    /// Ray from the light.
+    pub(super) ray: Ray,
+    /// Flux over the probability density: its mean over all samples is the flux of all lights.
+    pub(super) power: DVec3,
 }
 
 /// Lights of a scene: its emitters, or its point lights. Scenes contain the point lights of Whitted's model in addition
@@ -63,13 +73,28 @@ impl<'a> Lights<'a> {
         self.points.len()
     }
 
+    /// Samples emitted light: from an emitter with a cosine distribution about its front, from a point in all
+    /// directions. Takes six numbers in [0, 1).
+    pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<EmissionSample> {
+        if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
+            let towards = cosine(place.normal, [number(3), number(4)]);
+            let ray = Ray::new(place.lifted(towards, 0.0), narrow(towards)).ok()?;
+            return Some(EmissionSample { ray, power: PI / density * radiance });
+        }
+        let table = DiscreteDistribution::new(self.points.iter().map(|point| mean(point.1)));
+        let (light, chance) = table.draw(number(0))?;
+        let (position, intensity) = self.points[light];
+        let ray = Ray::new(narrow(position), narrow(sphere([number(3), number(4)]))).ok()?;
+        Some(EmissionSample { ray, power: 4.0 * PI / chance * intensity })
+    }
+
     /// Radiance that a surfel emits towards the viewer: its material's emission, on front faces only.
     pub(super) fn emitted(surfel: &Surfel<'_>) -> DVec3 {
         if surfel.front { wide(surfel.material.emission) } else { DVec3::ZERO }
     }
 
     /// Samples a point on an emitter by three numbers in [0, 1): the point, its radiance, and the density over area.
-    fn place(&self, which: f64, u: [f64; 2]) -> Option<(SurfacePoint, DVec3, f64)> {
+    pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(SurfacePoint, DVec3, f64)> {
         let (entry, _) = self.table.draw(which)?;
         let id = self.emitters[entry];
         let place = SurfacePoint::new(self.scene.mesh(), id, triangle(u), self.rounding)?;

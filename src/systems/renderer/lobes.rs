@@ -101,6 +101,9 @@ pub(super) struct SpecularRay {
     pub(super) kind: RayKind,
     /// Probability with which it is chosen where one of several rays is.
     pub(super) probability: f64,
+    /// Additional factor of a photon's flux, beside `weight`, which makes its irradiance relative to the square of the
+    /// index too: the square of the ratio of indices at a boundary that it passes, otherwise 1.
+    pub(super) flux_scale: f64,
 }
 
 /// Returns the specular rays from a mirror (one) or glass (one under total internal reflection, otherwise two); none
@@ -114,6 +117,7 @@ pub(super) fn specular_rays(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
         weight,
         kind: RayKind::Reflection,
         probability,
+        flux_scale: 1.0,
     };
     match surfel.material.surface {
         Surface::Diffuse { .. } | Surface::Glossy { .. } => [None, None],
@@ -125,7 +129,8 @@ pub(super) fn specular_rays(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
             let Some(towards) = through(surfel, ratio) else { return [Some(mirrored(DVec3::ONE, 1.0)), None] };
             let weight = (1.0 - share) * wide(transmittance);
             let probability = 1.0 - share;
-            let refracted = SpecularRay { towards, weight, kind: RayKind::Refraction, probability };
+            let refracted =
+                SpecularRay { towards, weight, kind: RayKind::Refraction, probability, flux_scale: ratio * ratio };
             let reflected = (share > 0.0).then(|| mirrored(DVec3::splat(share), share));
             [Some(refracted), reflected]
         }

@@ -5,7 +5,8 @@
 //! - [`whitted`]: point lights with hard shadows, mirrors, glass (Whitted 1980);
 //! - [`distributed`]: soft shadows, gloss, depth of field (Cook, Porter and Carpenter 1984);
 //! - [`path`]: path tracing, unbiased (Kajiya 1986; Veach 1997);
-//! - [`form_factor`]: form factors by rays, without a picture.
+//! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth;
+//! - [`visibility`] and [`form_factor`]: visibility and form factors by rays, without a picture.
 //!
 //! All work breadth first: they generate a bundle of rays, cast it through [`crate::tracer::Caster`], shade, and
 //! generate the next bundle. Random numbers are keyed by pixel, sample and dimension, and all sums run in the order of
@@ -22,10 +23,13 @@ mod layers;
 mod lights;
 mod lobes;
 pub mod path;
+pub mod photon;
+mod photon_map;
 pub mod sampling;
 mod settings;
 mod surfel;
 mod vector;
+pub mod visibility;
 mod wave;
 pub mod whitted;
 

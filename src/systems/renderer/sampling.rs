@@ -17,6 +17,14 @@ pub fn cosine(normal: DVec3, u: [f64; 2]) -> DVec3 {
     turned(DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt()), normal)
 }
 
+/// Samples a direction, uniformly over the sphere.
+pub fn sphere(u: [f64; 2]) -> DVec3 {
+    let z = 1.0 - 2.0 * u[0];
+    let across = (1.0 - z * z).max(0.0).sqrt();
+    let [x, y] = on_circle(u[1]);
+    DVec3::new(across * x, across * y, z)
+}
+
 /// Samples a direction about a unit axis with density `(n + 1) / (2 pi) * cos^n`: Phong's lobe of exponent n.
 pub fn lobe(axis: DVec3, exponent: f64, u: [f64; 2]) -> DVec3 {
     // 1 - u is never 0.

@@ -204,6 +204,7 @@ fn what_is_wrong_is_said() {
         ("render white-box --size -1x4", "expected a size as `512x512`, each side 1 to 16384, found `-1x4`"),
         ("render white-box --samples -1", "-1 is not in 1..=1048576"),
         ("render white-box --seed -1", "invalid value '-1' for '--seed <N>'"),
+        ("render white-box --photons 4294967296", "4294967296 is not in"),
         ("radiosity white-box --emit light=1e39,0,0", LARGE),
         ("radiosity white-box --emit light=-1,0,0", "expected radiances of at least 0"),
         ("radiosity white-box --paint red=1,2", "expected three numbers R,G,B, found `1,2`"),

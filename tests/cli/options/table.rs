@@ -122,14 +122,15 @@ pub(super) const TABLE: &[Tried] = &[
             "render cornell-box --size 8x8 --renderer whitted --samples 1 --out OUT",
             "render cornell-box --size 8x8 --renderer distributed --samples 2 --out OUT",
             "render cornell-box --size 8x8 --renderer path --samples 2 --out OUT",
+            "render cornell-box --size 8x8 --renderer photon --samples 1 --photons 200 --gather 2 --out OUT",
             "render docs/examples/teapot.obj --size 8x8 --out OUT",
             "render odd.obj --size 8x8 --out OUT",
         ],
         options: concat!(
-            "--sides=front@0,4 same:--sides=front@1,2,3 --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
-             --depth=1@0,2,3,4,5 --seed=2@2,3,4,5 same:--seed=2@0,1 --view=front@0,4,5 same:--view=front@1,2,3 \
-             --exposure=0.3 --ambient=0.5 --lens=0.1,1 \
-             --caster=engine --time --model-up=y --strict@5",
+            "--sides=front@0,5 same:--sides=front@1,2,3,4 --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
+             --depth=1@0,2,3,4,5,6 --seed=2@2,3,4,5,6 same:--seed=2@0,1 --view=front@0,5,6 same:--view=front@1,2,3,4 \
+             --exposure=0.3 --ambient=0.5 --lens=0.1,1 --photons=100 --gather=1 \
+             --caster=engine --time --model-up=y --strict@6",
             eye!()
         ),
     },

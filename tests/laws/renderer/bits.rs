@@ -2,7 +2,8 @@
 
 use crossbar::geom::exact::Sides;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::renderer::{Lens, RenderedPicture, Settings, distributed, eye, path, whitted};
+use crossbar::renderer::photon::Photons;
+use crossbar::renderer::{Lens, RenderedPicture, Settings, distributed, eye, path, photon, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 use crossbar::tracer::Caster;
 use refsim::device::Profile;
@@ -12,7 +13,7 @@ use super::{host, of, room, room_camera, settings};
 
 type Render = fn(&Scene, &Camera, &Settings, &mut dyn Caster) -> RenderedPicture;
 
-const RENDERERS: [(&str, Render); 4] = [
+const RENDERERS: [(&str, Render); 5] = [
     ("eye", |scene, camera, settings, caster| {
         eye::render(scene, camera, settings, caster, &mut |_| {}).expect("a picture")
     }),
@@ -24,6 +25,10 @@ const RENDERERS: [(&str, Render); 4] = [
     }),
     ("path", |scene, camera, settings, caster| {
         path::render(scene, camera, settings, path::Direct::Both, caster, &mut |_| {}).expect("a picture")
+    }),
+    ("photon", |scene, camera, settings, caster| {
+        let photons = Photons { global: 500, caustic: 500, nearest: 10, radius: 0.4, gather: 3 };
+        photon::render(scene, camera, settings, &photons, caster, &mut |_| {}).expect("a picture")
     }),
 ];
 

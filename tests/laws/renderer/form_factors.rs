@@ -1,9 +1,10 @@
-//! Form factors by rays, against closed forms.
+//! Visibility and form factors by rays, against closed forms.
 
 use std::f64::consts::PI;
 
 use approx::assert_abs_diff_eq;
 use crossbar::renderer::form_factor::form_factor;
+use crossbar::renderer::visibility::visibility;
 use crossbar::scene::Scene;
 
 use super::{Builder, FAR, host, white};
@@ -54,4 +55,19 @@ fn a_box_sees_itself_whole() {
     // Reciprocity: A_a F(a, b) = A_b F(b, a); wall 0 has an area of 3, wall 4 of 1.5.
     let [(there, s), (back, t)] = [factor(&scene, &[0, 1], &[4, 5]), factor(&scene, &[4, 5], &[0, 1])];
     assert!((3.0 * there - 1.5 * back).abs() < FAR * (9.0 * s * s + 2.25 * t * t).sqrt(), "{there} {back}");
+}
+
+#[test]
+fn points_see_each_other_or_not() {
+    let scene = parallel(true);
+    let pairs = [
+        [[0.5, 0.5, 0.1], [0.5, 0.5, 0.9]],
+        [[0.5, 0.5, 0.6], [0.5, 0.5, 0.9]],
+        [[0.5, 0.5, 0.1], [5.0, 5.0, 0.9]],
+        [[0.5, 0.5, 0.1], [0.5, 0.5, 0.1]],
+        [[0.5, 0.5, 0.1], [0.5, 0.5, 0.5]],
+    ];
+    // The last ends on the square itself, which counts as seen: the open segment meets nothing.
+    let seen = visibility(&pairs, &mut host(&scene)).expect("an answer");
+    assert_eq!(seen, [false, true, true, true, true]);
 }

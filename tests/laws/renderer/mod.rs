@@ -5,6 +5,7 @@ mod bits;
 mod direct;
 mod form_factors;
 mod furnace;
+mod photons;
 mod points;
 mod whitted;
 

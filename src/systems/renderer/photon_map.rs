@@ -1,0 +1,222 @@
+//! Photon map with density estimation: a balanced kd-tree in one array (Jensen 1996; Bentley 1975).
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+/// Minimum cosine between the normals of a surface and of the photons that count for it: 45 degrees.
+const SAME_WAY: f64 = 0.707;
+
+/// Stored photon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Photon {
+    /// Position.
+    pub(super) at: DVec3,
+    /// Normal of the triangle, on the side that was hit.
+    pub(super) normal: DVec3,
+    /// Unit vector back along the photon's ray.
+    pub(super) from: DVec3,
+    /// Flux: red, green, blue.
+    pub(super) power: DVec3,
+}
+
+/// Photon with its squared distance; ordered by distance, then by index in the map, so that the order of sums is fixed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PhotonDistance {
+    square: f64,
+    photon: u32,
+}
+
+impl Eq for PhotonDistance {}
+
+impl Ord for PhotonDistance {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.square.total_cmp(&other.square).then(self.photon.cmp(&other.photon))
+    }
+}
+
+impl PartialOrd for PhotonDistance {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Kd-tree: the middle element of each range is its node, split along the axis in `axes`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PhotonMap {
+    photons: Vec<Photon>,
+    axes: Vec<u8>,
+}
+
+impl PhotonMap {
+    /// Builds a map; the same photons in the same order give the same map.
+    pub(super) fn new(mut photons: Vec<Photon>) -> Self {
+        let mut axes = vec![0; photons.len()];
+        build(&mut photons, &mut axes);
+        Self { photons, axes }
+    }
+
+    /// Returns the sum of `value` over the photons around a point per unit area: of the `nearest` photons within
+    /// `radius` that landed on a surface with a similar normal. Of k photons found, the k-th determines the area, pi
+    /// r^2, and the k - 1 others the sum, which is unbiased where photons are spread evenly. If fewer than `nearest`
+    /// lie within the radius, all of them count, over the area of the radius. `nearest` is at least 2.
+    pub(super) fn density(
+        &self,
+        at: DVec3,
+        normal: DVec3,
+        nearest: usize,
+        radius: f64,
+        value: impl Fn(&Photon) -> DVec3,
+    ) -> DVec3 {
+        let mut search =
+            NearestSearch { map: self, at, normal, nearest, square: radius * radius, found: BinaryHeap::new() };
+        search.range(0, self.photons.len());
+        let full = search.found.len() == search.nearest;
+        let mut found = search.found.into_sorted_vec();
+        let square = if full { found.pop().map_or(0.0, |last| last.square) } else { radius * radius };
+        if square <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let sum: DVec3 = found.iter().map(|near| value(&self.photons[near.photon as usize])).sum();
+        1.0 / (PI * square) * sum
+    }
+}
+
+/// Puts the median along the widest axis in the middle, and recurses on both halves.
+fn build(photons: &mut [Photon], axes: &mut [u8]) {
+    if photons.len() < 2 {
+        return;
+    }
+    let axis = widest(photons);
+    let middle = photons.len() / 2;
+    // `select_nth_unstable` is deterministic; equal keys may swap, in the same way each time.
+    photons.select_nth_unstable_by(middle, |a, b| a.at[axis].total_cmp(&b.at[axis]));
+    axes[middle] = axis as u8;
+    let (left, right) = photons.split_at_mut(middle);
+    let (axes_left, axes_right) = axes.split_at_mut(middle);
+    build(left, axes_left);
+    build(&mut right[1..], &mut axes_right[1..]);
+}
+
+fn widest(photons: &[Photon]) -> usize {
+    let width = |axis: usize| {
+        let bounds = photons.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], photon| {
+            [low.min(photon.at[axis]), high.max(photon.at[axis])]
+        });
+        bounds[1] - bounds[0]
+    };
+    let widths = [width(0), width(1), width(2)];
+    (0..3).fold(0, |best, axis| if widths[axis] > widths[best] { axis } else { best })
+}
+
+struct NearestSearch<'a> {
+    map: &'a PhotonMap,
+    at: DVec3,
+    normal: DVec3,
+    nearest: usize,
+    /// Squared search radius; shrinks once enough photons are found.
+    square: f64,
+    found: BinaryHeap<PhotonDistance>,
+}
+
+impl NearestSearch<'_> {
+    fn range(&mut self, start: usize, end: usize) {
+        if start >= end {
+            return;
+        }
+        let middle = start + (end - start) / 2;
+        let photon = &self.map.photons[middle];
+        let axis = usize::from(self.map.axes[middle]);
+        let beside = self.at[axis] - photon.at[axis];
+        let (near, far) = ((start, middle), (middle + 1, end));
+        let (near, far) = if beside <= 0.0 { (near, far) } else { (far, near) };
+        self.range(near.0, near.1);
+        self.offer(middle);
+        if beside * beside <= self.square {
+            self.range(far.0, far.1);
+        }
+    }
+
+    fn offer(&mut self, index: usize) {
+        let photon = &self.map.photons[index];
+        let offset = photon.at - self.at;
+        let near = PhotonDistance { square: offset.dot(offset), photon: index as u32 };
+        if near.square > self.square || photon.normal.dot(self.normal) < SAME_WAY {
+            return;
+        }
+        self.found.push(near);
+        if self.found.len() > self.nearest {
+            self.found.pop();
+        }
+        if self.found.len() == self.nearest
+            && let Some(last) = self.found.peek()
+        {
+            self.square = last.square;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random::CounterRng;
+    use approx::assert_abs_diff_eq;
+
+    fn scattered(count: u64) -> Vec<Photon> {
+        let random = CounterRng::new(3);
+        let photon = |i| Photon {
+            at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), if i % 5 == 0 { 0.5 } else { 0.0 }),
+            normal: if i % 7 == 0 { DVec3::NEG_Z } else { DVec3::Z },
+            from: DVec3::Z,
+            power: DVec3::ONE,
+        };
+        (0..count).map(photon).collect()
+    }
+
+    /// The same estimate by testing all photons.
+    fn brute_force(photons: &[Photon], at: DVec3, nearest: usize, radius: f64) -> f64 {
+        let up = photons.iter().filter(|photon| photon.normal.z > 0.0);
+        let mut squares: Vec<f64> = up.map(|photon| photon.at.distance_squared(at)).collect();
+        squares.sort_by(f64::total_cmp);
+        squares.retain(|&square| square <= radius * radius);
+        squares.truncate(nearest);
+        let full = squares.len() == nearest;
+        let count = squares.len() - usize::from(full);
+        let square = if full { squares[nearest - 1] } else { radius * radius };
+        count as f64 / (PI * square)
+    }
+
+    #[test]
+    fn the_nearest_are_those_that_a_plain_search_finds() {
+        let photons = scattered(500);
+        let map = PhotonMap::new(photons.clone());
+        let random = CounterRng::new(4);
+        for i in 0..100 {
+            let at = DVec3::from([0, 1, 2].map(|k| 1.2 * random.unit(i, 0, k) - 0.1));
+            for (nearest, radius) in [(2, 1.0), (10, 0.3), (50, 2.0), (1000, 0.5), (1000, 9.0)] {
+                let found = map.density(at, DVec3::Z, nearest, radius, |photon| photon.power)[0];
+                let expected = brute_force(&photons, at, nearest, radius);
+                assert_abs_diff_eq!(found, expected, epsilon = 1e-9 * expected);
+            }
+        }
+    }
+
+    #[test]
+    fn an_even_spread_has_its_density() {
+        // 4000 photons on a square of side 1, seen from its middle.
+        let random = CounterRng::new(9);
+        let photon = |i| Photon {
+            at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), 0.0),
+            normal: DVec3::Z,
+            from: DVec3::Z,
+            power: DVec3::splat(1.0 / 4000.0),
+        };
+        let map = PhotonMap::new((0..4000).map(photon).collect());
+        let mean = (0..25).map(|i| DVec3::new(0.3 + 0.1 * f64::from(i % 5), 0.3 + 0.1 * f64::from(i / 5), 0.0));
+        let mean = mean.map(|at| map.density(at, DVec3::Z, 100, 1.0, |p| p.power)[0]).sum::<f64>() / 25.0;
+        assert_abs_diff_eq!(mean, 1.0, epsilon = 0.05);
+        assert_eq!(PhotonMap::default().density(DVec3::ZERO, DVec3::Z, 10, 1.0, |p| p.power), DVec3::ZERO);
+    }
+}

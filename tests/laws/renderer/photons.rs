@@ -1,0 +1,65 @@
+//! Photon maps: biased, and by how much.
+
+use crate::environment::by_form;
+use crossbar::renderer::path::Direct;
+use crossbar::renderer::photon::{self, Photons};
+use crossbar::renderer::{RenderedPicture, Settings, path};
+use crossbar::scene::{Material, Scene, Surface};
+
+use super::{host, of, room, room_camera, settings, white};
+
+/// The mean of a picture and its variance, the lamp's own pixels left out.
+fn mean(picture: &RenderedPicture, scene: &Scene) -> [[f64; 2]; 3] {
+    let (mut sums, mut count) = ([[0.0; 2]; 3], 0.0);
+    for pixel in 0..picture.color.len() {
+        if picture.first[pixel].is_some_and(|hit| !scene.material(hit.triangle).emits()) {
+            for (channel, [sum, variance]) in sums.iter_mut().enumerate() {
+                *sum += picture.color[pixel][channel];
+                *variance += picture.variance[pixel][channel];
+            }
+            count += 1.0;
+        }
+    }
+    sums.map(|[sum, variance]| [sum / count, variance / (count * count)])
+}
+
+/// Both renderers' means of a room differ by at most this share: what chance may do (3 standard deviations) is left out
+/// of it. The photons themselves are chance too, and the same for all pixels; they are part of the share.
+fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
+    let scene = room(1.0, block);
+    let camera = room_camera(12, 12);
+    // Long form: so many samples that hardly more than the bias is left.
+    let full = by_form(1, 20);
+    let settings = |samples: u32| Settings { samples: samples * full, depth: 30, ..settings() };
+    let photons = Photons { global: 20_000, caustic: 20_000, nearest: 50, radius: 0.3, gather };
+    let mapped = photon::render(&scene, &camera, &settings(16), &photons, &mut host(&scene), &mut |_| {});
+    let mapped = mapped.expect("a picture");
+    assert!(mapped.counts.photon >= 20_000 && mapped.not_finite == 0);
+    let walked = path::render(&scene, &camera, &settings(144), Direct::Both, &mut host(&scene), &mut |_| {});
+    let (a, b) = (mean(&mapped, &scene), mean(&walked.expect("a picture"), &scene));
+    for channel in 0..3 {
+        let ([mapped, chance], [walked, more]) = (a[channel], b[channel]);
+        let (bias, chance) = (mapped / walked - 1.0, 3.0 * (chance + more).sqrt() / walked);
+        assert!(bias.abs() < bound + chance, "channel {channel}: {bias}, of which {chance} may be chance");
+    }
+}
+
+/// With final gather the maps are only seen by way of another surface, and their blur hardly shows.
+#[test]
+fn gathered_photons_agree_with_paths() {
+    assert_bias_below(0.02, &white(0.5), 6);
+    assert_bias_below(0.03, &of(Surface::Mirror { reflectance: [0.9; 3] }), 6);
+}
+
+/// Glass lights the floor by caustics alone, which the caustic map blurs over at most 0.3 of a room of 2. The floor
+/// that it stands on counts too: there flux and radiance differ by the square of the index.
+#[test]
+fn caustics_keep_their_energy() {
+    assert_bias_below(0.03, &of(Surface::Glass { index: 1.5, transmittance: [1.0; 3] }), 6);
+}
+
+/// The map seen directly loses what of its disks hangs over edges.
+#[test]
+fn the_map_itself_is_near() {
+    assert_bias_below(0.05, &white(0.5), 0);
+}
