@@ -26,7 +26,7 @@ coordinates), faces.csv (each face's rectangle). docs/atlas.md explains all of i
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ or PLY file, a scene file (.toml), a scene of the project, or a stand-in for a model
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
     /// of the paper: stand-in-bunny, stand-in-dolphin, stand-in-head
     #[arg(value_name = "MODEL")]
     model: PathBuf,

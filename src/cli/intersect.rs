@@ -46,11 +46,11 @@ or to the same f64 where t exceeds f32.
 
 Where the format of a card leaves no bits of the triangles or of t, a warning says so.";
 
-/// First hits of the rays of a CSV file on the triangles of an OBJ or PLY file
+/// First hits of the rays of a CSV file on the triangles of an OBJ, PLY, STL or glTF file
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The mesh, a Wavefront OBJ or PLY file
+    /// The mesh, a Wavefront OBJ, PLY, STL or glTF file
     #[arg(long, value_name = "M.obj")]
     mesh: PathBuf,
 

@@ -43,7 +43,7 @@ NAME.exr (t and triangle); rows with the same bits have them once: see same_bits
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true, visible_alias = "leaks")]
 pub(super) struct Args {
-    /// A model in place of the teapot: a Wavefront OBJ or PLY file, a scene file (.toml), or a scene or
+    /// A model in place of the teapot: a Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene or
     /// a mesh of the project
     #[arg(long, value_name = "MODEL", conflicts_with = "tessellation")]
     mesh: Option<PathBuf>,

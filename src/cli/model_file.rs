@@ -31,7 +31,7 @@ pub(super) fn with_options(program: Command) -> Command {
         .value_name("AXIS")
         .value_parser(["y", "z"])
         .requires(named_by)
-        .help("The axis that points up in the model's file; z does in what is read [default: z]")
+        .help("The axis that points up in the model's file; z does in what is read [default: y of glTF, else z]")
         .help_heading("Model");
     let strict = Arg::new(STRICT)
         .long("strict")
@@ -86,7 +86,7 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
     ))
 }
 
-/// A mesh from an OBJ or PLY file.
+/// A mesh from an OBJ, PLY, STL or glTF file.
 pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
     view::require_mesh(path)?;
     let (mesh, notes) = load_mesh_with(path, options())?;

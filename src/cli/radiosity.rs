@@ -35,7 +35,7 @@ chrome://tracing. docs/papers/radiosity.md explains all of it.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ or PLY file, a scene file (.toml), or a scene of the project: see `crossbar scene`
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene of the project: see `crossbar scene`
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
 

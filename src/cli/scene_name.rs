@@ -33,7 +33,7 @@ pub(super) fn named_file(path: &Path) -> Vec<&Path> {
     if built::names().any(|name| path == Path::new(name)) { Vec::new() } else { vec![path] }
 }
 
-/// A scene of the project by its name, or of a scene file, an OBJ or PLY file.
+/// A scene of the project by its name, or of a scene file, an OBJ, PLY, STL or glTF file.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     Ok(match by_name(path)? {
         Some(scene) => scene,

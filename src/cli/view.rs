@@ -39,9 +39,11 @@ pub(super) fn framing(
     (eye, target, up): Placement,
 ) -> miette::Result<Camera> {
     let Some([low, high]) = mesh.bounds() else {
-        return Err(
-            Problem::usage("the mesh has no triangles", "name an OBJ or PLY file with at least one face").into()
-        );
+        return Err(Problem::usage(
+            "the mesh has no triangles",
+            "name an OBJ, PLY, STL or glTF file with at least one face",
+        )
+        .into());
     };
     let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
     let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
@@ -119,7 +121,7 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Refuses a mesh, a Wavefront OBJ or PLY file, whose text would take more memory than there is.
+/// Refuses a mesh, a Wavefront OBJ, PLY, STL or glTF file, whose text would take more memory than there is.
 pub(super) fn require_mesh(path: &Path) -> Result<(), MemoryError> {
     require_file(path, 12, "name a smaller mesh")
 }

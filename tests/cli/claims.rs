@@ -128,6 +128,11 @@ fn good_files() -> Vec<GoodFile> {
         file("q.mtx", stored("docs/examples/quarters.mtx"), |bytes, name| drop(io::parse_matrix_market(bytes, name))),
         file("m.obj", stored("fixtures/models/square.obj"), |bytes, name| drop(io::parse_obj(bytes, name))),
         file("m.ply", stored("fixtures/models/square.ply"), |bytes, name| drop(io::parse_ply(bytes, name))),
+        file("m.stl", stored("fixtures/models/square.stl"), |bytes, name| drop(io::parse_stl(bytes, name))),
+        file("m.gltf", stored("fixtures/models/square.gltf"), |bytes, name| {
+            let mut none = |_: &Path| Err(std::io::Error::other("no file beside it"));
+            drop(io::parse_gltf(bytes, name, &mut none));
+        }),
         file("r.csv", stored("docs/examples/rays.csv"), |bytes, name| drop(io::parse_rays(bytes, name))),
         file("e.csv", b"r,g,b\n1,2,3\n".to_vec(), |bytes, name| drop(io::parse_irradiances(bytes, name))),
         file("l.csv", b"face,row,column,r,g,b\n0,0,0,1,1,1\n".to_vec(), |bytes, name| {

@@ -60,12 +60,12 @@ fn strict_takes_a_model_as_it_is() {
 #[test]
 fn a_model_with_y_up_stands_up() {
     let folder = folder();
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/square.obj");
-    fs::copy(model, folder.path().join("square.obj")).expect("copied");
+    let stl = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/square.stl");
+    fs::copy(stl, folder.path().join("square.stl")).expect("copied");
     // The square lies in z = 0 of its file; with y up it stands in y = 0.
     let hits = |options: &str| {
         let ran =
-            run(folder.path(), &format!("intersect --mesh square.obj --rays r.csv --sides both{options} --out h.csv"));
+            run(folder.path(), &format!("intersect --mesh square.stl --rays r.csv --sides both{options} --out h.csv"));
         assert_eq!(ran.code, Some(0), "{}", ran.transcript());
         ran.stdout.split(' ').next().map(str::to_owned)
     };
@@ -75,7 +75,7 @@ fn a_model_with_y_up_stands_up() {
         assert_eq!(ran.code, Some(2), "{line}");
         assert!(ran.stderr.contains("says how a file is read, and `"), "{}", ran.stderr);
     }
-    for line in ["alu add --model-up y", "leaky-teapot --strict", "intersect --mesh square.obj --model-up x"] {
+    for line in ["alu add --model-up y", "leaky-teapot --strict", "intersect --mesh square.stl --model-up x"] {
         assert_eq!(run(folder.path(), line).code, Some(2), "{line}");
     }
 }

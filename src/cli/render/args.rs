@@ -27,13 +27,13 @@ Examples:
 
 /// Make a picture of a mesh or a scene: picture.png, and depth and triangle of each pixel
 ///
-/// An OBJ or PLY file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or
+/// An OBJ, PLY, STL or glTF file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or
 /// from a scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the
 /// Ray Engine.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
-    /// A Wavefront OBJ or PLY file, a scene file (.toml), or a scene of the project: cornell-box, office,
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene of the project: cornell-box, office,
     /// office-floor, teapot-room, white-box
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,

@@ -1,4 +1,4 @@
-//! `crossbar render`: an OBJ or PLY file by eye rays on a card, and scenes by the host renderers.
+//! `crossbar render`: an OBJ, PLY, STL or glTF file by eye rays on a card, and scenes by the host renderers.
 
 mod args;
 mod light;

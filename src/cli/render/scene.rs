@@ -12,7 +12,7 @@ pub(super) struct LitScene {
     pub(super) lit: bool,
 }
 
-/// The scene, if it is to be lit; `None` for an OBJ or PLY file by its eye rays on a card.
+/// The scene, if it is to be lit; `None` for an OBJ, PLY, STL or glTF file by its eye rays on a card.
 pub(super) fn lit(args: &Args) -> miette::Result<Option<LitScene>> {
     if let Some(scene) = scene_name::by_name(&args.scene)? {
         return Ok(Some(LitScene { scene, lit: true }));

@@ -36,7 +36,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
     pub(super) eye_rays: Option<Size>,
 
-    /// With --eye-rays: the mesh, a Wavefront OBJ or PLY file [default: the teapot, 8 x 8 quads per patch]
+    /// With --eye-rays: the mesh, a Wavefront OBJ, PLY, STL or glTF file [default: the teapot, 8 x 8 quads per patch]
     #[arg(long, value_name = "M.obj", requires = "eye_rays", conflicts_with = "case")]
     pub(super) mesh: Option<PathBuf>,
 

@@ -34,7 +34,7 @@ pub(super) fn too_long_error(what: &str, path: &Path, limit: u64) -> InputError 
 pub(super) fn syntax_error(place: impl Into<FilePlace>, expected: impl Display, found: impl Display) -> InputError {
     input_error!("crossbar::model::syntax" =>
         "expected {expected}, found {found}";
-        help "models are Wavefront OBJ or PLY files: is the file one, and whole?")
+        help "models are Wavefront OBJ, PLY, STL or glTF files: is the file one, and whole?")
     .at(place)
 }
 
@@ -50,6 +50,13 @@ pub(super) fn element_error(
         "{element} {index} (counted from 0): expected {expected}, found {found}";
         help "is the file whole, and written as its header says?")
     .at(place)
+}
+
+/// A part of a glTF file is not what belongs there. Parts are counted from 0, as the format does.
+pub(super) fn part_error(name: &Path, part: impl Display, expected: impl Display, found: impl Display) -> InputError {
+    input_error!("crossbar::model::part" =>
+        "{part}: expected {expected}, found {found}"; help "docs/scenes.md says what of glTF is read")
+    .at(name)
 }
 
 /// Parameters of a material contradict each other. In an MTL file the place is its `newmtl`.

@@ -3,12 +3,14 @@
 use std::io;
 use std::path::Path;
 
+use super::gltf::parse_gltf;
 use super::lines::unmarked;
 use super::model_note::ModelNote;
 use super::obj::{MAX_BYTES, load_model, read_obj};
 use super::ply::read_ply;
 use super::read_limited;
 use super::scene_obj::{plain_scene, read_scene};
+use super::stl::{is_stl, read_stl};
 use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::scene::Scene;
@@ -18,6 +20,8 @@ use crate::scene::Scene;
 enum ModelFormat {
     Obj,
     Ply,
+    Stl,
+    Gltf,
 }
 
 impl ModelFormat {
@@ -25,14 +29,22 @@ impl ModelFormat {
     fn of(bytes: &[u8], path: &Path) -> Self {
         let ending = |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
         let bytes = unmarked(bytes);
-        if ending("ply") || bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") { Self::Ply } else { Self::Obj }
+        if ending("ply") || bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+            Self::Ply
+        } else if ending("gltf") || ending("glb") || bytes.starts_with(b"glTF") {
+            Self::Gltf
+        } else if ending("stl") || (!ending("obj") && is_stl(bytes)) {
+            Self::Stl
+        } else {
+            Self::Obj
+        }
     }
 }
 
 /// The axis of a model file that points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UpAxis {
-    /// As in files exported with that setting.
+    /// As in glTF, and in files exported with that setting.
     Y,
     /// As in this project's scenes.
     Z,
@@ -41,14 +53,14 @@ pub enum UpAxis {
 /// Options of reading a model file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ModelOptions {
-    /// The axis of the file that points up; `None`: z. In the result z points up.
+    /// The axis of the file that points up; `None`: y for glTF and z for all others. In the result z points up.
     pub up: Option<UpAxis>,
     /// If true, unusable materials and faces are refused and triangles stay as they are; otherwise defects are repaired
     /// and noted.
     pub strict: bool,
 }
 
-/// Reads a mesh from an OBJ or PLY file, without repairs.
+/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs.
 ///
 /// # Errors
 /// [`InputError`], with the path, and the line, element or part where there is one.
@@ -57,8 +69,8 @@ pub fn load_mesh(path: &Path) -> Result<Mesh, InputError> {
     mesh_of(&bytes, ModelFormat::of(&bytes, path), path, true).map(|(mesh, _)| mesh)
 }
 
-/// Reads a scene without repairs: from an OBJ file and its material libraries, or from a PLY file, which gets one grey
-/// material. It has no views and no point lights.
+/// Reads a scene without repairs: from an OBJ file and its material libraries, from a glTF file and its buffers, or
+/// from a PLY or STL file, which gets one grey material. It has no views and no point lights.
 ///
 /// # Errors
 /// [`InputError`], with the path, and the line, element or part where there is one.
@@ -75,7 +87,7 @@ pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<M
     let bytes = load_model(path)?;
     let format = ModelFormat::of(&bytes, path);
     let (mut mesh, mut notes) = mesh_of(&bytes, format, path, options.strict)?;
-    if let Some(rotation) = rotation(options) {
+    if let Some(rotation) = rotation(format, options) {
         mesh = mesh.rotated(rotation);
     }
     if options.strict {
@@ -96,12 +108,13 @@ pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec
     let format = ModelFormat::of(&bytes, path);
     let (mut scene, mut notes) = match format {
         ModelFormat::Obj => read_scene(&bytes, path, &mut beside(path), options.strict)?,
-        ModelFormat::Ply => {
-            let (mesh, notes) = read_ply(&bytes, path, options.strict)?;
+        ModelFormat::Gltf => (parse_gltf(&bytes, path, &mut beside(path))?, Vec::new()),
+        ModelFormat::Ply | ModelFormat::Stl => {
+            let (mesh, notes) = mesh_of(&bytes, format, path, options.strict)?;
             (plain_scene(mesh, path)?, notes)
         }
     };
-    if let Some(rotation) = rotation(options) {
+    if let Some(rotation) = rotation(format, options) {
         scene = scene.rotated(rotation);
     }
     if !options.strict {
@@ -116,6 +129,8 @@ fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path, strict: bool) -> Resu
     match format {
         ModelFormat::Obj => read_obj(bytes, path, strict),
         ModelFormat::Ply => read_ply(bytes, path, strict),
+        ModelFormat::Stl => read_stl(bytes, path, strict),
+        ModelFormat::Gltf => Ok((parse_gltf(bytes, path, &mut beside(path))?.mesh().clone(), Vec::new())),
     }
 }
 
@@ -124,11 +139,18 @@ pub(super) fn is_obj(bytes: &[u8], path: &Path) -> bool {
     ModelFormat::of(bytes, path) == ModelFormat::Obj
 }
 
-/// The rotation that brings the requested axis to z.
-pub(super) fn rotation(options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
-    match options.up? {
-        UpAxis::Y => Some(|[x, y, z]| [x, -z, y]),
-        UpAxis::Z => None,
+/// How an OBJ file's places are turned.
+pub(super) fn rotation_of_obj(options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
+    rotation(ModelFormat::Obj, options)
+}
+
+/// The rotation that brings the requested axis to z, for coordinates as returned by the format's reader.
+fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
+    match (options.up?, format == ModelFormat::Gltf) {
+        (UpAxis::Y, false) => Some(|[x, y, z]| [x, -z, y]),
+        // The glTF reader has already rotated y up to z up, which is reverted.
+        (UpAxis::Z, true) => Some(|[x, y, z]| [x, z, -y]),
+        (UpAxis::Y, true) | (UpAxis::Z, false) => None,
     }
 }
 

@@ -20,8 +20,8 @@ pub enum ModelNote {
     Unknown { place: FilePlace, material: String },
     /// Faces of four corners or more that have no certain interior.
     Polygons { fault: PolygonFault, faces: usize, first: String },
-    /// Data after the last element of a file.
-    Trailing { bytes: usize },
+    /// Data after the last triangle or element of a file.
+    Trailing { bytes: usize, last: &'static str },
     /// Triangles with the opposite winding of their neighbours were turned round.
     TurnedRound { triangles: usize },
     /// Triangles without area.
@@ -57,8 +57,8 @@ impl fmt::Display for ModelNote {
                 };
                 write!(f, "{} {fault}: {cut}; first: {first}", counted(*faces, "face", "faces"))
             }
-            Self::Trailing { bytes } => {
-                write!(f, "{} after the last element: passed over", counted(*bytes, "byte", "bytes"))
+            Self::Trailing { bytes, last } => {
+                write!(f, "{} after the last {last}: passed over", counted(*bytes, "byte", "bytes"))
             }
             Self::TurnedRound { triangles: count } => {
                 write!(f, "{} turned round, to face as the triangles beside", triangles(*count))

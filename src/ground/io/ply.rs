@@ -103,7 +103,7 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
             let expected = "the end of the file after the last element";
             return Err(syntax_error(name, expected, format!("{bytes} bytes more")));
         }
-        notes.push(ModelNote::Trailing { bytes });
+        notes.push(ModelNote::Trailing { bytes, last: "element" });
     }
     Ok((mesh.finish(triangles, attributes, name)?, notes))
 }

@@ -15,7 +15,7 @@
 //! intensity = [10.0, 10.0, 9.0]
 //! ```
 //!
-//! The mesh is an OBJ or PLY file beside the scene file, read by [`super::load_scene`]. A model alone is a
+//! The mesh is an OBJ, PLY, STL or glTF file beside the scene file, read by [`super::load_scene`]. A model alone is a
 //! scene without views and point lights.
 
 use std::io::{self, Write};
@@ -67,7 +67,7 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
 }
 
 /// Endings of models.
-const MODELS: [&str; 2] = ["obj", "ply"];
+const MODELS: [&str; 5] = ["obj", "ply", "stl", "gltf", "glb"];
 
 /// The model of a scene: the file itself by its name's ending, or that which a scene file names. `None` for a scene
 /// file that cannot be read.

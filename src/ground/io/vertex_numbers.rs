@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::lines::{logical_lines, single, statement};
-use super::model::{ModelOptions, is_obj, rotation};
+use super::model::{ModelOptions, is_obj, rotation_of_obj};
 use super::obj::{ObjReader, load_model};
 use crate::error::InputError;
 use crate::geom::vector::place_bits;
@@ -50,7 +50,7 @@ impl VertexNumbers {
 /// [`InputError`].
 pub fn load_vertex_numbers(path: &Path, options: ModelOptions) -> Result<Option<VertexNumbers>, InputError> {
     let bytes = load_model(path)?;
-    Ok(if is_obj(&bytes, path) { VertexNumbers::of_obj(&bytes, rotation(options)) } else { None })
+    Ok(if is_obj(&bytes, path) { VertexNumbers::of_obj(&bytes, rotation_of_obj(options)) } else { None })
 }
 
 #[cfg(test)]

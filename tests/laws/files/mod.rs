@@ -2,8 +2,10 @@
 
 mod cases;
 mod foreign_obj;
+mod gltf;
 mod models;
 mod mutation;
 mod pictures;
 mod ply;
 mod scenes;
+mod stl;

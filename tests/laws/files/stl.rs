@@ -1,0 +1,159 @@
+//! STL files: both kinds give the same mesh, and no bytes make the reader panic or take more than they support.
+
+use std::path::Path;
+
+use crossbar::error::InputError;
+use crossbar::geom::Mesh;
+use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, load_obj, parse_stl};
+use proptest::prelude::*;
+
+use super::mutation::mutated;
+
+const CORNERS: [[[f32; 3]; 3]; 2] =
+    [[[0.0, 0.0, 0.0], [1.5, 0.0, 1e-3], [1.0, 1.0, 0.0]], [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-0.25, 1.0, 7.0]]];
+
+/// Binary data with any text as their header.
+fn binary(header: &[u8], count: u32) -> Vec<u8> {
+    let mut bytes = header.to_vec();
+    bytes.resize(80, b' ');
+    bytes.extend(count.to_le_bytes());
+    for corners in CORNERS {
+        let numbers = [0.0; 3].into_iter().chain(corners.into_iter().flatten());
+        bytes.extend(numbers.flat_map(f32::to_le_bytes).chain([7, 7]));
+    }
+    bytes
+}
+
+fn ascii() -> Vec<u8> {
+    let mut text = "solid two triangles\n".to_owned();
+    for corners in CORNERS {
+        text += "facet normal 0 0 1\nouter loop\n";
+        for [x, y, z] in corners {
+            text += &format!("vertex {x} {y} {z:e}\n");
+        }
+        text += "endloop\nendfacet\n";
+    }
+    (text + "endsolid two triangles\n").into_bytes()
+}
+
+fn parse(bytes: &[u8]) -> Result<Mesh, InputError> {
+    parse_stl(bytes, Path::new("m.stl"))
+}
+
+#[test]
+fn both_kinds_give_the_same_mesh() {
+    let mesh = parse(&ascii()).expect("a mesh");
+    assert_eq!(mesh.iter_corners().collect::<Vec<_>>(), CORNERS);
+    assert_eq!((mesh.positions().len(), mesh.edges().len()), (4, 5), "corners at one place are one vertex");
+    assert_eq!(parse(&binary(b"by a modeller", 2)).expect("a mesh"), mesh);
+    assert_eq!(parse(&binary(b"solid as some modellers begin", 2)).expect("a mesh"), mesh);
+}
+
+#[test]
+fn stl_is_found_by_ending_and_content() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, bytes) in [("m.stl", ascii()), ("M.STL", binary(b"", 2)), ("m.dat", ascii()), ("b.dat", binary(b"", 2))]
+    {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).expect("written");
+        assert_eq!(load_mesh(&path).expect("a mesh").iter_corners().collect::<Vec<_>>(), CORNERS, "{name}");
+    }
+    // Unless it is to be taken as it is, a file may be longer than it says.
+    let longer = folder.path().join("longer.stl");
+    std::fs::write(&longer, [binary(b"", 2), b"more".to_vec()].concat()).expect("written");
+    let (mesh, notes) = load_mesh_with(&longer, ModelOptions::default()).expect("a mesh");
+    assert_eq!(mesh.iter_corners().collect::<Vec<_>>(), CORNERS);
+    assert_eq!(
+        notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        ["4 bytes after the last triangle: passed over"]
+    );
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
+    let square = load_mesh(&models.join("square.stl")).expect("a mesh");
+    assert_eq!(square, load_obj(&models.join("square.obj")).expect("a mesh"));
+}
+
+/// Forms that programs write and readers accept: several solids, no names or names in Latin-1, keywords in capitals,
+/// normals that are no numbers, blank lines, a byte order mark, lines that end in CR, everything in one line.
+#[test]
+fn text_in_all_its_forms_gives_the_same_mesh() {
+    let plain = String::from_utf8(ascii()).expect("text");
+    let mesh = parse(&ascii()).expect("a mesh");
+    let facet = plain.find("facet normal 0 0 1\nouter loop\nvertex 0 0 0e0\nvertex 1 1").expect("the second facet");
+    let (first, second) = plain.split_at(facet);
+    let latin_1 = [&b"solid f\xfcr solid\n"[..], plain.split_once('\n').expect("lines").1.as_bytes()].concat();
+    for bytes in [
+        format!("{first}endsolid\n\nsolid\n{second}").into_bytes(),
+        plain.replace(" two triangles", "").into_bytes(),
+        latin_1,
+        plain.to_uppercase().into_bytes(),
+        format!("\n \r\n{plain}").replace('\n', "\r\n").into_bytes(),
+        format!("\u{feff}{plain}").into_bytes(),
+        plain.replace('\n', "\r").into_bytes(),
+        plain.replace('\n', " ").into_bytes(),
+        format!("{first}endsolid a solid\nsolid b {second}").replace('\n', " ").into_bytes(),
+        plain.replace("normal 0 0 1", "normal nan -nan(ind) 1.#QNAN").into_bytes(),
+        plain.replace("normal 0 0 1\n", "normal 0 0 1 ").replace("\nvertex", "  vertex").into_bytes(),
+    ] {
+        assert_eq!(parse(&bytes).expect("a mesh"), mesh, "{}", String::from_utf8_lossy(&bytes));
+    }
+}
+
+#[test]
+fn broken_files_are_named() {
+    let message = |bytes: &[u8]| parse(bytes).expect_err("no mesh").to_string();
+    let kind = "m.stl: expected an STL file, which begins with `solid` or is binary, found";
+    assert_eq!(message(b"v 0 0 0"), format!("{kind} `v 0 0 0`"));
+    assert_eq!(
+        message(&binary(b"solid", u32::MAX >> 8)),
+        "m.stl: expected as many bytes as its number of triangles takes, found 184 of 838860834"
+    );
+    let mut longer = binary(b"", 2);
+    longer.extend(b"\0more");
+    assert_eq!(message(&longer), "m.stl: expected as many bytes as its number of triangles takes, found 189 of 184");
+    let utf_16 = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    for text in ["solid\n", "\u{feff}solid\n"] {
+        assert_eq!(message(&utf_16(&text.repeat(40))), "m.stl: expected text in UTF-8 or Latin-1, found UTF-16");
+    }
+    assert_eq!(message(b"solid nothing\nendsolid nothing\n"), "m.stl: expected at least one triangle, found none");
+    let text = String::from_utf8(ascii()).expect("text");
+    let lines = |count: usize| text.split_inclusive('\n').take(count).collect::<String>();
+    assert_eq!(message(lines(15).as_bytes()), "m.stl:15: expected `facet` or `endsolid`, found the end of the file");
+    let cut = message(b"solid\nfacet normal 0 0");
+    assert_eq!(cut, "m.stl:2: expected three numbers of a normal, found the end of the file");
+    assert_eq!(message(lines(5).as_bytes()), "m.stl:5: expected `vertex`, found the end of the file");
+    for (from, to, error) in [
+        ("1.5", "nan", "5: expected a finite number, found `nan`"),
+        ("1.5", "1,5", "5: expected a number, found `1,5`"),
+        ("vertex 1.5", "edge 1.5", "5: expected `vertex`, found `edge`"),
+        ("endloop", "vertex 0 0 0\nendloop", "7: expected `endloop`, found `vertex`"),
+        ("normal 0 0 1", "normal 0 1", "3: expected three numbers of a normal, found `outer`"),
+        ("two triangles\nfacet", "two\ntriangles\nfacet", "2: expected `facet` or `endsolid`, found `triangles`"),
+    ] {
+        let found = message(text.replace(from, to).as_bytes());
+        assert_eq!(found, format!("m.stl:{error}"));
+    }
+    let mut endless = binary(b"", 2);
+    endless[96..100].copy_from_slice(&f32::INFINITY.to_le_bytes());
+    assert_eq!(message(&endless), "m.stl: triangle 0 (counted from 0): expected finite coordinates, found inf");
+}
+
+proptest! {
+    #[test]
+    fn mutated_files_do_no_harm(text in mutated(ascii(), 1..8), data in mutated(binary(b"solid", 2), 1..8)) {
+        for bytes in [text, data] {
+            if let Ok(mesh) = parse(&bytes) {
+                prop_assert!(mesh.len() <= 2);
+            }
+        }
+    }
+
+    #[test]
+    fn arbitrary_data_do_no_harm(
+        head in prop::sample::select(vec![&b""[..], b"solid ", b"solid x\nfacet normal 0 0 1\nouter loop\nvertex "]),
+        bytes in prop::collection::vec(any::<u8>(), 0..400),
+    ) {
+        if let Ok(mesh) = parse(&[head, &bytes].concat()) {
+            prop_assert!(mesh.len() * 50 <= bytes.len() + head.len());
+        }
+    }
+}
