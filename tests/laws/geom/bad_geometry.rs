@@ -3,7 +3,7 @@
 
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
-use crossbar::oracle::{Oracle, Tolerance, hard_rays};
+use crossbar::oracle::{Oracle, Tolerance, assert_hits_eq, hard_rays, hits_equal};
 use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
 use crossbar::tracer::HostTracer;
@@ -31,11 +31,6 @@ fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
     Ray::new(origin, direction).expect("a ray")
 }
 
-/// Triangles, and the bits of t.
-fn bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, u32)>> {
-    hits.iter().map(|hit| hit.map(|hit| (hit.triangle, hit.t.to_bits()))).collect()
-}
-
 #[test]
 fn nothing_is_hit_where_nothing_is() {
     let one = [ray([0.0; 3], [0.0, 0.0, 1.0])];
@@ -45,7 +40,7 @@ fn nothing_is_hit_where_nothing_is() {
     for mesh in [&empty, &points, &unused] {
         for sides in [Sides::Front, Sides::Both] {
             for (name, hits) in paths(mesh, &one, sides) {
-                assert_eq!(bits(&hits), [None]);
+                assert_hits_eq(&hits, &[None]);
                 assert!(exact::nearest(mesh, &one[0], sides).is_none(), "{name}");
             }
             paths(mesh, &[], sides).into_iter().for_each(|(_, hits)| assert!(hits.is_empty()));
@@ -136,7 +131,7 @@ fn the_signs_of_zeros_do_not_show_on_any_path() {
             let minus = paths(&mesh, &rays_with_zeros(direction, signs), Sides::Both);
             for ((name, plus), (_, minus)) in plus.iter().zip(&minus) {
                 let told = || format!("{name} along {direction:?}, signs {signs:b}");
-                assert_eq!(bits(plus), bits(minus), "{}", told());
+                hits_equal(plus, minus).unwrap_or_else(|unequal| panic!("{}: {unequal}", told()));
             }
         }
         // These numbers are all exact in f32: fp32 paths have no excuse.
@@ -155,7 +150,7 @@ fn right_everywhere(mesh: &Mesh, rays: &[Ray], sides: Sides) {
     for (name, hits) in found.iter().filter(|(name, _)| !["r200", "r300"].contains(name)) {
         let report = oracle.judge(rays, hits).expect("one answer a ray");
         assert!(report.agrees(), "{name}: {report}");
-        assert_eq!(bits(&found[0].1), bits(hits), "{name}");
+        assert_hits_eq(&found[0].1, hits);
     }
 }
 
