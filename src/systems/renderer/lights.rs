@@ -7,7 +7,7 @@ use super::surfel::Surfel;
 use super::vector::mean;
 use super::wave::SampleRng;
 use crate::geom::Ray;
-use crate::geom::vector::wide;
+use crate::geom::vector::{narrow, wide};
 use crate::scene::Scene;
 use crate::tracer::offset::SurfacePoint;
 use glam::DVec3;
