@@ -21,7 +21,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use crossbar::io::{parse_single_npy, write_npy_array};
+use crossbar::io::{parse_npy, write_npy_array};
 use crossbar::transfer::Signal;
 use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, reference};
 use crossbar::transfer::synthetic::torus_signal;
@@ -62,7 +62,7 @@ fn write_signal([file, points, dimension]: [&str; 3]) {
 fn beside([file, clusters, vectors, iterations]: [&str; 4]) {
     let (clusters, vectors, iterations) = (number(clusters), number(vectors), number(iterations));
     let bytes = fs::read(file).expect("a signal");
-    let table = parse_single_npy(&bytes, Path::new(file)).expect("an array of two axes");
+    let table = parse_npy::<f32>(&bytes, Path::new(file)).expect("an array of two axes");
     let signal = Signal::new(table.columns, table.values).expect("a signal");
     let points = signal.points();
     let start = StartPoints::Given((0..clusters).map(|cluster| (cluster * points / clusters) as u32).collect());

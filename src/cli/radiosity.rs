@@ -8,10 +8,9 @@ use super::memory::{self, MemoryNeed};
 use super::part::PartArgs;
 use super::scene_name::{self, EyeArgs, Viewpoint};
 use super::study::{StudyArgs, StudyFiles};
-use crate::atlas::require_side;
 use crate::options::Size;
 use crate::radiosity::Patches;
-use crate::study::radiosity::{Factors, Parameters, RadiosityOptions, SolveMethod, no_atlas};
+use crate::study::radiosity::{Parameters, RadiosityOptions, SolveMethod};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -23,16 +22,13 @@ Examples:
       solve, then change the light and the left wall, and go on from the solution
   crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
       a scene of your own, on the host alone
-  crossbar radiosity cornell-room-blocks --solver gauss-seidel --patches 500 --atlas 256
-      the solution as a texture of a meshed atlas, and the room drawn from it
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep-patches 60,240,515,889
       half floats on a card that truncates, and how dark the room gets with more patches and under every open switch
 
 Written to --out: index.html (self-contained), rows.csv, patches.csv and vertices.csv (radiosities per patch, and \
 between patches per vertex), study.json, residual.svg, with --sweep-patches \
 sweep.csv and sweep.svg, pictures of every method \
-(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --picture-after, with --atlas atlas.csv, \
-atlas.png and atlas-view.png; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
+(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --picture-after; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
 chrome://tracing. docs/papers/radiosity.md explains all of it.";
 
 /// Solve for diffuse light in a scene: patches, form factors, iterations as fragment programs
@@ -78,8 +74,6 @@ impl StudyArgs for Args {
 
     /// By the number of patches that is asked for; faces and parts of sides may make more.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        // Before memory, which what cannot be has no need of.
-        self.options.atlas.map_or(Ok(()), require_side).map_err(no_atlas)?;
         let RadiosityOptions { patches, per_side, .. } = self.options;
         self.need(per_side.map_or(patches as usize, |_| 0)).map(Some)
     }
@@ -95,7 +89,7 @@ impl StudyArgs for Args {
         let viewpoint = Viewpoint { size: self.size, view: self.view.as_deref(), eye: self.eye };
         let (camera, methods) = (viewpoint.camera(&scene)?, self.options.methods()?);
         let is_on_card = methods.iter().any(|method| matches!(method, SolveMethod::Card(_)));
-        if !is_on_card && !matches!(self.options.factors, Factors::Hemicube { .. }) {
+        if !is_on_card {
             given::refuse(self.card.given(), "methods on a card", "add `--solver card`, or leave it out")?;
         }
         Ok(Parameters {
@@ -116,15 +110,12 @@ impl Args {
         // Measured: 83 with the matrices on a card, whose batch executor keeps decoded texels.
         const PER_PAIR: u64 = 96;
         const PER_PIXEL_AND_PICTURE: u64 = 100;
-        // What an atlas knows of a texel, its levels, colors and picture.
-        const PER_TEXEL: u64 = 320;
         let pictures = (self.options.methods()?.len() + self.options.frames.len()) as u64;
-        let texels = self.options.atlas.map_or(0, |side| u64::from(side) * u64::from(side));
-        let matrices = (patches as u64).saturating_mul(patches as u64 * PER_PAIR) + texels * PER_TEXEL;
+        let matrices = (patches as u64).saturating_mul(patches as u64 * PER_PAIR);
         Ok(MemoryNeed {
             what: format!("radiosity of {patches} patches with {pictures} pictures of {} pixels", self.size),
             bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, matrices),
-            help: "ask for fewer `--patches`, name a scene of fewer faces, or ask for a smaller `--size` or `--atlas`",
+            help: "ask for fewer `--patches`, name a scene of fewer faces, or ask for a smaller `--size`",
         })
     }
 }

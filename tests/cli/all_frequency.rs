@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use crossbar::io::parse_single_npy;
+use crossbar::io::parse_npy;
 use serde_json::Value;
 
 use crate::answers::{document_of as document, number, place, refused_line};
@@ -167,7 +167,7 @@ fn a_vertex_is_shown() {
     assert!(!segments.is_empty() && segments.len() <= 24);
     let read = |name: &str| {
         let bytes = fs::read(folder.path().join("arrays").join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-        parse_single_npy(&bytes, Path::new(name)).expect("an array")
+        parse_npy::<f32>(&bytes, Path::new(name)).expect("an array")
     };
     let transfer = read("vertex_12_transfer.npy");
     assert_eq!((transfer.columns, transfer.values.len()), (6144, 6144));

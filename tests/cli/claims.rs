@@ -118,12 +118,12 @@ fn good_files() -> Vec<GoodFile> {
         file("p.hdr", hdr(&picture).expect("a file"), decoded),
         file("p.exr", exr(&picture).expect("a file"), decoded),
         file("a.npy", array, |bytes, name| {
-            drop(io::parse_npy_array(bytes, name));
-            drop(io::parse_numbers(bytes, name));
+            drop(io::parse_npy_array::<f32>(bytes, name));
+            drop(io::parse_numbers::<f64>(bytes, name));
         }),
         file("t.csv", stored("docs/examples/reflectance.csv"), |bytes, name| {
-            drop(io::parse_numbers(bytes, name));
-            drop(io::parse_single_numbers(bytes, name));
+            drop(io::parse_numbers::<f64>(bytes, name));
+            drop(io::parse_numbers::<f32>(bytes, name));
         }),
         file("q.mtx", stored("docs/examples/quarters.mtx"), |bytes, name| drop(io::parse_matrix_market(bytes, name))),
         file("m.obj", stored("fixtures/models/square.obj"), |bytes, name| drop(io::parse_obj(bytes, name))),

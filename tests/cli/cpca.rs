@@ -34,7 +34,7 @@ fn files_are_written_as_arrays() {
     let [_, transfer, small] = STEP;
     let read = |arrays: &str, name: &str| {
         let bytes = fs::read(Path::new(arrays).join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        parse_npy(&bytes, Path::new(name)).expect("an array")
+        parse_npy::<f64>(&bytes, Path::new(name)).expect("an array")
     };
     let [whole, clusters] = ["whole", "clusters"].map(|name| place(folder.path(), name));
     document(&["cpca", "show", transfer, "--arrays", &whole]);

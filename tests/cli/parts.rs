@@ -25,7 +25,7 @@ const COMMANDS: &[&str] = &[
     "leaky-teapot --mesh docs/examples/step.obj --rays docs/examples/rays.csv --rays-per-edge 0 --device r200 \
      --device nv35 --out out",
     "radiosity cornell-room --patches 13 --size 8x8 --solver direct --solver card --iterations 2 --sweep-patches 8,20 --out out",
-    "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors hemicube --solver direct --out out",
+    "radiosity docs/examples/room.toml --patches 30 --size 8x8 --solver direct --out out",
     "subsurface docs/examples/sphere.obj --mm-per-unit 5 --material marble --atlas 64 --choice fixed --choice adaptive \
      --links 4 --size 8x8 --out out",
     "precision docs/examples/lerp.toml --goal largest_codes<=0 --out out",

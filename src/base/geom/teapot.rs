@@ -35,9 +35,6 @@ use crate::error::{InputError, ensure};
 /// f32).
 pub const MAX_RATE: u32 = 256;
 
-/// Rate at which the teapot has about the 9,000 triangles of a classic test model (9,120).
-pub const DEFAULT_RATE: u32 = 12;
-
 /// Part of the teapot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TeapotPart {

@@ -91,7 +91,7 @@ impl PatchArgs {
             .any(|known| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)));
         let (columns, heights) = if is_table {
             view::require_file(path, 8, "name a smaller table")?;
-            let table = load_numbers(path, "table of heights", MAX_BYTES)?;
+            let table = load_numbers::<f64>(path, "table of heights", MAX_BYTES)?;
             (table.columns, table.values.iter().map(|height| height * self.relief()).collect())
         } else {
             let file = PictureFile::open(path)?;

@@ -157,16 +157,6 @@ impl Atlas {
         self.surface.normals(face)
     }
 
-    /// Returns the face and its point at texel coordinates, which are clamped to the atlas: texel (x, y) extends from
-    /// there to (x + 1, y + 1).
-    pub fn point_at(&self, x: f64, y: f64) -> (u32, DVec3) {
-        let clamped = |at: f64| if at >= 0.0 { at.min(f64::from(self.side)) } else { 0.0 };
-        let [x, y] = [x, y].map(clamped);
-        let [column, row] = [x, y].map(|at| (at as u32).min(self.side - 1));
-        let face = self.texels[row as usize * self.side as usize + column as usize].face;
-        (face, self.surface.point(face, self.places[face as usize].weights(x, y)))
-    }
-
     /// Texel coordinates of the point of a face with these barycentric weights, by corner index.
     pub fn coordinates(&self, face: u32, weights: [f64; 3]) -> [f64; 2] {
         self.places[face as usize].coordinates(weights)

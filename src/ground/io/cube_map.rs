@@ -7,9 +7,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::{quoted, read_limited};
-use crate::error::{FilePlace, InputError, ensure, input_error};
-use crate::io::error::{too_long_error, unreadable_error};
+use super::error::read_file;
+use super::headed_table::{for_each_row, whole};
+use super::quoted;
+use crate::error::{InputError, ensure, input_error};
 
 /// Longest file that is read, in bytes (64 MiB).
 pub const MAX_BYTES: u64 = 1 << 26;
@@ -21,11 +22,7 @@ const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 /// # Errors
 /// [`InputError`], with the path, and the line where there is one.
 pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
-    let unreadable = |source| unreadable_error("light", path, source);
-    match read_limited(path, MAX_BYTES).map_err(unreadable)? {
-        Some(bytes) => parse_cube_table(&bytes, path, side),
-        None => Err(too_long_error("table", path, MAX_BYTES)),
-    }
+    parse_cube_table(&read_file(path, "table of light", MAX_BYTES)?, path, side)
 }
 
 /// Reads the texels of a cube map from bytes; `name` is the file's name in messages.
@@ -37,35 +34,23 @@ pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputE
 /// If the side is 0.
 pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     assert!(side > 0, "a texel along an edge");
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let syntax = |reason: csv::Error| {
-        input_error!("crossbar::cube_map::syntax" => "the table cannot be read: {reason}").at(name)
-    };
-    let mut record = csv::ByteRecord::new();
-    let has_header = reader.read_byte_record(&mut record).map_err(syntax)?;
-    ensure!(has_header && record.iter().eq(HEADER.map(str::as_bytes)), "crossbar::cube_map::header" =>
-        "{}:1: expected the header `face,row,column,r,g,b`, found {}", name.display(), whole(&record);
-        help "a line `face,row,column,r,g,b`, then a line per texel");
+    let place_of = |at: usize| [at / (side * side), at / side % side, at % side];
     // Each texel with its line; 0 while there is none.
     let mut texels = vec![([0.0; 3], 0); 6 * side * side];
-    while reader.read_byte_record(&mut record).map_err(syntax)? {
-        let line = TexelLine { path: name, line: record.position().map_or(0, csv::Position::line), side };
-        let (at, radiance) = line.parse(&record)?;
-        let [face, row, column] = [at / (side * side), at / side % side, at % side];
+    for_each_row(bytes, name, &HEADER, "texel", &mut |line, record| {
+        let (at, radiance) = parse_texel(record, side)?;
+        let [face, row, column] = place_of(at);
         let (_, first) = texels[at];
-        if first > 0 {
-            return Err(input_error!("crossbar::cube_map::twice" =>
-                "the texel at face {face}, row {row}, column {column} stands on line {first} too";
-                help "give every texel one line")
-            .at(FilePlace::line(name, line.line as usize)));
-        }
-        texels[at] = (radiance, line.line);
-    }
-    let is_missing = |(_, line): &([f64; 3], u64)| *line == 0;
+        ensure!(first == 0, "crossbar::cube_map::twice" =>
+            "the texel at face {face}, row {row}, column {column} stands on line {first} too";
+            help "give every texel one line");
+        texels[at] = (radiance, line);
+        Ok(())
+    })?;
+    let is_missing = |(_, line): &([f64; 3], usize)| *line == 0;
     if let Some(at) = texels.iter().position(is_missing) {
         let (expected, missing) = (texels.len(), texels.iter().filter(|texel| is_missing(texel)).count());
-        let [face, row, column] = [at / (side * side), at / side % side, at % side];
+        let [face, row, column] = place_of(at);
         return Err(input_error!("crossbar::cube_map::missing" =>
             "expected {expected} texels, {missing} of them are missing, the first at face {face}, row {row}, column \
              {column}"; help "give every texel one line; black ones too")
@@ -88,56 +73,34 @@ pub fn write_cube_table(texels: &[[f64; 3]], side: usize) -> String {
     text
 }
 
-/// A line of the table.
-struct TexelLine<'a> {
-    path: &'a Path,
-    line: u64,
-    side: usize,
-}
-
-impl TexelLine<'_> {
-    /// The texel's number and its radiance.
-    fn parse(&self, record: &csv::ByteRecord) -> Result<(usize, [f64; 3]), InputError> {
-        let here = FilePlace::line(self.path, self.line as usize);
-        let fields: Vec<&[u8]> = record.iter().collect();
-        let [face, row, column, r, g, b] = fields[..] else {
-            return Err(input_error!("crossbar::cube_map::fields" =>
-                "expected six fields (face,row,column,r,g,b), found {}", whole(record))
-            .at(here.clone()));
-        };
-        let text = |field: &[u8]| std::str::from_utf8(field).unwrap_or_default().to_owned();
-        let named = FACES.iter().position(|name| name.as_bytes() == face);
-        let face = named.or_else(|| text(face).parse().ok().filter(|face| *face < 6)).ok_or_else(|| {
-            input_error!("crossbar::cube_map::face" =>
-                "expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found {}", quoted(face))
-            .at(here.clone())
-        })?;
-        let number = |what, field: &[u8]| {
-            let refused = || {
-                input_error!("crossbar::cube_map::place" =>
-                    "expected a {what} from 0 to {}, found {}", self.side - 1, quoted(field);
-                    help "the map has six faces of {} x {} texels", self.side, self.side)
-                .at(here.clone())
-            };
-            text(field).parse().ok().filter(|at| *at < self.side).ok_or_else(refused)
-        };
-        let (row, column): (usize, usize) = (number("row", row)?, number("column", column)?);
-        let radiance = |channel, field: &[u8]| {
-            let value = text(field).parse().ok().filter(|value: &f64| value.is_finite());
-            value.ok_or_else(|| {
-                input_error!("crossbar::cube_map::radiance" =>
-                    "expected a finite number for `{channel}`, found {}", quoted(field))
-                .at(here.clone())
-            })
-        };
-        let at = (face * self.side + row) * self.side + column;
-        Ok((at, [radiance("r", r)?, radiance("g", g)?, radiance("b", b)?]))
-    }
-}
-
-/// A line as messages quote it.
-fn whole(record: &csv::ByteRecord) -> String {
-    quoted(&record.iter().collect::<Vec<_>>().join(&b','))
+/// The number of a row's texel, and its radiance.
+fn parse_texel(record: &csv::ByteRecord, side: usize) -> Result<(usize, [f64; 3]), InputError> {
+    let fields: Vec<&[u8]> = record.iter().collect();
+    let [face, row, column, r, g, b] = fields[..] else {
+        return Err(input_error!("crossbar::cube_map::fields" =>
+            "expected six fields (face,row,column,r,g,b), found {}", whole(record)));
+    };
+    let text = |field| std::str::from_utf8(field).unwrap_or_default();
+    let named = FACES.iter().position(|name| name.as_bytes() == face);
+    let face = named.or_else(|| text(face).parse().ok().filter(|face| *face < 6)).ok_or_else(|| {
+        input_error!("crossbar::cube_map::face" =>
+            "expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found {}", quoted(face))
+    })?;
+    let number = |what, field| {
+        text(field).parse().ok().filter(|at| *at < side).ok_or_else(|| {
+            input_error!("crossbar::cube_map::place" =>
+                "expected a {what} from 0 to {}, found {}", side - 1, quoted(field);
+                help "the map has six faces of {side} x {side} texels")
+        })
+    };
+    let (row, column): (usize, usize) = (number("row", row)?, number("column", column)?);
+    let radiance = |channel, field| {
+        text(field).parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+            input_error!("crossbar::cube_map::radiance" =>
+                "expected a finite number for `{channel}`, found {}", quoted(field))
+        })
+    };
+    Ok(((face * side + row) * side + column, [radiance("r", r)?, radiance("g", g)?, radiance("b", b)?]))
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use super::{quoted, read_limited};
-use crate::error::{FilePlace, InputError, ensure, input_error};
-use crate::io::error::{too_long_error, unreadable_error};
+use super::error::read_file;
+use super::headed_table::{finite, for_each_row, whole};
+use crate::error::{InputError, input_error};
 
 /// Longest file that is read, in bytes (16 MiB).
 pub const MAX_BYTES: u64 = 1 << 24;
@@ -27,11 +27,7 @@ pub struct LightSourceRow {
 /// # Errors
 /// [`InputError`], with the path, and the line where there is one.
 pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, InputError> {
-    let unreadable = |source| unreadable_error("light sources", path, source);
-    match read_limited(path, MAX_BYTES).map_err(unreadable)? {
-        Some(bytes) => parse_light_sources(&bytes, path),
-        None => Err(too_long_error("table", path, MAX_BYTES)),
-    }
+    parse_light_sources(&read_file(path, "table of light sources", MAX_BYTES)?, path)
 }
 
 /// Reads sources from bytes; `name` is the file's name in messages.
@@ -39,35 +35,20 @@ pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, InputError
 /// # Errors
 /// [`InputError`], with the line where there is one.
 pub fn parse_light_sources(bytes: &[u8], name: &Path) -> Result<Vec<LightSourceRow>, InputError> {
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let syntax = |reason: csv::Error| {
-        input_error!("crossbar::light_sources::syntax" => "the table cannot be read: {reason}").at(name)
-    };
-    let text = |record: &csv::ByteRecord| quoted(&record.iter().collect::<Vec<_>>().join(&b','));
-    let mut record = csv::ByteRecord::new();
-    let has_header = reader.read_byte_record(&mut record).map_err(syntax)?;
-    ensure!(has_header && record.iter().eq(HEADER.map(str::as_bytes)), "crossbar::light_sources::header" =>
-        "{}:1: expected the header `x,y,z,degrees,r,g,b`, found {}", name.display(), text(&record);
-        help "a line `x,y,z,degrees,r,g,b`, then a line per source");
     let mut found = Vec::new();
-    while reader.read_byte_record(&mut record).map_err(syntax)? {
-        let line = record.position().map_or(0, csv::Position::line);
-        let row = row(&record);
-        found.push(row.ok_or_else(|| {
+    for_each_row(bytes, name, &HEADER, "source", &mut |_, record| {
+        found.push(row(record).ok_or_else(|| {
             input_error!("crossbar::light_sources::numbers" =>
                 "expected seven finite numbers (x,y,z,degrees,r,g,b), a direction other than 0, degrees above 0 and \
-                 up to 180, radiances of at least 0; found {}", text(&record))
-            .at(FilePlace::line(name, line as usize))
+                 up to 180, radiances of at least 0; found {}", whole(record))
         })?);
-    }
+        Ok(())
+    })?;
     Ok(found)
 }
 
 fn row(record: &csv::ByteRecord) -> Option<LightSourceRow> {
-    let number = |field: &[u8]| std::str::from_utf8(field).ok()?.parse().ok().filter(|value: &f64| value.is_finite());
-    let numbers: Vec<f64> = record.iter().map(number).collect::<Option<_>>()?;
-    let [x, y, z, degrees, r, g, b] = numbers[..] else { return None };
+    let [x, y, z, degrees, r, g, b] = finite(record)?;
     let row = LightSourceRow { towards: [x, y, z], degrees, radiance: [r, g, b] };
     let is_source = row.towards != [0.0; 3] && degrees > 0.0 && degrees <= 180.0;
     (is_source && row.radiance.iter().all(|channel| *channel >= 0.0)).then_some(row)

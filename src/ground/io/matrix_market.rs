@@ -8,10 +8,10 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::error::read_file;
 use super::lines::{double, lines, unmarked, words};
-use super::{quoted, read_limited};
+use super::quoted;
 use crate::error::{FilePlace, InputError, input_error};
-use crate::io::error::{too_long_error, unreadable_error};
 
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
@@ -38,11 +38,7 @@ pub struct CoordinateMatrix {
 /// # Errors
 /// [`InputError`].
 pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, InputError> {
-    let unreadable = |source| unreadable_error("matrix", path, source);
-    match read_limited(path, MAX_BYTES).map_err(unreadable)? {
-        Some(bytes) => parse_matrix_market(&bytes, path),
-        None => Err(too_long_error("matrix", path, MAX_BYTES)),
-    }
+    parse_matrix_market(&read_file(path, "matrix", MAX_BYTES)?, path)
 }
 
 /// Reads a matrix from bytes; `name` is the file's name in messages.

@@ -4,8 +4,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::number_table::NumberTable;
-use super::{NumberError, quoted, to_f32};
+use super::number_table::{NumberTable, TableNumber};
+use super::{NumberError, quoted};
 use crate::error::{InputError, input_error};
 
 /// The first bytes of such a file.
@@ -43,28 +43,12 @@ impl<T> From<NumberArray<T>> for NumberTable<T> {
     }
 }
 
-/// Reads an array from bytes as a table of f64; `name` is the file's name in messages.
+/// Reads an array from bytes as a table; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`InputError`].
-pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, InputError> {
-    array(bytes, name, f64::from, Ok).map(NumberTable::from)
-}
-
-/// As [`parse_npy`], as a table of f32.
-///
-/// # Errors
-/// [`InputError`].
-pub fn parse_single_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, InputError> {
+pub fn parse_npy<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
     parse_npy_array(bytes, name).map(NumberTable::from)
-}
-
-/// Reads an array of f32 from bytes; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`].
-pub fn parse_npy_array(bytes: &[u8], name: &Path) -> Result<NumberArray, InputError> {
-    array(bytes, name, |number| number, to_f32)
 }
 
 /// An array of any type of 1 to 8 bytes, in C order; its numbers are still bytes.
@@ -114,12 +98,11 @@ pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, Inpu
     Ok(NpyView { descr, size, shape, data })
 }
 
-fn array<T>(
-    bytes: &[u8],
-    name: &Path,
-    of_single: fn(f32) -> T,
-    of_double: fn(f64) -> Result<T, NumberError>,
-) -> Result<NumberArray<T>, InputError> {
+/// Reads an array from bytes; `name` is the file's name in messages.
+///
+/// # Errors
+/// [`InputError`].
+pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberArray<T>, InputError> {
     let NpyView { descr, shape, data, .. } = view(bytes, name)?;
     if data.is_empty() {
         return Err(size_error(name, "a shape", format!("{shape:?}")));
@@ -130,9 +113,9 @@ fn array<T>(
             .as_chunks()
             .0
             .iter()
-            .map(|&b| of_single(if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) }))
+            .map(|&b| T::of_single(if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) }))
             .collect(),
-        "<f8" | ">f8" => doubles(data, is_big, of_double).map_err(|(index, bits)| {
+        "<f8" | ">f8" => doubles(data, is_big, T::of_double).map_err(|(index, bits)| {
             input_error!("crossbar::npy::range" =>
                 "number {index} (counted from 0) is too large for a 32-bit float: {:e}", f64::from_bits(bits))
             .at(name)
@@ -294,7 +277,7 @@ mod tests {
     }
 
     fn parse(bytes: &[u8]) -> Result<NumberTable, String> {
-        parse_single_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
+        parse_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -315,7 +298,7 @@ mod tests {
                 let expected = NumberTable { columns, values: values.to_vec() };
                 let file = file(version, &header, &bytes(descr));
                 assert_eq!(parse(&file), Ok(expected), "{version} {descr}");
-                let wide = parse_npy(&file, Path::new("a.npy")).expect("a table");
+                let wide = parse_npy::<f64>(&file, Path::new("a.npy")).expect("a table");
                 assert_eq!(wide.values, values.map(f64::from), "{version} {descr}");
             }
         }
@@ -363,7 +346,7 @@ mod tests {
         let range = error(&with("'<f8'", "False", "(1,)"), &1e39_f64.to_le_bytes());
         assert_eq!(range, "a.npy: number 0 (counted from 0) is too large for a 32-bit float: 1e39");
         let header = with("'<f8'", "False", "(1,)");
-        let wide = parse_npy(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
+        let wide = parse_npy::<f64>(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
         assert_eq!(wide.values, [1e39], "f64 holds it");
         let twice = error("{'shape': (1,), 'shape': (1,)}", &[]);
         assert!(twice.contains("`shape`: expected a tuple of whole numbers, once"), "{twice}");

@@ -1,13 +1,13 @@
 //! Tables of numbers, row by row: comma-separated values, and NumPy's arrays ([`super::npy`]).
 //!
 //! Comma-separated: a row per line, as many numbers in each; a first line without any number is a header. Numbers are
-//! read as f64 where they are computed with as such, and as f32 where they are stored so: signals, as `.npz` files hold
-//! them.
+//! read as f64 where they are computed with as such, and as f32 where they are stored so ([`TableNumber`]): signals, as
+//! `.npz` files hold them.
 
 use std::path::Path;
 
 use super::lines::{double, single};
-use super::{NumberError, quoted};
+use super::{NumberError, quoted, to_f32};
 use crate::error::{FilePlace, InputError, input_error};
 
 /// Longest file that is read, in bytes (2 GiB).
@@ -22,28 +22,49 @@ pub struct NumberTable<T = f32> {
     pub values: Vec<T>,
 }
 
-/// Reads a comma-separated table from bytes, each number rounded to the nearest f64; `name` is the file's name in
-/// messages.
+/// A number of a table, in single or in double precision.
+pub trait TableNumber: Copy {
+    /// Parses a decimal number, rounded once to the nearest.
+    fn parse(word: &[u8]) -> Result<Self, NumberError>;
+    /// Converts from single precision, exactly.
+    fn of_single(number: f32) -> Self;
+    /// Converts from double precision, rounded to the nearest.
+    fn of_double(number: f64) -> Result<Self, NumberError>;
+}
+
+impl TableNumber for f32 {
+    fn parse(word: &[u8]) -> Result<Self, NumberError> {
+        single(word)
+    }
+
+    fn of_single(number: f32) -> Self {
+        number
+    }
+
+    fn of_double(number: f64) -> Result<Self, NumberError> {
+        to_f32(number)
+    }
+}
+
+impl TableNumber for f64 {
+    fn parse(word: &[u8]) -> Result<Self, NumberError> {
+        double(word)
+    }
+
+    fn of_single(number: f32) -> Self {
+        number.into()
+    }
+
+    fn of_double(number: f64) -> Result<Self, NumberError> {
+        Ok(number)
+    }
+}
+
+/// Reads a comma-separated table from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`InputError`], with the line where there is one.
-pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, InputError> {
-    rows(bytes, name, double)
-}
-
-/// As [`parse_number_table`], with each number rounded to the nearest f32.
-///
-/// # Errors
-/// [`InputError`].
-pub fn parse_single_table(bytes: &[u8], name: &Path) -> Result<NumberTable, InputError> {
-    rows(bytes, name, single)
-}
-
-fn rows<T>(
-    bytes: &[u8],
-    name: &Path,
-    number: fn(&[u8]) -> Result<T, NumberError>,
-) -> Result<NumberTable<T>, InputError> {
+pub fn parse_number_table<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
     let broken =
@@ -51,7 +72,7 @@ fn rows<T>(
     let (mut columns, mut values, mut record) = (0, Vec::new(), csv::ByteRecord::new());
     let mut is_first = true;
     while reader.read_byte_record(&mut record).map_err(broken)? {
-        let header = record.iter().all(|field| matches!(number(field), Err(NumberError::NoNumber)));
+        let header = record.iter().all(|field| matches!(T::parse(field), Err(NumberError::NoNumber)));
         if std::mem::take(&mut is_first) && header {
             continue;
         }
@@ -64,7 +85,7 @@ fn rows<T>(
         }
         columns = record.len();
         for (field, text) in (1..).zip(&record) {
-            values.push(number(text).map_err(|reason| {
+            values.push(T::parse(text).map_err(|reason| {
                 input_error!("crossbar::table::number" =>
                     "expected {} in field {field}, found {}", reason.expected(), quoted(text))
                 .at(FilePlace::line(name, line))
@@ -98,11 +119,11 @@ mod tests {
     fn numbers_are_rounded_once_to_the_precision_asked_for() {
         // A hair above the middle of two f32: by way of f64 it would become the lower one.
         let text = b"1.000000059604644775390626,0.1,1e39\n";
-        let wide = parse_number_table(text, Path::new("s.csv")).expect("a table");
+        let wide: NumberTable<f64> = parse_number_table(text, Path::new("s.csv")).expect("a table");
         assert_eq!(wide.values, [1.000_000_059_604_644_8, 0.1, 1e39]);
-        let narrow = parse_single_table(&text[..30], Path::new("s.csv")).expect("a table");
+        let narrow: NumberTable = parse_number_table(&text[..30], Path::new("s.csv")).expect("a table");
         assert_eq!(narrow.values, [1.000_000_1_f32, 0.1]);
-        let large = parse_single_table(text, Path::new("s.csv")).expect_err("too large for f32").to_string();
+        let large = parse_number_table::<f32>(text, Path::new("s.csv")).expect_err("too large for f32").to_string();
         assert!(large.contains("too large for a 32-bit float"), "{large}");
     }
 

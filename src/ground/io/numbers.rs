@@ -3,38 +3,23 @@
 use std::path::Path;
 
 use super::error::read_file;
-use super::npy::{self, NumberArray, parse_npy, parse_npy_array, parse_single_npy};
-use super::number_table::{NumberTable, parse_number_table, parse_single_table};
+use super::npy::{self, NumberArray, parse_npy, parse_npy_array};
+use super::number_table::{NumberTable, TableNumber, parse_number_table};
 use crate::error::InputError;
 
-/// The numbers of a NumPy array or of comma-separated values, rounded to the nearest f64; `name` is the file's name in
-/// messages.
+/// The numbers of a NumPy array or of comma-separated values; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`InputError`].
-pub fn parse_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, InputError> {
-    if bytes.starts_with(npy::MAGIC) {
-        return parse_npy(bytes, name);
-    }
-    parse_number_table(bytes, name)
-}
-
-/// As [`parse_numbers`], rounded to the nearest f32.
-///
-/// # Errors
-/// [`InputError`].
-pub fn parse_single_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable, InputError> {
-    if bytes.starts_with(npy::MAGIC) {
-        return parse_single_npy(bytes, name);
-    }
-    parse_single_table(bytes, name)
+pub fn parse_numbers<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
+    if bytes.starts_with(npy::MAGIC) { parse_npy(bytes, name) } else { parse_number_table(bytes, name) }
 }
 
 /// [`parse_numbers`] from a file of at most `limit` bytes, which is a `what`.
 ///
 /// # Errors
 /// [`InputError`].
-pub fn load_numbers(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<f64>, InputError> {
+pub fn load_numbers<T: TableNumber>(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<T>, InputError> {
     parse_numbers(&read_file(path, what, limit)?, path)
 }
 
@@ -58,15 +43,15 @@ mod tests {
         let (table, mut array) = (NumberTable { columns: 2, values: values.to_vec() }, Vec::new());
         write_npy(&table, &mut array).expect("written");
         for bytes in [&array[..], b"1,2.5\n-3,4\n"] {
-            assert_eq!(parse_single_numbers(bytes, name).expect("numbers"), table);
+            assert_eq!(parse_numbers(bytes, name).expect("numbers"), table);
             let wide = NumberTable { columns: 2, values: values.map(f64::from).to_vec() };
             assert_eq!(parse_numbers(bytes, name).expect("numbers"), wide);
         }
-        let error = parse_numbers(b"1,2\n3\n", name).expect_err("ragged");
+        let error = parse_numbers::<f64>(b"1,2\n3\n", name).expect_err("ragged");
         assert_eq!(error.error_code(), "crossbar::table::ragged");
-        let cut = parse_numbers(&array[..array.len() - 1], name).expect_err("cut");
+        let cut = parse_numbers::<f64>(&array[..array.len() - 1], name).expect_err("cut");
         assert_eq!(cut.error_code(), "crossbar::npy::size");
-        let missing = load_numbers(Path::new("no/such/file.csv"), "table", 8).expect_err("missing");
+        let missing = load_numbers::<f64>(Path::new("no/such/file.csv"), "table", 8).expect_err("missing");
         assert_eq!(missing.error_code(), "crossbar::file::unreadable");
     }
 }

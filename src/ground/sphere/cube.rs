@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::texels::{TexelGrid, rectangle_solid_angle};
+use crate::elementary::atan2;
 
 /// Face of a cube around the origin, at distance 1, with the directions of its texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,24 +98,23 @@ pub(super) fn face_solid_angle(side: usize, column: usize, row: usize) -> f64 {
     rectangle_solid_angle([edge(column), edge(row)], [edge(column + 1), edge(row + 1)])
 }
 
-impl TexelGrid for CubeMap {
-    fn size(&self) -> [usize; 2] {
-        [self.side, 6 * self.side]
-    }
-
-    fn solid_angle(&self, column: usize, row: usize) -> f64 {
-        face_solid_angle(self.side, column, row % self.side)
-    }
-
-    fn at(&self, [column, row]: [usize; 2], u: f64, v: f64) -> (DVec3, f64) {
-        let side = self.side as f64;
-        CUBE_FACES[row / self.side].at([(column as f64 + u) / side, ((row % self.side) as f64 + v) / side])
-    }
+/// Solid angle of the rectangle from x0, y0 to x1, y1 in the plane at distance 1 from the eye, relative to (0, 0): two
+/// triangles (van Oosterom and Strackee, 1983), whose triple product is the rectangle's area, without cancellation.
+fn rectangle_solid_angle([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+    let corner = |x, y| DVec3::new(x, y, 1.0);
+    let [a, b, c, d] = [corner(x0, y0), corner(x1, y0), corner(x1, y1), corner(x0, y1)];
+    let area = (x1 - x0) * (y1 - y0);
+    let triangle = |p: DVec3, q: DVec3, r: DVec3| {
+        let [lp, lq, lr] = [p.length(), q.length(), r.length()];
+        2.0 * atan2(area, lp * lq * lr + p.dot(q) * lr + q.dot(r) * lp + r.dot(p) * lq)
+    };
+    triangle(a, b, c) + triangle(a, c, d)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn centers_fall_into_their_texels() {
@@ -125,5 +124,16 @@ mod tests {
         }
         assert_eq!(map.texel_of(DVec3::new(1.0, 1.0, 0.0))[0], 0, "the lower of two faces");
         assert_eq!(map.texel_of(DVec3::new(1.0, -1.0, -1.0)), [0, 4, 4], "a corner");
+    }
+
+    #[test]
+    fn a_face_of_a_cube_covers_a_sixth_and_its_parts_add_up() {
+        let whole = 2.0 / 3.0 * PI;
+        assert!((rectangle_solid_angle([-1.0; 2], [1.0; 2]) - whole).abs() < 1e-15);
+        let at = |i: i32| f64::from(i) / 8.0 - 1.0;
+        let parts = (0..256).map(|i| rectangle_solid_angle([at(i % 16), at(i / 16)], [at(i % 16 + 1), at(i / 16 + 1)]));
+        assert!((parts.sum::<f64>() - whole).abs() < 1e-14);
+        let tiny = rectangle_solid_angle([0.0; 2], [1e-9; 2]);
+        assert!((tiny / 1e-18 - 1.0).abs() < 1e-15, "no digit is lost: {tiny:e}");
     }
 }

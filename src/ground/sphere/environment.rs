@@ -1,10 +1,9 @@
 //! Distant light from pictures of the whole sphere.
 
-use super::cube::CubeMap;
 use super::layout::{EnvironmentLayout, LayoutGrid};
 use super::light::HarmonicLight;
 use super::texels::project;
-use crate::error::{InputError, ensure, input_error};
+use crate::error::{InputError, input_error};
 use crate::picture::Picture;
 
 impl HarmonicLight {
@@ -18,38 +17,7 @@ impl HarmonicLight {
     /// If the order is not 1 to 10.
     pub fn from_picture(order: usize, picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
-        Ok(Self::projected(project(&grid, order, |at| pixels[at])))
-    }
-
-    /// Like [`Self::from_picture`], for a picture that must have a given layout.
-    ///
-    /// # Errors
-    /// [`InputError`], also for another layout.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
-    pub fn from_picture_of(expected: EnvironmentLayout, order: usize, picture: &Picture) -> Result<Self, InputError> {
-        let [width, height] = [picture.width(), picture.height()];
-        match EnvironmentLayout::of(width, height) {
-            Some(found) if found != expected => Err(input_error!("crossbar::sphere::layout" =>
-                "expected the shape of a {expected}, found {width}x{height}, that of a {found}")),
-            _ => Self::from_picture(order, picture),
-        }
-    }
-
-    /// Projects a cube map's texels, face by face in Direct3D's order, rows from the top.
-    ///
-    /// # Errors
-    /// [`InputError`] if their number is not that of the map, or one is NaN or infinite.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
-    pub fn from_cube_map(order: usize, map: CubeMap, texels: &[[f32; 3]]) -> Result<Self, InputError> {
-        let (side, expected, found) = (map.side(), map.len(), texels.len());
-        ensure!(found == expected, "crossbar::sphere::texels" =>
-            "expected {expected} texels, six faces of {side}x{side}, found {found}");
-        check(texels, side, |_, _| true)?;
-        Ok(Self::projected(project(&map, order, |at| texels[at])))
+        Ok(Self::projected(project(&grid, order, &pixels)))
     }
 }
 

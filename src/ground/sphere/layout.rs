@@ -8,7 +8,6 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::cube::{FaceAxes, face_solid_angle};
-use super::texels::TexelGrid;
 use crate::elementary::{atan2, hypot, on_circle, sin_cos};
 use crate::quadrature::{GaussPoint, gauss_legendre};
 
@@ -131,12 +130,14 @@ impl LayoutGrid {
     }
 }
 
-impl TexelGrid for LayoutGrid {
-    fn size(&self) -> [usize; 2] {
+impl LayoutGrid {
+    /// Number of columns and rows.
+    pub(super) fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }
 
-    fn solid_angle(&self, column: usize, row: usize) -> f64 {
+    /// Solid angle of a pixel, 0 if it covers none.
+    pub(super) fn solid_angle(&self, column: usize, row: usize) -> f64 {
         match self.layout {
             EnvironmentLayout::LatLong => {
                 // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2).
@@ -150,7 +151,9 @@ impl TexelGrid for LayoutGrid {
         }
     }
 
-    fn at(&self, texel: [usize; 2], u: f64, v: f64) -> (DVec3, f64) {
+    /// Returns the direction at u, v in [0, 1] of a pixel that covers a solid angle, and a density proportional to
+    /// solid angle per du dv.
+    pub(super) fn at(&self, texel: [usize; 2], u: f64, v: f64) -> (DVec3, f64) {
         let [column, row] = texel.map(|at| at as f64);
         match self.layout {
             EnvironmentLayout::LatLong => {

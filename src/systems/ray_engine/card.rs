@@ -11,9 +11,9 @@ use refsim::machine::{
 use refsim::num::Format;
 use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthSurface};
 use refsim::raster::Primitive;
-use refsim::texture::{Image, Region, SamplerState};
+use refsim::texture::{Image, Region, SamplerState, TexelFormat};
 
-use super::outputs::{PixelResult, TargetEncoding};
+use super::id_color::{color_of_id, id_of_color};
 use super::units::{Units, ray_textures};
 use super::{EngineError, Form, Kernel, RayBatch};
 use crate::card::NearestTarget;
@@ -26,7 +26,6 @@ pub(super) struct RayTextures {
     made: Vec<(usize, Region, TextureId)>,
     /// Samplers and textures of the rays loaded last.
     textures: Vec<(usize, TextureId)>,
-    code: TargetEncoding,
     /// Render target: ids in color, t in depth.
     target: NearestTarget,
 }
@@ -44,17 +43,14 @@ pub(super) struct PassInputs<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CardHit {
     pub(super) triangle: u32,
-    /// Ray parameter in multiples of the ray's direction, not yet rounded to single precision; `None` if the t-buffer
-    /// was not read back.
-    pub(super) t: Option<f64>,
-    /// u, v, w; `None` if the card did not compute them.
-    pub(super) uvw: Option<[f32; 3]>,
+    /// Ray parameter in multiples of the ray's direction, not yet rounded to single precision.
+    pub(super) t: f64,
 }
 
 impl CardHit {
-    /// Returns triangle and t; `None` if the t-buffer was not read back.
-    pub(super) fn hit(self) -> Option<Hit> {
-        Some(Hit { triangle: self.triangle, t: self.t? as f32 })
+    /// Returns triangle and t.
+    pub(super) fn hit(self) -> Hit {
+        Hit { triangle: self.triangle, t: self.t as f32 }
     }
 }
 
@@ -63,10 +59,6 @@ impl CardHit {
 pub(super) struct ReadBack<'a> {
     pub(super) rays: &'a RayBatch,
     pub(super) units: &'a Units,
-    /// Triangles drawn, in drawing order.
-    pub(super) triangles: &'a [u32],
-    /// `true` to read the t-buffer too.
-    pub(super) t: bool,
     /// `true` if the host waits for the data.
     pub(super) wait: bool,
 }
@@ -78,13 +70,12 @@ impl RayTextures {
         kernel: &Kernel,
         rays: &RayBatch,
         units: &Units,
-        code: TargetEncoding,
     ) -> Result<Self, EngineError> {
         let mut made = Vec::new();
         let textures = upload(&mut made, machine, kernel, rays, units)?;
         let depth = depth_format(machine.profile(), kernel.form);
-        let target = NearestTarget::new(machine, code.format(), depth, [rays.width(), rays.height()])?;
-        Ok(Self { made, textures, code, target })
+        let target = NearestTarget::new(machine, TexelFormat::Bgra8, depth, [rays.width(), rays.height()])?;
+        Ok(Self { made, textures, target })
     }
 
     /// Replaces the rays by the same number of others.
@@ -122,9 +113,8 @@ impl RayTextures {
         for (sampler, texture) in &self.textures {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
-        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies. Programs that give coordinates kill by
-        // themselves.
-        call.alpha_test = (!kernel.weights).then_some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
+        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
+        call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
         self.target.keep_nearest(&mut call);
         Ok(machine.draw(&call)?)
     }
@@ -136,36 +126,28 @@ impl RayTextures {
         machine: &Machine,
         reading: &ReadBack<'_>,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
-        // The fence of the last transfer is also behind the others.
-        let (mut fence, image) = match reading.wait {
-            true => (None, machine.read_back(self.target.color)?),
-            false => machine.read_back_async(self.target.color).map(|(fence, image)| (Some(fence), image))?,
+        let (color, depth) = (self.target.color, self.target.depth);
+        // The fence of the last transfer is also behind the other.
+        let (fence, image, depth) = if reading.wait {
+            (None, machine.read_back(color)?, machine.read_depth(depth)?)
+        } else {
+            let (_, image) = machine.read_back_async(color)?;
+            let (fence, depth) = machine.read_depth_async(depth)?;
+            (Some(fence), image, depth)
         };
-        let depth = match (reading.t, reading.wait) {
-            (false, _) => None,
-            (true, true) => Some(machine.read_depth(self.target.depth)?),
-            (true, false) => {
-                let (last, depth) = machine.read_depth_async(self.target.depth)?;
-                fence = Some(last);
-                Some(depth)
-            }
-        };
-        Ok((reading.hits(self.code, image, depth), fence))
+        Ok((reading.hits(image, depth), fence))
     }
 }
 
 impl ReadBack<'_> {
     /// Decodes hits from colors and depths.
-    fn hits(&self, code: TargetEncoding, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
-        let width = self.rays.width();
-        let t = |i: usize, ray: &Ray| {
-            let depth = depth?;
-            let stored = *depth.data().get(i)?;
-            Some(self.units.t(f32::from_bits(depth.format().to_format(stored, Format::FP32)), ray))
-        };
+    fn hits(&self, image: &Image, depth: &DepthSurface) -> Vec<Option<CardHit>> {
+        let width = self.rays.width() as usize;
         let pixel = |(i, ray): (usize, &Ray)| {
-            let PixelResult { triangle, uvw } = code.read(image, i as u32 % width, i as u32 / width, self.triangles)?;
-            Some(CardHit { triangle, t: t(i, ray), uvw })
+            let triangle = id_of_color(image.raw(0, 0, (i / width) as u32, (i % width) as u32) as u32)?;
+            let stored = *depth.data().get(i)?;
+            let t = self.units.t(f32::from_bits(depth.format().to_format(stored, Format::FP32)), ray);
+            Some(CardHit { triangle, t })
         };
         self.rays.rays().iter().enumerate().map(pixel).collect()
     }
@@ -213,7 +195,7 @@ impl Card {
         rays: &RayBatch,
         units: Units,
     ) -> Result<Self, EngineError> {
-        let sheet = RayTextures::new(&mut machine, &kernel, rays, &units, TargetEncoding::Id)?;
+        let sheet = RayTextures::new(&mut machine, &kernel, rays, &units)?;
         Ok(Self { machine, kernel, units, sheet })
     }
 
@@ -235,9 +217,9 @@ impl Card {
 
     /// Reads back the hit of each ray.
     pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
-        let reading = ReadBack { rays, units: &self.units, triangles: &[], t: true, wait: true };
+        let reading = ReadBack { rays, units: &self.units, wait: true };
         let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
-        Ok(hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect())
+        Ok(hits.into_iter().map(|found| found.map(CardHit::hit)).collect())
     }
 }
 
@@ -256,9 +238,9 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    /// Builds the streams of triangles in the order of `ids`, colored by the target's encoding. The fourth component of
-    /// a holds the position in the pass, that of b the edge scale; that of c is unused.
-    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: TargetEncoding) -> Self {
+    /// Builds the streams of triangles in the order of `ids`, colored by these. The fourth component of a holds the
+    /// position in the pass, that of b the edge scale; that of c is unused.
+    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32]) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
@@ -267,7 +249,7 @@ impl Streams {
             for ((stream, [x, y, z]), w) in triangles.iter_mut().zip(corners).zip(fourth) {
                 stream.push([x, y, z, w].map(f32::to_bits));
             }
-            triangles[3].push(code.color(place, id));
+            triangles[3].push(color_of_id(id));
         }
         Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
     }

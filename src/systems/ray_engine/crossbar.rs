@@ -6,15 +6,13 @@ use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::event::{DrawEvents, TexelObserver};
 use refsim::machine::Executor;
-use refsim::num::{Format, FormatKind};
 use refsim::texture::Region;
 
 use super::answer::{Answer, EngineError, MAX_TRIANGLES};
 use super::bits_left::BitsLeft;
 use super::bundle::{Bundle, regions};
 use super::card::{Card, CardHit, Streams};
-use super::outputs::{Outputs, TargetEncoding};
-use super::pass::{PassCard, PassRequirements};
+use super::pass::PassCard;
 use super::range::Range;
 use super::resident::ResidentCrossbar;
 use super::units::Units;
@@ -116,12 +114,10 @@ impl Crossbar {
         sides: Sides,
         cull: bool,
     ) -> Result<Answer, EngineError> {
-        let requirements =
-            PassRequirements { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
-        let mut card = self.pass_card(mesh, sides, requirements)?;
+        let mut card = self.pass_card(mesh, sides, cull)?;
         let drawn = card.draw(0, mesh, triangles, rays)?;
-        let (hits, _) = card.read_back(&drawn, triangles, rays, true)?;
-        let hits = hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect();
+        let (hits, _) = card.read_back(&drawn, rays, true)?;
+        let hits = hits.into_iter().map(|found| found.map(CardHit::hit)).collect();
         Ok(Answer { hits, events: drawn.events, kernel: card.kernel_name(), log: Vec::new() })
     }
 
@@ -129,17 +125,10 @@ impl Crossbar {
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub(super) fn pass_card(
-        &self,
-        mesh: &Mesh,
-        sides: Sides,
-        requirements: PassRequirements,
-    ) -> Result<PassCard, EngineError> {
-        let weights = requirements.outputs == Outputs::IdAndBarycentrics
-            && represents_integers_to(&self.profile.rules.format, requirements.triangles);
-        let kernel = Kernel::for_passes(&self.profile, sides, requirements.cull, weights)?;
+    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, cull: bool) -> Result<PassCard, EngineError> {
+        let kernel = Kernel::for_passes(&self.profile, sides, cull)?;
         check_count(mesh)?;
-        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, requirements))
+        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides))
     }
 
     /// Creates a card that keeps these rays in its textures and these triangles in its vertex memory, for repeated
@@ -157,7 +146,7 @@ impl Crossbar {
         let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
         let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
         let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-        Ok(ResidentCrossbar::new(card, Streams::new(mesh, &units, &ids, TargetEncoding::Id), rays.clone(), name))
+        Ok(ResidentCrossbar::new(card, Streams::new(mesh, &units, &ids), rays.clone(), name))
     }
 
     /// Returns the program for a use, from the cache if it is there.
@@ -194,7 +183,7 @@ impl Crossbar {
             let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
             // New targets have these contents already; targets kept from bucket to bucket must be cleared.
             card.clear()?;
-            let events = card.draw(&Streams::new(mesh, &units, &triangles, TargetEncoding::Id))?;
+            let events = card.draw(&Streams::new(mesh, &units, &triangles))?;
             Ok((region, card.read_back(&bucket)?, events, card.take_log()))
         };
         let buckets = self.buckets(mesh, rays, side);
@@ -264,12 +253,4 @@ fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
         return Err(EngineError::TooManyTriangles { found: mesh.len() });
     }
     Ok(())
-}
-
-/// Returns `true` if a float format represents every integer from 0 to `most`.
-fn represents_integers_to(format: &Format, most: usize) -> bool {
-    match format.kind {
-        FormatKind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),
-        FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => false,
-    }
 }

@@ -37,8 +37,6 @@ pub struct Kernel {
     pub signed_rays: bool,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
-    /// `true` if the color output is (u, v, w, position in the pass) instead of an id.
-    pub weights: bool,
 }
 
 impl Kernel {
@@ -73,33 +71,20 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
     }
 
-    /// Chooses the program for passes of rays of any origin: with culling by the bucket, with barycentric coordinates,
-    /// or both. A card without float programs and targets outputs ids.
+    /// Chooses the program for passes of rays of any origin, with or without culling by the bucket.
     ///
     /// # Errors
     /// As [`Kernel::choose`].
-    pub fn for_passes(profile: &Profile, sides: Sides, cull: bool, weights: bool) -> Result<Self, EngineError> {
+    pub fn for_passes(profile: &Profile, sides: Sides, cull: bool) -> Result<Self, EngineError> {
         let plain = Self::choose(profile, false, sides)?;
-        let targets = &profile.limits.target_formats;
-        let weights = weights && plain.form == Form::Float && targets.contains(&TexelFormat::Rgba32f);
-        if !cull && !weights {
+        if !cull {
             return Ok(plain);
         }
         let setup = match plain.form {
             Form::Float => kernels::SEVEN_VECTORS_BUCKET_SETUP,
             _ => kernels::ANY_ORIGIN_BUCKET_SETUP,
         };
-        let vertex = setup.checked(profile)?;
-        if !weights {
-            return Ok(Self { vertex, culls: cull, ..plain });
-        }
-        let pixel = if sides == Sides::Front { kernels::FLOAT_UVW } else { kernels::FLOAT_UVW_BOTH };
-        Ok(Self { vertex, pixel: pixel.checked(profile)?, name: pixel.name, culls: cull, weights, ..plain })
-    }
-
-    /// Returns `true` if the vertex program takes the constants of a bucket.
-    pub(super) fn takes_bucket(&self) -> bool {
-        self.culls || self.weights
+        Ok(Self { vertex: setup.checked(profile)?, culls: true, ..plain })
     }
 
     fn load(
@@ -116,7 +101,6 @@ impl Kernel {
             pixel: pixel.checked(profile)?,
             signed_rays,
             culls: false,
-            weights: false,
         })
     }
 }

@@ -5,17 +5,16 @@
 //! docs/papers/ray_engine.md maps each equation.
 
 mod answer;
-mod barycentrics;
 mod bits_left;
 mod bundle;
 mod card;
 mod crossbar;
 mod cull;
 pub mod engine;
+mod id_color;
 mod kernel;
 pub mod kernels;
 pub mod model;
-mod outputs;
 mod pass;
 mod range;
 pub mod ray_tree;
@@ -30,7 +29,6 @@ pub use answer::{Answer, EngineError};
 pub use bits_left::BitsLeft;
 pub use crossbar::{Crossbar, MakeObserver};
 pub use kernel::{Form, Kernel};
-pub use outputs::Outputs;
 pub use rays::RayBatch;
 pub use resident::ResidentCrossbar;
 pub use vertex_crossbar::VertexCrossbar;

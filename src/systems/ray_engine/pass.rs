@@ -8,22 +8,11 @@ use refsim::machine::Machine;
 
 use super::card::{CardHit, PassInputs, RayTextures, ReadBack, Streams};
 use super::cull;
-use super::outputs::{Outputs, TargetEncoding};
 use super::range::Range;
 use super::units::Units;
 use super::{EngineError, Kernel, RayBatch};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-
-/// Requirements on passes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct PassRequirements {
-    pub(super) outputs: Outputs,
-    pub(super) small_ids: bool,
-    pub(super) cull: bool,
-    /// Maximum number of triangles of a pass.
-    pub(super) triangles: usize,
-}
 
 /// Card with several sets of textures and targets, so that one pass can be prepared while others are in flight.
 #[derive(Debug)]
@@ -31,20 +20,16 @@ pub(super) struct PassCard {
     machine: Machine,
     kernel: Kernel,
     sides: Sides,
-    requirements: PassRequirements,
     /// Lowest and highest coordinates of the mesh that all passes test against.
     bounds: [[f32; 3]; 2],
-    sheets: BTreeMap<(usize, u32, u32, Format), RayTextures>,
+    /// Textures and targets by the number of their set, and by their size.
+    sheets: BTreeMap<(usize, u32, u32), RayTextures>,
 }
-
-/// Name of a target's format, the key of its set of resources.
-type Format = &'static str;
 
 /// Draw whose results can be read back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DrawnPass {
     units: Units,
-    code: TargetEncoding,
     sheet: usize,
     /// Events of the draw.
     pub(super) events: DrawEvents,
@@ -52,15 +37,9 @@ pub(super) struct DrawnPass {
 
 impl PassCard {
     /// Creates a card for passes over triangles of one mesh.
-    pub(super) fn new(
-        machine: Machine,
-        kernel: Kernel,
-        mesh: &Mesh,
-        sides: Sides,
-        requirements: PassRequirements,
-    ) -> Self {
+    pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides) -> Self {
         let bounds = mesh.bounds().unwrap_or_default();
-        Self { machine, kernel, sides, requirements, bounds, sheets: BTreeMap::new() }
+        Self { machine, kernel, sides, bounds, sheets: BTreeMap::new() }
     }
 
     /// Returns the file name of the pixel program.
@@ -88,25 +67,22 @@ impl PassCard {
     ) -> Result<DrawnPass, EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
         let units = Units::within(kernel.form, Range::of_pixels(&machine.profile().rules), self.bounds, rays);
-        let bucket = match (kernel.takes_bucket(), kernel.culls) {
-            (true, true) => cull::bucket(&machine.profile().rules, &units, mesh, triangles, rays, self.sides),
-            (true, false) => cull::nothing(),
-            (false, _) => Vec::new(),
+        let bucket = match kernel.culls {
+            true => cull::bucket(&machine.profile().rules, &units, mesh, triangles, rays, self.sides),
+            false => Vec::new(),
         };
-        let code =
-            TargetEncoding::choose(machine.profile(), kernel.weights, self.requirements.small_ids, triangles.len());
-        let loaded = match self.sheets.entry((sheet, rays.width(), rays.height(), code.format().name())) {
+        let loaded = match self.sheets.entry((sheet, rays.width(), rays.height())) {
             Entry::Occupied(held) => {
                 let loaded = held.into_mut();
                 loaded.load(machine, kernel, rays, &units)?;
                 loaded
             }
-            Entry::Vacant(slot) => slot.insert(RayTextures::new(machine, kernel, rays, &units, code)?),
+            Entry::Vacant(slot) => slot.insert(RayTextures::new(machine, kernel, rays, &units)?),
         };
         loaded.clear(machine)?;
         let pass = PassInputs { kernel, units: &units, bucket: &bucket };
-        let events = loaded.draw(machine, pass, &Streams::new(mesh, &units, triangles, code))?;
-        Ok(DrawnPass { units, code, sheet, events })
+        let events = loaded.draw(machine, pass, &Streams::new(mesh, &units, triangles))?;
+        Ok(DrawnPass { units, sheet, events })
     }
 
     /// Reads back the hit of each ray of a draw. If the host does not wait, the returned fence is passed when all data
@@ -114,16 +90,13 @@ impl PassCard {
     pub(super) fn read_back(
         &self,
         drawn: &DrawnPass,
-        triangles: &[u32],
         rays: &RayBatch,
         wait: bool,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
-        let place = (drawn.sheet, rays.width(), rays.height(), drawn.code.format().name());
-        let Some(sheet) = self.sheets.get(&place) else {
+        let Some(sheet) = self.sheets.get(&(drawn.sheet, rays.width(), rays.height())) else {
             return Ok((vec![None; rays.rays().len()], None));
         };
-        let t = self.requirements.outputs == Outputs::IdAndT;
-        sheet.read_back(&self.machine, &ReadBack { rays, units: &drawn.units, triangles, t, wait })
+        sheet.read_back(&self.machine, &ReadBack { rays, units: &drawn.units, wait })
     }
 
     /// Makes the host wait for a fence.

@@ -11,7 +11,7 @@ use refsim::texture::TexelFormat;
 
 use super::answer::{Answer, EngineError};
 use super::card::bind;
-use super::outputs::{color_of_id, id_of_color};
+use super::id_color::{color_of_id, id_of_color};
 use super::range::Range;
 use super::units::Units;
 use super::{Form, RayBatch, kernels};
@@ -93,10 +93,9 @@ fn read_back(
     let width = depth.width() as usize;
     let hit = |(i, ray): (usize, &Ray)| {
         let raw = image.raw(0, 0, (i / width) as u32, (i % width) as u32) as u32;
-        (raw >> 24 != 0).then(|| {
-            let t = units.t(f32::from_bits(depth.format().to_format(depth.data()[i], Format::FP32)), ray);
-            Hit { triangle: id_of_color(raw), t: t as f32 }
-        })
+        let triangle = id_of_color(raw)?;
+        let t = units.t(f32::from_bits(depth.format().to_format(depth.data()[i], Format::FP32)), ray);
+        Some(Hit { triangle, t: t as f32 })
     };
     Ok(rays.rays().iter().enumerate().map(hit).collect())
 }

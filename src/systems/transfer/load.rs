@@ -5,7 +5,7 @@ use std::path::Path;
 use super::Signal;
 use super::file::{self, MeshDigest, PrtFile, PrtMeaning, parse_prt};
 use crate::error::{InputError, input_error};
-use crate::io::{npz, number_table, parse_single_numbers, read_file};
+use crate::io::{npz, number_table, parse_numbers, read_file};
 
 /// Reads a signal from a file: the transfer of a `.npz` file, a NumPy array, or comma-separated values, recognised by
 /// the first bytes. Its numbers are f32, as transfer is stored.
@@ -32,7 +32,7 @@ pub fn load_signal_and_meaning(path: &Path) -> Result<(PrtMeaning, Option<MeshDi
         })?;
         return Ok((meaning, mesh, signal));
     }
-    let table = parse_single_numbers(&bytes, path)?;
+    let table = parse_numbers(&bytes, path)?;
     let meaning = PrtMeaning::Numbers { dimension: u32::try_from(table.columns).unwrap_or(u32::MAX) };
     let signal = Signal::new(table.columns, table.values);
     let signal = signal.map_err(|reason| input_error!("crossbar::signal::numbers" => "{reason}").at(path))?;

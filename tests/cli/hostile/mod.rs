@@ -262,7 +262,6 @@ fn what_is_wrong_is_said() {
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 64 --links 4 --all-pairs no", "128"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 4097", "power of two"),
         ("atlas stand-in-head --side 4097", "power of two"),
-        ("radiosity white-box --atlas 4097", "power of two"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --diffuse 1e300", "from 0 to 1, found 1e300"),
         (
             "subsurface stand-in-head --mm-per-unit 1 --material marble --eta 4",

@@ -104,14 +104,14 @@ pub(super) const TABLE: &[Tried] = &[
     Tried {
         bases: &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --iterations 3 --out OUT",
-            "radiosity odd.obj --emit m=1,1,1 --patches 8 --size 8x8 --iterations 3 --factors hemicube --out OUT",
+            "radiosity odd.obj --emit m=1,1,1 --patches 8 --size 8x8 --iterations 3 --out OUT",
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
         ],
         options: concat!(
             "--patches=12 --per-side=1 --factors=unoccluded \
-             --enforce=closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv30 \
+             --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv30 \
              --switch=rounding=rtz same:--executor=scalar --adapter=x --tolerance=0.5 --iterations=2 \
-             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --atlas=32 --sweep-patches=12,30 --part=1/2 --view=front \
+             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --sweep-patches=12,30 --part=1/2 --view=front \
              --exposure=0.3 --out=other --model-up=y --strict@1",
             eye!()
         ),

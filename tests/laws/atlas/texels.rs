@@ -1,7 +1,6 @@
 //! Laws of texels and clusters.
 
 use crossbar::atlas::{Atlas, Cluster};
-use crossbar::geom::random::CounterRng;
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -90,28 +89,6 @@ proptest! {
         }
     }
 
-    /// Texel coordinates lead to points of the texel's face, and back.
-    #[test]
-    fn points_and_coordinates_are_inverse((sample, side) in atlases(), seed in any::<u64>()) {
-        let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
-        let random = CounterRng::new(seed);
-        for sample in 0..200 {
-            // Multiples of 2^-16 texels.
-            let [x, y] = [0, 1].map(|axis| (random.unit(sample, 0, axis) * f64::from(side) * 65536.0).floor() / 65536.0);
-            let (face, point) = atlas.point_at(x, y);
-            prop_assert_eq!(face, atlas.texels()[(y as u32 * side + x as u32) as usize].face);
-            let weights = atlas.places()[face as usize].weights(x, y);
-            prop_assert_eq!(weights.iter().sum::<f64>(), 1.0);
-            prop_assert_eq!(atlas.coordinates(face, weights), [x, y]);
-            let [a, b, c] = atlas.corners(face);
-            let again = a * weights[0] + b * weights[1] + c * weights[2];
-            prop_assert!(again.distance(point) <= 1e-14 * extent(&atlas));
-        }
-        for outside in [-1.0, f64::NAN, f64::INFINITY, f64::from(side)] {
-            let (face, point) = atlas.point_at(outside, outside);
-            prop_assert!((face as usize) < sample.mesh.len() && point.is_finite());
-        }
-    }
 }
 
 fn check_cluster(

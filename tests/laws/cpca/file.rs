@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::geom::Mesh;
 use crossbar::io::npz::MAGIC;
-use crossbar::io::{NumberTable, parse_number_table, parse_single_npy, write_npy};
+use crossbar::io::{NumberTable, parse_npy, parse_number_table, write_npy};
 use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt, parse_prt, save_prt, write_prt};
 use crossbar::transfer::synthetic::torus_signal;
@@ -283,7 +283,7 @@ proptest! {
         let table = NumberTable { columns, values: values.collect() };
         let mut bytes = Vec::new();
         write_npy(&table, &mut bytes).expect("written");
-        let back = parse_single_npy(&bytes, name()).expect("a table");
+        let back = parse_npy(&bytes, name()).expect("a table");
         prop_assert_eq!(back, table);
     }
 
@@ -294,9 +294,9 @@ proptest! {
         let mut bytes = Vec::new();
         write_npy(&NumberTable { columns: 2, values: vec![1.0; 6] }, &mut bytes).expect("written");
         bytes[at] = with;
-        let _ = parse_single_npy(&bytes, name());
-        let _ = parse_single_npy(&[crossbar::io::npy::MAGIC, &noise].concat(), name());
-        let _ = parse_number_table(&noise, name());
+        let _ = parse_npy::<f32>(&bytes, name());
+        let _ = parse_npy::<f32>(&[crossbar::io::npy::MAGIC, &noise].concat(), name());
+        let _ = parse_number_table::<f64>(&noise, name());
     }
 }
 

@@ -1,7 +1,7 @@
 //! Pictures of a room by every way to draw them, for tests of bits here and on a GPU (tests/gpu).
 
 use crossbar::picture::Picture;
-use crossbar::radiosity::display::{Display, DisplayOptions, VectorTexture};
+use crossbar::radiosity::display::Display;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{Patches, Subdivision};
 use crossbar::scene::Camera;
@@ -9,7 +9,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-pub(crate) const FLOATS: DisplayOptions = DisplayOptions { vector: VectorTexture::Row, target: TexelFormat::Rgba32f };
+pub(crate) const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 
 pub(crate) fn rooms_and_cameras() -> Vec<(Patches, Camera)> {
     let room = |blocks, open, side: u32| {

@@ -50,15 +50,11 @@ fn scenes_that_make_no_patches() {
 }
 
 #[test]
-fn an_open_room_says_how_open_it_is_and_is_allowed_on_request() {
+fn an_open_room_has_a_solution() {
     let patches = Patches::new(&rooms::cornell(CornellBox { blocks: false, open: true }), Subdivision::AtMost(60))
         .expect("patches");
     let factors = FormFactors::unoccluded(&patches).expect("factors");
-    let refused = factors.require_closed(1e-3).expect_err("no front wall").to_string();
-    assert!(
-        refused.starts_with("expected a closed room, found patch ") && refused.ends_with("or allow light to leave it"),
-        "{refused}"
-    );
+    assert!(factors.summary().escaping > 1e-3, "no front wall");
     System::new(factors, patches.reflectances(), patches.emittances()).expect("open rooms have solutions");
 }
 

@@ -1,7 +1,6 @@
 //! Matrix radiosity: what light must satisfy, whoever computes it.
 
 mod all_pictures;
-mod atlas;
 mod bias;
 mod bounds;
 mod covered;
@@ -9,7 +8,6 @@ mod cycles;
 mod display;
 mod errors;
 mod factors;
-mod hemicube;
 mod light;
 mod on_card;
 mod others;
@@ -30,6 +28,11 @@ fn cornell(patches: usize) -> System {
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
     factors.enforce_closure().expect("a closed room");
     System::new(factors, patches.reflectances(), patches.emittances()).expect("a system")
+}
+
+/// Whether every row of form factors sums to 1 within a tolerance, but for patches that see nothing at all.
+fn are_closed(factors: &FormFactors, tolerance: f64) -> bool {
+    factors.row_sums().into_iter().all(|sum| sum == 0.0 || (sum - 1.0).abs() <= tolerance)
 }
 
 fn tracer(scene: &Scene) -> HostTracer {

@@ -6,6 +6,5 @@ mod devices;
 mod logs;
 mod ranges;
 mod ray_tree;
-mod read_back;
 mod schedules;
 mod waiting;

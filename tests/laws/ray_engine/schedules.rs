@@ -5,7 +5,6 @@ use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
-use crossbar::ray_engine::Outputs;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine, Readback};
 use crossbar::ray_engine::ray_tree::RayTreeParameters;
 use crossbar::scene::Camera;
@@ -63,7 +62,7 @@ fn schedules_change_counts_and_never_a_hit() {
             EngineParameters { rays: 16, waiting: 500, readback: Readback::Asynchronous { passes: 3 }, ..base.clone() },
             EngineParameters { readback: Readback::InfinitelyFast, ..base.clone() },
             EngineParameters { cull: false, beams: false, shuffle: None, ..base.clone() },
-            EngineParameters { shuffle: Some(99), outputs: Outputs::Id, small_ids: true, rays: 16, ..base.clone() },
+            EngineParameters { shuffle: Some(99), rays: 16, ..base.clone() },
         ];
         for (i, parameters) in variants.into_iter().enumerate() {
             let (hits, engine) = trace(&mesh, &rays, parameters.clone());

@@ -135,21 +135,3 @@ fn an_infinitely_fast_card_is_not_in_the_log() {
     assert_eq!(host_work(&fast.log), host_work(&synchronous.log), "the same work");
     assert_eq!(fast.counts, synchronous.counts);
 }
-
-#[test]
-fn a_renderer_counts_its_own_work_into_the_log() {
-    let (mesh, rays) = scene();
-    let parameters = EngineParameters { record: true, ..EngineParameters::default() };
-    let profile = || Profile::named("ideal-fp32").expect("a profile");
-    let mut engine = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
-    engine.note_host(HostOperation::RayGenerated, rays.len() as u64);
-    let hits = engine.trace(&rays).expect("the card works").iter().flatten().count() as u64;
-    engine.note_host(HostOperation::Shade, hits);
-    let work = host_work(&engine.take_log());
-    assert_eq!(work.of(HostOperation::RayGenerated), rays.len() as u64);
-    assert_eq!(work.of(HostOperation::Shade), hits);
-    assert_eq!(work.of(HostOperation::VertexSent), 4 * work.of(HostOperation::TriangleSent), "a quad a triangle");
-    let mut silent = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, EngineParameters::default()).expect("one");
-    silent.note_host(HostOperation::Shade, 1);
-    assert!(silent.take_log().is_empty());
-}

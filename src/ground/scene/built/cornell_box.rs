@@ -7,7 +7,7 @@ use super::super::{Material, PointLight, Scene, Surface, View};
 use super::parts::{MaterialId, Parts, Placement};
 
 /// Builds the box with its two blocks and its light.
-pub fn cornell_box() -> Scene {
+pub(super) fn cornell_box() -> Scene {
     let mut parts = Parts::default();
     let white = parts.paint("white", [0.73, 0.73, 0.73]);
     let red = parts.paint("red", [0.61, 0.06, 0.06]);

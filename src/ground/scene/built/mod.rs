@@ -1,8 +1,8 @@
 //! Scenes built by the project: exact triangle counts, the same bits on every platform.
 //!
 //! Units are metres, z is up, fronts face outwards (of a room: inwards). Coordinates are computed in f64 by additions,
-//! products, square roots and [`crate::elementary`], and rounded to f32 once. A seed moves and rotates objects; it
-//! never changes a count.
+//! products, square roots and [`crate::elementary`], and rounded to f32 once. Random numbers move and rotate
+//! objects; they never change a count.
 //!
 //! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene;
@@ -38,14 +38,13 @@ mod white_box;
 
 use super::Scene;
 
-pub use cornell_box::cornell_box;
-pub use office::office;
-pub use office_floor::office_floor;
-pub use teapot_room::teapot_room;
-pub use white_box::white_box;
+use cornell_box::cornell_box;
+use office::office;
+use office_floor::office_floor;
+use teapot_room::teapot_room;
+use white_box::white_box;
 
-/// Seed of the scenes in [`build`].
-pub const SEED: u64 = 2002;
+pub use rng::SEED;
 
 /// Scene with its name.
 struct BuiltScene {
@@ -69,17 +68,17 @@ const SCENES: &[BuiltScene] = &[
     BuiltScene {
         name: "office",
         what: "an office with eight desks and much on them: Figure 6 c of the Ray Engine",
-        build: || office(SEED),
+        build: office,
     },
     BuiltScene {
         name: "office-floor",
         what: "one floor of an office building without its ceiling: Figure 6 d and e of the Ray Engine",
-        build: || office_floor(SEED),
+        build: office_floor,
     },
     BuiltScene {
         name: "teapot-room",
         what: "a small room with a metal teapot, a glass sphere and two blocks: Figure 6 a and b of the Ray Engine",
-        build: || teapot_room(SEED),
+        build: teapot_room,
     },
     BuiltScene {
         name: "white-box",
@@ -98,7 +97,7 @@ pub fn description(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|entry| entry.name == name).map(|entry| entry.what)
 }
 
-/// Builds the scene with this name, with the seed [`SEED`].
+/// Builds the scene with this name.
 pub fn build(name: &str) -> Option<Scene> {
     SCENES.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
 }

@@ -30,10 +30,10 @@ const WINDOW: [f64; 3] = [1.8, 0.9, 2.4];
 /// Distance of the glass behind the wall, in metres.
 const RECESS: f64 = 0.2;
 
-/// Builds the office. The seed rotates chairs, and moves the objects on the desks.
-pub fn office(seed: u64) -> Scene {
+/// Builds the office. Random numbers rotate chairs, and move the objects on the desks.
+pub(super) fn office() -> Scene {
     let mut parts = Parts::default();
-    let mut rng = SceneRng::new(seed);
+    let mut rng = SceneRng::default();
     let palette = Palette::new(&mut parts);
     shell(&mut parts, &palette);
     for left in WINDOWS {

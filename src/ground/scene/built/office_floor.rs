@@ -59,10 +59,10 @@ enum Opening {
     Window { left: f64 },
 }
 
-/// Builds the floor. The seed opens doors and moves furniture.
-pub fn office_floor(seed: u64) -> Scene {
+/// Builds the floor. Random numbers open doors and move furniture.
+pub(super) fn office_floor() -> Scene {
     let mut parts = Parts::default();
-    let mut rng = SceneRng::new(seed);
+    let mut rng = SceneRng::default();
     let palette = Palette::new(&mut parts);
     let shell = Shell {
         wall: parts.paint("wall", [0.70, 0.68, 0.62]),

@@ -2,17 +2,22 @@
 
 use crate::geom::random::CounterRng;
 
-/// Random number generator with a seed; its numbers depend on the order of calls.
+/// Seed of all scenes.
+pub const SEED: u64 = 2002;
+
+/// Random number generator with the seed [`SEED`]; its numbers depend on the order of calls.
 pub(super) struct SceneRng {
     random: CounterRng,
     drawn: u64,
 }
 
-impl SceneRng {
-    pub(super) const fn new(seed: u64) -> Self {
-        Self { random: CounterRng::new(seed), drawn: 0 }
+impl Default for SceneRng {
+    fn default() -> Self {
+        Self { random: CounterRng::new(SEED), drawn: 0 }
     }
+}
 
+impl SceneRng {
     /// Returns a number in [`low`, `high`).
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.drawn += 1;

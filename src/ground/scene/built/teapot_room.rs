@@ -15,6 +15,7 @@ use glam::DVec3;
 
 use super::super::{Material, PointLight, Scene, Surface, View};
 use super::parts::{MaterialId, Parts, Placement};
+use super::rng::SEED;
 use crate::geom::random::CounterRng;
 use crate::geom::teapot::{TeapotPart, part_of_patch, tessellate};
 use crate::geom::vector::wide;
@@ -28,11 +29,11 @@ const HEIGHT: f64 = 1.1;
 /// Half a side of the light in the ceiling, in metres.
 const LIGHT: f64 = 0.18;
 
-/// Builds the room. The seed shifts and rotates blocks and sphere a little.
-pub fn teapot_room(seed: u64) -> Scene {
+/// Builds the room. Random numbers shift and rotate blocks and sphere a little.
+pub(super) fn teapot_room() -> Scene {
     let mut parts = Parts::default();
     walls(&mut parts);
-    things(&mut parts, CounterRng::new(seed));
+    things(&mut parts, CounterRng::new(SEED));
     let view = View {
         name: "front".into(),
         eye: [0.02, -0.74, 0.7],

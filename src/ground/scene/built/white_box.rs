@@ -5,7 +5,7 @@ use super::parts::{Parts, Placement};
 
 /// Builds a box from 0 to 1 whose walls face inwards, with emission and albedo of one half: the radiance is 1 in every
 /// direction.
-pub fn white_box() -> Scene {
+pub(super) fn white_box() -> Scene {
     let mut parts = Parts::default();
     let surface = Surface::Diffuse { albedo: [0.5; 3] };
     let wall = parts.material(Material { name: "wall".into(), surface, emission: [0.5; 3] });

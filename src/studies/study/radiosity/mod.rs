@@ -4,7 +4,6 @@
 //! renders the room. After a change of emission or reflectance, it counts the iterations from the previous solution and
 //! from zero.
 
-mod atlas;
 mod change;
 mod conclusion;
 mod difference;
@@ -22,9 +21,7 @@ mod sweep;
 mod tables;
 mod time;
 
-use crate::error::InputError;
 use crate::picture::metrics::value_error;
-use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Fit;
 use crate::radiosity::rate::RateError;
@@ -34,12 +31,11 @@ use crate::split::{Computed, SplitRun};
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
-pub use atlas::AtlasPictures;
 pub use change::{Change, Relit};
 pub use difference::SolutionError;
 pub(in crate::study) use error::no_card;
 pub use method::{CardMethod, SolveMethod, StopReason};
-pub use options::{FactorLaw, Factors, RadiosityOptions};
+pub use options::{Factors, RadiosityOptions};
 pub use outcome::{MethodRow, RadiosityOutcome};
 pub use parameters::Parameters;
 pub use pictures::{IterationPicture, Pictures};
@@ -52,11 +48,6 @@ use sweep::Sweep;
 library_errors! {
     DrawError => "radiosity::display";
     RateError => "radiosity::rate";
-}
-
-/// Error of a scene without an atlas.
-pub fn no_atlas(error: InputError) -> StudyError {
-    StudyError::coded("radiosity::atlas", error).with_help("ask for a larger `--atlas`, or for fewer patches")
 }
 
 impl Study for Parameters {
@@ -101,8 +92,6 @@ fn run(
         let require = |fit: Fit| fit.require(&parameters.profile, packing, patches.list().len());
         Fit::of(&parameters.profile, packing).and_then(require).map_err(no_card)?;
     }
-    let atlas =
-        parameters.options.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
     let sweep = Sweep::new(parameters)?;
     let known = match split::known(split, &patches, &sweep, progress)? {
         Computed::Whole(known) => known,
@@ -129,11 +118,6 @@ fn run(
         let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
         direct.or(solved.first()).map_or(1.0, brightness)
     });
-    let in_atlas = atlas.as_ref().zip(direct.or(solved.first())).map(|(atlas, shown)| {
-        let label = shown.method.label(&parameters.profile);
-        atlas::show((&patches, atlas), (&label, &shown.radiosity), &parameters.camera, exposure)
-    });
-    let in_atlas = in_atlas.transpose()?;
     let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
     let frames = studio.frames(&solved)?;
     if let Some(reference) = &reference {
@@ -150,16 +134,7 @@ fn run(
         None => sweep.runs(0..sweep.count(), progress)?,
     };
     let sweep = sweep.rows(&runs);
-    Ok(Computed::Whole(RadiosityOutcome {
-        found_sums: room.found_sums,
-        reciprocity_error: room.reciprocity_error,
-        exposure,
-        rows,
-        frames,
-        atlas: in_atlas,
-        sweep,
-        patches,
-    }))
+    Ok(Computed::Whole(RadiosityOutcome { found_sums: room.found_sums, exposure, rows, frames, sweep, patches }))
 }
 
 /// Builds a method's row with its error and pictures.

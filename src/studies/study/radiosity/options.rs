@@ -4,7 +4,6 @@ use std::str::FromStr;
 
 use super::change::Change;
 use super::method::{CardMethod, SolveMethod};
-use crate::atlas::MAX_SIDE;
 use crate::error::InputError;
 use crate::options::number;
 use crate::options::one_of::variants;
@@ -27,15 +26,14 @@ pub struct RadiosityOptions {
     #[arg(long, value_name = "N", conflicts_with = "patches", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub per_side: Option<u32>,
 
-    /// Where form factors come from: unoccluded (as if nothing stood between any two patches), rays or rays:N (closed
-    /// forms and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default), or hemicube or
-    /// hemicube:N (pictures of the scene from each patch, drawn by the emulated card, N pixels wide, 64 by default).
+    /// Where form factors come from: unoccluded (as if nothing stood between any two patches), or rays or rays:N
+    /// (closed forms and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default).
     #[arg(long, value_name = "HOW", default_value = "rays")]
     pub factors: Factors,
 
-    /// Enforce reciprocity or closure of form factors; `closure` enforces both.
-    #[arg(long, value_name = "LAW", value_enum)]
-    pub enforce: Option<FactorLaw>,
+    /// Scale form factors so that those of each patch sum to 1, as in a closed room.
+    #[arg(long)]
+    pub enforce_closure: bool,
 
     /// card, jacobi, gauss-seidel, sor:FACTOR, shooting or direct; may be repeated [default: card, gauss-seidel and
     /// direct]
@@ -73,11 +71,6 @@ pub struct RadiosityOptions {
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Vec<u32>,
 
-    /// Resample a solution (the direct one, or the first) into a meshed atlas of so many texels along a side, a power
-    /// of two, and draw the room from it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_SIDE as i64))]
-    pub atlas: Option<u32>,
-
     /// Solve the room in so many patches too, on the card as it is and with each of its open switches turned.
     #[arg(long = "sweep-patches", value_name = "N,N", value_delimiter = ',',
           value_parser = clap::value_parser!(u32).range(1..=16384))]
@@ -89,15 +82,6 @@ pub struct RadiosityOptions {
     pub exposure: Option<f64>,
 }
 
-/// Law that form factors must obey.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum FactorLaw {
-    /// Area times form factor is the same from both sides
-    Reciprocity,
-    /// Form factors of a patch sum to 1
-    Closure,
-}
-
 /// Source of form factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Factors {
@@ -105,18 +89,13 @@ pub enum Factors {
     Unoccluded,
     /// Closed forms and contour integrals, times the visible fraction by rays.
     Rays(VisibilityParameters),
-    /// Hemicubes drawn from each patch by the study's card.
-    Hemicube {
-        /// Pixels along a side of the top face.
-        resolution: u32,
-    },
 }
 
 impl FromStr for Factors {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("expected unoccluded, rays[:N] with N from 1 to 64, or hemicube[:N], found `{text}`");
+        let wrong = || format!("expected unoccluded, or rays[:N] with N from 1 to 64, found `{text}`");
         let (name, number) = text.split_once(':').map_or((text, None), |(name, number)| (name, Some(number)));
         let number = number.map(|number| number.parse::<u32>().map_err(|_| wrong())).transpose()?;
         match (name, number) {
@@ -125,7 +104,6 @@ impl FromStr for Factors {
                 let usual = VisibilityParameters::default();
                 Ok(Self::Rays(VisibilityParameters { side: number.unwrap_or(usual.side), ..usual }))
             }
-            ("hemicube", resolution) => Ok(Self::Hemicube { resolution: resolution.unwrap_or(64) }),
             _ => Err(wrong()),
         }
     }
@@ -136,7 +114,6 @@ impl std::fmt::Display for Factors {
         match self {
             Self::Unoccluded => f.write_str("unoccluded"),
             Self::Rays(VisibilityParameters { side, .. }) => write!(f, "{} rays a pair", side * side),
-            Self::Hemicube { resolution } => write!(f, "hemicubes of {resolution}"),
         }
     }
 }

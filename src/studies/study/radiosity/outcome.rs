@@ -1,6 +1,5 @@
 //! Results of the study.
 
-use super::atlas::AtlasPictures;
 use super::change::Relit;
 use super::difference::SolutionError;
 use super::method::{SolveMethod, StopReason};
@@ -42,18 +41,14 @@ pub struct MethodRow {
 pub struct RadiosityOutcome {
     /// Patches.
     pub patches: Patches,
-    /// Row sums before anything was enforced.
+    /// Row sums before closure was enforced.
     pub found_sums: RowSums,
-    /// Largest relative difference between A_i F_ij and A_j F_ji, before anything was enforced.
-    pub reciprocity_error: f64,
     /// Exposure of the pictures: pixel value per radiance.
     pub exposure: f64,
     /// One row per method.
     pub rows: Vec<MethodRow>,
     /// Pictures of the room after some iterations.
     pub frames: Vec<IterationPicture>,
-    /// Direct solution, or the first method's, in a meshed atlas, if one was requested.
-    pub atlas: Option<AtlasPictures>,
     /// Rows of the sweep over numbers of patches and settings of the switches.
     pub sweep: Vec<SweepRow>,
 }

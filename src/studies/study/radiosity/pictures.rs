@@ -9,7 +9,7 @@ use super::time::CardFacts;
 use super::{Parameters, SolveMethod, time};
 use crate::picture::metrics::relative_luminance_differences;
 use crate::picture::{Picture, RgbImage};
-use crate::radiosity::display::{Display, DisplayOptions};
+use crate::radiosity::display::Display;
 use crate::radiosity::{Patches, System};
 use crate::study::StudyError;
 
@@ -18,8 +18,7 @@ const MIDDLE_GREY: f64 = 0.18;
 /// Rec. 709 weights of red, green and blue.
 const LUMINANCE: glam::DVec3 = glam::DVec3::new(0.2126, 0.7152, 0.0722);
 /// The card multiplies by the exposure without clipping; display encoding follows on the host.
-const OPTIONS: DisplayOptions =
-    DisplayOptions { vector: crate::radiosity::display::VectorTexture::Row, target: TexelFormat::Rgba32f };
+const TARGET: TexelFormat = TexelFormat::Rgba32f;
 
 /// Pictures of a solution.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +71,7 @@ impl<'a> PictureRenderer<'a> {
     pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, StudyError> {
         let machine = parameters.executor.clone().machine(parameters.profile.clone());
         let mut machine = machine.map_err(|error| StudyError::coded("radiosity::machine", error))?;
-        let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;
+        let display = Display::new(&mut machine, patches, &parameters.camera, TARGET)?;
         Ok(Self { patches, parameters, exposure, machine, display, reference: None })
     }
 
@@ -106,7 +105,7 @@ impl<'a> PictureRenderer<'a> {
         };
         let (flat, smooth) = match card.radiosity_textures()[..] {
             [all] => {
-                let display = Display::new(card.machine_mut(), self.patches, &self.parameters.camera, OPTIONS)?;
+                let display = Display::new(card.machine_mut(), self.patches, &self.parameters.camera, TARGET)?;
                 let flat = display.flat(card.machine_mut(), all, self.exposure)?;
                 let smooth = display.smooth(card.machine_mut(), all, self.exposure)?;
                 (flat, smooth.display(1.0)?)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::conclusion::{conclude, least_accurate};
 use super::tables::{Tables, tables};
-use super::{AtlasPictures, IterationPicture, MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow};
+use super::{IterationPicture, MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow};
 use crate::geom::vector::narrow;
 use crate::radiosity::display::SmoothVertex;
 use crate::report::digits::{Quantity, shown};
@@ -48,8 +48,6 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         }
         relit_pictures.extend(drawn.relit.map(|image| picture("relit", image, "after the changes")));
     }
-    let atlas = super::atlas::table(outcome.atlas.as_ref());
-    let in_atlas: Vec<NamedPicture> = outcome.atlas.map(in_atlas).into_iter().flatten().collect();
     let frames: Vec<NamedPicture> = outcome.frames.into_iter().map(frame).collect();
     found.pictures(lead);
     found.paragraph(about);
@@ -65,11 +63,6 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         found.heading("Iteration by iteration");
         found.pictures(frames);
     }
-    if !in_atlas.is_empty() {
-        found.heading("In a meshed atlas");
-        found.pictures(in_atlas);
-    }
-    found.explained_table(FoundTable::from(atlas).csv("atlas").field("atlas"), ATLAS);
     found.heading("How it was solved");
     found.table(FoundTable::from(methods).csv("rows").field("ways"));
     residuals.into_iter().for_each(|chart| found.chart(chart));
@@ -98,9 +91,6 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
 const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures, which the bar below each \
     shows. docs/studies/radiosity.md says why half precision darkens a room.";
 
-const ATLAS: &str = "Texels hold means of the radiosity interpolated between corners of patches, so that power differs from that of constant \
-    patches by at_most_% or less. Reads are bilinear within a triangle's own texels.";
-
 const ENDS: &str = "An iteration in finitely many bits that never meets its tolerance comes back to a state that it was in before, and goes \
     round from there on. States are compared bit for bit; the period is the smallest.";
 
@@ -128,13 +118,6 @@ fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPictu
         NamedPicture::new(format!("{label}-error"), image, caption)
     };
     errors().map(picture).collect()
-}
-
-/// Pictures of the atlas, and of the room through it.
-fn in_atlas(atlas: AtlasPictures) -> [NamedPicture; 2] {
-    let caption = format!("{}: the atlas, {} triangles", atlas.label, atlas.triangles);
-    let view = format!("{}: the room through the atlas", atlas.label);
-    [NamedPicture::new("atlas", atlas.texture, caption), NamedPicture::new("atlas-view", atlas.view, view)]
 }
 
 /// Picture of the room after some iterations.

@@ -1,19 +1,16 @@
 //! Computation of the form factors of the patches.
 
-use std::sync::Arc;
-
-use super::{FactorLaw, Factors, Parameters, ProgressFn};
+use super::{Factors, Parameters, ProgressFn};
 use crate::geom::exact::Sides;
-use crate::radiosity::form_factor::{FormFactorRows, Hemicube, RowSums};
+use crate::radiosity::form_factor::{FormFactorRows, RowSums};
 use crate::radiosity::{FormFactors, Patches};
 use crate::study::StudyError;
 use crate::tracer::HostTracer;
 
-/// Form factors, with their errors before anything was enforced.
+/// Form factors, with their row sums before closure was enforced.
 pub(super) struct Room {
     pub(super) factors: FormFactors,
     pub(super) found_sums: RowSums,
-    pub(super) reciprocity_error: f64,
 }
 
 /// Computes the rows of some patches.
@@ -30,23 +27,17 @@ pub(super) fn rows(
             let mut tracer = HostTracer::new(patches.mesh(), Sides::Both);
             FormFactorRows::with_visibility(patches, &mut tracer, how, is_wanted, &mut done)?
         }
-        Factors::Hemicube { resolution } => {
-            let hemicube = Hemicube { resolution, device: Arc::new(parameters.profile.clone()) };
-            FormFactorRows::hemicube(patches, &hemicube, &parameters.executor, is_wanted, &mut done)?
-        }
     })
 }
 
 /// Completes the rows of all patches, and enforces what is asked for.
 pub(super) fn complete(rows: FormFactorRows, patches: &Patches, parameters: &Parameters) -> Result<Room, StudyError> {
-    let mut factors = rows.complete(patches)?;
-    let (found_sums, reciprocity_error) = (factors.summary(), factors.reciprocity_error());
-    match parameters.options.enforce {
-        Some(FactorLaw::Closure) => factors.enforce_closure()?,
-        Some(FactorLaw::Reciprocity) => factors.enforce_reciprocity(),
-        None => {}
+    let mut factors = rows.complete(patches);
+    let found_sums = factors.summary();
+    if parameters.options.enforce_closure {
+        factors.enforce_closure()?;
     }
-    Ok(Room { factors, found_sums, reciprocity_error })
+    Ok(Room { factors, found_sums })
 }
 
 /// Computes the form factors of all patches.

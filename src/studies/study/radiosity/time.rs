@@ -1,11 +1,12 @@
 //! Time of an iteration on the card, and the log of relighting a scene.
 
 use refsim::event::Event;
+use refsim::texture::TexelFormat;
 use refsim::timing::{Bottleneck, TimingError};
 
 use super::method::CardMethod;
 use super::{Parameters, no_card};
-use crate::radiosity::display::{Display, DisplayOptions};
+use crate::radiosity::display::Display;
 use crate::radiosity::on_card::{CardSolver, PassProgram};
 use crate::radiosity::rate::{RateError, Timing, timed_iteration};
 use crate::radiosity::{Patches, System, model};
@@ -55,9 +56,8 @@ pub(super) fn facts(
     parameters: &Parameters,
 ) -> Result<CardFacts, StudyError> {
     let systems = card.radiosity_textures().len();
-    let options = DisplayOptions::default();
     let display = match systems {
-        1 => Some(Display::new(card.machine_mut(), patches, &parameters.camera, options)?),
+        1 => Some(Display::new(card.machine_mut(), patches, &parameters.camera, TexelFormat::Bgra8)?),
         _ => None,
     };
     card.record(true);

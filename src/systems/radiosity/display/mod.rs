@@ -2,9 +2,8 @@
 //!
 //! *Flat*: each pixel fetches its patch's texel of the radiosity texture. *Smooth*: the texture is resampled first
 //! into one of corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the
-//! host. [`RadiosityAtlas`]: the same as a texture of a meshed atlas.
+//! host.
 
-mod atlas;
 mod corners;
 mod fans;
 mod resample;
@@ -21,28 +20,10 @@ use super::{Patches, kernels};
 use crate::card::{NearestTarget, Texels};
 use crate::picture::Picture;
 use crate::scene::Camera;
-pub use atlas::{AtlasPower, RadiosityAtlas};
 use corners::CornerSets;
 pub use corners::{SmoothVertex, at_corners};
 use fans::in_patch;
 use resample::Resampler;
-pub use resample::VectorTexture;
-
-/// Parameters of the display.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DisplayOptions {
-    /// The layout of the radiosities in their texture.
-    pub vector: VectorTexture,
-    /// Format of the target: [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time;
-    /// [`TexelFormat::Rgba32f`] stores all values.
-    pub target: TexelFormat,
-}
-
-impl Default for DisplayOptions {
-    fn default() -> Self {
-        Self { vector: VectorTexture::Row, target: TexelFormat::Bgra8 }
-    }
-}
 
 /// Patches of one kind (quadrilaterals, triangles, fans of quadrilaterals): their vertices, and the program that
 /// interpolates.
@@ -58,7 +39,6 @@ struct PatchShape {
 #[derive(Debug)]
 pub struct Display {
     patches: usize,
-    options: DisplayOptions,
     shapes: [PatchShape; 3],
     flat: CheckedProgram,
     id: CheckedProgram,
@@ -70,7 +50,8 @@ pub struct Display {
 
 impl Display {
     /// Projects the patches, uploads the sets of patches that meet at corners, and creates targets of the camera's
-    /// size.
+    /// size. A `target` of [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time;
+    /// [`TexelFormat::Rgba32f`] stores all values.
     ///
     /// # Errors
     /// [`DrawError`] if the card has no fragment programs, or its targets are too small.
@@ -78,15 +59,14 @@ impl Display {
         machine: &mut Machine,
         patches: &Patches,
         camera: &Camera,
-        options: DisplayOptions,
+        target: TexelFormat,
     ) -> Result<Self, DrawError> {
         let profile = machine.profile();
         let (flat, id) = (kernels::FLAT.checked(profile)?, kernels::ID.checked(profile)?);
         let (quad, triangle) = (kernels::SMOOTH_QUAD.checked(profile)?, kernels::SMOOTH_TRIANGLE.checked(profile)?);
         let corner_sets = CornerSets::new(patches);
-        let resampler = Resampler::new(machine, &corner_sets, options.vector)?;
-        let builder =
-            VertexBuilder { patches, camera, corner_sets: &corner_sets, resampler: &resampler, vector: options.vector };
+        let resampler = Resampler::new(machine, &corner_sets)?;
+        let builder = VertexBuilder { patches, camera, corner_sets: &corner_sets, resampler: &resampler };
         let [quads, quad_fans, triangles] = builder.vertices();
         let shapes = [
             PatchShape { primitive: Primitive::QuadList, vertices: quads, smooth: quad.clone() },
@@ -94,12 +74,12 @@ impl Display {
             PatchShape { primitive: Primitive::TriangleList, vertices: triangles, smooth: triangle },
         ];
         let size = [camera.width(), camera.height()];
-        let target = NearestTarget::new(machine, options.target, DepthFormat::Unorm24, size)?;
+        let target = NearestTarget::new(machine, target, DepthFormat::Unorm24, size)?;
         let ids = NearestTarget { color: machine.create_target(TexelFormat::R32f, size[0], size[1])?, ..target };
-        Ok(Self { patches: patches.list().len(), options, shapes, flat, id, resampler, target, ids })
+        Ok(Self { patches: patches.list().len(), shapes, flat, id, resampler, target, ids })
     }
 
-    /// Uploads radiosities of the host, one per patch, as a texture to draw from.
+    /// Uploads radiosities of the host, one per patch, as a texture to draw from: a row of texels.
     ///
     /// # Errors
     /// [`DrawError`] if there is not one per patch, or the card's textures are too small.
@@ -108,12 +88,7 @@ impl Display {
             return Err(DrawError::Count { patches: self.patches, found: radiosity.len() });
         }
         let texel = |b: &[f64; 3]| [b[0] as f32, b[1] as f32, b[2] as f32, 0.0];
-        let row = Texels::vector(radiosity.iter().map(texel).collect());
-        let vector = match self.options.vector {
-            VectorTexture::Row => row,
-            VectorTexture::Column => Texels { width: row.height, height: row.width, ..row },
-        };
-        Ok(vector.upload(machine, TexelFormat::Rgba32f)?)
+        Ok(Texels::vector(radiosity.iter().map(texel).collect()).upload(machine, TexelFormat::Rgba32f)?)
     }
 
     /// Draws each patch in its constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity
@@ -184,7 +159,6 @@ struct VertexBuilder<'a> {
     camera: &'a Camera,
     corner_sets: &'a CornerSets,
     resampler: &'a Resampler,
-    vector: VectorTexture,
 }
 
 impl VertexBuilder<'_> {
@@ -212,10 +186,9 @@ impl VertexBuilder<'_> {
     /// Adds the texels of a patch and of its corners to a vertex.
     fn dressed(&self, mut vertex: Vertex, patch: usize, code: f64) -> Vertex {
         let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.corner_sets.of[patch].map(|set| self.resampler.texel(set));
-        let [x, y] = self.vector.texel(patch);
         vertex.texcoords[1] = bits([ax, ay, bx, by]);
         vertex.texcoords[2] = bits([cx, cy, dx, dy]);
-        vertex.texcoords[3] = bits([x, y, code, 0.0]);
+        vertex.texcoords[3] = bits([patch as f64 + 0.5, 0.5, code, 0.0]);
         vertex
     }
 }

@@ -15,30 +15,9 @@ const WIDTH: usize = 512;
 /// Patches per pass.
 const PER_PASS: usize = 4;
 
-/// The orientation of a vector of radiosities in its texture, a rectangle of `rgba32f`: texel i is red, green and
-/// blue of patch i.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum VectorTexture {
-    /// N x 1 texels.
-    #[default]
-    Row,
-    /// 1 x N texels.
-    Column,
-}
-
-impl VectorTexture {
-    pub(super) fn texel(self, patch: usize) -> [f64; 2] {
-        let at = patch as f64 + 0.5;
-        if self == Self::Row { [at, 0.5] } else { [0.5, at] }
-    }
-
-    /// Constants p[0], p[1] of the resampling program: (number + 1/2) times the first plus the second is the texel
-    /// coordinate.
-    fn constants(self) -> [[u32; 4]; 2] {
-        let [step, start] = if self == Self::Row { [[1.0, 0.0], [0.0, 0.5]] } else { [[0.0, 1.0], [0.5, 0.0]] };
-        [step, start].map(|[x, y]| bits([x, y, 0.0, 0.0]))
-    }
-}
+/// Constants p[0] and p[1] of the program: (number + 1/2) times the first plus the second is the texel of a patch in the
+/// row of radiosities.
+const PATCH_TEXEL: [[f64; 4]; 2] = [[1.0, 0.0, 0.0, 0.0], [0.0, 0.5, 0.0, 0.0]];
 
 /// The texture of radiosities at corners, with the passes that fill it.
 #[derive(Debug)]
@@ -53,11 +32,7 @@ pub(super) struct Resampler {
 
 impl Resampler {
     /// Uploads the sets of patches that meet at corners.
-    pub(super) fn new(
-        machine: &mut Machine,
-        corner_sets: &CornerSets,
-        vector: VectorTexture,
-    ) -> Result<Self, DrawError> {
+    pub(super) fn new(machine: &mut Machine, corner_sets: &CornerSets) -> Result<Self, DrawError> {
         let program = kernels::RESAMPLE.checked(machine.profile())?;
         let sets = &corner_sets.sets;
         let width = sets.len().clamp(1, WIDTH);
@@ -66,7 +41,7 @@ impl Resampler {
         let passes =
             (0..most.div_ceil(PER_PASS)).map(|pass| upload(machine, sets, size, pass)).collect::<Result<_, _>>()?;
         let means = PingPong::new(machine, TexelFormat::Rgba32f, size)?;
-        let constants = Constants { float: vector.constants().to_vec(), ..Constants::default() };
+        let constants = Constants { float: PATCH_TEXEL.map(bits).to_vec(), ..Constants::default() };
         Ok(Self { program, constants, size: size.map(|side| side as u32), passes, means })
     }
 

@@ -48,48 +48,13 @@ impl FormFactors {
         }
     }
 
-    /// The largest difference between A_i F_ij and A_j F_ji, relative to the larger of the two.
-    pub fn reciprocity_error(&self) -> f64 {
-        let of_row = |i: usize| {
-            let row = self.matrix.row(i);
-            let pairs = (0..i).map(|j| (self.areas[i] * row[j], self.areas[j] * self.matrix.row(j)[i]));
-            pairs.filter(|(a, b)| a != b).map(|(a, b)| (a - b).abs() / a.max(b)).fold(0.0, f64::max)
-        };
-        (0..self.len()).into_par_iter().map(of_row).reduce(|| 0.0, f64::max)
-    }
-
-    /// Checks that every row sums to 1 within `tolerance`. Blind patches, which see nothing because a solid stands on
-    /// them, are passed over: no light reaches or leaves them. [`FormFactors::blind`] lists them. A room of blind
-    /// patches alone is not closed.
-    ///
-    /// # Errors
-    /// [`InputError`] names the patch farthest from it.
-    pub fn require_closed(&self, tolerance: f64) -> Result<(), InputError> {
-        let sums = self.row_sums();
-        let blind = sums.iter().filter(|&&sum| sum == 0.0).count();
-        let all_blind = blind > 0 && blind == sums.len();
-        // A NaN sum is not closed either. Blind patches are within a tolerance of 1 or more.
-        let is_open = |sum: f64| sum != 0.0 && (sum.is_nan() || (sum - 1.0).abs() > tolerance);
-        let open = if all_blind { blind } else { sums.iter().filter(|&&sum| is_open(sum)).count() };
-        if open == 0 {
-            return Ok(());
-        }
-        // Blind patches count as closed here.
-        let seeing: Vec<f64> = sums.iter().map(|&sum| if sum == 0.0 && !all_blind { 1.0 } else { sum }).collect();
-        let (patch, sum) = farthest(&seeing);
-        Err(input_error!("radiosity::form_factors" =>
-                "expected a closed room, found patch {patch} (counted from 0) with form factors that sum to {sum}, \
-                 and {open} of {} patches more than {tolerance} from 1 ({blind} more see nothing); close the room, \
-                 or allow light to leave it", sums.len()))
-    }
-
     /// The patches that see nothing at all, such as those under a block.
     pub fn blind(&self) -> Vec<usize> {
         self.row_sums().into_iter().enumerate().filter(|&(_, sum)| sum == 0.0).map(|(patch, _)| patch).collect()
     }
 
     /// Enforces reciprocity: A_i F_ij and A_j F_ji both become their mean.
-    pub fn enforce_reciprocity(&mut self) {
+    fn enforce_reciprocity(&mut self) {
         let n = self.len();
         for i in 0..n {
             for j in i + 1..n {

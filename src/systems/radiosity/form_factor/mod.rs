@@ -2,7 +2,6 @@
 //!
 //! - unoccluded: Gauss quadrature far away, a contour integral near by, both in f64;
 //! - with visibility: the unoccluded factor times the weighted fraction of unoccluded sample rays;
-//! - by hemicubes that a card draws ([`FormFactors::hemicube`]);
 //! - of the open parts of patches ([`Patches::open_parts`](super::Patches::open_parts)), those that no solid stands on;
 //! - for rectangles in closed form ([`rectangles`]), from a point in closed form ([`point_to_polygon`]);
 //! - checked, and enforced on request: reciprocity, and closure (rows of a closed room sum to 1).
@@ -11,7 +10,6 @@ mod closure;
 mod contour;
 mod error;
 mod exchange;
-mod hemicube;
 mod polygon;
 pub mod rectangles;
 mod rows;
@@ -22,7 +20,6 @@ use crate::linalg::Matrix;
 use crate::radiosity::form_factor::error::value_error;
 
 pub use closure::RowSums;
-pub use hemicube::Hemicube;
 pub(super) use polygon::clipped;
 pub use polygon::point_to_polygon;
 pub use rows::FormFactorRows;

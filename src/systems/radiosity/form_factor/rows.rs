@@ -1,10 +1,9 @@
 //! Rows of form factors before they are completed, which do not depend on each other: they can be computed apart.
 
 use rayon::prelude::*;
-use refsim::machine::Executor;
 
 use super::exchange::{self, QuadraturePatch};
-use super::{FormFactors, Hemicube, VisibilityParameters, hemicube, visibility};
+use super::{FormFactors, VisibilityParameters, visibility};
 use crate::error::{InputError, ensure};
 use crate::linalg::Matrix;
 use crate::radiosity::Patches;
@@ -13,11 +12,10 @@ use crate::tracer::Caster;
 /// Some rows of form factors, the others 0.
 ///
 /// Of two patches the exchange, area times form factor, is that of both: it stands in the row of the first, above the
-/// diagonal. Form factors of hemicubes are not symmetric and fill their rows.
+/// diagonal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormFactorRows {
     matrix: Matrix,
-    are_exchanges: bool,
 }
 
 impl FormFactorRows {
@@ -37,7 +35,7 @@ impl FormFactorRows {
                 }
             }
         });
-        Ok(Self { matrix, are_exchanges: true })
+        Ok(Self { matrix })
     }
 
     /// Computes the rows of some patches as [`FormFactors::with_visibility`] does.
@@ -56,27 +54,12 @@ impl FormFactorRows {
         Ok(rows)
     }
 
-    /// Computes the rows of some patches as [`FormFactors::hemicube`] does.
-    ///
-    /// # Errors
-    /// Those of [`FormFactors::hemicube`].
-    pub fn hemicube(
-        patches: &Patches,
-        hemicube: &Hemicube,
-        executor: &Executor,
-        is_wanted: &(dyn Fn(usize) -> bool + Sync),
-        done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, InputError> {
-        let matrix = hemicube::matrix(patches, hemicube, executor, is_wanted, done)?;
-        Ok(Self { matrix, are_exchanges: false })
-    }
-
-    /// The row of a patch: of exchanges those with later patches.
+    /// The exchanges of a patch with later patches.
     ///
     /// # Panics
     /// If there is no such patch.
     pub fn row(&self, patch: usize) -> &[f64] {
-        &self.matrix.row(patch)[self.first(patch)..]
+        &self.matrix.row(patch)[patch + 1..]
     }
 
     /// Sets the row of a patch to one that was computed apart.
@@ -87,31 +70,19 @@ impl FormFactorRows {
     /// # Panics
     /// If there is no such patch.
     pub fn set_row(&mut self, patch: usize, values: &[f64]) -> Result<(), InputError> {
-        let first = self.first(patch);
-        let row = &mut self.matrix.row_mut(patch)[first..];
+        let row = &mut self.matrix.row_mut(patch)[patch + 1..];
         ensure!(values.len() == row.len(), "radiosity::form_factors" =>
             "expected 1 x {} values, found {}", row.len(), values.len());
         row.copy_from_slice(values);
         Ok(())
     }
 
-    /// Column from which on a row has values.
-    fn first(&self, patch: usize) -> usize {
-        if self.are_exchanges { patch + 1 } else { 0 }
-    }
-
     /// The form factors of all rows.
-    ///
-    /// # Errors
-    /// Of hemicubes, those of [`FormFactors::from_values`].
-    pub fn complete(self, patches: &Patches) -> Result<FormFactors, InputError> {
+    pub fn complete(self, patches: &Patches) -> FormFactors {
         let (areas, mut matrix) = (patches.areas(), self.matrix);
-        if !self.are_exchanges {
-            return FormFactors::from_values(areas, matrix);
-        }
         mirror(&mut matrix);
         matrix.par_rows_mut().zip(&areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
-        Ok(FormFactors { areas, matrix })
+        FormFactors { areas, matrix }
     }
 }
 
@@ -122,7 +93,7 @@ impl FormFactors {
     /// # Errors
     /// [`InputError`] for too many patches.
     pub fn unoccluded(patches: &Patches) -> Result<Self, InputError> {
-        FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches)
+        Ok(FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches))
     }
 
     /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
@@ -137,26 +108,7 @@ impl FormFactors {
         parameters: VisibilityParameters,
         done: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, InputError> {
-        FormFactorRows::with_visibility(patches, caster, parameters, &|_| true, done)?.complete(patches)
-    }
-
-    /// Computes form factors by hemicubes at the centres of the patches, or of their largest open parts; where a centre
-    /// sees nothing, at the first of nine points that does. Occluders hide what is behind them, from either side; backs
-    /// receive no light. `done` is called with the number of patches done and of all patches.
-    ///
-    /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
-    /// [`FormFactors::enforce_reciprocity`].
-    ///
-    /// # Errors
-    /// [`InputError`] for too many patches, a resolution that the card does not have, or a card without fragment
-    /// programs.
-    pub fn hemicube(
-        patches: &Patches,
-        hemicube: &Hemicube,
-        executor: &Executor,
-        done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, InputError> {
-        FormFactorRows::hemicube(patches, hemicube, executor, &|_| true, done)?.complete(patches)
+        Ok(FormFactorRows::with_visibility(patches, caster, parameters, &|_| true, done)?.complete(patches))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Rays in flight.
 
-use crate::geom::{Hit, Ray};
+use crate::geom::Ray;
 use crate::tracer::Best;
 use crate::tracer::triangle_test::HostRay;
 
@@ -39,17 +39,6 @@ pub(super) struct RayInFlight {
     pub(super) best: Best,
     /// `true` if the ray was tested on the card.
     pub(super) on_card: bool,
-    /// Last triangle that the card hit, with u, v, w computed there.
-    pub(super) uvw: Option<(u32, [f32; 3])>,
-}
-
-/// Ray with its answer.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Answered {
-    pub(super) ticket: Ticket,
-    pub(super) hit: Option<Hit>,
-    /// u, v, w of the hit, if the card computed them.
-    pub(super) uvw: Option<[f32; 3]>,
 }
 
 /// All rays in flight, in slots that are reused.
@@ -72,7 +61,7 @@ impl RaysInFlight {
     }
 
     pub(super) fn start(&mut self, ticket: Ticket, ray: Ray, host: HostRay) -> u32 {
-        let flight = RayInFlight { ticket, ray, host, best: Best::default(), on_card: false, uvw: None };
+        let flight = RayInFlight { ticket, ray, host, best: Best::default(), on_card: false };
         if let Some(place) = self.free.pop() {
             self.places[place as usize] = flight;
             return place;

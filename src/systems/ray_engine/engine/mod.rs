@@ -25,33 +25,20 @@ use std::collections::{BTreeMap, VecDeque};
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::Executor;
-use refsim::timing::host::HostOperation;
 
-use super::barycentrics::plane_point;
-use super::pass::PassRequirements;
 use super::ray_tree::RayTree;
 use super::{Crossbar, EngineError};
 use crate::geom::{Hit, Mesh, Ray};
 use crate::tracer::HostTracer;
 use crate::tracer::octree::{CellId, GpuCells};
 use crate::tracer::{CastError, Caster};
-use flight::{Answered, Cache, RaysInFlight};
+use flight::{Cache, RaysInFlight};
 use order::order;
 use passes::Passes;
 
 pub use counts::EngineCounts;
 pub use flight::Ticket;
 pub use parameters::{EngineParameters, Readback};
-
-/// Hit with its barycentric coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LocatedHit {
-    /// Triangle and t.
-    pub hit: Hit,
-    /// Weights of the corners a, b and c: non-negative, with a sum of 1 up to rounding. Not clamped: those of a needle
-    /// can be far off.
-    pub weights: [f32; 3],
-}
 
 /// Ray Engine over one mesh.
 #[derive(Debug)]
@@ -69,7 +56,7 @@ pub struct RayEngine<'a> {
     ready: VecDeque<(u32, f64)>,
     /// Cells whose caches hold a full pass, once per pass.
     full: VecDeque<CellId>,
-    answered: Vec<Answered>,
+    answered: Vec<(Ticket, Option<Hit>)>,
     counts: EngineCounts,
     log: Vec<Event>,
 }
@@ -87,9 +74,7 @@ impl<'a> RayEngine<'a> {
     ) -> Result<Self, EngineError> {
         let tracer = HostTracer::with_octree(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
-        let EngineParameters { outputs, small_ids, cull, .. } = parameters;
-        let requirements = PassRequirements { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
-        let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides, requirements)?;
+        let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides, parameters.cull)?;
         let passes = Passes::new(card, parameters.readback, parameters.record);
         Ok(Self {
             mesh,
@@ -135,7 +120,7 @@ impl<'a> RayEngine<'a> {
 
     /// Takes the answers since the last call, in no particular order.
     pub fn take_answers(&mut self) -> Vec<(Ticket, Option<Hit>)> {
-        std::mem::take(&mut self.answered).into_iter().map(|answer| (answer.ticket, answer.hit)).collect()
+        std::mem::take(&mut self.answered)
     }
 
     /// Traces a bundle and returns its first hits in the order of the rays: the call of a host renderer.
@@ -159,50 +144,17 @@ impl<'a> RayEngine<'a> {
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
     pub fn trace(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, EngineError> {
-        Ok(self.answers_of(rays)?.into_iter().map(|answer| answer.and_then(|answer| answer.hit)).collect())
-    }
-
-    /// Like [`Self::trace`], with the barycentric coordinates of each hit: from the card where it computed them and
-    /// found the hit ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), otherwise by one more test
-    /// per hit on the host. The bits are the same on fp32.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the card refuses the work.
-    pub fn trace_located(&mut self, rays: &[Ray]) -> Result<Vec<Option<LocatedHit>>, EngineError> {
-        let answers = self.answers_of(rays)?;
-        let (mesh, scale, sides, mut tests) = (self.mesh, self.tracer.scale(), self.parameters.sides, 0);
-        let mut locate = |(ray, answer): (&Ray, Option<Answered>)| {
-            let Answered { hit, uvw, .. } = answer?;
-            let hit = hit?;
-            let [u, v, w] = match uvw {
-                Some(uvw) => uvw,
-                None => {
-                    tests += 1;
-                    plane_point(mesh, scale, hit.triangle, ray, sides)?.uvw
-                }
-            };
-            Some(LocatedHit { hit, weights: [w, u, v] })
-        };
-        let hits = rays.iter().zip(answers).map(&mut locate).collect();
-        self.counts.host_tests += tests;
-        self.note(HostOperation::RayTriangleTest, tests);
-        Ok(hits)
-    }
-
-    /// Submits, finishes, and returns the answers in the order of the rays; answers to earlier rays stay queued.
-    fn answers_of(&mut self, rays: &[Ray]) -> Result<Vec<Option<Answered>>, EngineError> {
         let first = self.submit(rays)?;
         self.finish()?;
-        let mut answers = vec![None; rays.len()];
-        let mut others = Vec::new();
-        for answer in std::mem::take(&mut self.answered) {
-            match answer.ticket.0.checked_sub(first.0).and_then(|i| answers.get_mut(i as usize)) {
-                Some(slot) => *slot = Some(answer),
-                None => others.push(answer),
-            }
-        }
-        self.answered = others;
-        Ok(answers)
+        let mut hits = vec![None; rays.len()];
+        // Answers to earlier rays stay queued.
+        self.answered.retain(|(ticket, hit)| {
+            let place = ticket.0.checked_sub(first.0).and_then(|i| hits.get_mut(i as usize));
+            let is_earlier = place.is_none();
+            place.into_iter().for_each(|place| *place = *hit);
+            is_earlier
+        });
+        Ok(hits)
     }
 
     /// Counters so far.
@@ -229,12 +181,6 @@ impl<'a> RayEngine<'a> {
     pub fn bytes(&self) -> usize {
         let caches: usize = self.caches.values().map(Cache::bytes).sum();
         self.tree.bytes() + self.flights.bytes() + caches
-    }
-
-    /// Logs work of the application on the host, such as rays generated and hits shaded by a renderer, if the engine
-    /// records.
-    pub fn note_host(&mut self, operation: HostOperation, count: u64) {
-        self.note(operation, count);
     }
 
     /// Takes the log of card commands and host work since the last call; empty if the engine does not record.

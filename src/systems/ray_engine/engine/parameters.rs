@@ -3,7 +3,6 @@
 use std::ops::RangeInclusive;
 
 use crate::geom::exact::Sides;
-use crate::ray_engine::Outputs;
 use crate::ray_engine::ray_tree::RayTreeParameters;
 use crate::tracer::octree::OctreeParameters;
 
@@ -43,12 +42,6 @@ pub struct EngineParameters {
     pub card: bool,
     /// Read-back mode.
     pub readback: Readback,
-    /// Data read back per ray.
-    pub outputs: Outputs,
-    /// `true` to return triangles as positions in the pass's list, in the smallest color target of the card: one byte
-    /// for up to 255 triangles, two for more, four where the card has no such target. Not available with barycentric
-    /// coordinates.
-    pub small_ids: bool,
     /// `true` to cull triangles that no ray of a pass can hit in the vertex program.
     pub cull: bool,
     /// `true` to test a bucket that leaves the tree against the octree's cells first, as one beam.
@@ -71,8 +64,6 @@ impl Default for EngineParameters {
             sides: Sides::Front,
             card: true,
             readback: Readback::default(),
-            outputs: Outputs::default(),
-            small_ids: false,
             cull: true,
             beams: true,
             shuffle: Some(1),

@@ -79,7 +79,7 @@ impl Passes {
         self.sheets = self.sheets.max(sheet + 1);
         let drawn = self.card.draw(sheet, mesh, triangles, &batch)?;
         let wait = !matches!(self.readback, Readback::Asynchronous { .. });
-        let (hits, fence) = self.card.read_back(&drawn, triangles, &batch, wait)?;
+        let (hits, fence) = self.card.read_back(&drawn, &batch, wait)?;
         self.flying.push_back(PassInFlight { waiting, hits, fence, sheet });
         // A quad covers the whole screen or no pixel.
         Ok((drawn.events.fragments.generated / batch.rays().len().max(1) as u64).min(triangles.len() as u64))

@@ -3,11 +3,10 @@
 use refsim::event::{Event, HostWork};
 use refsim::timing::host::HostOperation;
 
-use super::flight::{Answered, Cache, Waiting};
+use super::flight::{Cache, Waiting};
 use super::{RayEngine, Ticket};
 use crate::geom::Ray;
 use crate::ray_engine::EngineError;
-use crate::ray_engine::barycentrics::plane_point;
 use crate::ray_engine::card::CardHit;
 use crate::tracer::octree::{Beam, CellId, Flow, Visit};
 
@@ -151,23 +150,13 @@ impl RayEngine<'_> {
         let Some(pass) = self.passes.take() else { return false };
         self.log.extend(self.passes.take_log());
         self.note(HostOperation::ResultRead, pass.waiting.len() as u64);
-        let (mesh, scale, sides, mut tests) = (self.mesh, self.tracer.scale(), self.parameters.sides, 0);
         for (ray, hit) in pass.waiting.iter().zip(pass.hits) {
             let flight = self.flights.at(ray.flight);
             flight.on_card = true;
-            let Some(CardHit { triangle, t, uvw }) = hit else { continue };
-            // Without the t-buffer, the host computes t of the one triangle.
-            tests += u64::from(t.is_none());
-            let found = || plane_point(mesh, scale, triangle, &flight.ray, sides).map(|point| point.t);
-            let Some(t) = t.or_else(found) else { continue };
+            let Some(CardHit { triangle, t }) = hit else { continue };
             // Back into the ray's range, by a power of two.
             flight.best.offer((t / flight.host.power) as f32, triangle);
-            if let Some(uvw) = uvw.filter(|_| flight.best.hit(1.0).is_some_and(|best| best.triangle == triangle)) {
-                flight.uvw = Some((triangle, uvw));
-            }
         }
-        self.counts.host_tests += tests;
-        self.note(HostOperation::RayTriangleTest, tests);
         self.resume(&pass.waiting);
         true
     }
@@ -201,9 +190,7 @@ impl RayEngine<'_> {
         let ended = self.flights.end(flight);
         self.counts.rays += 1;
         self.counts.rays_on_card += u64::from(ended.on_card);
-        let hit = ended.best.hit(ended.host.power);
-        let uvw = ended.uvw.filter(|(triangle, _)| hit.is_some_and(|h| h.triangle == *triangle)).map(|(_, uvw)| uvw);
-        self.answered.push(Answered { ticket: ended.ticket, hit, uvw });
+        self.answered.push((ended.ticket, ended.best.hit(ended.host.power)));
     }
 
     /// Logs work of the host: between two commands of the card, all work of one kind is one entry.

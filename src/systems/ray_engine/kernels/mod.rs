@@ -21,6 +21,4 @@ kernels! {
     ID "id.psa"
     ANY_ORIGIN_BUCKET_SETUP "any_origin_bucket.vsa"
     SEVEN_VECTORS_BUCKET_SETUP "seven_vectors_bucket.vsa"
-    FLOAT_UVW "float_uvw.psa"
-    FLOAT_UVW_BOTH "float_uvw_both.psa"
 }

@@ -1,0 +1,49 @@
+//! Comma-separated tables that begin with a header.
+
+use std::path::Path;
+
+use super::quoted;
+use crate::error::{FilePlace, InputError, input_error};
+
+/// Calls `each` with the line and the fields of every row; `per` is what a row describes.
+///
+/// # Errors
+/// [`InputError`] for text that is no table, for another header, and the errors of `each` with the row's line.
+pub(super) fn for_each_row(
+    bytes: &[u8],
+    name: &Path,
+    header: &[&str],
+    per: &str,
+    each: &mut dyn FnMut(usize, &csv::ByteRecord) -> Result<(), InputError>,
+) -> Result<(), InputError> {
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let syntax =
+        |reason: csv::Error| input_error!("crossbar::table::syntax" => "the table cannot be read: {reason}").at(name);
+    let mut record = csv::ByteRecord::new();
+    let has_header = reader.read_byte_record(&mut record).map_err(syntax)?;
+    if !(has_header && record.iter().eq(header.iter().map(|column| column.as_bytes()))) {
+        let header = header.join(",");
+        return Err(input_error!("crossbar::table::header" =>
+            "expected the header `{header}`, found {}", whole(&record);
+            help "a line `{header}`, then a line per {per}")
+        .at(FilePlace::line(name, 1)));
+    }
+    while reader.read_byte_record(&mut record).map_err(syntax)? {
+        let line = record.position().map_or(0, csv::Position::line) as usize;
+        each(line, &record).map_err(|error| error.at(FilePlace::line(name, line)))?;
+    }
+    Ok(())
+}
+
+/// A row as messages quote it.
+pub(super) fn whole(record: &csv::ByteRecord) -> String {
+    quoted(&record.iter().collect::<Vec<_>>().join(&b','))
+}
+
+/// The numbers of a row, if there are N, all finite.
+pub(super) fn finite<const N: usize>(record: &csv::ByteRecord) -> Option<[f64; N]> {
+    let number = |field: &[u8]| std::str::from_utf8(field).ok()?.parse().ok().filter(|value: &f64| value.is_finite());
+    let numbers: Vec<f64> = record.iter().map(number).collect::<Option<_>>()?;
+    numbers.try_into().ok()
+}
