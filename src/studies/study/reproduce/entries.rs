@@ -97,6 +97,8 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         cpca::figure_8,
     )
     .recorded(include_str!("../../records/cpca-figure-8.toml")),
+    Cpca.entry("cpca-figure-9", "A sum of transfer in two environments (CPCA, figure 9)", cpca::figure_9)
+        .recorded(include_str!("../../records/cpca-figure-9.toml")),
     Cpca.entry(
         "cpca-figure-10",
         "Principal components, vector quantization, and both (CPCA, figure 10)",

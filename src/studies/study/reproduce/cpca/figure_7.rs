@@ -46,7 +46,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             Some(exact) => exact,
             none => none.insert(view.of_vertices(&exit_radiance(&computed, (&light, view.eye()))?)),
         };
-        let found = [view.difference(exact, |_| true)?, view.difference(exact, |cosine| cosine < RIM)?];
+        let found = [view.difference(None, exact, |_| true)?, view.difference(None, exact, |cosine| cosine < RIM)?];
         let rows = order * order;
         let shares = found.map(|share| Cell::percent(100.0 * share));
         table.push([Cell::from(mark), name.into(), rows.into()].into_iter().chain(shares));

@@ -80,10 +80,15 @@ pub(super) const SIGNALS: [PaperSignal; 8] = [
     signal("bird diffuse, order 5", (Bird, Diffuse), (48_688, [1, 25]), (256, 3)),
 ];
 
+/// Glossy part of Figure 9, in as many rows as the sum.
+pub(super) const GLOSS_OF_FIGURE_9: PaperSignal =
+    signal("Buddha gloss-iso, 25 rows", (FoldedBuddha, Isotropic), (49_990, [25, 25]), (256, 8));
+
 /// Index in [`SIGNALS`].
 pub(super) const GLOSSY_BUDDHA: usize = 0;
 pub(super) const HEAD: usize = 5;
 pub(super) const BUDDHA: usize = 1;
+pub(super) const TRANSLUCENT_BUDDHA: usize = 2;
 pub(super) const BIRD: usize = 3;
 pub(super) const POLYGONS: usize = 6;
 pub(super) const DIFFUSE_BIRD: usize = 7;

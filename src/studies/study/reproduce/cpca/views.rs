@@ -8,6 +8,7 @@ use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
 use crate::study::prt::{Lit, SeenSurface};
+use crate::transfer::clustering::Clustering;
 
 /// Side of the pictures, in pixels.
 const SIDE: u32 = 160;
@@ -46,13 +47,17 @@ impl<'a> ModelView<'a> {
         self.seen.colors(radiance, [0.0; 3])
     }
 
-    /// Relative difference from another picture of the same model and camera: root mean square of the difference over
+    /// Relative difference of a picture from another one of the same model and camera: root mean square of the difference over
     /// that of the other. `wanted` selects pixels by the cosine between view and normal, at the vertex with the largest
     /// weight.
-    pub(super) fn difference(&self, other: &[[f64; 3]], wanted: impl Fn(f64) -> bool) -> Result<f64, StudyError> {
+    pub(super) fn difference(
+        &self,
+        clustering: Option<&Clustering>,
+        other: &[[f64; 3]],
+        wanted: impl Fn(f64) -> bool,
+    ) -> Result<f64, StudyError> {
         let (mut apart, mut whole) = (0.0, 0.0);
-        let ours = self.of_vertices(&self.radiance()?);
-        for ((vertex, ours), theirs) in self.seen.nearest().zip(ours).zip(other) {
+        for ((vertex, ours), theirs) in self.seen.nearest().zip(self.colors(clustering)?).zip(other) {
             if vertex.is_some_and(|vertex| wanted(self.cosine(vertex as usize))) {
                 let apart_by = |channel: usize| ours[channel] - theirs[channel];
                 apart += (0..3).map(|channel| apart_by(channel) * apart_by(channel)).sum::<f64>();
@@ -62,17 +67,24 @@ impl<'a> ModelView<'a> {
         Ok(if whole > 0.0 { (apart / whole).sqrt() } else { 0.0 })
     }
 
+    /// Fraction of another picture's light that this one lacks, over all pixels and channels.
+    pub(super) fn missing(&self, other: &Self) -> Result<f64, StudyError> {
+        let sum = |colors: Vec<[f64; 3]>| colors.iter().flatten().sum::<f64>();
+        let (ours, theirs) = (sum(self.colors(None)?), sum(other.colors(None)?));
+        Ok(if theirs > 0.0 { 1.0 - ours / theirs } else { 0.0 })
+    }
+
+    /// Colors of pixels by a clustering, or by the transfer itself.
+    pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, StudyError> {
+        let missing = || failed(HOST)(&"the signal is no transfer");
+        let lit = Lit::new(&self.computed.meaning, self.light).ok_or_else(missing)?;
+        let exit = clustering.map_or_else(|| lit.of_signal(&self.computed.signal), |c| lit.of_clusters(c));
+        Ok(self.of_vertices(&lit.radiance(&exit, &self.computed.vertices, self.eye())))
+    }
+
     fn cosine(&self, vertex: usize) -> f64 {
         let vertices = &self.computed.vertices;
         let view = self.eye() - wide(vertices.positions()[vertex]);
         view.normalize_or_zero().dot(vertices.frames()[vertex].normal())
-    }
-
-    /// Radiance of vertices towards the eye.
-    fn radiance(&self) -> Result<Vec<[f64; 3]>, StudyError> {
-        let missing = || failed(HOST)(&"the signal is no transfer");
-        let lit = Lit::new(&self.computed.meaning, self.light).ok_or_else(missing)?;
-        let exit = lit.of_signal(&self.computed.signal);
-        Ok(lit.radiance(&exit, &self.computed.vertices, self.eye()))
     }
 }
