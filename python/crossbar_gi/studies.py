@@ -23,7 +23,7 @@ def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
 
     Args:
         ids: Entries by :func:`entries`, or papers (``cpca``); without any all entries, which takes minutes.
-        full_size: Models as large as the papers': an hour or two.
+        full_size: Compute recorded entries anew: minutes for most, hours for two.
 
     Returns:
         One dictionary for each printed figure, as in rows.csv of ``crossbar reproduce``: ``entry``, ``figure``,

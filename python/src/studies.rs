@@ -7,7 +7,7 @@ use crossbar::error::InputError;
 use crossbar::picture::metrics::{ScreenPicture, flip, ssim};
 use crossbar::picture::{ChannelUnit, Picture, Samples};
 use crossbar::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, KnownRuns, PaperSystem, Precision};
-use crossbar::study::reproduce::{ENTRIES, ModelSize, Parameters, choose};
+use crossbar::study::reproduce::{ENTRIES, Parameters, choose};
 use crossbar::study::{Study as _, StudyError};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray3};
@@ -26,9 +26,8 @@ pub(crate) fn entries() -> Vec<(&'static str, &'static str)> {
 /// Document of some entries of the reproduction, as JSON.
 #[pyfunction]
 pub(crate) fn reproduce(py: Python<'_>, ids: Vec<String>, full_size: bool) -> PyResult<String> {
-    let models = if full_size { ModelSize::Printed } else { ModelSize::Reduced };
     let entries = choose(&ids).map_err(|error| refused(&error))?;
-    let study = Parameters { entries, models };
+    let study = Parameters { entries, full_size };
     let found = signals::study(py, move |progress| Ok(study.findings(progress)?.plain_document().to_string()))?;
     found.map_err(|error: StudyError| refused(&error))
 }

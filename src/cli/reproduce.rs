@@ -13,9 +13,7 @@ use super::{CommandLine, Out, Problem, ProgressBar};
 use crate::io::atomic::{FileSet, write_file};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 use crate::split::{KeptResults, SpentTime, SplitCommand};
-use crate::study::reproduce::{
-    ENTRIES, EntryRecord, ModelSize, Parameters, RecordMade, ReproduceEntry, SmokeRun, choose,
-};
+use crate::study::reproduce::{ENTRIES, EntryRecord, Parameters, RecordMade, ReproduceEntry, choose, recorded};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,14 +24,14 @@ Examples:
   crossbar reproduce radiosity
       all of a paper: ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
   crossbar reproduce cpca-table-1 --full-size
-      on models of the paper's size
+      computed anew
   crossbar reproduce --record out/records
-      the runs at full size that judge rows, entry by entry
+      the runs that are recorded, entry by entry
   crossbar reproduce --list
       the entries
 
-Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json, a drawing NAME.svg
-per chart and a picture NAME.png.
+Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json and a drawing
+NAME.svg per chart.
 Each printed figure has one row, with a bound and the date on which it was stated, and a verdict:
 predicted (measured on our side, within a bound in numbers), order only, consistency of print
 (nothing is measured), by construction (no value that can come out is outside the bound),
@@ -41,13 +39,11 @@ calibrated (within its bound, but no evidence), explained (a sweep of the same r
 that the paper leaves open reaches the value), missed, contradictory (the paper contradicts itself,
 and ours agrees with one of its values), or too vague to judge. All bounds were restated on
 2026-11-26: after the first results of most rows, before the recorded runs.
-Where the size of models decides, rows are those of recorded runs at full size, which the program
-contains; --full-size computes them anew and holds them against the record. The source of each row
-says which. Pictures, and rows without a record, are of reduced models: these are not judged.
+Entries that take minutes to hours are recorded runs, which the program contains; --full-size
+computes them anew and holds them against the record. The source of each row says which.
 Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
-entries that are named. --record goes on: what it has recorded stays, unless it is of another
-program; so do the finished pieces of all-frequency-table-1 and all-frequency-figures, which take
-hours, in FOLDER/ID.pieces.
+entries that are named. --record goes on: a file that is there stays, and so do the finished pieces
+of all-frequency-table-1 and all-frequency-figures, which take hours, in FOLDER/ID.pieces.
 A missed figure is a finding, and docs/papers lists it with the open question: the exit code is 0. It
 is 1 only if --full-size computes a value that is not as recorded.";
 
@@ -63,12 +59,11 @@ pub(super) struct Args {
     #[arg(long)]
     list: bool,
 
-    /// Compute anew on models as large as the papers', where rows are recorded by default: minutes for most entries,
-    /// hours for two
+    /// Compute recorded entries anew: minutes for most, hours for two
     #[arg(long)]
     full_size: bool,
 
-    /// Run entries at full size, and keep the rows of each in FOLDER/ID.toml
+    /// Run entries, and record what each finds in FOLDER/ID.toml
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["list", "full_size", "out"])]
     record: Option<PathBuf>,
 
@@ -98,8 +93,7 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<Parameters> {
-        let models = if self.full_size { ModelSize::Printed } else { ModelSize::Reduced };
-        Ok(Parameters { entries: choose(&self.entries)?, models })
+        Ok(Parameters { entries: choose(&self.entries)?, full_size: self.full_size })
     }
 }
 
@@ -116,31 +110,26 @@ fn list(out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// Records the entries that are asked for, but for those whose record in the folder is of this program.
+/// Records the entries that are asked for, or all that have a record; a file that is there stays.
 fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> {
     let mut entries = choose(&args.entries)?;
-    entries.retain(ReproduceEntry::is_sized);
-    if entries.is_empty() {
-        let help = "without names, `--record` records every entry whose rows depend on the size of models";
-        return Err(Problem::usage("the entries have no choice of model size: there is nothing to record", help).into());
+    if args.entries.is_empty() {
+        entries.retain(|entry| recorded(entry).is_ok_and(|record| record.is_some()));
     }
     // Before the long work, so that a folder that cannot be written is found out at once.
     drop(FileSet::new(folder).map_err(Problem::from)?);
     let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
-    let mut table = Table::of("Records", "entry rows processor_s wall_s record");
+    let mut table = Table::of("Records", "entry record processor_s wall_s");
     for (done, entry) in (0..).zip(&entries) {
         bar.show(entry.id.to_owned(), done, entries.len() as u64);
         let path = folder.join(format!("{}.toml", entry.id));
-        let Some(smoke) = SmokeRun::of(entry)? else { continue };
-        let kept = kept(&smoke, entry.id, &path);
-        let (record, state) = match kept {
-            Ok(record) => (record, "kept".to_owned()),
-            Err(why) => (made(&smoke, entry.id, &path)?, why),
-        };
-        let made = record.made();
-        let times = [made.processor_s, Some(made.wall_s)].map(|time| time.map_or(Cell::Empty, Cell::measured));
-        let [processor, wall] = times;
-        table.push([entry.id.into(), record.len().into(), processor, wall, state.into()]);
+        if path.exists() {
+            table.push([entry.id.into(), "kept".into()]);
+        } else {
+            let made = made(entry, &path)?;
+            let times = [made.processor_s, Some(made.wall_s)].map(|time| time.map_or(Cell::Empty, Cell::measured));
+            table.push([entry.id.into(), "new".into()].into_iter().chain(times));
+        }
     }
     drop(bar);
     let mut found = Findings::new("Records");
@@ -149,34 +138,24 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     study::show(&found, out)
 }
 
-/// The record in a file, or in words why it is made anew.
-fn kept(smoke: &SmokeRun, entry: &str, path: &Path) -> Result<EntryRecord, String> {
-    let text = fs::read_to_string(path).map_err(|_| "new".to_owned())?;
-    let record = EntryRecord::parse(entry, &text).map_err(|error| format!("anew: {error}"))?;
-    match smoke.stale(&record) {
-        Some(stale) => Err(format!("anew: {stale}")),
-        None => Ok(record),
-    }
-}
-
 /// Runs an entry at full size, and writes its record. What a run before it has finished is beside the record.
-fn made(smoke: &SmokeRun, entry: &str, path: &Path) -> miette::Result<EntryRecord> {
-    let arguments = ["reproduce", entry, "--record"].map(str::to_owned).to_vec();
+fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
+    let arguments = ["reproduce", entry.id, "--record"].map(str::to_owned).to_vec();
     let command = SplitCommand { program: version::program()?, arguments };
     let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), command, clock)?);
-    let run = smoke.record(Rc::clone(&kept))?;
+    let found = entry.at_full_size(Rc::clone(&kept))?;
     let spent = kept.spent();
-    let record = run.made_by(RecordMade {
-        command: format!("crossbar reproduce {entry} --full-size"),
+    let made = RecordMade {
+        command: format!("crossbar reproduce {} --full-size", entry.id),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: COMMIT.to_owned(),
         processor_s: spent.processor_s.map(hundredths),
         wall_s: hundredths(spent.wall_s),
-    });
-    let text = record.text().map_err(crate::study::StudyError::from)?;
+    };
+    let text = EntryRecord::new(entry.id, &found, made.clone()).text()?;
     write_file(path, |file| file.write_all(text.as_bytes())).map_err(Problem::from)?;
     kept.remove()?;
-    Ok(record)
+    Ok(made)
 }
 
 /// Rounds to hundredths.

@@ -1,16 +1,15 @@
 //! Laws of the source: rooms use only those that docs/architecture.md allows them; the files of a room have no circular
-//! needs; names and lines of documentation keep their bounds.
+//! needs; no type name is defined in more than two rooms.
 
 mod circles;
 mod names;
 mod source;
-mod words;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 
 use circles::room;
-use source::{Crate, MEMBERS, root};
+use source::{Crate, root};
 
 /// A source folder, the module that contains the rooms, and for each room the rooms that it may name.
 type Law = (&'static str, &'static [&'static str], &'static [(&'static str, &'static str)]);
@@ -177,45 +176,6 @@ fn the_emulator_depends_on_nothing_heavy() {
     let gpu = dependencies.lines().find(|line| line.starts_with("wgpu = {")).expect("wgpu, by feature");
     assert!(gpu.contains("optional = true"), "refsim depends on `wgpu` without being asked");
     assert!(!dependencies.contains("default = ["), "refsim has default features");
-}
-
-/// The feature of each room: that under which lib.rs re-exports the member of the workspace with the room.
-fn features() -> BTreeMap<String, String> {
-    let read = |file: String| fs::read_to_string(root().join(file)).expect("a library's root");
-    let library = read("src/lib.rs".to_owned()).replace(['\r', '\n'], " ");
-    let mut found = BTreeMap::from([("cli".to_owned(), "cli".to_owned())]);
-    for (member, feature) in MEMBERS {
-        let under = if feature.is_empty() { String::new() } else { format!("#[cfg(feature = \"{feature}\")] ") };
-        let (_, after) = library
-            .split_once(&format!("{under}#[doc(inline)] pub use crossbar_{member}::{{"))
-            .unwrap_or_else(|| panic!("lib.rs re-exports `{member}` under `{feature}`"));
-        let (exported, _) = after.split_once('}').expect("a list of rooms");
-        let exported: BTreeSet<&str> = exported.split(',').map(str::trim).filter(|room| !room.is_empty()).collect();
-        let text = read(format!("src/{member}/lib.rs"));
-        let rooms = text.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
-        let rooms: BTreeSet<&str> = rooms.collect();
-        assert_eq!(exported, rooms, "lib.rs re-exports all rooms of `{member}`");
-        found.extend(rooms.into_iter().map(|room| (room.to_owned(), feature.to_owned())));
-    }
-    found
-}
-
-#[test]
-fn rooms_have_the_feature_that_the_page_says_and_need_no_larger_one() {
-    let features = features();
-    let page = fs::read_to_string(root().join("docs/architecture.md")).expect("the page").replace('\r', "");
-    let (_, rooms) = page.split_once("## Rooms of the systems and the program").expect("the section");
-    for (room, feature) in features.iter().filter(|(room, _)| *room != "compare") {
-        let row = rooms.lines().find(|line| line.starts_with(&format!("| `{room}` |"))).expect("a row of the table");
-        let last = if feature.is_empty() { "| |".to_owned() } else { format!("| `{feature}` |") };
-        assert!(row.ends_with(&last), "lib.rs has the feature `{feature}` for: {row}");
-    }
-    let rank = |room: &str| ["", "systems", "cli"].iter().position(|feature| *feature == features[room]);
-    for (room, allowed) in CROSSBAR.2.iter().filter(|(room, _)| features.contains_key(*room)) {
-        for other in listed(allowed) {
-            assert!(rank(other) <= rank(room), "`{room}` is compiled without `{other}`");
-        }
-    }
 }
 
 /// nalgebra's product chooses its kernel by the CPU if another crate enables its `std`: docs/decisions/0016.

@@ -41,17 +41,16 @@ pub(crate) struct Crate {
     pub(crate) modules: BTreeMap<Names, Module>,
 }
 
-/// The members of the workspace below `src`, from the lowest: each is a folder of rooms and a crate, whose rooms the
-/// root package re-exports under a feature. Their sources count as those of one crate.
-pub(crate) const MEMBERS: [(&str, &str); 4] =
-    [("base", ""), ("ground", "systems"), ("systems", "systems"), ("studies", "cli")];
+/// The members of the workspace below `src`, from the lowest: each is a folder of rooms and a crate. Their sources count
+/// as those of one crate.
+const MEMBERS: [&str; 4] = ["base", "ground", "systems", "studies"];
 
 pub(crate) fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
 /// The Rust files below a folder of the workspace.
-pub(crate) fn rust_files(folder: &Path) -> Vec<PathBuf> {
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).expect("the source folders can be read") {
         let path = entry.expect("an entry").path();
@@ -65,7 +64,7 @@ pub(crate) fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-pub(crate) fn read(file: &Path) -> String {
+fn read(file: &Path) -> String {
     fs::read_to_string(file).expect("a source file")
 }
 
@@ -81,7 +80,7 @@ impl Crate {
         let folder = root().join(folder);
         let texts = rust_files(&folder).into_iter().filter_map(|file| {
             let below = file.strip_prefix(&folder).expect("below the folder");
-            let member = MEMBERS.iter().find_map(|(member, _)| below.strip_prefix(member).ok());
+            let member = MEMBERS.iter().find_map(|member| below.strip_prefix(member).ok());
             // The root of a member re-imports rooms of other members, which is no use of them.
             let is_root = member.is_some_and(|below| below == Path::new("lib.rs"));
             (!is_root).then(|| (member.unwrap_or(below).to_owned(), read(&file)))

@@ -58,55 +58,34 @@ fn the_text_is_this() {
     insta::assert_snapshot!(ran.stdout);
 }
 
-/// A file of the records, in the source.
-fn record(id: &str) -> std::path::PathBuf {
-    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/studies/records/{id}.toml"))
-}
-
-/// Recording goes on where it was broken off: a record that the reduced models confirm stays as it is.
+/// Recording goes on where it was broken off: a file that is there stays as it is.
 #[test]
 fn what_is_recorded_stays() {
     let folder = tempfile::tempdir().expect("a folder");
     let kept = folder.path().join("cpca-figure-6.toml");
-    std::fs::copy(record("cpca-figure-6"), &kept).expect("a copy");
-    let ran = crossbar_in(
-        folder.path(),
-        &["reproduce", "cpca-figure-6", "ray-engine-equation-11", "--record", ".", "--json"],
-        "",
-    );
+    std::fs::write(&kept, "a record").expect("a file");
+    let entries = ["cpca-figure-6", "cpca-section-6"];
+    let ran = crossbar_in(folder.path(), &[&["reproduce", "--record", ".", "--json"], &entries[..]].concat(), "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-    let records = document["records"].as_array().expect("records");
-    assert_eq!(records.len(), 1, "an entry without a choice of size has no record");
-    assert_eq!((&records[0]["entry"], &records[0]["record"]), (&"cpca-figure-6".into(), &"kept".into()));
-    let text = |path: &std::path::Path| std::fs::read_to_string(path).expect("a record");
-    assert_eq!(text(&kept), text(&record("cpca-figure-6")));
-}
-
-#[test]
-fn nothing_to_record_is_bad_usage() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let ran = crossbar_in(folder.path(), &["reproduce", "ray-engine-equation-11", "--record", "records"], "");
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("nothing to record"), "{}", ran.stderr);
-    assert_eq!(std::fs::read_dir(folder.path()).expect("it is there").count(), 0);
+    let records = document["records"].as_array().expect("records").iter();
+    let records: Vec<_> = records.map(|record| (record["entry"].clone(), record["record"].clone())).collect();
+    assert_eq!(records, [(entries[0].into(), "kept".into()), (entries[1].into(), "new".into())]);
+    assert_eq!(std::fs::read_to_string(&kept).expect("the file"), "a record");
+    let new = std::fs::read_to_string(folder.path().join("cpca-section-6.toml")).expect("a record");
+    assert!(new.contains("command = \"crossbar reproduce cpca-section-6 --full-size\""), "{new}");
 }
 
 /// Each row says which run it is from: recorded ones in the table, in CSV and in JSON, and the page how they were made.
 #[test]
 fn recorded_rows_say_so() {
     let folder = tempfile::tempdir().expect("a folder");
-    let ran = crossbar_in(
-        folder.path(),
-        &["reproduce", "cpca-figure-6", "ray-engine-equation-11", "--json", "--out", "found"],
-        "",
-    );
+    let entries = ["cpca-figure-6", "ray-engine-equation-11"];
+    let ran = crossbar_in(folder.path(), &[&["reproduce", "--json", "--out", "found"], &entries[..]].concat(), "");
     let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-    let rows = document["rows"].as_array().expect("rows");
-    for row in rows {
+    for row in document["rows"].as_array().expect("rows") {
         let is_recorded = row["entry"] == "cpca-figure-6";
         assert_eq!(row["source"], if is_recorded { "recorded" } else { "computed" }, "{row}");
-        assert_eq!(row["ours_on_reduced_models"].is_number(), is_recorded, "{row}");
     }
     let commit = document["entries"].as_array().expect("entries").iter().find_map(|it| it["record"]["commit"].as_str());
     let page = std::fs::read_to_string(folder.path().join("found/index.html")).expect("a page");

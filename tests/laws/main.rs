@@ -14,6 +14,8 @@ mod files;
 mod geom;
 mod measuring;
 mod oracle;
+#[path = "../support/pages.rs"]
+mod pages;
 mod radiosity;
 mod ray_engine;
 mod renderer;

@@ -2,6 +2,7 @@
 //! `INSTA_UPDATE=always` writes them.
 
 use crate::environment::{is_full, writes_files};
+use crate::pages;
 use std::path::{Path, PathBuf};
 
 use crossbar::report::Cell;
@@ -106,24 +107,16 @@ fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
         "seams" => percent(fp32.edges.leak_share()),
         _ => panic!("unknown block `{name}`"),
     };
-    let mut parts = text.split("<!-- leaky-teapot: ");
-    let mut out = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (name, rest) = part.split_once(" -->").expect("the mark's end");
-        let (_, rest) = rest.split_once(END).expect("an end mark for each mark");
-        out.push_str(&format!("<!-- leaky-teapot: {name} -->{}{END}{rest}", said(name)));
-    }
-    out
+    pages::filled(text, "leaky-teapot", said)
 }
 
 /// The figures at full size. Rows that the page lists as bit-identical to the first are checked on a smaller picture;
 /// in the full form, and when the page is written, they too are computed at full size.
 #[test]
 fn the_pages_say_what_the_program_prints() {
-    let writes = writes_files();
     let text = read(PAGES[0]);
     let mut configurations = defaults();
-    let full = writes || is_full();
+    let full = writes_files() || is_full();
     let said: Vec<String> = block(&text, "same").trim().split(",\n").map(str::to_owned).collect();
     if !full {
         assert!(said.iter().all(|name| configurations.iter().any(|row| switch(row) == *name)), "{said:?}");
@@ -145,12 +138,8 @@ fn the_pages_say_what_the_program_prints() {
     assert!(full || same.is_empty(), "the same bits as r200 too: {same:?}");
     for page in PAGES {
         let text = read(page);
-        let made = filled(&text, &outcome, if full { &same } else { &said });
-        if writes {
-            std::fs::write(file(page), &made).expect("written");
-        }
         assert!(text.contains(END), "{page} has no block");
-        assert!(made == text || writes, "run with INSTA_UPDATE=always to write {page}; expected\n{made}");
+        pages::hold(&file(page), &filled(&text, &outcome, if full { &same } else { &said }));
     }
 }
 

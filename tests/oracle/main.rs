@@ -5,6 +5,8 @@ mod environment;
 mod leaky_page;
 mod leaky_teapot;
 mod linalg;
+#[path = "../support/pages.rs"]
+mod pages;
 mod probes;
 mod teapot_study;
 mod timing;

@@ -1,15 +1,9 @@
-//! Matrix radiosity: what the paper says of its figures, and what follows from it.
+//! Matrix radiosity: the straight lines of Figure 3.
 
-use approx::abs_diff_eq;
-use crossbar::elementary::ln;
-use crossbar::radiosity::packing::Packing;
-use crossbar::radiosity::rate::{Timing, timed_iteration};
 use crossbar::radiosity::rooms;
-use crossbar::radiosity::solve::{Options, Solution, Solver};
-use crossbar::radiosity::{FormFactors, Patches, Storage, Subdivision, System};
+use crossbar::radiosity::solve::{Options, Solver};
+use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
 use crossbar::scene::Material;
-use refsim::device::Profile;
-use refsim::timing::Bottleneck;
 
 /// The unit cube in the Cornell box's colours, `n` patches a side, light from the middle of the ceiling.
 fn closed_box(n: u32) -> System {
@@ -29,33 +23,6 @@ fn closed_box(n: u32) -> System {
     System::new(factors, patches.reflectances(), emittance).expect("a system")
 }
 
-/// Iterations until the residual's length is a share of what it was.
-fn iterations_to(solution: &Solution, share: f64) -> usize {
-    let target = share * share * solution.history[0];
-    solution.history.iter().position(|&error| error <= target).expect("far enough")
-}
-
-/// Section 3.1 and Figure 3: "about twice as many iterations". Late that is so, early it is not.
-#[test]
-fn jacobi_takes_up_to_twice_the_iterations_of_gauss_seidel() {
-    let system = closed_box(8);
-    let deep = Options { tolerance: 1e-12, most_iterations: 1000 };
-    for (channel, colour) in ["red", "green", "blue"].into_iter().enumerate() {
-        let jacobi = system.solve_channel(channel, Solver::Jacobi, &deep, None).expect("a solution");
-        let seidel = system.solve_channel(channel, Solver::GaussSeidel, &deep, None).expect("a solution");
-        let ratio = |share: f64| iterations_to(&jacobi, share) as f64 / iterations_to(&seidel, share) as f64;
-        let late = rate(&jacobi) / rate(&seidel);
-        assert!((1.4..1.85).contains(&ratio(1e-4)), "{colour}: {}", ratio(1e-4));
-        assert!((1.8..2.0).contains(&late), "{colour}: {late}");
-    }
-}
-
-/// Iterations until the residual is smaller by a factor of e, late.
-fn rate(solution: &Solution) -> f64 {
-    let (early, late) = (iterations_to(solution, 1e-8), iterations_to(solution, 1e-12));
-    2.0 * (late - early) as f64 / ln(solution.history[early] / solution.history[late])
-}
-
 /// Figure 3 is a semilog plot; both curves are straight lines in it.
 #[test]
 fn residuals_fall_by_the_same_factor_each_time() {
@@ -67,20 +34,4 @@ fn residuals_fall_by_the_same_factor_each_time() {
         let (least, most) = ratios.iter().fold((1.0_f64, 0.0_f64), |(l, m), &r| (l.min(r), m.max(r)));
         assert!(most < 1.0 && most / least < 1.1, "{solver}: {least} to {most}");
     }
-}
-
-/// Section 3.1: 29.7 iterations a second and 141 MFLOP/s, compute bound, with a tenth of the bandwidth in use. No
-/// figure of the model comes from that paper.
-#[test]
-fn an_iteration_of_1540_patches_on_the_5900_ultra() {
-    let timing = Timing { patches: 1540, packing: Packing::Rgb, storage: Storage::Fp32, cache: false };
-    let timed = timed_iteration(&Profile::named("nv35").expect("a card"), &timing).expect("an iteration");
-    assert_eq!((timed.passes, timed.bottleneck), (7, Bottleneck::Textures));
-    assert!(
-        abs_diff_eq!(timed.per_s, 31.578, epsilon = 1e-3) && abs_diff_eq!(timed.mflops, 149.779, epsilon = 1e-3),
-        "{timed:?}"
-    );
-    assert!(abs_diff_eq!(timed.per_s / 29.7, 1.0, epsilon = 0.15) && timed.bandwidth < 0.1, "near what is printed");
-    // The target is one texel high.
-    assert_eq!(timed.filled, 0.5);
 }

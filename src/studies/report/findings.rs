@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::palette::Color;
 use super::summary::{SummaryLine, TallyEntry, Tone};
-use super::{Chart, NamedPicture, PictureGrid, PictureRow, Provenance, Table};
+use super::{Chart, NamedPicture, Provenance, Table};
 use crate::picture::{Picture, RgbImage};
 
 /// File of an output folder: its name and its contents.
@@ -40,16 +40,7 @@ pub(super) enum Passage {
     Chart(usize),
     /// Side by side.
     Pictures(Range<usize>),
-    Grid(PlacedGrid),
     Legend(Legend),
-}
-
-/// [`PictureGrid`] whose pictures are given by their indices in the findings.
-#[derive(Clone, Debug)]
-pub(super) struct PlacedGrid {
-    pub(super) title: String,
-    pub(super) columns: Vec<String>,
-    pub(super) rows: Vec<(String, Vec<Option<usize>>)>,
 }
 
 /// Colors of a false-color picture with their meanings.
@@ -214,19 +205,6 @@ impl Findings {
         let first = self.pictures.len();
         self.pictures.extend(pictures);
         self.text.push(Passage::Pictures(first..self.pictures.len()));
-    }
-
-    /// Appends pictures in rows and columns to the page; they are also written to `NAME.png`.
-    pub fn grid(&mut self, grid: PictureGrid) {
-        let mut place = |picture: NamedPicture| {
-            self.pictures.push(picture);
-            self.pictures.len() - 1
-        };
-        let mut rows = Vec::new();
-        for PictureRow { label, pictures } in grid.rows {
-            rows.push((label, pictures.into_iter().map(|picture| picture.map(&mut place)).collect()));
-        }
-        self.text.push(Passage::Grid(PlacedGrid { title: grid.title, columns: grid.columns, rows }));
     }
 
     /// Appends the legend of a false-color picture to the page.

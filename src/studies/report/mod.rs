@@ -30,7 +30,7 @@ pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
 pub use self::findings::{Findings, FoundTable, Legend, NamedChart, NamedFile, Verdict};
 pub use self::fold::Folded;
-pub use named_picture::{NamedPicture, PictureGrid, PictureRow};
+pub use named_picture::NamedPicture;
 pub(crate) use page::sheet as page_style;
 pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;

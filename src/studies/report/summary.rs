@@ -33,7 +33,7 @@ pub struct TallyEntry {
     pub tone: Tone,
 }
 
-/// Part of a study in one line at the top of its page: title, counts and a picture.
+/// Part of a study in one line at the top of its page: title and counts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SummaryLine {
     /// Title.
@@ -44,6 +44,4 @@ pub struct SummaryLine {
     pub tally: Vec<TallyEntry>,
     /// Sentence on the part.
     pub text: String,
-    /// Name of a picture or chart of the page, shown reduced; none is shown if there is none of this name.
-    pub picture: Option<String>,
 }

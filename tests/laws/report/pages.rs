@@ -234,9 +234,8 @@ fn every_wrong_pixel_is_shown() {
 fn papers_rows_are_tallied() {
     let entries = reproduce::choose(&["ray-engine-equation-11".to_owned(), "ray-engine-radeon-8500".to_owned()])
         .expect("two entries");
-    let mut found = reproduce::Parameters { entries, models: reproduce::ModelSize::Reduced }
-        .findings(&mut |_, _, _| ())
-        .expect("the entries run");
+    let mut found =
+        reproduce::Parameters { entries, full_size: false }.findings(&mut |_, _, _| ()).expect("the entries run");
     let files = found.take_files(&Provenance::new("crossbar reproduce")).expect("files");
     let rows: serde_json::Value = serde_json::from_str(&text(&files, "study.json")).expect("JSON");
     let rows = rows["rows"].as_array().expect("rows");
@@ -245,7 +244,7 @@ fn papers_rows_are_tallied() {
     for entry in found.tallied() {
         assert_eq!(rows.iter().filter(|row| row["verdict"] == entry.what.as_str()).count() as u64, entry.count);
     }
-    let judged = rows.iter().filter(|row| row["standing"] != "calibrated");
+    let judged = rows.iter().filter(|row| row["dependence"] != "calibrated");
     let predicted = judged.clone().filter(|row| row["verdict"] == "predicted").count();
     let sentence = format!("{} figures chose no constant: {predicted} predicted", judged.count());
     assert!(found.conclusions()[0].starts_with(&sentence), "{:?}", found.conclusions());

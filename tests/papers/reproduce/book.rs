@@ -1,73 +1,13 @@
 //! The book's text on the figures: `docs/papers` and `docs/status.md` are the program's own text.
 
-use crate::environment::writes_files;
 use std::collections::BTreeSet;
 
 use crossbar::report::Table;
 use crossbar::study::reproduce::report::{evidence_line, tables};
-use crossbar::study::reproduce::{Paper, PaperRow, Prose, Reproduced, RowVerdict, number};
+use crossbar::study::reproduce::{Paper, PaperRow, Reproduced, RowVerdict};
 
-use super::{FOUND, all, file, findings, found, is_all};
-
-/// Figures in sentences are the run's: what is written by hand has digits in names alone.
-#[test]
-fn no_figure_is_written_by_hand() {
-    let prose = |text: &Prose| {
-        assert!(text.is_whole(), "{}", text.template());
-        figures_in(text.template())
-    };
-    for (entry, found) in FOUND.iter() {
-        let captions = found.charts.iter().map(|chart| &chart.caption);
-        let mut figures: Vec<String> = found.text.iter().chain(captions).flat_map(prose).collect();
-        figures.extend(found.questions.iter().flat_map(|question| figures_in(question)));
-        assert_eq!(figures, Vec::<String>::new(), "{}", entry.id);
-    }
-}
-
-/// Numbers of a text that name nothing: not part of a word (`GeForce3`), and not behind `Table`, `equation` and the
-/// like.
-fn figures_in(text: &str) -> Vec<String> {
-    const BEFORE: [&str; 7] = ["table", "figure", "equation", "section", "radeon", "step", "tables"];
-    let words: Vec<&str> =
-        text.split_whitespace().map(|word| word.trim_matches(|c: char| !c.is_alphanumeric())).collect();
-    let is_figure = |(i, word): (usize, &&str)| {
-        let bare = word.split("'").next().unwrap_or_default();
-        let number = bare.starts_with(|c: char| c.is_ascii_digit()) && !bare.contains(char::is_alphabetic);
-        let named = i > 0 && BEFORE.contains(&words[i - 1].to_lowercase().as_str());
-        (number && !named).then(|| (*word).to_owned())
-    };
-    words.iter().enumerate().filter_map(is_figure).collect()
-}
-
-#[test]
-fn figures_are_told_from_names() {
-    assert_eq!(figures_in("a GeForce3's Table 3, equation 11, section 6.1's entry in fp32"), Vec::<String>::new());
-    assert_eq!(figures_in("within 15 % of 29, or 2.5 times"), ["15", "29", "2.5"]);
-}
-
-/// Holds a file against what it should be, or writes it: as snapshots do, by `INSTA_UPDATE=always`.
-fn hold(path: &str, expected: &str) {
-    if writes_files() {
-        std::fs::write(file(path), expected).expect("it can be written");
-    }
-    let found = std::fs::read_to_string(file(path)).unwrap_or_default();
-    assert!(found == expected, "{path} is out of date: INSTA_UPDATE=always cargo test --test papers writes it");
-}
-
-/// The text with what stands between `<!-- reproduce: NAME -->` and `<!-- /reproduce -->` replaced by what `of` says,
-/// where it says something.
-fn filled(text: &str, of: impl Fn(&str) -> Option<String>) -> String {
-    const END: &str = "<!-- /reproduce -->";
-    let mut parts = text.split("<!-- reproduce: ");
-    let mut out = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (name, rest) = part.split_once(" -->").expect("the mark's end");
-        let (old, rest) = rest.split_once(END).expect("an end mark for each mark");
-        let new = of(name).unwrap_or_else(|| old.to_owned());
-        out.push_str(&format!("<!-- reproduce: {name} -->{new}{END}{rest}"));
-    }
-    out
-}
+use super::{FOUND, all, file, findings};
+use crate::pages::{filled, hold};
 
 fn markdown(table: &Table) -> String {
     let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
@@ -87,32 +27,30 @@ fn missed_by_place() -> String {
             places.len() - 1
         });
         places[at].2[0] += usize::from(row.verdict() == RowVerdict::Missed);
-        places[at].2[1] += usize::from(row.verdict() != RowVerdict::Reduced);
+        places[at].2[1] += 1;
     }
     let missed = places.iter().filter(|(.., [missed, _])| *missed > 0);
     let text = missed.map(|(paper, place, [missed, all])| format!("{paper}, {place} ({missed} of {all})"));
     text.collect::<Vec<_>>().join("; ")
 }
 
-/// Text of the book for a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`; `None` if the
-/// short form leaves one of the entries out.
-fn said(name: &str) -> Option<String> {
+/// Text of the book for a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
+fn said(name: &str) -> String {
     let words: Vec<&str> = name.split(' ').collect();
-    let of = |ids: &[&str], calibrated: usize| -> Option<Table> {
-        let entries: Option<Vec<_>> = ids.iter().map(|id| found(id)).collect();
-        entries?;
+    let of = |ids: &[&str], calibrated: usize| -> Table {
+        ids.iter().for_each(|id| _ = findings(id));
         let of: Reproduced = FOUND.iter().filter(|(entry, _)| ids.contains(&entry.id)).cloned().collect();
-        Some(tables(&of)[calibrated].clone())
+        tables(&of)[calibrated].clone()
     };
     let table = match words[..] {
-        ["tally"] => return is_all().then(|| evidence_line(&FOUND)),
-        ["missed"] => return is_all().then(missed_by_place),
-        ["rows", ref ids @ ..] => of(ids, 0)?,
-        ["calibrated", ref ids @ ..] => of(ids, 1)?,
-        ["table", id, place] => found(id)?.tables[place.parse::<usize>().expect("a place from 0")].clone(),
+        ["tally"] => return evidence_line(&FOUND),
+        ["missed"] => return missed_by_place(),
+        ["rows", ref ids @ ..] => of(ids, 0),
+        ["calibrated", ref ids @ ..] => of(ids, 1),
+        ["table", id, place] => findings(id).tables[place.parse::<usize>().expect("a place from 0")].clone(),
         _ => panic!("unknown block `{name}`"),
     };
-    Some(format!("\n\n{}\n", markdown(&table)))
+    format!("\n\n{}\n", markdown(&table))
 }
 
 /// The page of what works and those of the papers.
@@ -132,7 +70,7 @@ fn the_book_says_what_the_program_says() {
     for path in pages() {
         let text = std::fs::read_to_string(file(&path)).expect("a page");
         assert!(text.contains("<!-- reproduce: "), "{path} has figures of the program");
-        hold(&path, &filled(&text, said));
+        hold(&file(&path), &filled(&text, "reproduce", said));
     }
 }
 
@@ -159,14 +97,7 @@ fn the_book_draws_what_the_program_draws() {
         ("ray-engine-table-5", "ray-engine-table-5"),
     ] {
         let chart = findings(id).charts.iter().find(|chart| chart.name == name).expect("a chart");
-        hold(&format!("docs/papers/{}.svg", name.replace('-', "_")), &chart.chart.svg().expect("a drawing"));
+        let path = file(&format!("docs/papers/{}.svg", name.replace('-', "_")));
+        hold(&path, &chart.chart.svg().expect("a drawing"));
     }
-}
-
-#[test]
-fn blocks_are_filled() {
-    let text = "a <!-- reproduce: tally -->old<!-- /reproduce --> b";
-    assert_eq!(filled(text, |name| Some(name.to_uppercase())), text.replace("old", "TALLY"));
-    assert_eq!(filled(text, |_| None), text);
-    assert_eq!(number(2.5, 1), "2.5");
 }

@@ -10,7 +10,6 @@ use super::{findings, row};
 /// contradictory, with the computation.
 #[test]
 fn print_is_set_against_print() {
-    let row = |id: &str| row(id).expect("a row");
     use RowVerdict::{Calibrated, Consistent, Contradictory};
     for (id, expected) in [
         ("cpca/computation-saved", Consistent),

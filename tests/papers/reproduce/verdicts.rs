@@ -1,58 +1,9 @@
 //! Ground of a row's verdict: its source, its bound, its class, its explanation.
 
 use crossbar::study::reproduce::report::{evidence_line, notes};
-use crossbar::study::reproduce::{
-    Bound, ENTRIES, Judgement, Method, ModelSize, Origin, PaperRow, RecordStatus, ReproduceEntry, RowSource,
-    RowVerdict, figures, recorded, reproduce,
-};
+use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, RowSource, RowVerdict, figures};
 
-use super::{FOUND, all, file, findings, is_all, left_out, row};
-use crate::environment::is_full;
-
-/// The entry whose record took least processor time.
-fn quickest() -> ReproduceEntry {
-    let seconds = |entry: &ReproduceEntry| recorded(entry).expect("a whole record")?.made().processor_s;
-    let timed = ENTRIES.iter().filter_map(|entry| Some((seconds(entry)?, *entry)));
-    timed.min_by(|a, b| a.0.total_cmp(&b.0)).expect("a record").1
-}
-
-/// Records are of this program. A change of a model, a printed figure or a computation that makes a record stale shows
-/// here: `crossbar reproduce --record src/studies/records` makes it anew.
-/// In the full form the record that took least comes out again to the bit.
-#[test]
-fn records_are_of_this_program() {
-    for (entry, found) in FOUND.iter() {
-        let record = recorded(entry).expect("a whole record");
-        match (&record, &found.record) {
-            (None, None | Some(RecordStatus::Reduced(None))) => {}
-            (Some(record), Some(RecordStatus::Recorded(made))) => assert_eq!(record.made(), made),
-            (_, Some(status)) => panic!("{}: {}", entry.id, status.sentence().expect("a sentence")),
-            (Some(_), None) => panic!("{} has a record and no choice of size", entry.id),
-        }
-    }
-    if is_full() {
-        let entry = quickest();
-        let found = reproduce(&[entry], ModelSize::Printed, &mut |_, _, _| ()).expect("it can be worked out");
-        assert!(found[0].1.rows.iter().all(|row| row.source == RowSource::Confirmed), "{}", entry.id);
-    }
-    let files = std::fs::read_dir(file("src/studies/records")).expect("the records");
-    let names = files.map(|file| file.expect("a file").file_name().into_string().expect("a name in ASCII"));
-    let mut names: Vec<String> = names.filter_map(|name| Some(name.strip_suffix(".toml")?.to_owned())).collect();
-    names.sort();
-    let mut known: Vec<&str> =
-        ENTRIES.iter().filter(|entry| recorded(entry).is_ok_and(|found| found.is_some())).map(|it| it.id).collect();
-    known.sort_unstable();
-    assert_eq!(names, known, "every file of the folder is a record of the program");
-}
-
-/// Rows of reduced models are those of the entries that say so.
-#[test]
-fn reduced_rows_say_so() {
-    for (entry, found) in FOUND.iter() {
-        let reduced = matches!(found.record, Some(RecordStatus::Reduced(_)));
-        assert!(found.rows.iter().all(|row| (row.source == RowSource::Reduced) == reduced), "{}", entry.id);
-    }
-}
+use super::{FOUND, all, findings, row};
 
 /// A printed figure has one row, and a judged one has a row: what is not judged is listed with its reason.
 #[test]
@@ -60,7 +11,7 @@ fn every_judged_figure_has_one_row() {
     let figures = figures().expect("the data").iter();
     let judged = figures.filter(|figure| matches!(figure.judgement, Judgement::Within(_)));
     let mut judged: Vec<String> = judged.map(|figure| figure.id.clone()).collect();
-    let mut rows: Vec<String> = all().map(|row| row.target.id.clone()).chain(left_out()).collect();
+    let mut rows: Vec<String> = all().map(|row| row.target.id.clone()).collect();
     judged.sort_unstable();
     rows.sort_unstable();
     assert_eq!(rows, judged);
@@ -90,7 +41,7 @@ fn contradictions_come_with_their_computations() {
         assert!(notes.rows().iter().any(|note| note[1].text() == "contradictory" && note[2].text() == text), "{text}");
     }
     // Fifteen times of passes with waits inside, one claim of a factor; of eight pairs of values ours agrees with four.
-    assert!(!is_all() || counts == [[15, 4], [1, 4]], "{counts:?}");
+    assert_eq!(counts, [[15, 4], [1, 4]]);
 }
 
 /// Rates are judged as rates.
@@ -101,20 +52,19 @@ fn rates_have_the_bound_of_predictions() {
     assert_eq!(wrong.map(|row| row.target.id.as_str()).collect::<Vec<_>>(), Vec::<&str>::new());
 }
 
-/// A range that confines a row does so on reduced models and on those of full size; and every such row whose bound
-/// admits the whole range is met by construction. By hand: three trees, fixed links, lossless biclusters, six errors
+/// Values of a confined row lie within the range; and every such row whose bound admits the whole range is met by
+/// construction. By hand: three trees, fixed links, lossless biclusters, six errors
 /// that fall with vectors, six overdraws, terms and representatives.
 #[test]
 fn what_cannot_fail_is_no_evidence() {
     let confined: Vec<_> = all().filter_map(|row| Some((row, row.confinement()?.0))).collect();
     for (row, [least, most]) in &confined {
-        let reduced = if let RowSource::Recorded { reduced } = row.source { Some(reduced) } else { None };
-        for value in std::iter::once(row.ours).chain(row.readings.iter().copied()).chain(reduced) {
+        for value in std::iter::once(row.ours).chain(row.readings.iter().copied()) {
             assert!(*least <= value && value <= *most, "{}: {value} of {least} to {most}", row.target.id);
         }
         assert_eq!(row.verdict(), RowVerdict::ByConstruction, "{}", row.target.id);
     }
-    assert!(!is_all() || confined.len() == 3 + 1 + 1 + 6 + 6 + 1 + 1, "{}", confined.len());
+    assert_eq!(confined.len(), 3 + 1 + 1 + 6 + 6 + 1 + 1);
 }
 
 /// Values that follow from printed sizes and a calibrated rate, from the display's rate that was read off them, or from
@@ -130,11 +80,10 @@ fn print_in_other_words_is_not_predicted() {
         "all-frequency/fps-bunny",
         "all-frequency/fps-figure-7-glossy",
     ] {
-        let judged = row(id).map(|row| (row.method, row.verdict()));
-        assert!(judged.is_none_or(|judged| judged == (Method::Equation, RowVerdict::Consistent)), "{id}: {judged:?}");
+        assert_eq!((row(id).method, row(id).verdict()), (Method::Equation, RowVerdict::Consistent), "{id}");
     }
     for id in ["subsurface/rate-head-512", "all-frequency/fps-alone-bunny", "all-frequency/fps-alone-teapot"] {
-        assert_eq!(row(id).map(PaperRow::verdict), Some(RowVerdict::Calibrated), "{id}");
+        assert_eq!(row(id).verdict(), RowVerdict::Calibrated, "{id}");
     }
 }
 
@@ -153,11 +102,11 @@ fn the_parts_of_the_tally_add_up() {
 /// Numbers that are neither printed nor read off our own model can be told apart.
 #[test]
 fn origins_are_said() {
-    let implied = &row("subsurface/lookups-fixed").expect("a row").target;
+    let implied = &row("subsurface/lookups-fixed").target;
     assert_eq!((implied.text(), &implied.origin), ("20 (implied)".to_owned(), &Origin::Implied("1.25 L".to_owned())));
-    assert!(row("cpca/figure-6").is_none_or(|row| matches!(row.target.origin, Origin::Inferred(_))));
+    assert!(matches!(row("cpca/figure-6").target.origin, Origin::Inferred(_)));
     for id in ["radiosity/jacobi-operations", "radiosity/gauss-seidel-operations"] {
-        assert!(row(id).is_some_and(PaperRow::is_calibrated), "N was chosen from {id}");
+        assert!(row(id).is_calibrated(), "N was chosen from {id}");
     }
 }
 
@@ -165,11 +114,11 @@ fn origins_are_said() {
 #[test]
 fn calibration_hides_no_miss() {
     let radeon: Vec<_> =
-        findings("ray-engine-radeon-8500").rows.iter().map(|row| (row.standing.to_string(), row.verdict())).collect();
+        findings("ray-engine-radeon-8500").rows.iter().map(|row| (row.dependence.to_string(), row.verdict())).collect();
     let calibrated = || "calibrated".to_owned();
     assert_eq!(radeon, [(calibrated(), RowVerdict::Missed)]);
     let mut calibrated = all().filter(|row| row.is_calibrated());
-    let verdicts = [RowVerdict::Calibrated, RowVerdict::Missed, RowVerdict::Contradictory, RowVerdict::Reduced];
+    let verdicts = [RowVerdict::Calibrated, RowVerdict::Missed, RowVerdict::Contradictory];
     assert!(calibrated.all(|row| verdicts.contains(&row.verdict())));
 }
 
@@ -202,8 +151,7 @@ fn every_explanation_is_said_once() {
 /// The class of a miss is data of the figure: every missed row has one, and no other figure.
 #[test]
 fn missed_rows_have_their_class() {
-    let judged = all().filter(|row| row.verdict() != RowVerdict::Reduced);
-    let wrong = judged.filter(|row| (row.verdict() == RowVerdict::Missed) != row.target.missed.is_some());
+    let wrong = all().filter(|row| (row.verdict() == RowVerdict::Missed) != row.target.missed.is_some());
     assert_eq!(wrong.map(|row| row.target.id.as_str()).collect::<Vec<_>>(), Vec::<&str>::new());
     let idle = figures()
         .expect("the data")

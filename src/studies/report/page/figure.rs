@@ -5,7 +5,6 @@ use std::ops::Range;
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use maud::{Markup, PreEscaped, html};
 
-use super::super::findings::PlacedGrid;
 use super::super::{NamedPicture, ReportError};
 use crate::picture::png;
 
@@ -52,33 +51,6 @@ pub(super) fn pictures(all: &[NamedPicture], pngs: &[Vec<u8>], places: Range<usi
     let figures: Vec<Markup> =
         places.map(|place| figure(&all[place], &pngs[place], (place, count))).collect::<Result<_, _>>()?;
     Ok(html! { div.figures { @for figure in figures { (figure) } } })
-}
-
-/// Renders pictures in rows and columns, reduced where the page is too narrow for them. A click shows all pixels.
-pub(super) fn grid(placed: &PlacedGrid, all: &[NamedPicture], pngs: &[Vec<u8>]) -> Result<Markup, ReportError> {
-    let PlacedGrid { title, columns, rows } = placed;
-    let cell = |place: &Option<usize>| match place {
-        Some(place) => figure(&all[*place], &pngs[*place], (*place, 1)),
-        None => Ok(html! { div {} }),
-    };
-    let mut cells = Vec::new();
-    for (label, places) in rows {
-        if !label.is_empty() {
-            cells.push(html! { div.label { (label) } });
-        }
-        cells.extend(places.iter().map(cell).collect::<Result<Vec<_>, _>>()?);
-        // The next row begins on the left.
-        cells.extend((places.len()..columns.len()).map(|_| html! { div {} }));
-    }
-    Ok(html! {
-        div.frame tabindex="0" role="region" aria-label=(title) {
-            p.title { (title) }
-            div.grid style=(format!("--columns: {}", columns.len().max(1))) {
-                @for column in columns { div.column { (column) } }
-                @for cell in cells { (cell) }
-            }
-        }
-    })
 }
 
 fn figure(picture: &NamedPicture, full: &[u8], (place, count): (usize, usize)) -> Result<Markup, ReportError> {
@@ -162,17 +134,6 @@ mod tests {
         assert_eq!(shown(640, 3), [reduced, ("size full".to_owned(), 640)]);
         assert_eq!([20, 40, 160, 300].map(|width| enlarged((width, 1)).0), [160, 320, 320, 300]);
         assert_eq!(shown(320, 3), [("size narrow middle wide full".to_owned(), 320)]);
-    }
-
-    /// A row that is shorter than the grid has its pictures on the left, and a free place stays free.
-    #[test]
-    fn a_grid_has_its_labels_and_all_places() {
-        let picture = NamedPicture::new("p", rgb8(320, 1, vec![[0; 3]; 320]), "a caption");
-        let rows = vec![("above".to_owned(), vec![Some(0)]), (String::new(), vec![None, Some(0)])];
-        let placed = PlacedGrid { title: "t".to_owned(), columns: vec!["one".to_owned(), "two".to_owned()], rows };
-        let html = grid(&placed, &[picture], &[Vec::new()]).expect("a grid").into_string();
-        assert!(html.contains("--columns: 2") && html.contains(">one<") && html.contains(">above<"));
-        assert_eq!((html.matches("<figure").count(), html.matches("<div></div>").count()), (2, 2));
     }
 
     #[test]

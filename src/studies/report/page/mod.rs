@@ -7,7 +7,7 @@ mod table;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use self::figure::{drawing, grid, pictures};
+use self::figure::{drawing, pictures};
 use self::overview::{contents, section, small_counts, summary, summary_lines};
 pub(crate) use self::style::sheet;
 use self::table::scrolling;
@@ -33,12 +33,11 @@ pub(super) fn html(
     for (place, passage) in findings.text.iter().enumerate() {
         parts.push(match passage {
             Passage::Heading(text, tally) => html! { h2 id=(section(place)) { (text) } (small_counts(tally)) },
-            Passage::SummaryLines(all) => summary_lines(all, findings, pngs, drawings),
+            Passage::SummaryLines(all) => summary_lines(all, findings),
             Passage::Paragraph(text) => html! { p { (text) } },
             Passage::Table(table) => scrolling(&findings.tables[*table].table, *table, &findings.tally),
             Passage::Chart(chart) => drawing(&drawings[*chart], &findings.charts[*chart].caption),
             Passage::Pictures(places) => pictures(&findings.pictures, pngs, places.clone())?,
-            Passage::Grid(placed) => grid(placed, &findings.pictures, pngs)?,
             Passage::Legend(legend) => render_legend(legend),
         });
     }

@@ -1,7 +1,6 @@
 //! The first screen of a page: conclusion, counts, a line per part and the table of contents.
 
-use base64::{Engine as _, engine::general_purpose::STANDARD};
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use super::super::findings::{Findings, Passage, Verdict};
 use super::super::summary::{SummaryLine, TallyEntry};
@@ -45,13 +44,8 @@ fn bar(tally: &[TallyEntry]) -> Markup {
     }
 }
 
-/// Renders lines: picture, title, counts and a sentence.
-pub(super) fn summary_lines(
-    lines: &[SummaryLine],
-    findings: &Findings,
-    pngs: &[Vec<u8>],
-    drawings: &[String],
-) -> Markup {
+/// Renders lines: title, counts and a sentence.
+pub(super) fn summary_lines(lines: &[SummaryLine], findings: &Findings) -> Markup {
     let heading = |line: &SummaryLine| {
         findings.text.iter().position(|passage| matches!(passage, Passage::Heading(text, _) if *text == line.heading))
     };
@@ -59,7 +53,6 @@ pub(super) fn summary_lines(
         ul.lines {
             @for line in lines {
                 li {
-                    div.thumbnail { (thumbnail(line, findings, pngs, drawings)) }
                     div {
                         strong {
                             @match heading(line) {
@@ -73,23 +66,6 @@ pub(super) fn summary_lines(
                     (bar(&line.tally))
                 }
             }
-        }
-    }
-}
-
-/// Renders a line's picture or chart. Unlike those of the page it is scaled and smoothed: it only shows where it leads.
-fn thumbnail(line: &SummaryLine, findings: &Findings, pngs: &[Vec<u8>], drawings: &[String]) -> Markup {
-    let name = line.picture.as_deref();
-    let picture = findings.pictures.iter().position(|found| Some(found.name.as_str()) == name);
-    let chart = findings.charts.iter().position(|found| Some(found.name.as_str()) == name);
-    html! {
-        @if let Some(place) = picture {
-            @let picture = &findings.pictures[place];
-            @let (width, height) = picture.image.dimensions();
-            img src=(format!("data:image/png;base64,{}", STANDARD.encode(&pngs[place]))) alt=(picture.caption)
-                width=(width) height=(height);
-        } @else if let Some(place) = chart {
-            (PreEscaped(&drawings[place]))
         }
     }
 }
@@ -122,28 +98,22 @@ pub(super) fn contents(findings: &Findings) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::NamedPicture;
     use super::super::super::summary::Tone;
     use super::*;
-    use crate::picture::rgb8;
 
     #[test]
-    fn a_line_links_to_its_heading_and_shows_its_picture() {
+    fn a_line_links_to_its_heading() {
         let counted = |count, what: &str| TallyEntry { count, what: what.to_owned(), tone: Tone::Good };
-        let line = |heading: &str, picture: &str| SummaryLine {
+        let line = |heading: &str| SummaryLine {
             title: "One".to_owned(),
             heading: heading.to_owned(),
             tally: vec![counted(3, "held"), counted(0, "missed")],
             text: "A sentence.".to_owned(),
-            picture: Some(picture.to_owned()),
         };
         let mut found = Findings::new("t");
         found.counted_heading("Section <1>", vec![counted(3, "held")]);
-        found.pictures(vec![NamedPicture::new("p", rgb8(2, 1, [[0; 3]; 2]), "a picture")]);
-        let html = summary_lines(&[line("Section <1>", "p"), line("none", "none")], &found, &[vec![1, 2, 3]], &[])
-            .into_string();
+        let html = summary_lines(&[line("Section <1>"), line("none")], &found).into_string();
         assert_eq!(html.matches("<a href=\"#section-0\">One</a>").count(), 1, "{html}");
-        assert_eq!(html.matches("alt=\"a picture\" width=\"2\" height=\"1\"").count(), 1, "{html}");
         assert!(html.contains("<b>3</b> held") && !html.contains("missed"), "{html}");
         let contents = contents(&found).into_string();
         assert!(

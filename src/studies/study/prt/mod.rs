@@ -10,7 +10,6 @@ mod card;
 mod compression_error;
 mod exit_radiance;
 mod factor;
-mod fine_view;
 mod interpolate;
 mod light_picture;
 mod lit_view;
@@ -27,7 +26,6 @@ use crate::card::frame_time::FrameTimeError;
 use crate::study::StudyError;
 use crate::study::error::library_errors;
 
-pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
     AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, LitModel, RenderedGround, SegmentTally,
     SegmentedCompression, SightOfModel, coded_errors,
@@ -42,14 +40,12 @@ pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
 pub use factor::{BrdfFactors, FactorSubject};
 pub(super) use factor::{SweptRoughness, roughness_table};
-pub(super) use fine_view::{FineView, filtered};
-pub(super) use interpolate::{SeenSurface, linear_picture};
-pub(super) use light_picture::{light_picture, of_texels};
+pub(super) use interpolate::SeenSurface;
+pub(super) use light_picture::of_texels;
 pub use lit_view::LitView;
 pub(super) use lit_view::auto_exposure;
 pub use precompute::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 pub use render::Rendering;
-pub(super) use render::cluster_color;
 pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
 pub use turned_frames::{TurnedFrames, Turning};
 pub use vertex_values::{ValuesFormat, VertexValues};

@@ -2,12 +2,7 @@
 
 use super::Paper::{AllFrequency, BiScale, Cpca, Radiosity, RayEngine, Subsurface};
 use super::error::unknown;
-use super::full_size::FullModel::{Flat, Teapot, Transfer};
 use super::{ReproduceEntry, StudyError, all_frequency, bi_scale, cpca, radiosity, ray_engine, subsurface};
-use crate::scene::built::flat_models::FlatModel::{Chair, Temple};
-use crate::scene::built::transfer_models::TransferModel::{
-    BiScaleArmor, BiScaleBunny, Bird, Buddha, Bunny, FoldedBuddha, Head, Polygons, Tweety,
-};
 
 /// All entries, in the order of the papers.
 pub const ENTRIES: &[ReproduceEntry] = &[
@@ -85,37 +80,37 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         cpca::section_6()
     }),
     Cpca.entry("cpca-figure-2", "Squared error by storage (CPCA, figure 2)", cpca::figure_2)
-        .sized(&[Transfer(Bird)], cpca::full_size),
+        .recorded(include_str!("../../records/cpca-figure-2.toml")),
     Cpca.entry(
         "cpca-figures-3-4",
         "Static, iterative and adaptive compression (CPCA, figures 3 and 4)",
         cpca::figure_3,
     )
-    .sized(&[Transfer(Bird)], cpca::full_size),
+    .recorded(include_str!("../../records/cpca-figures-3-4.toml")),
     Cpca.entry("cpca-figure-6", "Light of order 10 on two polygons (CPCA, figure 6)", cpca::figure_6)
-        .sized(&[Transfer(Polygons)], cpca::full_size),
+        .recorded(include_str!("../../records/cpca-figure-6.toml")),
     Cpca.entry("cpca-figure-7", "Projections of exit radiance under colored lights (CPCA, figure 7)", cpca::figure_7)
-        .sized(&[Transfer(Bird)], cpca::full_size),
+        .recorded(include_str!("../../records/cpca-figure-7.toml")),
     Cpca.entry(
         "cpca-figure-8",
         "Glossy Phong models, their speed and that of a newer card (CPCA, figure 8)",
         cpca::figure_8,
     )
-    .sized(&[Transfer(Head), Transfer(FoldedBuddha)], cpca::full_size),
+    .recorded(include_str!("../../records/cpca-figure-8.toml")),
     Cpca.entry("cpca-figure-9", "A sum of transfer in two environments (CPCA, figure 9)", cpca::figure_9)
-        .sized(&[Transfer(FoldedBuddha)], cpca::full_size),
+        .recorded(include_str!("../../records/cpca-figure-9.toml")),
     Cpca.entry(
         "cpca-figure-10",
         "Principal components, vector quantization, and both (CPCA, figure 10)",
         cpca::figure_10,
     )
-    .sized(&[Transfer(Bird)], cpca::full_size),
+    .recorded(include_str!("../../records/cpca-figure-10.toml")),
     Cpca.entry("cpca-figure-11", "The number of vectors per cluster (CPCA, figure 11)", cpca::figure_11)
-        .sized(&[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
+        .recorded(include_str!("../../records/cpca-figure-11.toml")),
     Cpca.entry("cpca-table-1", "Errors and frame rates of seven signals (CPCA, table 1)", cpca::table_1)
-        .sized(&[Transfer(FoldedBuddha), Transfer(Bird), Transfer(Head), Transfer(Polygons)], cpca::full_size),
-    Cpca.entry("cpca-coherence", "Overdraw of clusters (CPCA, figure 5 and the table of section 7)", cpca::coherence)
-        .sized(&[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
+        .recorded(include_str!("../../records/cpca-table-1.toml")),
+    Cpca.entry("cpca-coherence", "Overdraw of clusters (CPCA, table of section 7)", cpca::coherence)
+        .recorded(include_str!("../../records/cpca-coherence.toml")),
     AllFrequency.entry(
         "all-frequency-counts",
         "Sizes, segments, equation 12 and what of Table 1 follows from sizes \
@@ -130,18 +125,18 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     AllFrequency
         .entry(
             "all-frequency-figures",
-            "Baselines, terms, clusters, representatives, truncation and frame rates \
-         (all-frequency transfer, figures 1, 2 and 4 to 7)",
+            "Harmonics, terms, representatives, truncation and frame rates \
+         (all-frequency transfer, figures 1, 2 and 5 to 7)",
             all_frequency::figures,
         )
-        .sized(&[Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
+        .recorded(include_str!("../../records/all-frequency-figures.toml")),
     AllFrequency
         .entry(
             "all-frequency-table-1",
             "What clusters and codes leave of transfer (all-frequency transfer, table 1)",
             all_frequency::table_1,
         )
-        .sized(&[Transfer(Bunny), Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
+        .recorded(include_str!("../../records/all-frequency-table-1.toml")),
     BiScale.entry(
         "bi-scale-counts",
         "Sizes of matrices and of biclusters (bi-scale transfer, sections III and IV, tables I and II)",
@@ -149,14 +144,14 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     ),
     BiScale
         .entry("bi-scale-figure-8", "More local directions (bi-scale transfer, figure 8)", bi_scale::figure_8)
-        .sized(&[Transfer(BiScaleBunny)], bi_scale::full_size),
+        .recorded(include_str!("../../records/bi-scale-figure-8.toml")),
     BiScale
         .entry(
             "bi-scale-figures",
-            "Pictures by transfer and by rays, errors by cause (bi-scale transfer, figures 1, 3 and 5 to 8)",
+            "Pictures by transfer and by rays, errors by cause (bi-scale transfer, figures 1 and 5)",
             bi_scale::figures,
         )
-        .sized(&[Transfer(BiScaleBunny), Transfer(BiScaleArmor), Flat(Chair), Flat(Temple)], bi_scale::full_size),
+        .recorded(include_str!("../../records/bi-scale-figures.toml")),
     BiScale.entry(
         "bi-scale-frames",
         "Frame rates, views alone and light too (bi-scale transfer, tables I and II)",
@@ -168,7 +163,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
             "Biclusters of an armor, a chair and a temple (bi-scale transfer, table I)",
             bi_scale::table_1,
         )
-        .sized(&[Transfer(BiScaleArmor), Flat(Chair), Flat(Temple)], bi_scale::full_size),
+        .recorded(include_str!("../../records/bi-scale-table-1.toml")),
     BiScale.entry("bi-scale-table-2", "Biclusters of bunnies (bi-scale transfer, table II)", bi_scale::table_2),
     BiScale
         .entry(
@@ -177,7 +172,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
          (bi-scale transfer, sections II and IV-A, figure 6)",
             bi_scale::figure_6,
         )
-        .sized(&[Flat(Chair)], bi_scale::full_size),
+        .recorded(include_str!("../../records/bi-scale-figure-6.toml")),
 ];
 
 /// Returns the entries with these names, and those of papers with these names, in the order of [`ENTRIES`]; all entries

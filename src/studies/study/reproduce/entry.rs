@@ -1,26 +1,17 @@
 //! Entries of the reproduction, and their findings.
 
-use super::full_size::{FullModel, FullSize};
-use super::shared::Shared;
-use super::{Paper, PaperRow, Prose, RecordStatus, RowVerdict, StudyError, equations};
-use crate::report::{Chart, PictureGrid, Table};
+use std::rc::Rc;
 
-/// Chart with its file name and caption.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EntryChart {
-    /// File name without folder and extension.
-    pub name: &'static str,
-    /// The chart.
-    pub chart: Chart,
-    /// Caption.
-    pub caption: Prose,
-}
+use super::shared::Shared;
+use super::{ModelSize, Paper, PaperRow, RecordStatus, StudyError, equations};
+use crate::report::{NamedChart, Table};
+use crate::split::KeptResults;
 
 /// Findings of one entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EntryFindings {
     /// Method, in paragraphs.
-    pub text: Vec<Prose>,
+    pub text: Vec<String>,
     /// Printed values of the paper with ours.
     pub rows: Vec<PaperRow>,
     /// Open questions whose answers would explain rows outside their bounds.
@@ -28,18 +19,9 @@ pub struct EntryFindings {
     /// Further tables.
     pub tables: Vec<Table>,
     /// Charts.
-    pub charts: Vec<EntryChart>,
-    /// Pictures, a grid per figure.
-    pub pictures: Vec<PictureGrid>,
-    /// Relation to the record, where the size of models decides the rows.
+    pub charts: Vec<NamedChart>,
+    /// Relation to the record, if there is one.
     pub record: Option<RecordStatus>,
-}
-
-impl EntryFindings {
-    /// Rows that tallies count: not those of reduced models.
-    pub fn counted(&self) -> impl Iterator<Item = &PaperRow> {
-        self.rows.iter().filter(|row| row.verdict() != RowVerdict::Reduced)
-    }
 }
 
 /// Table or figure of a paper.
@@ -52,23 +34,23 @@ pub struct ReproduceEntry {
     /// Title, with the place where it is printed.
     pub title: &'static str,
     work: EntryWork,
-    /// For an entry whose rows depend on the size of models.
-    pub(super) full_size: Option<FullSize>,
+    /// Text of the record, for an entry that takes minutes to hours at full size.
+    pub(super) record: Option<&'static str>,
 }
 
 type EntryWork = fn(&Shared) -> Result<EntryFindings, StudyError>;
 
 impl Paper {
-    /// Entry whose rows do not depend on the size of models.
+    /// Entry that is computed by default.
     pub(super) const fn entry(self, id: &'static str, title: &'static str, work: EntryWork) -> ReproduceEntry {
-        ReproduceEntry { paper: self, id, title, work, full_size: None }
+        ReproduceEntry { paper: self, id, title, work, record: None }
     }
 }
 
 impl ReproduceEntry {
-    /// The same with rows that depend on the size of models: these at full size, and the parameters of such runs.
-    pub(super) const fn sized(self, models: &'static [FullModel], parameters: fn() -> String) -> Self {
-        Self { full_size: Some(FullSize { models, parameters }), ..self }
+    /// The same with a record, which stands for a run at full size by default.
+    pub(super) const fn recorded(self, record: &'static str) -> Self {
+        Self { record: Some(record), ..self }
     }
 
     /// Computes the entry. Rows that are expressions of printed values come before those of its code.
@@ -78,9 +60,20 @@ impl ReproduceEntry {
         Ok(EntryFindings { rows, ..found })
     }
 
-    /// Returns `true` if the entry's rows depend on the size of models: it can be recorded.
-    pub const fn is_sized(&self) -> bool {
-        self.full_size.is_some()
+    /// Computes the entry at full size, alone. Finished pieces of entries that take hours are kept, and taken.
+    ///
+    /// # Errors
+    /// Those of the entry, and of a folder in which pieces cannot be kept.
+    pub fn at_full_size(&self, kept: Rc<KeptResults>) -> Result<EntryFindings, StudyError> {
+        self.run(&Shared::new(ModelSize::Printed).keeping(Some(kept)))
+    }
+
+    /// Computes the entry alone on reduced models, which judge nothing: a test that a run at full size ends.
+    ///
+    /// # Errors
+    /// Those of the entry.
+    pub fn on_reduced_models(&self) -> Result<EntryFindings, StudyError> {
+        self.run(&Shared::new(ModelSize::Reduced))
     }
 }
 

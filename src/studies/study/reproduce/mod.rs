@@ -6,7 +6,7 @@
 //! printed value ([`Sweep`]), or the paper contradicts itself and ours agrees with one of its values
 //! ([`Contradiction`]).
 //!
-//! Rows that depend on the size of models are those of recorded runs at full size ([`EntryRecord`]).
+//! Entries whose models take minutes to hours at full size have the rows of recorded runs ([`EntryRecord`]).
 
 mod all_frequency;
 mod bi_scale;
@@ -14,7 +14,6 @@ mod cpca;
 mod entries;
 mod entry;
 mod error;
-mod full_size;
 mod model_size;
 mod overview;
 mod paper;
@@ -25,7 +24,6 @@ mod ray_engine;
 mod record;
 pub mod report;
 mod row;
-mod schedule;
 mod shared;
 mod sky;
 mod subsurface;
@@ -33,35 +31,56 @@ mod summary;
 
 use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
+use shared::Shared;
 
 use crate::study::StudyError;
 pub use entries::{ENTRIES, choose};
-pub use entry::{EntryChart, EntryFindings, ReproduceEntry, Reproduced};
-pub use model_size::ModelSize;
+pub use entry::{EntryFindings, ReproduceEntry, Reproduced};
+use model_size::ModelSize;
 use paper::{equations, row as paper_row, value as printed_value};
 pub use paper::{figures, printed};
 pub use papers::Paper;
-pub use prose::{Prose, number};
+use prose::{number, paragraph};
 pub use ray_engine::{DUAL_TEXTURED, screen_quad};
-pub use record::{EntryRecord, RecordError, RecordMade, RecordStatus, SmokeRun, StaleRecord, recorded};
+pub use record::{EntryRecord, RecordMade, RecordStatus, recorded};
 pub use row::{
-    Bound, Contradiction, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure, PaperRow,
-    RowSource, RowVerdict, Setting, Standing, Sweep,
+    Bound, Contradiction, Dependence, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure,
+    PaperRow, RowSource, RowVerdict, Setting, Sweep,
 };
-pub use schedule::reproduce;
 
 /// Parameters of the study.
 #[derive(Clone, Debug)]
 pub struct Parameters {
     /// Entries to reproduce.
     pub entries: Vec<ReproduceEntry>,
-    /// Size of stand-in models.
-    pub models: ModelSize,
+    /// Computes recorded entries anew, at full size.
+    pub full_size: bool,
+}
+
+/// Computes entries, one after the other; those with a record ([`recorded`]) only at full size. Renderings and runs needed
+/// by several entries of a paper are made once. `progress` is called with the name of each.
+///
+/// # Errors
+/// That of the first entry that fails, also of a record that is malformed.
+pub fn reproduce(
+    entries: &[ReproduceEntry],
+    full_size: bool,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Reproduced, StudyError> {
+    let mut found = Reproduced::new();
+    for of_paper in entries.chunk_by(|one, next| one.paper == next.paper) {
+        let shared = Shared::new(ModelSize::Printed);
+        for entry in of_paper {
+            progress(entry.id, found.len() as u64, entries.len() as u64);
+            found.push((*entry, record::findings(entry, full_size, &shared)?));
+        }
+    }
+    Ok(found)
 }
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        Ok(report::findings(&reproduce(&self.entries, self.models, progress)?))
+        Ok(report::findings(&reproduce(&self.entries, self.full_size, progress)?))
     }
 
     /// Entries choose their devices themselves, and nothing is random.

@@ -2,14 +2,13 @@
 
 use strum::VariantArray as _;
 
-use super::{EntryChart, MissClass, PaperRow, Reproduced, RowSource, RowVerdict};
+use super::{MissClass, PaperRow, Reproduced, RowSource, RowVerdict};
 use crate::report::words::{counted, listed};
 use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
 
 /// Adds conclusion and tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
-    let every: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
-    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| found.counted()).collect();
+    let rows: Vec<&PaperRow> = rows(found).collect();
     let evidence = chose_none(found);
     let of = |of: &dyn Fn(&PaperRow) -> bool| count(&evidence, of);
     let sentences = [
@@ -25,12 +24,16 @@ pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
             ("Beside these, chose a constant of a model and are no evidence", rows.len() - evidence.len()),
             ("missed all the same", count(&rows, |row| row.is_calibrated() && row.verdict() == RowVerdict::Missed)),
         ]),
-        counts(&[("Of reduced models alone, and not judged", every.len() - rows.len())]),
     ];
     sentences.into_iter().flatten().for_each(|sentence| all.conclusion(sentence));
-    for entry in tally(&rows) {
+    for entry in tally(rows.into_iter()) {
         all.tally(entry.count, [&entry.what, &entry.what], entry.tone);
     }
+}
+
+/// All rows.
+pub(super) fn rows(found: &Reproduced) -> impl Iterator<Item = &PaperRow> {
+    found.iter().flat_map(|(_, found)| &found.rows)
 }
 
 /// Sentence of counts, each behind what it counts; `None` if the first is 0. Other counts of 0 are left out.
@@ -41,8 +44,8 @@ fn counts(parts: &[(&str, usize)]) -> Option<String> {
 }
 
 /// Returns `true` for a row with the value of a recorded run.
-pub(super) const fn is_recorded(row: &PaperRow) -> bool {
-    !matches!(row.source, RowSource::Computed | RowSource::Reduced)
+fn is_recorded(row: &PaperRow) -> bool {
+    row.source != RowSource::Computed
 }
 
 fn needs_rounding(row: &PaperRow) -> bool {
@@ -50,21 +53,14 @@ fn needs_rounding(row: &PaperRow) -> bool {
 }
 
 /// Counts of all verdicts, in their order.
-pub(super) fn tally(rows: &[&PaperRow]) -> Vec<TallyEntry> {
+pub(super) fn tally<'a>(rows: impl Iterator<Item = &'a PaperRow>) -> Vec<TallyEntry> {
+    let verdicts: Vec<RowVerdict> = rows.map(PaperRow::verdict).collect();
     let entry = |verdict: &RowVerdict| TallyEntry {
-        count: count(rows, |row| row.verdict() == *verdict) as u64,
+        count: verdicts.iter().filter(|found| *found == verdict).count() as u64,
         what: verdict.to_string(),
         tone: tone(*verdict),
     };
-    RowVerdict::counted().map(|verdict| entry(&verdict)).collect()
-}
-
-/// Adds the chart of all rows to the findings.
-pub(super) fn overview_chart(all: &mut Findings, found: &Reproduced) {
-    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
-    if let Some(EntryChart { name, chart, caption }) = chart(&rows) {
-        all.chart(NamedChart { name: name.to_owned(), chart, caption: caption.to_string() });
-    }
+    RowVerdict::VARIANTS.iter().map(entry).collect()
 }
 
 const fn tone(verdict: RowVerdict) -> Tone {
@@ -77,8 +73,7 @@ const fn tone(verdict: RowVerdict) -> Tone {
         | RowVerdict::Calibrated
         | RowVerdict::Explained
         | RowVerdict::Contradictory
-        | RowVerdict::TooVague
-        | RowVerdict::Reduced => Tone::Neutral,
+        | RowVerdict::TooVague => Tone::Neutral,
     }
 }
 
@@ -86,22 +81,24 @@ fn count(rows: &[&PaperRow], of: impl Fn(&PaperRow) -> bool) -> usize {
     rows.iter().filter(|row| of(row)).count()
 }
 
-/// Counted rows that chose no constant.
-pub(super) fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
-    found.iter().flat_map(|(_, found)| found.counted()).filter(|row| !row.is_calibrated()).collect()
-}
-
-/// Numbers of rows by verdict, in words, without those that are 0. Their sum is the number of rows.
-pub(super) fn parts(rows: &[&PaperRow]) -> String {
-    let of = |verdict: RowVerdict| (count(rows, |row| row.verdict() == verdict), verdict);
-    let counts = RowVerdict::counted().map(of).filter(|(count, _)| *count > 0);
-    listed(&counts.map(|(count, verdict)| format!("{count} {}", verdict.of_rows())).collect::<Vec<_>>())
+/// Rows that chose no constant.
+fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
+    rows(found).filter(|row| !row.is_calibrated()).collect()
 }
 
 /// Number of rows that chose no constant, and the numbers by verdict; `None` without such rows.
-pub(super) fn judged(rows: &[&PaperRow]) -> Option<String> {
+fn judged(rows: &[&PaperRow]) -> Option<String> {
+    let of = |verdict: RowVerdict| (count(rows, |row| row.verdict() == verdict), verdict);
+    let parts = RowVerdict::VARIANTS.iter().map(|verdict| of(*verdict)).filter(|(count, _)| *count > 0);
+    let parts = listed(&parts.map(|(count, verdict)| format!("{count} {}", verdict.of_rows())).collect::<Vec<_>>());
     let all = counted(rows.len() as u64, "figure", "figures");
-    (!rows.is_empty()).then(|| format!("{all} chose no constant: {}", parts(rows)))
+    (!rows.is_empty()).then(|| format!("{all} chose no constant: {parts}"))
+}
+
+/// Formats the tally of the rows that chose no constant, and how many of them are recorded.
+pub fn evidence_line(found: &Reproduced) -> String {
+    let rows = chose_none(found);
+    format!("{}; recorded at full size: {}", judged(&rows).unwrap_or_default(), count(&rows, is_recorded))
 }
 
 /// Number of missed rows by class.
@@ -116,10 +113,6 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
 fn differ(rows: &[&PaperRow]) -> Option<String> {
     let names: Vec<&str> = rows.iter().filter(|row| row.differs()).map(|row| row.target.id.as_str()).collect();
     (!names.is_empty()).then(|| format!("Not as recorded: {}.", names.join(", ")))
-}
-
-fn ratio(row: &PaperRow) -> f64 {
-    row.ours / row.target.value
 }
 
 /// Verdicts in the order of the chart: the first two have the colors of the tally.
@@ -137,16 +130,20 @@ const ORDER: [RowVerdict; 9] = [
 
 /// Chart of our values relative to the papers', a point per row, in the order of `rows.csv`; `None` for fewer than two
 /// rows that can be shown.
-fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
-    let point = |(n, row): (usize, &&PaperRow)| ((n + 1) as f64, ratio(row));
+pub(super) fn overview_chart(found: &Reproduced) -> Option<NamedChart> {
+    let rows: Vec<&PaperRow> = rows(found).collect();
+    let ratio = |row: &PaperRow| row.ours / row.target.value;
     let of = |verdict: RowVerdict| Series {
         label: verdict.to_string(),
-        points: rows.iter().enumerate().filter(|(_, row)| row.verdict() == verdict).map(point).collect(),
+        points: (1..)
+            .zip(&rows)
+            .filter(|(_, row)| row.verdict() == verdict)
+            .map(|(n, row)| (f64::from(n), ratio(row)))
+            .collect(),
     };
-    let is_drawn = |row: &PaperRow| row.verdict() != RowVerdict::Reduced && ratio(row) > 0.0 && ratio(row).is_finite();
-    let drawn = count(rows, is_drawn);
-    (drawn > 1).then(|| EntryChart {
-        name: "overview",
+    let drawn = count(&rows, |row| ratio(row) > 0.0 && ratio(row).is_finite());
+    (drawn > 1).then(|| NamedChart {
+        name: "overview".to_owned(),
         chart: Chart {
             title: "Ours over the paper's, row by row".to_owned(),
             x: "row of rows.csv".to_owned(),
@@ -155,6 +152,6 @@ fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
             dots: ORDER.map(of).into(),
             ..Chart::default()
         },
-        caption: "Each row's value over the paper's. Bounds differ from row to row: the tables have them.".into(),
+        caption: "Each row's value over the paper's. Bounds differ from row to row: the tables have them.".to_owned(),
     })
 }

@@ -1,60 +1,21 @@
 //! Prose with computed numbers.
 
-use std::fmt;
-
 use crate::report::digits::{Quantity, shown};
 
 /// Formats a number with `decimals` digits after the point.
-pub fn number(value: f64, decimals: u8) -> String {
+pub(super) fn number(value: f64, decimals: u8) -> String {
     shown(value, Quantity::Decimals(decimals))
 }
 
-/// Paragraph: a template, and the numbers that replace its `{}`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Prose {
-    template: &'static str,
-    figures: Vec<String>,
-}
-
-impl Prose {
-    /// Creates a paragraph with its numbers, one per `{}`.
-    pub fn new(template: &'static str, figures: impl IntoIterator<Item = String>) -> Self {
-        Self { template, figures: figures.into_iter().collect() }
+/// Returns a paragraph: a template with numbers in the place of its `{}`, in their order.
+pub(super) fn paragraph(template: &str, numbers: impl IntoIterator<Item = String>) -> String {
+    let mut parts = template.split("{}");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for (number, part) in numbers.into_iter().zip(parts) {
+        text.push_str(&number);
+        text.push_str(part);
     }
-
-    /// Template, as in the source.
-    pub const fn template(&self) -> &'static str {
-        self.template
-    }
-
-    /// Numbers, formatted, in the order of their places.
-    pub(super) fn figures(&self) -> &[String] {
-        &self.figures
-    }
-
-    /// Returns `true` if there are as many numbers as placeholders.
-    pub fn is_whole(&self) -> bool {
-        self.template.matches("{}").count() == self.figures.len()
-    }
-}
-
-impl From<&'static str> for Prose {
-    fn from(template: &'static str) -> Self {
-        Self::new(template, [])
-    }
-}
-
-impl fmt::Display for Prose {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut figures = self.figures.iter();
-        for (i, part) in self.template.split("{}").enumerate() {
-            if i > 0 {
-                f.write_str(figures.next().map_or("?", String::as_str))?;
-            }
-            f.write_str(part)?;
-        }
-        Ok(())
-    }
+    text
 }
 
 #[cfg(test)]
@@ -62,10 +23,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn figures_stand_in_their_places() {
-        let prose = Prose::new("{} of {} rows", [number(2.0, 0), number(2.95, 1)]);
-        assert_eq!(prose.to_string(), "2 of 3.0 rows");
-        assert!(prose.is_whole() && !Prose::from("{} rows").is_whole());
+    fn numbers_stand_in_their_places() {
+        assert_eq!(paragraph("{} of {} rows", [number(2.0, 0), number(2.95, 1)]), "2 of 3.0 rows");
+        assert_eq!(paragraph("all rows", []), "all rows");
     }
 
     #[test]

@@ -2,13 +2,14 @@
 
 use serde_json::json;
 
-use super::overview::{chose_none, is_recorded, judged, overview, overview_chart, tally as counts};
+pub use super::overview::evidence_line;
+use super::overview::{overview, overview_chart, rows as all_rows, tally};
 use super::summary::summary_lines;
-use super::{EntryChart, Judgement, PaperFigure, PaperRow, Reproduced, RowSource, RowVerdict, StudyError, figures};
-use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
+use super::{Bound, Judgement, PaperFigure, PaperRow, Reproduced, StudyError, figures, number, paragraph};
+use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 
 const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% source \
-     ours_on_reduced_models standing printed_inputs bound stated low high by_rounding verdict missed_for explanation contradiction";
+     dependence printed_inputs bound stated low high by_rounding verdict missed_for explanation contradiction";
 
 fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
@@ -36,9 +37,8 @@ fn rows(found: &Reproduced) -> Table {
             most,
             Cell::percent(100.0 * row.difference()),
             row.source.to_string().into(),
-            on_reduced_models(row).into(),
-            row.standing.to_string().into(),
-            row.standing.inputs().into(),
+            row.dependence.to_string().into(),
+            row.dependence.inputs().into(),
             row.bound.text().into(),
             target.stated.as_str().into(),
             low,
@@ -51,14 +51,6 @@ fn rows(found: &Reproduced) -> Table {
         ]);
     }
     table
-}
-
-fn on_reduced_models(row: &PaperRow) -> Option<f64> {
-    match row.source {
-        RowSource::Recorded { reduced } => Some(reduced),
-        RowSource::Reduced => Some(row.ours),
-        RowSource::Computed | RowSource::Confirmed | RowSource::Differs { .. } => None,
-    }
 }
 
 fn ends(interval: Option<[f64; 2]>) -> [Cell; 2] {
@@ -121,7 +113,7 @@ pub fn notes(found: &Reproduced) -> Table {
             note(&row.target.origin.to_string(), row.target.origin.how().to_owned(), name.clone());
         }
         if row.is_calibrated() {
-            note(&row.standing.to_string(), row.standing.inputs().to_owned(), name.clone());
+            note(&row.dependence.to_string(), row.dependence.inputs().to_owned(), name.clone());
         }
         if let Some(explanation) = row.explanation() {
             let value = row.target.beside(explanation.value()).text();
@@ -155,24 +147,11 @@ fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Table of the number of rows per verdict; rows of reduced models have none that counts.
-fn tally(found: &Reproduced) -> Table {
+/// Table of the number of rows per verdict.
+fn tally_table(found: &Reproduced) -> Table {
     let mut table = Table::of("Tally", "verdict rows");
-    for verdict in RowVerdict::counted() {
-        table.push([verdict.to_string().into(), count(found, verdict).into()]);
-    }
+    tally(all_rows(found)).into_iter().for_each(|entry| table.push([entry.what.into(), entry.count.into()]));
     table
-}
-
-fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
-    all(found).filter(|(_, row)| row.verdict() == verdict).count()
-}
-
-/// Formats the tally of the rows that chose no constant, and how many of them are recorded.
-pub fn evidence_line(found: &Reproduced) -> String {
-    let rows = chose_none(found);
-    let recorded = rows.iter().filter(|row| is_recorded(row)).count();
-    format!("{}; recorded at full size: {recorded}", judged(&rows).unwrap_or_default())
 }
 
 /// Open questions about rows outside their bounds: each once, with the first entry that asks it.
@@ -188,7 +167,7 @@ fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
 
 /// Returns `true` if no value is another one than its record has. What is missed is a finding, and no failure.
 fn as_recorded(found: &Reproduced) -> bool {
-    !all(found).any(|(_, row)| row.differs())
+    !all_rows(found).any(PaperRow::differs)
 }
 
 const HOW: &str = "The papers' figures beside ours, each figure in one row. A figure is printed, implied by printed ones, or inferred by us. Its bound is \
@@ -201,18 +180,18 @@ const HOW: &str = "The papers' figures beside ours, each figure in one row. A fi
     run over something that the papers leave open reaches the value without losing another row that holds: then it is explained. One setting explains all that a sweep explains. \
     Missed rows have the class of what is in the way, as far as it is known. Where the paper contradicts itself and ours agrees with one of its values, the row is contradictory, with the computation; \
     where ours agrees with none, it is missed. Differences are shares of the paper's value. \
-    The source of a row is this run (computed), a recorded run at full size (recorded), both with the same bits, or this run on reduced models, which is not judged.";
+    The source of a row is this run (computed), a recorded run at full size (recorded), or both with the same bits.";
 
 pub(super) fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
     overview(&mut all, found);
     all.summary_lines(summary_lines(found));
-    let how = super::Prose::new(HOW, [super::number(100.0 * super::Bound::SHARE, 0)]);
-    all.keep_table(FoundTable::from(tally(found)).csv("tally").field("tally"));
+    let how = paragraph(HOW, [number(100.0 * Bound::SHARE, 0)]);
+    all.keep_table(FoundTable::from(tally_table(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
     all.heading("All rows");
-    overview_chart(&mut all, found);
-    all.paragraph(how.to_string());
+    overview_chart(found).into_iter().for_each(|chart| all.chart(chart));
+    all.paragraph(how);
     tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(table));
     // The files are known to be whole: rows have come of them.
     if let Ok(table) = unjudged(found) {
@@ -220,21 +199,16 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
     }
     let mut entries = Vec::new();
     for (entry, found) in found {
-        all.counted_heading(entry.title, counts(&found.counted().collect::<Vec<_>>()));
-        let status = found.record.as_ref().and_then(super::RecordStatus::sentence);
-        status.iter().for_each(|sentence| all.paragraph(sentence.to_string()));
-        found.text.iter().for_each(|paragraph| all.paragraph(paragraph.to_string()));
+        all.counted_heading(entry.title, tally(found.rows.iter()));
+        found.record.iter().for_each(|record| all.paragraph(record.sentence()));
+        found.text.iter().for_each(|text| all.paragraph(text.as_str()));
         found.questions.iter().for_each(|question| all.paragraph(format!("Open: {question}")));
-        for EntryChart { name, chart, caption } in &found.charts {
-            let (name, chart, caption) = ((*name).to_owned(), chart.clone(), caption.to_string());
-            all.chart(NamedChart { name, chart, caption });
-        }
-        found.pictures.iter().for_each(|grid| all.grid(grid.clone()));
+        found.charts.iter().for_each(|chart| all.chart(chart.clone()));
         found.tables.iter().for_each(|table| all.table(FoundTable::from(table.clone()).unprinted()));
         let tables = found.tables.iter().map(|table| json!({ "title": table.title(), "rows": table.json() }));
         entries.push(json!({
             "id": entry.id, "title": entry.title, "open_questions": found.questions,
-            "record": found.record.as_ref().map(super::RecordStatus::json), "tables": tables.collect::<Vec<_>>(),
+            "record": found.record.map(|record| json!(record.made())), "tables": tables.collect::<Vec<_>>(),
         }));
     }
     all.field("entries", json!(entries));
@@ -248,7 +222,7 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
 #[cfg(test)]
 mod tests {
     use super::super::row::tests::row;
-    use super::super::{EntryFindings, Paper};
+    use super::super::{EntryFindings, Paper, RowSource, RowVerdict};
     use super::*;
 
     fn found(values: &[(f64, RowSource)]) -> Reproduced {
@@ -262,12 +236,11 @@ mod tests {
     #[test]
     fn only_a_difference_from_the_record_fails() {
         let missed = found(&[(20.0, RowSource::Computed), (30.0, RowSource::Confirmed)]);
-        assert_eq!(count(&missed, RowVerdict::Missed), 2);
-        assert!(as_recorded(&missed));
+        assert!(as_recorded(&missed) && missed[0].1.rows.iter().all(|row| row.verdict() == RowVerdict::Missed));
         assert!(!as_recorded(&found(&[(15.6, RowSource::Differs { recorded: 15.5 })])));
     }
 
-    /// A figure, one of another kind, and none.
+    /// A figure, and more of another kind.
     #[test]
     fn sentences_agree_with_their_numbers() {
         let of = |values: &[(f64, RowSource)]| {
@@ -280,10 +253,9 @@ mod tests {
             "1 figure chose no constant: 1 missed. Missed for what is in the way: model lost 1."
         );
         assert_eq!(
-            of(&[(15.6, RowSource::Confirmed), (15.7, RowSource::Recorded { reduced: 1.0 })]),
+            of(&[(15.6, RowSource::Confirmed), (15.7, RowSource::Recorded)]),
             "2 figures chose no constant: 2 predicted within bounds in numbers. Recorded at full size: 2; computed anew \
              with the same bits: 1."
         );
-        assert_eq!(of(&[(15.6, RowSource::Reduced)]), "Of reduced models alone, and not judged: 1.");
     }
 }

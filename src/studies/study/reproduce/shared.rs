@@ -19,7 +19,7 @@ pub(super) trait SharedResult: Sized + 'static {
     fn compute(key: &Self::Key, shared: &Shared) -> Result<Self, StudyError>;
 }
 
-/// The size of models that was asked for, and the results so far.
+/// The size of models, and the results so far.
 #[derive(Default)]
 pub(super) struct Shared {
     pub(super) models: ModelSize,

@@ -5,14 +5,12 @@ use std::fmt::Write as _;
 use strum::VariantArray as _;
 
 use super::overview::tally;
-use super::{EntryFindings, Paper, PaperRow, ReproduceEntry, Reproduced, RowVerdict};
+use super::{EntryFindings, Paper, ReproduceEntry, Reproduced, RowVerdict};
+use crate::report::SummaryLine;
 use crate::report::words::listed;
-use crate::report::{PictureGrid, SummaryLine};
 
 type Part = (ReproduceEntry, EntryFindings);
 
-/// Pictures that stand for their papers, where it is not the first: rendered, not in false colors.
-const BEST: [&str; 3] = ["cpca-figure-8-head-compressed", "figure-1-exact", "bi-scale-figure-7"];
 /// Most entries that a line names.
 const NAMED: usize = 3;
 
@@ -21,13 +19,11 @@ pub(super) fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
     let line = |paper: &Paper| {
         let parts: Vec<&Part> = found.iter().filter(|(entry, _)| entry.paper == *paper).collect();
         let (first, _) = parts.first()?;
-        let rows: Vec<&PaperRow> = parts.iter().flat_map(|(_, found)| found.counted()).collect();
         Some(SummaryLine {
             title: capital(&paper.to_string()),
             heading: first.title.to_owned(),
-            tally: tally(&rows),
+            tally: tally(parts.iter().flat_map(|(_, found)| &found.rows)),
             text: text(&parts),
-            picture: picture(&parts),
         })
     };
     Paper::VARIANTS.iter().filter_map(line).collect()
@@ -39,7 +35,7 @@ fn missed(found: &EntryFindings) -> usize {
 
 /// Entries without a missed row, and those with the most.
 fn text(parts: &[&Part]) -> String {
-    let judged = || parts.iter().filter(|(_, found)| found.counted().next().is_some());
+    let judged = || parts.iter().filter(|(_, found)| !found.rows.is_empty());
     let whole = judged().filter(|(_, found)| missed(found) == 0).count();
     let mut text = match (whole, judged().count()) {
         (_, 0) => return String::new(),
@@ -48,7 +44,7 @@ fn text(parts: &[&Part]) -> String {
         (whole, count) => format!("No row is missed in {whole} of {count} entries"),
     };
     let mut worst: Vec<(usize, usize, &str)> = judged()
-        .map(|(entry, found)| (missed(found), found.counted().count(), entry.id))
+        .map(|(entry, found)| (missed(found), found.rows.len(), entry.id))
         .filter(|(missed, ..)| *missed > 0)
         .collect();
     worst.sort_by_key(|(missed, ..)| std::cmp::Reverse(*missed));
@@ -59,15 +55,6 @@ fn text(parts: &[&Part]) -> String {
         _ = write!(text, "; {most} {}.", listed(&names));
     }
     text
-}
-
-/// The paper's picture of [`BEST`], else its first picture, else its first chart.
-fn picture(parts: &[&Part]) -> Option<String> {
-    let pictures = || parts.iter().flat_map(|(_, found)| found.pictures.iter().flat_map(PictureGrid::pictures));
-    let best = pictures().find(|picture| BEST.contains(&picture.name.as_str()));
-    let chart = || parts.iter().flat_map(|(_, found)| &found.charts).next();
-    let name = best.or_else(|| pictures().next()).map(|picture| picture.name.clone());
-    name.or_else(|| chart().map(|chart| chart.name.to_owned()))
 }
 
 fn capital(text: &str) -> String {

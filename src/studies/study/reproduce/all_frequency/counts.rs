@@ -4,7 +4,7 @@
 use refsim::timing::host::HostOperation;
 
 use super::{
-    EntryFindings, HOST, Method, PaperRow, Prose, Standing, StudyError, failed, number, paper_row, printed,
+    Dependence, EntryFindings, HOST, Method, PaperRow, StudyError, failed, number, paper_row, paragraph, printed,
     printed_value,
 };
 use crate::all_frequency::on_card::time::host_of_table_1;
@@ -101,8 +101,8 @@ const RATE: &str = "Table 1: frames without drawing, which chose the constant to
 
 pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let (least, mean) = below_horizon();
-    let equation = |id: &str, ours: (f64, Standing)| paper_row(id, (HOST, Method::Equation), ours);
-    let count = |(id, ours): (&str, f64)| equation(&format!("all-frequency/{id}"), (ours, Standing::Counted));
+    let equation = |id: &str, ours: (f64, Dependence)| paper_row(id, (HOST, Method::Equation), ours);
+    let count = |(id, ours): (&str, f64)| equation(&format!("all-frequency/{id}"), (ours, Dependence::Counted));
     let counts = [
         ("orders", log10(LIGHT_TEXELS as f64 / 25.0)),
         ("below-least", least),
@@ -126,7 +126,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         let [clusters, vertices] = column.multiplies();
         let fps = rate / (clusters + vertices);
         let total = column.nonempty() / PER_CLUSTER;
-        rows.push(equation(&column.figure("fps-alone"), (fps, Standing::Calibrated { on: RATE }))?);
+        rows.push(equation(&column.figure("fps-alone"), (fps, Dependence::Calibrated { on: RATE }))?);
         let of_print = |what: &str| printed(&column.figure(what));
         table.push([
             column.id.into(),
@@ -146,7 +146,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         ]);
     }
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [number((6 * NORMALS * NORMALS) as f64, 0), number(1e-9 * rate, 2)])],
+        text: vec![paragraph(HOW, [number((6 * NORMALS * NORMALS) as f64, 0), number(1e-9 * rate, 2)])],
         rows,
         questions: vec![QUESTION],
         tables: vec![table],

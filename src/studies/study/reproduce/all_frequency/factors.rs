@@ -1,7 +1,7 @@
 //! Section 3: errors of ten terms and of spherical harmonics for two reflectances, and Figure 3.
 
 use super::forms::{Form, FormErrors, ORDERS, TERMS, at_equal_angles, cook_torrance, schlick};
-use super::{EntryFindings, PaperRow, Prose, Setting, Shared, StudyError, Sweep, number, roughness, solved};
+use super::{EntryFindings, PaperRow, Setting, Shared, StudyError, Sweep, number, paragraph, roughness, solved};
 use crate::all_frequency::factor::ProductErrors;
 
 /// A reflectance of the paper, by the name in its figures, with the forms that its model may have.
@@ -69,11 +69,10 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         number(ProductErrors::directions().len() as f64, 0),
     ];
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, figures)],
+        text: vec![paragraph(HOW, figures)],
         rows,
         questions: vec![QUESTION],
         tables,
-        pictures: vec![swept.pictures],
         ..EntryFindings::default()
     })
 }

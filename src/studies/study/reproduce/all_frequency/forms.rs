@@ -90,17 +90,17 @@ impl FormErrors {
         let table = sampling.table(lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
         let found = Factorization::new(&table, TERMS).map_err(|error| failed(HOST)(&error))?;
         let disc = DiscSamples::new(&table);
-        Self::of(disc.errors(&found.factors(TERMS)), disc.samples())
+        Self::beside(disc.errors(&found.factors(TERMS)), disc.samples())
     }
 
     /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are.
     pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, StudyError> {
         let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().clamp.limit());
         let terms = samples.term_errors(TERMS).map_err(|error| failed(HOST)(&error))?;
-        Self::of(terms, &samples)
+        Self::beside(terms, &samples)
     }
 
-    fn of(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, StudyError> {
+    fn beside(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, StudyError> {
         let of = |order: usize| {
             harmonic_errors(samples, order, HarmonicFit::ZeroHemisphere, HarmonicSides::Both)
                 .map_err(|error| failed(HOST)(&error))

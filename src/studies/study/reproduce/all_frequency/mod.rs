@@ -12,13 +12,13 @@ mod table_1;
 
 pub(super) use counts::findings as counts;
 pub(super) use factors::findings as factors;
-pub(super) use figures::{findings as figures, full_size};
+pub(super) use figures::findings as figures;
 pub(super) use table_1::findings as table_1;
 
 use super::error::failed;
 use super::shared::Shared;
 use super::{
-    EntryFindings, Method, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number, paper_row, printed,
+    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row, paragraph, printed,
     printed_value,
 };
 
@@ -27,5 +27,5 @@ const HOST: &str = "host";
 
 /// Row of a value that is computed in f64 and uses no printed one.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
-    paper_row(&format!("all-frequency/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))
+    paper_row(&format!("all-frequency/{id}"), (HOST, Method::Solver), (ours, Dependence::Counted))
 }

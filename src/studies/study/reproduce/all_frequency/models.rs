@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use serde::{Deserialize, Serialize};
 
 use super::forms::{Form, TERMS, cook_torrance, schlick};
-use super::segments::{HAAR_BITS, SegmentShares, SegmentSums};
+use super::segments::{SegmentShares, SegmentSums};
 use super::{HOST, Shared, StudyError, failed};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::compressed::SegmentOptions;
@@ -113,8 +113,8 @@ pub(super) struct CompressedModel {
     pub(super) clustered: f64,
     /// Results for each of [`CODINGS`].
     pub(super) coded: Vec<CodedModel>,
-    /// Bytes of non-zero quantised Haar coefficients, for each of [`HAAR_BITS`].
-    pub(super) haar: [f64; HAAR_BITS.len()],
+    /// Bytes of non-zero quantised Haar coefficients.
+    pub(super) haar: f64,
     /// Relative squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
     /// Each compressed segment by itself.
@@ -210,7 +210,7 @@ impl ModelVisibility {
             raw: (4 * LIGHT_TEXELS * rows * vertices) as f64,
             clustered: 4.0 * all_over_sampled * sums.numbers as f64,
             coded: coded.to_vec(),
-            haar: sums.haar.map(|bytes| all_over_sampled * bytes),
+            haar: all_over_sampled * sums.haar,
             error_of: sums.error_of.into_iter().map(|(vectors, error)| (vectors, error / sums.squares)).collect(),
             by_segment,
         })

@@ -3,7 +3,7 @@
 use super::forms::{TERMS, bare};
 use super::{HOST, PaperRow, StudyError, failed, solved};
 use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
-use crate::report::{PictureGrid, Table};
+use crate::report::Table;
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
 
 /// Roughnesses, in ascending order.
@@ -15,7 +15,6 @@ const SEEN: f64 = 0.05;
 pub(super) struct Figure3 {
     pub(super) row: PaperRow,
     pub(super) tables: Vec<Table>,
-    pub(super) pictures: PictureGrid,
     /// Number of texels of a map above the horizon.
     pub(super) inside: usize,
 }
@@ -28,11 +27,7 @@ pub(super) fn sweep() -> Result<Figure3, StudyError> {
     let centers = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
     let table = centers.table(&lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
     let [inside, _] = DiscSamples::new(&table).counts();
-    let columns = ROUGHNESSES.iter().rev().map(|roughness| format!("roughness {roughness}"));
-    let of = |at: usize| textbook.1.iter().rev().map(move |row| row.pictures[at].clone());
-    let pictures =
-        PictureGrid::new("Figure 3: spheres", columns).row("original", of(0)).row(format!("{TERMS} terms"), of(1));
-    Ok(Figure3 { row, tables: vec![textbook.0, bare.0], pictures, inside })
+    Ok(Figure3 { row, tables: vec![textbook.0, bare.0], inside })
 }
 
 fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), StudyError> {

@@ -11,8 +11,8 @@ use crate::transfer::Signal;
 use crate::transfer::clustering::{CpcaStep, CpcaStepKind};
 use crate::transfer::grid::Segmentation;
 
-/// Bits per number in the coding of Haar coefficients alone: those of the earlier work first.
-pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
+/// Bits per number in the coding of Haar coefficients alone: those of the earlier work.
+const HAAR_BITS: u32 = 8;
 
 /// Results of a segment, or the sums over several.
 #[derive(Default, Serialize, Deserialize)]
@@ -25,8 +25,8 @@ pub(super) struct SegmentSums {
     pub(super) squares: f64,
     /// For each of [`CODINGS`].
     pub(super) coded: [CodeSums; CODINGS.len()],
-    /// Bytes of non-zero quantised Haar coefficients, for each of [`HAAR_BITS`].
-    pub(super) haar: [f64; HAAR_BITS.len()],
+    /// Bytes of non-zero quantised Haar coefficients.
+    pub(super) haar: f64,
     /// Squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
 }
@@ -67,14 +67,14 @@ impl SegmentSums {
             clusters: compressed.clustering.subspaces().len(),
             numbers: compressed.clustering.stored_numbers(),
             squares: signal.sum_of_squares(),
-            haar: HAAR_BITS.map(|bits| haar_bytes(&signal, bits)),
+            haar: haar_bytes(&signal),
             error_of: last_of_each(&steps),
             ..Self::default()
         };
         for (sums, coding) in found.coded.iter_mut().zip(CODINGS) {
             let coded = coding.code(&compressed)?;
             let squared_error = coded.squared_errors(&signal).iter().sum();
-            let (coefficients, options) = (Segmentation::Quarters.len(), coding.counted());
+            let (coefficients, options) = (Segmentation::Quarters.len(), coding.options());
             let coded = CodedTransfer { rows, coefficients, vertices: of_model, options, segments: vec![coded] };
             let size = coded.size();
             let numbers = size.as_the_paper_counts();
@@ -101,7 +101,7 @@ impl SegmentSums {
             sum.headers += other.headers;
             sum.squared_error += other.squared_error;
         }
-        self.haar.iter_mut().zip(other.haar).for_each(|(sum, bytes)| *sum += bytes);
+        self.haar += other.haar;
         self.error_of.resize(other.error_of.len().max(self.error_of.len()), (0, 0.0));
         for (sum, (vectors, error)) in self.error_of.iter_mut().zip(&other.error_of) {
             *sum = (*vectors, sum.1 + error);
@@ -123,14 +123,14 @@ fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
 }
 
 /// Bytes of a segment without clusters: a byte for the row and a value for each coefficient that is non-zero after
-/// quantisation, in which the largest of the vertex fills integers of `bits` bits.
-fn haar_bytes(signal: &Signal, bits: u32) -> f64 {
+/// quantisation, in which the largest of the vertex fills integers.
+fn haar_bytes(signal: &Signal) -> f64 {
     let nonzeros = |point: usize| {
         let values = signal.point(point);
         let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
-        let half = 0.5 * f64::from(largest) / f64::from((1_u32 << (bits - 1)) - 1);
+        let half = 0.5 * f64::from(largest) / f64::from((1_u32 << (HAAR_BITS - 1)) - 1);
         values.iter().filter(|value| f64::from(value.abs()) > half).count()
     };
     let nonzeros: usize = (0..signal.points()).map(nonzeros).sum();
-    nonzeros as f64 * (1.0 + f64::from(bits) / 8.0)
+    nonzeros as f64 * (1.0 + f64::from(HAAR_BITS) / 8.0)
 }

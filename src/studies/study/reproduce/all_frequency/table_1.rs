@@ -2,15 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::codings::{CODINGS, Coding};
+use super::codings::{BITS, CODINGS, Coding};
 use super::models::{
     CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, SegmentChoice, TableMaterial, TableModel,
     ground_side,
 };
-use super::segments::HAAR_BITS;
-use super::{
-    EntryFindings, HOST, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep, failed, number, solved,
-};
+use super::{Dependence, EntryFindings, HOST, PaperRow, Shared, StudyError, failed, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;
@@ -47,12 +44,6 @@ const RANGE: &str = "Nor does the text say of what range its {} bits are. Ranges
     meets {} of them on models by themselves, {} on a ground.";
 const QUESTION: &str = "the models; of what range the quantised numbers are a share, which decides how many of them vanish; whether the printed squared error is that before coding or after it; \
     whether the ground shadows the models of Table 1.";
-/// Bits of a representative's numbers: "16 bits rather than 8".
-const PRINTED_BITS: u8 = 16;
-const OPEN: &str = "what coding leaves open";
-/// Name of the setting that counts headers too.
-const HEADERS: &str = "16_bits_and_headers";
-
 /// Columns on a ground or without.
 struct TableRun {
     name: &'static str,
@@ -65,31 +56,19 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let stated = values(&runs[0].columns, 0, false);
     let mut rows: Vec<PaperRow> = Vec::new();
     for (at, name) in &figures {
-        let others = runs.iter().flat_map(|run| readings(&run.columns)).map(|setting| setting.1[*at]);
+        let others = runs.iter().flat_map(|run| readings(&run.columns)).map(|values| values[*at]);
         let mut row = solved(name, stated[*at])?.with_readings(others);
         if name == SHAPED {
-            row.standing = Standing::Calibrated { on: "this figure, which gave the Buddha his coat" };
+            row.dependence = Dependence::Calibrated { on: "this figure, which gave the Buddha his coat" };
         }
         rows.push(row);
     }
-    let mut tables = Vec::new();
-    for run in &runs {
-        tables.push(table(run));
-        let all = codings(&run.columns, |_| true);
-        let setting = |(at, values): (&str, Vec<f64>)| Setting {
-            at: at.to_owned(),
-            values: figures.iter().map(|(figure, _)| values[*figure]).collect(),
-        };
-        let sweep = Sweep { name: OPEN, parameter: "coding", settings: all.into_iter().map(setting).collect() };
-        let title = format!("Rows by coding, {}; the paper has 16 bits", run.name);
-        tables.push(sweep.table(&title, &rows, (None, |value| value)));
-    }
     let nearest = runs.each_ref().map(|run| most_met(&run.columns, &figures, &rows));
     rows.extend(ground.rows()?);
-    let bits = haar(&runs[0].columns)?;
-    rows.push(bits.0);
-    tables.extend([bits.1, by_representatives(&runs[0].columns), by_segment(&runs[0].columns)]);
     let found = &runs[0].columns;
+    let total = |bytes: fn(&CompressedModel) -> f64| found.iter().map(bytes).sum::<f64>();
+    rows.push(solved("ratio-haar", total(|model| model.raw) / total(|model| model.haar))?);
+    let [alone, on_ground] = runs.each_ref().map(table);
     let counts = || found.iter().map(|model| model.vertices as f64);
     let options = SegmentOptions::default();
     let side = number(f64::from(ground_side(shared.models)), 0);
@@ -102,12 +81,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         number(SAMPLED_SEGMENTS.len() as f64, 0),
     ];
     let met = nearest.map(|met| met.to_string());
-    let range = [PRINTED_BITS.to_string(), TABLE_1.len().to_string()].into_iter().chain(met);
+    let range = [BITS.to_string(), TABLE_1.len().to_string()].into_iter().chain(met);
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, numbers), Prose::new(GROUND, [side.clone(), side]), Prose::new(RANGE, range)],
+        text: vec![paragraph(HOW, numbers), paragraph(GROUND, [side.clone(), side]), paragraph(RANGE, range)],
         rows,
         questions: vec![QUESTION],
-        tables,
+        tables: vec![alone, on_ground, by_representatives(found), by_segment(found)],
         ..EntryFindings::default()
     })
 }
@@ -158,7 +137,7 @@ impl ComputedTable {
 struct CompressedGround {
     /// Share of its segments that hold transfer.
     omega: f64,
-    /// Coded bytes over raw ones, for each coding of 16 bits.
+    /// Coded bytes over raw ones, for each coding.
     left: Vec<f64>,
 }
 
@@ -167,8 +146,7 @@ impl CompressedGround {
     fn new(model: TableModel, diffuse: &Reflectance, shared: &Shared) -> Result<Self, StudyError> {
         let ground = ModelVisibility::on_ground(model, true, shared.models)?;
         let found = ground.compressed(diffuse, SegmentChoice::All, (shared, "ground"))?;
-        let open = CODINGS.iter().zip(&found.coded).filter(|(how, _)| how.bits == PRINTED_BITS);
-        Ok(Self { omega: found.omega, left: open.map(|(_, coded)| coded.numbers / found.raw).collect() })
+        Ok(Self { omega: found.omega, left: found.coded.iter().map(|coded| coded.numbers / found.raw).collect() })
     }
 
     /// Rows on raw and coded data of the printed vertices: all segments as in Table 1, decimal; or only those that hold
@@ -185,15 +163,9 @@ impl CompressedGround {
     }
 }
 
-/// Values of the rows by coding, of the codings that are wanted; at last those with headers.
-fn codings(found: &[CompressedModel], wanted: impl Fn(&Coding) -> bool) -> Vec<(&'static str, Vec<f64>)> {
-    let all = CODINGS.iter().enumerate().filter(|(_, how)| wanted(how));
-    all.map(|(at, how)| (how.name, values(found, at, false))).chain([(HEADERS, values(found, 0, true))]).collect()
-}
-
-/// Values of the rows by each reading of "16 bits".
-fn readings(found: &[CompressedModel]) -> Vec<(&'static str, Vec<f64>)> {
-    codings(found, |how| how.bits == PRINTED_BITS)
+/// Values of the rows by each reading of "16 bits": by coding, and at last with headers.
+fn readings(found: &[CompressedModel]) -> Vec<Vec<f64>> {
+    (0..CODINGS.len()).map(|at| values(found, at, false)).chain([values(found, 0, true)]).collect()
 }
 
 /// Most sizes after coding that one absolute step meets.
@@ -235,21 +207,6 @@ fn figures() -> Vec<(usize, String)> {
         }
     }
     found
-}
-
-/// Row of "roughly a factor of 10" without clusters, explained by the number of bits, which is not printed.
-fn haar(found: &[CompressedModel]) -> Result<(PaperRow, Table), StudyError> {
-    let raw: f64 = found.iter().map(|model| model.raw).sum();
-    let factor = |at: usize| raw / found.iter().map(|model| model.haar[at]).sum::<f64>();
-    let mut rows = [solved("ratio-haar", factor(0))?];
-    let settings = HAAR_BITS.iter().enumerate();
-    let settings = settings.map(|(at, bits)| Setting { at: bits.to_string(), values: vec![factor(at)] });
-    let sweep =
-        Sweep { name: "bits of Haar coefficients without clusters", parameter: "bits", settings: settings.collect() };
-    sweep.explain(&mut rows);
-    let table = sweep.table("Haar coefficients without clusters", &rows, (None, |value| value));
-    let [row] = rows;
-    Ok((row, table))
 }
 
 fn table(run: &TableRun) -> Table {

@@ -1,7 +1,7 @@
 //! Values of both tables that follow from sizes. The rows are expressions in `src/studies/papers`.
 
 use super::scenes::{PrintedScene, SCENES};
-use super::{EntryFindings, Prose, StudyError, number};
+use super::{EntryFindings, StudyError, number, paragraph};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
@@ -47,7 +47,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     }
     let bytes = [DENSE, PER_ROW, PER_ROW, PER_COLUMN, TEXEL_BYTES].map(|bytes| number(bytes, 0));
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, bytes)],
+        text: vec![paragraph(HOW, bytes)],
         questions: vec![QUESTION],
         tables: vec![table],
         ..EntryFindings::default()

@@ -3,7 +3,7 @@
 use super::display::{CARD, display};
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
-use super::{EntryFindings, Method, ModelSize, Prose, Shared, Standing, StudyError, number, paper_row, solved};
+use super::{Dependence, EntryFindings, Method, ModelSize, Shared, StudyError, number, paper_row, paragraph, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
@@ -45,14 +45,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let last = SIDES.len() - 1;
     let power = ln(seconds[last] / seconds[0]) / ln(SIDES[last] as f64 / SIDES[0] as f64);
-    let quadratic = (power, Standing::Predicted { from: "" });
+    let quadratic = (power, Dependence::Predicted { from: "" });
     let rows = vec![
         solved("biclusters-32", megabytes[last])?,
         paper_row("bi-scale/display-power", (CARD, Method::Pipeline), quadratic)?,
     ];
     let values = [vertices, of_paper, f64::from(PICTURE[0]), f64::from(PICTURE[1])].map(|value| number(value, 0));
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, values)],
+        text: vec![paragraph(HOW, values)],
         rows,
         questions: vec![QUESTION],
         tables: vec![table],

@@ -4,7 +4,7 @@ use super::display::{CARD, DisplayRun, display};
 use super::models::{BUNNY, ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{
-    Contradiction, EntryFindings, Method, PaperRow, Prose, Shared, Standing, StudyError, number, paper_row,
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph,
     printed_value, solved,
 };
 use crate::report::{Cell, Table};
@@ -85,7 +85,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ]);
     let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers.map(|value| number(value, 0)));
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, values)],
+        text: vec![paragraph(HOW, values)],
         rows,
         questions: vec![QUESTION],
         tables: vec![table(&printed, constant), of_display(&run)],
@@ -94,20 +94,20 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Result<PaperRow, StudyError> {
-    let standing = if is_of_table_1 {
-        Standing::Calibrated { on: "rates of table I" }
+    let dependence = if is_of_table_1 {
+        Dependence::Calibrated { on: "rates of table I" }
     } else {
-        Standing::Predicted { from: "rates of table I, operations, rates of views" }
+        Dependence::Predicted { from: "rates of table I, operations, rates of views" }
     };
     let ours = 1.0 / (1.0 / frames.rates[0] + frames.operations / constant);
-    paper_row(&frames.ids[1], (CARD, Method::Equation), (ours, standing))
+    paper_row(&frames.ids[1], (CARD, Method::Equation), (ours, dependence))
 }
 
 /// Rows on the views of the small bunny, whose rates in the two tables contradict each other.
 fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, StudyError> {
     let [one, two] = [&all[0], &all[IN_TABLE_1]];
     let row = |(frames, other): (&PrintedFrames, &PrintedFrames)| {
-        let ours = (run.time.per_second(), Standing::Predicted { from: "" });
+        let ours = (run.time.per_second(), Dependence::Predicted { from: "" });
         let row = paper_row(&frames.ids[0], (CARD, Method::Pipeline), ours)?;
         let how = format!("the same bunny on the same card in {}", other.place);
         let contradiction = Contradiction::between(&row.target, other.rates[0], &how);
@@ -118,7 +118,7 @@ fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, S
 
 /// Rows on "roughly comparable", and on the dominant cost.
 fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], StudyError> {
-    let from = Standing::Predicted { from: "rates of table I, operations" };
+    let from = Dependence::Predicted { from: "rates of table I, operations" };
     let comparable = (transfer / run.time.frame.seconds(), from);
     let biclusters = &shared.get::<ClusteredModel>(BUNNY)?.biclusters;
     let gathered = biclusters.row_entries() as f64;

@@ -48,6 +48,3 @@ pub(super) const SCENES: [PrintedScene; 6] = [
     PrintedScene::new("middle-bunny", "middle bunny", 8),
     PrintedScene::new("fine-bunny", "fine bunny", 8),
 ];
-
-/// Bunnies of Table II, of which the first is that of Table I.
-pub(super) const BUNNIES: [&PrintedScene; 3] = [&SCENES[0], &SCENES[4], &SCENES[5]];

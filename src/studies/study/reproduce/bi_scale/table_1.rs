@@ -2,7 +2,7 @@
 
 use super::models::{ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
-use super::{EntryFindings, ModelSize, PaperRow, Prose, Shared, Standing, StudyError, number, solved};
+use super::{Dependence, EntryFindings, ModelSize, PaperRow, Shared, StudyError, number, paragraph, solved};
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::built::flat_models::FlatModel;
@@ -51,7 +51,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         ]);
     }
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [number(f64::from(coarser), 0)])],
+        text: vec![paragraph(HOW, [number(f64::from(coarser), 0)])],
         rows,
         questions: vec![QUESTION],
         tables: vec![table],
@@ -68,7 +68,7 @@ fn scene_rows(scene: &PrintedScene, vertices: usize, found: &ClusteredModel) -> 
     let row = |what: &str, ours| solved(&format!("{what}-{}", scene.id), ours);
     let mut values = row("per-vertex", per_vertex(found, vertices))?;
     if scene.id == SHAPED {
-        values.standing = Standing::Calibrated { on: "this figure, which left out what is inside of the temple" };
+        values.dependence = Dependence::Calibrated { on: "this figure, which left out what is inside of the temple" };
     }
     Ok([values, row("left", found.operations_left())?])
 }

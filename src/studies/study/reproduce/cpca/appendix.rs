@@ -60,17 +60,3 @@ fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<V
     }
     Ok(rows)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A literal reading of "odd" and "even" in the text would give other values.
-    #[test]
-    fn odd_and_even_are_told_apart() {
-        let literal = error(EvenReflection, [ORDER, 8]).expect("errors");
-        let [worst, average] = ["odd-8-worst", "odd-8-average"]
-            .map(|id| super::super::printed_value(&format!("cpca/{id}")).expect("a figure"));
-        assert!(literal.worst < worst / 10.0 && literal.average < average / 10.0);
-    }
-}

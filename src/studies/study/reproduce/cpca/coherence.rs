@@ -1,24 +1,21 @@
-//! Figure 5 and the table of section 7: overdraw before and after the two optimisations of section 5.
+//! The table of section 7: overdraw before and after the two optimisations of section 5.
 
-use super::drawn::{BUDGET, COLUMN_IDS, COLUMNS, DrawnClusters};
-use super::figure_3::EYE;
+use super::drawn::{BUDGET, COLUMN_IDS, DrawnClusters};
 use super::mesh_cost::CARD;
 use super::rates::{INPUTS, rates, ratio_row};
-use super::signals::{BIRD, BUDDHA, ComputedSignal};
-use super::views::ModelView;
+use super::signals::{BIRD, BUDDHA};
 use super::{
-    Contradiction, EntryFindings, Method, PaperRow, Prose, REGISTERS, Shared, StudyError, number, printed,
+    Contradiction, EntryFindings, Method, PaperRow, REGISTERS, Shared, StudyError, number, paragraph, printed,
     printed_value, solved,
 };
-use crate::report::{Cell, PictureGrid, Table};
-use crate::sphere::HarmonicLight;
+use crate::report::{Cell, Table};
 
 /// Signal, its name, and the same in the names of its figures.
 const MODELS: [(usize, &str, &str); 2] = [(BUDDHA, "Buddha", "buddha"), (BIRD, "bird", "bird")];
 
 const HOW: &str = "Overdraw is the mean number of clusters, or superclusters, of a triangle's vertices. Reclassification may add {} % of the error; superclusters \
     fill {} registers, {} clusters each. \"sc+rec\" is reclassification, then superclusters. Our models have as many points per cluster as the paper's, so that \
-    clusters have as much of a border for their area. Pictures show the clusters as in Figure 5.";
+    clusters have as much of a border for their area.";
 const TIMES: &str = "Frames are timed on the {} from sizes, the printed overdraw, and the order of triangles in our models: products on the host, \
     constants, vertices, which a cache of finished ones spares; pixels take no time. Host and card work side by side.";
 const ORDER: &str = "the order of the authors' triangles: a good one runs half as many vertices as ours does.";
@@ -33,10 +30,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         "model original_printed original rec_printed rec sc_printed sc sc+rec_printed sc+rec added_error_% superclusters",
     );
     let (mut rows, mut originals) = (Vec::new(), Vec::new());
-    let mut grid = PictureGrid::new("Figure 5", COLUMNS);
-    let light = HarmonicLight::red_and_blue(5);
     for (at, name, id) in MODELS {
-        let computed = shared.get::<ComputedSignal>(at)?;
         let found = shared.get::<DrawnClusters>(at)?;
         let mut cells = Vec::new();
         for (how, ours) in COLUMN_IDS.into_iter().zip(found.overdraw) {
@@ -51,17 +45,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             rows.push(if (column, above) == (3, 2) { row } else { row.confined([0.0, 1.0], NEVER_MORE) });
         }
         originals.push(found.overdraw[0]);
-        let view = ModelView::new(computed, &light, EYE)?;
-        let mut pictures = Vec::new();
-        for (at, how) in COLUMNS.into_iter().enumerate() {
-            // What is drawn together, and its clusters: before reclassification or after it.
-            let (groups, clusters) = (&found.groups[at], &found.groups[at % 2]);
-            let drawn = if at < 2 { "clusters" } else { "superclusters, their clusters in shades," };
-            let caption = format!("{name}, {how}: {drawn} each in a color of its own");
-            let file = format!("cpca-figure-5-{name}-{}", how.replace('+', "-"));
-            pictures.push(view.groups((groups, clusters), (file, caption)));
-        }
-        grid = grid.row(name, pictures);
     }
     rows.push(solved("overdraw-bumpy-over-smooth", originals[0] / originals[1])?);
     let size = super::signals::SIGNALS[BIRD].size;
@@ -71,11 +54,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.extend(timed);
     rows.extend(faster);
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, figures.map(|figure| number(figure, 0))), Prose::new(TIMES, [CARD.to_owned()])],
+        text: vec![paragraph(HOW, figures.map(|figure| number(figure, 0))), paragraph(TIMES, [CARD.to_owned()])],
         rows,
         questions: vec![QUESTION, ORDER],
         tables: vec![table, frames],
-        pictures: vec![grid],
         ..EntryFindings::default()
     })
 }

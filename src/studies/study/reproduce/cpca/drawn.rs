@@ -17,8 +17,6 @@ pub(super) const COLUMN_IDS: [&str; 4] = ["original", "rec", "sc", "both"];
 pub(super) struct DrawnClusters {
     /// Triangles drawn per triangle of the mesh.
     pub(super) overdraw: [f64; 4],
-    /// Cluster or supercluster that each vertex is drawn with.
-    pub(super) groups: [Vec<u32>; 4],
     /// Error added by reclassification, relative to the squared error.
     pub(super) added_error: f64,
     /// Number of superclusters after reclassification.
@@ -41,12 +39,11 @@ impl DrawnClusters {
         };
         let (alone, _) = superclusters(clustering)?;
         let (both, count) = superclusters(&moved.clustering)?;
-        let groups = [clustering.of_point().to_vec(), moved.clustering.of_point().to_vec(), alone, both];
-        let drawn = groups.each_ref().map(|of_vertex| overdraw(triangles, of_vertex));
+        let groups = [clustering.of_point(), moved.clustering.of_point(), &alone, &both];
+        let drawn = groups.map(|of_vertex| overdraw(triangles, of_vertex));
         let whole = computed.error(clustering);
         Ok(Self {
             overdraw: drawn.map(|drawn| drawn as f64 / triangles.len() as f64),
-            groups,
             added_error: if whole > 0.0 { moved.added_error / whole } else { 0.0 },
             superclusters: count,
         })

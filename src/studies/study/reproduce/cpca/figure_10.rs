@@ -3,17 +3,14 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
 use super::shared::iterative;
 use super::signals::BIRD;
-use super::views::{ModelView, RED_AND_BLUE};
-use super::{EntryFindings, Prose, Shared, StudyError, number, printed, solved};
+use super::{EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
 use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
-use crate::report::{Cell, PictureGrid, Table};
-use crate::sphere::HarmonicLight;
+use crate::report::{Cell, Table};
 use crate::transfer::clustering::{Clustering, CpcaMethod};
 
 /// Name, printed clusters and vectors, and the figures of squared error and frames per second, in the order of the
@@ -64,27 +61,16 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     // The rate of both together is that of Table 1.
     rows.extend([rate_row("rate-pca", &times[0], OWN_INPUTS)?, rate_row("rate-vq", &times[1], OWN_INPUTS)?]);
-    let light = HarmonicLight::red_and_blue(5);
-    let view = ModelView::new(computed, &light, EYE)?;
-    let mut pictures = Vec::new();
-    for ((name, ..), clustering) in ENCODINGS.iter().zip(clusterings) {
-        pictures.push(view.picture(Some(clustering), format!("cpca-figure-10-{name}"), (*name).to_owned())?);
-    }
-    pictures.push(view.picture(None, "cpca-figure-10-uncompressed".to_owned(), "uncompressed".to_owned())?);
-    let columns = ["PCA, m_c = 1, n' = 20", "VQ, m_c = 1792, n' = 0", "CPCA, m_c = 256, n' = 8", "uncompressed"];
-    let light = view.light("cpca-figure-10", RED_AND_BLUE)?;
-    let grid = PictureGrid::new("Figure 10", columns).row("", pictures).row("", [light]);
     let stored = ENCODINGS.map(|(_, clusters, vectors, _)| {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
         number(size.stored_numbers() as f64 / 1e6, 2)
     });
     let sizes = [points, n].map(|count| number(count as f64, 0));
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, stored.into_iter().chain(sizes))],
+        text: vec![paragraph(HOW, stored.into_iter().chain(sizes))],
         rows,
         questions: vec![QUESTION],
         tables: vec![table],
-        pictures: vec![grid],
         ..EntryFindings::default()
     })
 }

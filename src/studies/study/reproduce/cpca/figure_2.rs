@@ -1,12 +1,12 @@
 //! Figure 2: squared error of static principal components by storage, a curve per number of vectors.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
-use super::{EntryChart, EntryFindings, Prose, Shared, StudyError, number, solved};
+use super::{EntryFindings, Shared, StudyError, number, paragraph, solved};
 use crate::cpca::on_card::model::TransferSize;
 use crate::elementary::ln;
-use crate::report::{Cell, Chart, Scale, Series, Table};
+use crate::report::{Cell, Table};
 
-/// Numbers of vectors, one per curve.
+/// Numbers of vectors, one per curve of the figure.
 const VECTORS: [usize; 6] = [0, 1, 2, 4, 8, 16];
 /// Minimum number of points per cluster: 48,668 points have up to 16 k clusters.
 const LEAST_POINTS: usize = 2;
@@ -14,7 +14,6 @@ const LEAST_POINTS: usize = 2;
 const HOW: &str = "{} points of diffuse transfer of order {} on our bird, with shadows; {} to {} clusters. Static principal components, whose \
     clusters do not depend on the number of vectors. The figure's axes are lost; its text says that each number of vectors is worse than the one before with few clusters and \
     becomes better with many. Curves are compared at equal storage, the one before interpolated between its points.";
-const CAPTION: &str = "Squared error of all points by numbers stored.";
 
 /// Storage and squared error for increasing numbers of clusters.
 type Curve = Vec<(f64, f64)>;
@@ -43,30 +42,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let [worse, better] = crossings(&curves);
     let last = counts.last().copied().unwrap_or(1);
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
+        text: vec![paragraph(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
         rows: vec![solved("curves-worse", worse as f64)?, solved("curves-better", better as f64)?],
         questions: vec!["the axes of the figure, which the scan has lost."],
         tables: vec![table],
-        charts: vec![EntryChart {
-            name: "cpca-figure-2",
-            chart: Chart {
-                title: "Static principal components".to_owned(),
-                x: "numbers stored".to_owned(),
-                y: "squared error".to_owned(),
-                x_scale: Scale::Logarithmic,
-                y_scale: Scale::Logarithmic,
-                lines: VECTORS.iter().zip(curves).map(line).collect(),
-                ..Chart::default()
-            },
-            caption: CAPTION.into(),
-        }],
         ..EntryFindings::default()
     })
-}
-
-fn line((vectors, points): (&usize, Curve)) -> Series {
-    let shown = points.into_iter().filter(|(_, error)| *error > 0.0).collect();
-    Series { label: format!("n' = {vectors}"), points: shown }
 }
 
 /// Number of curves that are above the previous one at the smallest common storage, and below it at the largest.

@@ -1,25 +1,21 @@
-//! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors, and the error per vertex.
+//! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
-use super::views::{ModelView, RED_AND_BLUE};
-use super::{EntryChart, EntryFindings, PaperRow, Prose, Shared, StudyError, number, solved};
+use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, solved};
 use crate::elementary::ln;
-use crate::report::{Cell, Chart, PictureGrid, Scale, Series, Table};
-use crate::sphere::HarmonicLight;
+use crate::report::{Cell, Table};
 use crate::transfer::clustering::CpcaMethod;
 
 /// Number of clusters of both figures.
 const CLUSTERS: usize = 256;
 /// Vectors of Figure 4, "n = 3".
 const FIGURE_4: usize = 3;
-/// Maximum number of vectors of the rows and the chart; static and iterative curves extend further, for comparison.
+/// Maximum number of vectors of the rows; static and iterative curves extend further, for comparison.
 const VECTORS: usize = 8;
 /// Number of vectors by which they extend further.
 const MORE: usize = 6;
 /// Maximum number of rounds of redistribution.
 const ROUNDS: usize = 20;
-/// Position of the eye, and the tangent of half the field of view.
-pub(super) const EYE: ([f32; 3], f32) = ([4.0, -3.0, 1.5], 0.3);
 
 const HOW: &str = "{} points of diffuse transfer of order {} in {} clusters. Vectors gained: how many more the simpler method needs for the same error, \
     interpolated by the logarithm of the error. Redistribution ends when nothing changes, or after {} rounds.";
@@ -59,12 +55,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let points = computed.signal.points();
     let figures = [points as f64, 5.0, clusters as f64, ROUNDS as f64].map(|figure| number(figure, 0));
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, figures)],
+        text: vec![paragraph(HOW, figures)],
         rows,
         questions: vec![QUESTION],
         tables: vec![table],
-        charts: vec![chart(&still, &iterative, &adaptive)],
-        pictures: vec![error_maps(computed, clusters)?],
         ..EntryFindings::default()
     })
 }
@@ -86,56 +80,6 @@ fn reaching(curve: &[f64], error: f64) -> f64 {
     let Some(at) = (1..curve.len()).find(|&at| curve[at] <= error) else { return (curve.len() - 1) as f64 };
     let [above, below] = [curve[at - 1], curve[at]];
     if above <= error { 0.0 } else { (at - 1) as f64 + ln(above / error) / ln(above / below) }
-}
-
-fn chart(still: &[f64], iterative: &[f64], adaptive: &[f64]) -> EntryChart {
-    let line = |label: &str, errors: &[f64]| Series {
-        label: label.to_owned(),
-        points: errors.iter().take(VECTORS + 1).enumerate().map(|(n, &error)| (n as f64, error)).collect(),
-    };
-    EntryChart {
-        name: "cpca-figure-3",
-        chart: Chart {
-            title: "Three ways to compress".to_owned(),
-            x: "vectors per cluster n'".to_owned(),
-            y: "squared error".to_owned(),
-            y_scale: Scale::Logarithmic,
-            lines: vec![line("static", still), line("iterative", iterative), line("adaptive", adaptive)],
-            ..Chart::default()
-        },
-        caption: "Adaptive: on average as many vectors.".into(),
-    }
-}
-
-/// Figure 4: the error of each vertex, relative to the largest of the static clustering, and in a second row the
-/// pictures.
-fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<PictureGrid, StudyError> {
-    let light = HarmonicLight::red_and_blue(5);
-    let view = ModelView::new(computed, &light, EYE)?;
-    let plain = view.colors(None)?;
-    let methods = [
-        ("static", CpcaMethod::Static),
-        ("iterative", CpcaMethod::Iterative),
-        ("adaptive", CpcaMethod::Adaptive { rounds: ROUNDS }),
-    ];
-    let mut largest = None;
-    let (mut pictures, mut rendered) = (Vec::new(), Vec::new());
-    for (name, method) in methods {
-        let clustering = computed.compressed_to(clusters, FIGURE_4, method)?;
-        let of = |point: usize| clustering.squared_error_of(point, &computed.signal);
-        let most = *largest.get_or_insert_with(|| (0..computed.signal.points()).map(of).fold(0.0, f64::max));
-        let caption = format!("{name}: error of each vertex, of the largest with static components; pale is large");
-        pictures.push(view.error_map(&clustering, most, (format!("cpca-figure-4-{name}"), caption)));
-        let error = 100.0 * view.difference(Some(&clustering), &plain, |_| true)?;
-        let squared = number(computed.error(&clustering), 3);
-        let caption = format!("{name}: squared error [{squared}], of the picture {} %", number(error, 2));
-        rendered.push(view.picture(Some(&clustering), format!("cpca-figure-4-{name}-rendered"), caption)?);
-    }
-    let plain = view.picture(None, "cpca-figure-4-uncompressed".to_owned(), "uncompressed".to_owned())?;
-    Ok(PictureGrid::new("Figure 4", ["static PCA", "iterative PCA", "adaptive PCA"])
-        .row("error per point", pictures)
-        .row("rendered", rendered)
-        .row("", [plain, view.light("cpca-figure-4", RED_AND_BLUE)?]))
 }
 
 #[cfg(test)]

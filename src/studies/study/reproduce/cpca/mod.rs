@@ -34,7 +34,6 @@ pub(super) use figure_9::findings as figure_9;
 pub(super) use figure_10::findings as figure_10;
 pub(super) use figure_11::findings as figure_11;
 pub(super) use section_6::findings as section_6;
-pub(super) use signals::full_size;
 pub(super) use table_1::findings as table_1;
 
 use mesh_cost::REGISTERS;
@@ -43,16 +42,16 @@ use signals::HOST;
 use super::error::failed;
 use super::shared::Shared;
 use super::{
-    Contradiction, EntryChart, EntryFindings, Method, ModelSize, PaperRow, Prose, Setting, Standing, StudyError, Sweep,
-    number, paper_row, printed, printed_value,
+    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperRow, StudyError, number, paper_row, paragraph,
+    printed, printed_value,
 };
 
 /// Row of a value that follows from the paper's equations alone.
 fn equation(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
-    paper_row(&format!("cpca/{id}"), (HOST, Method::Equation), (ours, Standing::Counted))
+    paper_row(&format!("cpca/{id}"), (HOST, Method::Equation), (ours, Dependence::Counted))
 }
 
 /// Row of a value that is computed in f64 and uses no printed one.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
-    paper_row(&format!("cpca/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))
+    paper_row(&format!("cpca/{id}"), (HOST, Method::Solver), (ours, Dependence::Counted))
 }

@@ -7,7 +7,7 @@ use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters};
 use super::mesh_cost::{CARD, MeshCost};
 use super::signals::SIGNALS;
 use super::{
-    Contradiction, HOST, Method, PaperRow, REGISTERS, Shared, Standing, StudyError, failed, paper_row, printed,
+    Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, Shared, StudyError, failed, paper_row, printed,
     printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
@@ -67,7 +67,7 @@ pub(super) fn rate_row(id: &str, time: &FrameTime, from: &'static str) -> Result
 
 /// Row on a rate, or a ratio of two, with its method.
 pub(super) fn ratio_row(id: &str, (method, ours): (Method, f64), from: &'static str) -> Result<PaperRow, StudyError> {
-    paper_row(&format!("cpca/{id}"), (CARD, method), (ours, Standing::Predicted { from }))
+    paper_row(&format!("cpca/{id}"), (CARD, method), (ours, Dependence::Predicted { from }))
 }
 
 /// Names of the two printed rates of the Buddha with anisotropic gloss: of Table 1, and of section 7 with both

@@ -1,7 +1,7 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{EntryFindings, Prose, REGISTERS, StudyError, number};
+use super::{EntryFindings, REGISTERS, StudyError, number, paragraph};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
@@ -11,7 +11,7 @@ const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 
 
 pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [number(4.0, 0)])],
+        text: vec![paragraph(HOW, [number(4.0, 0)])],
         tables: vec![sizes()],
         ..EntryFindings::default()
     })

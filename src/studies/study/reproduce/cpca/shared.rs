@@ -5,7 +5,6 @@ use super::mesh_cost::MeshCost;
 use super::signals::{ComputedSignal, SIGNALS};
 use super::{Shared, StudyError};
 use crate::scene::built::transfer_models::TransferModel;
-use crate::study::reproduce::full_size::FullModel;
 use crate::study::reproduce::shared::SharedResult;
 use crate::transfer::clustering::{Clustering, CpcaMethod};
 
@@ -49,7 +48,7 @@ impl SharedResult for DrawnClusters {
 impl SharedResult for MeshCost {
     type Key = TransferModel;
 
-    fn compute(&model: &TransferModel, shared: &Shared) -> Result<Self, StudyError> {
-        Self::new(shared.get(FullModel::Transfer(model))?)
+    fn compute(model: &TransferModel, _: &Shared) -> Result<Self, StudyError> {
+        Self::new(&model.mesh(1))
     }
 }

@@ -27,17 +27,12 @@ const BOUNCES: u32 = 2;
 /// Isotropic BRDF: the "glossy phong models" of Figure 8.
 const ISOTROPIC: Brdf = Brdf::Phong { albedo: 0.2, specular: 0.5, exponent: 10.0 };
 /// Anisotropic BRDF with a Fresnel factor (Figure 7).
-const ANISOTROPIC: Brdf = anisotropic(0.4);
+const ANISOTROPIC: Brdf = Brdf::Ward { albedo: 0.2, specular: 0.4, roughness: [0.2, 0.5] };
 const LAMBERT: Brdf = Brdf::Lambert { albedo: 0.8 };
 /// Scattering medium, for a marble statuette about 10 mm high: its triangles are smaller than the mean free path.
 const MEDIUM: &str = "marble";
 const MM_PER_UNIT: f64 = 4.0;
 const SOLID_ANGLE: f64 = 0.1;
-
-/// Anisotropic BRDF with another Fresnel reflectance at normal incidence.
-pub(super) const fn anisotropic(normal_incidence: f64) -> Brdf {
-    Brdf::Ward { albedo: 0.2, specular: normal_incidence, roughness: [0.2, 0.5] }
-}
 
 /// Reflection model of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,9 +86,9 @@ pub(super) const GLOSS_OF_FIGURE_9: PaperSignal =
 
 /// Index in [`SIGNALS`].
 pub(super) const GLOSSY_BUDDHA: usize = 0;
-pub(super) const TRANSLUCENT_BUDDHA: usize = 2;
 pub(super) const HEAD: usize = 5;
 pub(super) const BUDDHA: usize = 1;
+pub(super) const TRANSLUCENT_BUDDHA: usize = 2;
 pub(super) const BIRD: usize = 3;
 pub(super) const POLYGONS: usize = 6;
 pub(super) const DIFFUSE_BIRD: usize = 7;
@@ -119,12 +114,6 @@ impl PaperSignal {
     }
 }
 
-/// Parameters of runs at full size.
-pub(in crate::study::reproduce) fn full_size() -> String {
-    let degrees = SIGNALS.map(|signal| signal.degree(ModelSize::Printed));
-    format!("{SIGNALS:?} {GLOSS_OF_FIGURE_9:?} {degrees:?} {ITERATIONS} {VQ_ITERATIONS}")
-}
-
 /// Computed signal.
 pub(super) struct ComputedSignal {
     pub(super) paper: &'static PaperSignal,
@@ -147,23 +136,13 @@ impl ComputedSignal {
         exit: ExitRadiance,
         models: ModelSize,
     ) -> Result<Self, StudyError> {
-        Self::with_brdf(paper, paper.material.brdf(), exit, models)
-    }
-
-    /// Computes a signal with another BRDF and another projection.
-    pub(super) fn with_brdf(
-        paper: &'static PaperSignal,
-        brdf: Brdf,
-        exit: ExitRadiance,
-        models: ModelSize,
-    ) -> Result<Self, StudyError> {
         let fail = failed(HOST);
         let mesh = paper.model.mesh(paper.coarser(models));
         let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|e| fail(&e))?;
         let precomputation = Precomputation {
             mesh: &mesh,
             vertices: &vertices,
-            channels: vec![(0, vec![brdf])],
+            channels: vec![(0, vec![paper.material.brdf()])],
             exit,
             order: paper.size.columns.isqrt(),
             degree: paper.degree(models),

@@ -7,7 +7,7 @@ use super::mesh_cost::CARD;
 use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal};
 use super::shared::iterative;
 use super::signals::SIGNALS;
-use super::{EntryFindings, PaperRow, Prose, Shared, StudyError, number, printed, solved};
+use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, printed, solved};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
 use crate::transfer::clustering::CpcaMethod;
@@ -76,7 +76,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let [least, most] =
         [counts.iter().copied().fold(f64::INFINITY, f64::min), counts.iter().copied().fold(0.0, f64::max)];
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [number(least, 0), number(most, 0)]), Prose::new(TIMES, [CARD.to_owned()])],
+        text: vec![paragraph(HOW, [number(least, 0), number(most, 0)]), paragraph(TIMES, [CARD.to_owned()])],
         rows,
         questions: vec![QUESTION],
         tables: vec![table, times],

@@ -14,7 +14,7 @@ use strum::VariantArray as _;
 
 use super::Paper;
 use super::error::papers_error;
-use super::row::{Contradiction, Method, PaperFigure, PaperRow, Standing};
+use super::row::{Contradiction, Dependence, Method, PaperFigure, PaperRow};
 use crate::study::StudyError;
 
 static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
@@ -56,7 +56,7 @@ pub(super) fn value(id: &str) -> Result<f64, StudyError> {
 ///
 /// # Errors
 /// If there is no such figure, or if the data has a reason not to judge it.
-pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Standing)) -> Result<PaperRow, StudyError> {
+pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Dependence)) -> Result<PaperRow, StudyError> {
     let unjudged = || papers_error(&format!("the figure `{id}` is listed as not judged"));
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }
@@ -70,7 +70,7 @@ pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
     for figure in figures()? {
         let Some(equation) = figure.equation.as_ref().filter(|equation| equation.entry == entry) else { continue };
         let by = (equation.device.as_str(), Method::Equation);
-        let row = row(&figure.id, by, (equation.ours, equation.standing()))?;
+        let row = row(&figure.id, by, (equation.ours, equation.dependence()))?;
         let contradiction =
             equation.contradicts.as_ref().and_then(|how| Contradiction::between(figure, equation.ours, how));
         rows.push(row.with_readings(equation.readings.iter().copied()).contradicted(contradiction));

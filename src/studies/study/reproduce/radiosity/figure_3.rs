@@ -5,8 +5,8 @@ use crate::elementary::ln;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::radiosity::solve::{Options, Solution, Solver};
 use crate::radiosity::{FormFactors, Patches, Subdivision, System};
-use crate::report::{Cell, Chart, Scale, Series, Table};
-use crate::study::reproduce::{EntryChart, Method, PaperRow, Prose, Setting, Standing, Sweep, paper_row};
+use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
+use crate::study::reproduce::{Dependence, Method, PaperRow, Setting, Sweep, paper_row, paragraph};
 
 /// Number of patches; it hardly affects the rate of convergence.
 const CUT: usize = 400;
@@ -48,14 +48,14 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         both.push((jacobi, seidel));
     }
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [CONVERGED.to_string()])],
+        text: vec![paragraph(HOW, [CONVERGED.to_string()])],
         rows: vec![row(&both, late)?],
         questions: vec![
             "down to which residual the authors counted, and where their figure's axes begin and end: the text does not say.",
         ],
         tables: vec![table],
-        charts: vec![EntryChart {
-            name: "radiosity-figure-3",
+        charts: vec![NamedChart {
+            name: "radiosity-figure-3".into(),
             chart: Chart {
                 title: "Mean squared residual of M B - E, red".to_owned(),
                 x: "iterations".to_owned(),
@@ -75,7 +75,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
 fn row(channels: &[(Solution, Solution)], late: Vec<f64>) -> Result<PaperRow, StudyError> {
     let ratios = |share: f64| channels.iter().map(move |(jacobi, seidel)| ratio(jacobi, seidel, share));
     let first = ratios(CONVERGED).next().unwrap_or(f64::NAN);
-    let row = paper_row("radiosity/jacobi-over-gauss-seidel", ("-", Method::Solver), (first, Standing::Counted))?;
+    let row = paper_row("radiosity/jacobi-over-gauss-seidel", ("-", Method::Solver), (first, Dependence::Counted))?;
     let mut rows = [row.with_readings(ratios(CONVERGED).skip(1).chain(late))];
     let twice = rows[0].target.value;
     let farthest = |one: &f64, other: &f64| (one - twice).abs().total_cmp(&(other - twice).abs());

@@ -3,8 +3,8 @@
 use super::{CARD, EntryFindings, PATCHES, PrintedRates, Storage, StudyError, host, iteration, printed_value};
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
-use crate::report::{Cell, Chart, Scale, Series, Table};
-use crate::study::reproduce::{EntryChart, Method, PaperRow, Prose, Standing, number, paper_row};
+use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
+use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
 
 /// Numbers of patches; the card of the paper had textures of at most 2048 texels per side.
 const SIZES: [u32; 7] = [128, 256, 384, 512, 1024, 1540, 2048];
@@ -66,8 +66,8 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         rows: overtakes(&points)?.into_iter().collect(),
         questions: vec!["what would make the host's time grow faster than the bytes that it reads, as the authors' belief needs."],
         tables: vec![table(&points)],
-        charts: vec![EntryChart {
-            name: "radiosity-figure-4",
+        charts: vec![NamedChart {
+            name: "radiosity-figure-4".into(),
             chart,
             caption: "Figure 4 of the radiosity paper. Of its points only the printed rates are known, here at the inferred number of patches; the \
                       card's time is a straight line over the elements of the matrix, the host's bends upward where the matrix leaves its cache."
@@ -80,7 +80,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
 /// "We believe the GPU curve overtakes the CPU curve for matrices larger than 2000 elements".
 fn overtakes(points: &[Point]) -> Result<Option<PaperRow>, StudyError> {
     let Some(largest) = points.last() else { return Ok(None) };
-    let ours = (largest.host / largest.rgb, Standing::Predicted { from: "40 iterations/s of the host" });
+    let ours = (largest.host / largest.rgb, Dependence::Predicted { from: "40 iterations/s of the host" });
     paper_row("radiosity/host-over-card", (CARD, Method::Pipeline), ours).map(Some)
 }
 
@@ -121,7 +121,7 @@ const BELIEF: &str = "In this model the card overtakes the host {} with one texe
     above {} patches, if it does; from their printed rates the host's time would have to grow with the power {} of the number of patches between {} and \
     there, faster than the bytes that it reads.";
 
-fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<Prose>, StudyError> {
+fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<String>, StudyError> {
     let believed = printed_value("radiosity/crossing")?;
     let largest = points.last().map_or(0, |point| point.patches);
     let said = |card: fn(&Point) -> f64| match crossing(points, card) {
@@ -133,5 +133,5 @@ fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<Prose>
     let needed = ln(host.per_s / card.per_s * n * n) / ln(n);
     let figures =
         [said(|p| p.rgb), said(|p| p.luminance), number(believed, 0), number(needed, 1), number(f64::from(PATCHES), 0)];
-    Ok(vec![HOW.into(), Prose::new(BELIEF, figures)])
+    Ok(vec![HOW.into(), paragraph(BELIEF, figures)])
 }

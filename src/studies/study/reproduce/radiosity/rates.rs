@@ -7,7 +7,7 @@ use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::error::figure;
-use crate::study::reproduce::{Method, PaperRow, Prose, Standing, number, paper_row};
+use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
 
 /// Numbers of patches that are compared: six full blocks; six sides of 16 x 16; the four consistent with both pairs of
 /// rates, with their neighbours; a round number.
@@ -36,7 +36,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let width = profile_width()?;
     Ok(EntryFindings {
         text: vec![
-            Prose::new(
+            paragraph(
                 HOW,
                 [
                     number(printed[0].mflops / printed[0].per_s, 2),
@@ -46,7 +46,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
                     CARD.to_owned(),
                 ],
             ),
-            Prose::new(
+            paragraph(
                 WHERE,
                 [number(texel, 0), number(width, 0), number(texel / width, 0), number(100.0 * paper.filled, 0)],
             ),
@@ -68,10 +68,10 @@ fn profile_width() -> Result<f64, StudyError> {
 }
 
 fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<PaperRow>, StudyError> {
-    let calibrated = Standing::Calibrated { on: CHOSE_N };
-    let predicted = Standing::Predicted { from: HOST_CHOSE_N };
+    let calibrated = Dependence::Calibrated { on: CHOSE_N };
+    let predicted = Dependence::Predicted { from: HOST_CHOSE_N };
     let of_host =
-        (1.0 / host::iteration(PATCHES)?, Standing::Calibrated { on: "this figure, which sets what memory costs" });
+        (1.0 / host::iteration(PATCHES)?, Dependence::Calibrated { on: "this figure, which sets what memory costs" });
     // The paper's own arithmetic: operations per iteration, times its rate.
     let (jacobi, gauss_seidel) = (model::mflops(PATCHES, card.per_s), model::mflops(PATCHES, host.per_s));
     Ok(vec![

@@ -26,7 +26,7 @@ pub(super) struct Run {
 impl Run {
     /// Submits the bundles to an engine, one after the other, and finishes once at the end: secondary rays enter the
     /// cache while others still wait in it, as with a renderer that continues with any available results.
-    pub(super) fn of(work: &Workload, parameters: EngineParameters) -> Result<Self, StudyError> {
+    pub(super) fn new(work: &Workload, parameters: EngineParameters) -> Result<Self, StudyError> {
         let parameters = EngineParameters { octree: OCTREE, record: true, sides: Sides::Both, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
         for bundle in &work.bundles {

@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 
 use super::pipeline::model;
-use super::{EntryFindings, Method, Prose, Standing, StudyError, figure, number, paper_row, pipeline, printed};
+use super::{Dependence, EntryFindings, Method, StudyError, figure, number, paper_row, paragraph, pipeline, printed};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Table};
 
@@ -41,13 +41,13 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         let drawn = pipeline::dual_textured(device)?.pixels_per_s() / MEGA;
         worked.push(line(id, device, [rates(device)?.fill_pixels_per_s / MEGA, drawn])?);
         if device == "nv20" {
-            rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Standing::Predicted { from: "" }))?);
+            rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Dependence::Predicted { from: "" }))?);
         }
     }
     for (device, id) in CARDS.into_iter().zip(TEN_TRIANGLES) {
         let drawn = pipeline::tests_per_s(device, TEN, GAMMAS[0])? / MEGA;
         worked.push(line(id, device, [rates(device)?.tests_per_s(TEN, GAMMAS[0]) / MEGA, drawn])?);
-        rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Standing::Predicted { from: READ_BACK }))?);
+        rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Dependence::Predicted { from: READ_BACK }))?);
     }
     let pixel = pipeline::dual_textured("nv20")?;
     let bytes =
@@ -59,7 +59,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
              A printed figure has one row: that of the pipeline where it is drawn, and of the equation where it is a quotient of \
              printed values; the table has both."
                 .into(),
-            Prose::new(
+            paragraph(
                 "The pipeline model knows neither fill rate, but reads back at the printed rate. It draws screen-filling quads with two textures of \
                  the screen's size (each texel read once a quad), a depth test and depth and colour writes, and finds {} the \
                  narrowest place: {} bytes a pixel.",

@@ -2,9 +2,9 @@
 //! host.
 
 use super::equation_11::{CARDS, GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
-use super::{EntryChart, EntryFindings, Prose, StudyError, pipeline, printed_value};
+use super::{EntryFindings, StudyError, pipeline, printed_value};
 use crate::ray_engine::model::CostRates;
-use crate::report::{Cell, Chart, Series, Table};
+use crate::report::{Cell, Chart, NamedChart, Series, Table};
 
 /// Names of the cards in the figure.
 const NAMES: [&str; 2] = ["GeForce3", "GeForce4 Ti4600"];
@@ -68,12 +68,12 @@ fn line(label: String, card: &CostRates, gamma: f64) -> Series {
     Series { label, points: std::iter::once((0.0, 0.0)).chain((1..=PLOTTED).map(point)).collect() }
 }
 
-fn chart(gamma: f64, lines: Vec<Series>) -> Result<EntryChart, StudyError> {
+fn chart(gamma: f64, lines: Vec<Series>) -> Result<NamedChart, StudyError> {
     // The text gives the points for the id alone.
     let shown = if gamma == GAMMAS[0] { &TEN_TRIANGLES[..] } else { &[] };
     let printed = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, StudyError>>()?;
-    Ok(EntryChart {
-        name: if gamma == GAMMAS[0] { "ray-engine-figure-7-gamma-4" } else { "ray-engine-figure-7-gamma-16" },
+    Ok(NamedChart {
+        name: format!("ray-engine-figure-7-gamma-{gamma}"),
         chart: Chart {
             title: format!("Ray-triangle tests, {gamma} bytes read back a ray"),
             x: "triangles T".to_owned(),
@@ -82,6 +82,6 @@ fn chart(gamma: f64, lines: Vec<Series>) -> Result<EntryChart, StudyError> {
             printed,
             ..Chart::default()
         },
-        caption: Prose::new("Figure 7 of the Ray Engine paper for gamma = {}, in both models.", [gamma.to_string()]),
+        caption: format!("Figure 7 of the Ray Engine paper for gamma = {gamma}, in both models."),
     })
 }

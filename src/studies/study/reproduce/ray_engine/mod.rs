@@ -39,6 +39,6 @@ use stated::{QUESTION, RATE, commands, how, speed_up};
 use super::error::{failed, figure, no_time};
 use super::shared::{Shared, SharedResult};
 use super::{
-    EntryChart, EntryFindings, Method, ModelSize, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number,
-    paper_row, printed, printed_value,
+    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row, paragraph, printed,
+    printed_value,
 };

@@ -6,7 +6,8 @@ use refsim::machine::ExecutorKind;
 use super::equation_11::MEGA;
 use super::pipeline::{TimedDraw, model, timed};
 use super::{
-    EntryFindings, Method, PaperRow, Prose, Standing, StudyError, failed, figure, number, paper_row, printed_value,
+    Dependence, EntryFindings, Method, PaperRow, StudyError, failed, figure, number, paper_row, paragraph,
+    printed_value,
 };
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
@@ -38,7 +39,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         pipes * figure(&profile, "rates.core_clock_hz", rates.core_clock_hz)? / (printed_value(PRINTED)? * MEGA);
     let side = || SIDE.to_string();
     Ok(EntryFindings {
-        text: vec![Prose::new(PAIRS, [side(), side(), number(pipes, 0), number(clocks, 2)])],
+        text: vec![paragraph(PAIRS, [side(), side(), number(pipes, 0), number(clocks, 2)])],
         rows: vec![row],
         questions: vec![
             "how long the authors' program was, and whether its rays shared an origin: it is not printed.",
@@ -79,9 +80,9 @@ fn kernels() -> Result<(PaperRow, Table), StudyError> {
         ]);
         rates.push(rate);
     }
-    let standing = Standing::Calibrated { on: "this figure, which chose one pair a clock for r200, not two" };
+    let dependence = Dependence::Calibrated { on: "this figure, which chose one pair a clock for r200, not two" };
     let any_origin = rates.pop().unwrap_or(f64::NAN);
-    let row = paper_row(PRINTED, (DEVICE, Method::Pipeline), (any_origin, standing))?.with_readings(rates);
+    let row = paper_row(PRINTED, (DEVICE, Method::Pipeline), (any_origin, dependence))?.with_readings(rates);
     Ok((row, slots))
 }
 

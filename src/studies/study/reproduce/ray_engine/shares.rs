@@ -1,7 +1,7 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two interpretations.
 
 use super::workload::TIMES;
-use super::{Method, PaperRow, Setting, Standing, StudyError, Sweep, paper_row, printed};
+use super::{Dependence, Method, PaperRow, Setting, StudyError, Sweep, paper_row, printed};
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
 
@@ -22,7 +22,7 @@ pub(super) type Share<'a> = (&'static str, &'a EngineCounts);
 /// Rows by the first interpretation, explained by the second where that reaches them, and a table of both.
 pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let row = |&(id, counts): &Share<'_>| {
-        paper_row(id, (TIMES, Method::Engine), (100.0 * READINGS[0].1(counts), Standing::Counted))
+        paper_row(id, (TIMES, Method::Engine), (100.0 * READINGS[0].1(counts), Dependence::Counted))
     };
     let mut rows: Vec<PaperRow> = shares.iter().map(row).collect::<Result<_, _>>()?;
     let setting = |(at, of): (&str, Reading)| Setting {

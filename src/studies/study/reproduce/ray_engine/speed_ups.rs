@@ -7,7 +7,7 @@ use super::engine_run::{Commands, Run};
 use super::teapot::{TeapotRoom, Variant};
 use super::workload::TIMES;
 use super::{
-    Method, PaperRow, RATE, Shared, SharedResult, Standing, StudyError, Sweep, commands, paper_row, speed_up, sweeps,
+    Dependence, Method, PaperRow, RATE, Shared, SharedResult, StudyError, Sweep, commands, paper_row, speed_up, sweeps,
 };
 use crate::ray_engine::engine::Readback;
 use crate::report::{Cell, Table};
@@ -47,13 +47,17 @@ pub(crate) struct SpeedUps {
 
 impl SpeedUps {
     /// Lines of a table.
-    pub(super) fn of(&self, place: &'static str) -> Vec<&SpeedUpRun> {
+    pub(super) fn lines_of(&self, place: &'static str) -> Vec<&SpeedUpRun> {
         self.lines.iter().filter(|line| line.place == place).collect()
     }
 
     /// Rows of the figures that are printed first in this table.
     pub(super) fn rows(&self, place: &'static str) -> Vec<PaperRow> {
-        self.of(place).into_iter().filter(|line| line.row.target.place == place).map(|line| line.row.clone()).collect()
+        self.lines_of(place)
+            .into_iter()
+            .filter(|line| line.row.target.place == place)
+            .map(|line| line.row.clone())
+            .collect()
     }
 
     /// Table of all rows under each setting of a sweep, as speed-ups.
@@ -123,8 +127,8 @@ fn work_out(room: &TeapotRoom) -> Result<SpeedUps, StudyError> {
 
 /// First row of Tables 3 to 5, which calibrates the host's scale.
 pub(super) fn host_alone(room: &TeapotRoom) -> Result<PaperRow, StudyError> {
-    let standing = Standing::Calibrated { on: "this figure" };
-    paper_row("ray-engine/host-alone", (TIMES, Method::Engine), (room.work.alone.rays_per_s(&room.host), standing))
+    let dependence = Dependence::Calibrated { on: "this figure" };
+    paper_row("ray-engine/host-alone", (TIMES, Method::Engine), (room.work.alone.rays_per_s(&room.host), dependence))
 }
 
 const COLUMNS: &str = "run printed_rays_per_s ours_rays_per_s printed_% ours_% points_off ours_if_commands_were_free_% \

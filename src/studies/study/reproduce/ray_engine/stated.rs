@@ -5,10 +5,10 @@ use refsim::timing::queue::QueueFigures;
 
 use super::engine_run::Commands;
 use super::teapot::TeapotRoom;
-use super::{Prose, Standing, number};
+use super::{Dependence, number, paragraph};
 
 /// Inputs of every predicted rate.
-pub(super) const RATE: Standing = Standing::Predicted {
+pub(super) const RATE: Dependence = Dependence::Predicted {
     from: "135,812 rays/s of the host alone (the host's scale), 286 M/s at ten triangles (the card's fill rate), 250 MB/s (read-back)",
 };
 
@@ -25,9 +25,9 @@ const HOW: &str = "The teapot room is rendered after Whitted at {} x {} pixels, 
     the one figure that is calibrated. Draws take the GeForce4's fill rate, read-backs its bus, commands the guesses of every timeline.";
 
 /// Description of the computation of Tables 3 to 5.
-pub(super) fn how(room: &TeapotRoom) -> Prose {
+pub(super) fn how(room: &TeapotRoom) -> String {
     let side = || number(f64::from(room.side), 0);
-    Prose::new(HOW, [side(), side(), number(HOST_ALONE, 0)])
+    paragraph(HOW, [side(), side(), number(HOST_ALONE, 0)])
 }
 
 /// Speed-up over the host alone, in per cent.

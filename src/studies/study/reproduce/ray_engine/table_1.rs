@@ -7,12 +7,9 @@ use rayon::prelude::*;
 use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::{TeapotRoom, Variant};
-use super::workload::{CLASSICAL_TEAPOT, Job, JobRenderer, TIMES};
-use super::{
-    EntryChart, EntryFindings, Method, ModelSize, PaperRow, QUESTION, RATE, Shared, StudyError, commands, paper_row,
-    printed, printed_value,
-};
-use crate::report::{Cell, Chart, NamedPicture, PictureGrid, Series, Table};
+use super::workload::{Job, JobRenderer, TIMES};
+use super::{EntryFindings, Method, PaperRow, QUESTION, RATE, Shared, StudyError, commands, paper_row, printed};
+use crate::report::{Cell, NamedChart, Table};
 
 /// Line of both tables, with the names of its printed figures.
 struct PrintedScene {
@@ -71,9 +68,6 @@ const SCENES: [PrintedScene; 5] = [
     },
 ];
 
-/// Samples per pixel of the pictures, relative to those of the renderings that are counted.
-const SAMPLES: u32 = 4;
-
 const HOW: &str = "Five renderings as in Table 1, of scenes with as many polygons, on the host that Table 3 calibrates. Nothing of the scenes, pictures and \
     octrees is printed; the paper's first row has an octree tuned by hand, ours has the one of all runs.";
 
@@ -95,7 +89,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let others = SCENES.par_iter().filter_map(|scene| Some((scene, scene.job?)));
     let others = others.map(|(scene, job)| {
         let work = job.workload()?;
-        let run = Run::of(&work, Variant { rays: scene.rays, ..Variant::PLUS_CARD }.parameters())?;
+        let run = Run::new(&work, Variant { rays: scene.rays, ..Variant::PLUS_CARD }.parameters())?;
         Ok((run, work.mesh.len(), work.alone))
     });
     let others: Vec<_> = others.collect::<Result<_, StudyError>>()?;
@@ -115,39 +109,18 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (share_rows, readings) = shares::rows(&shares, "Table 2")?;
     rows.extend(share_rows);
     let ticks = SCENES.each_ref().map(|scene| scene.tick);
-    let pictures = (1..).zip(&SCENES).map(|(row, scene)| picture(row, scene, shared.models));
-    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
-    // The table has the floor's view from the top before that from the side.
-    let in_figure = [0, 1, 2, 4, 3].map(|at| pictures[at].clone());
-    let columns =
-        ["(a) teapot, ray traced", "(b) teapot, Monte Carlo", "(c) office", "(d) floor, side", "(e) floor, top"];
-    let pictures = PictureGrid::new("Figure 6", columns).row("", in_figure);
     Ok(EntryFindings {
-        pictures: vec![pictures],
         text: vec![HOW.into(), READINGS.into()],
         rows,
         questions: vec![QUESTION],
         tables: vec![table(&ran)?, readings],
-        charts: vec![
-            EntryChart {
-                name: "ray-engine-table-1",
-                chart: rates_chart(&ran, &ticks)?,
-                caption: "Rays a second of the five rows of Table 1.".into(),
-            },
-            EntryChart {
-                name: "ray-engine-table-2",
-                chart: shares::chart(&shares, &ticks, "Share of rays on the card")?,
-                caption: "Table 2, and both readings of our runs.".into(),
-            },
-        ],
+        charts: vec![NamedChart {
+            name: "ray-engine-table-2".into(),
+            chart: shares::chart(&shares, &ticks, "Share of rays on the card")?,
+            caption: "Table 2, and both readings of our runs.".into(),
+        }],
         ..EntryFindings::default()
     })
-}
-
-/// Picture of a row's scene, by its renderer.
-fn picture(row: usize, scene: &PrintedScene, models: ModelSize) -> Result<NamedPicture, StudyError> {
-    let image = scene.job.unwrap_or(CLASSICAL_TEAPOT).picture(models.picture_side(), SAMPLES)?;
-    Ok(NamedPicture::new(format!("ray-engine-table-1-scene-{row}"), image, scene.tick))
 }
 
 fn rates(ran: &[SceneRun]) -> Result<Vec<PaperRow>, StudyError> {
@@ -155,23 +128,6 @@ fn rates(ran: &[SceneRun]) -> Result<Vec<PaperRow>, StudyError> {
         paper_row(scene.rate, (TIMES, Method::Engine), (ran.rays_per_s, RATE))
     };
     SCENES.iter().zip(ran).map(row).collect()
-}
-
-fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Result<Chart, StudyError> {
-    let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value / 1000.0)).collect();
-    let dots = |label: &str, values: Vec<f64>| Series { label: label.to_owned(), points: points(values) };
-    let stated = SCENES.iter().map(|scene| printed_value(scene.rate)).collect::<Result<_, _>>()?;
-    Ok(Chart {
-        title: "Rays a second".to_owned(),
-        y: "thousand rays/s".to_owned(),
-        ticks: ticks.iter().map(ToString::to_string).collect(),
-        dots: vec![
-            dots("ours", ran.iter().map(|ran| ran.rays_per_s).collect()),
-            dots("ours, host alone", ran.iter().map(|ran| ran.alone_rays_per_s).collect()),
-        ],
-        printed: points(stated),
-        ..Chart::default()
-    })
 }
 
 fn table(ran: &[SceneRun]) -> Result<Table, StudyError> {

@@ -3,11 +3,9 @@
 
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
 use super::teapot::TeapotRoom;
-use super::workload::TIMES;
-use super::{
-    EntryChart, EntryFindings, Method, PaperRow, Prose, QUESTION, RATE, Shared, StudyError, how, number, paper_row,
-};
-use crate::report::{Chart, Series};
+use super::workload::{OCTREE as OCTREE_OF_ALL, TIMES};
+use super::{EntryFindings, Method, PaperRow, QUESTION, RATE, Shared, StudyError, how, number, paper_row, paragraph};
+use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 3";
 
@@ -19,7 +17,7 @@ const OCTREE: &str = "The octree of the host alone decides more than anything el
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
-    let lines = found.of(PLACE);
+    let lines = found.lines_of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), passes(&lines), octree(found)],
         rows: std::iter::once(host_alone(room)?).chain(found.rows(PLACE)).chain([readback(&lines)?]).collect(),
@@ -31,12 +29,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             table(room, &lines, PLACE)?,
             found.table(&found.host_leaf, "Speed-ups by the leaves of the octree of the host alone"),
         ],
-        charts: vec![EntryChart {
-            name: "ray-engine-host-octree",
+        charts: vec![NamedChart {
+            name: "ray-engine-host-octree".into(),
             chart: chart(found, &lines),
-            caption: Prose::new(
+            caption: format!(
                 "Speed-ups of Table 3 by the leaves of the octree of the host alone; what is printed stands at the {} of our rows.",
-                [super::workload::OCTREE.most_triangles.to_string()],
+                OCTREE_OF_ALL.most_triangles,
             ),
         }],
         ..EntryFindings::default()
@@ -51,15 +49,15 @@ fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, StudyError> {
 }
 
 /// Paragraph on the time per pass implied by the printed values and ours.
-fn passes(lines: &[&SpeedUpRun]) -> Prose {
+fn passes(lines: &[&SpeedUpRun]) -> String {
     let us = |rays_per_s: f64| 1e6 / rays_per_s;
-    let [plus, asynchronous, fast] = lines else { return Prose::from("") };
+    let [plus, asynchronous, fast] = lines else { return String::new() };
     let counts = &plus.run.counts;
     let a_pass = counts.rays as f64 / counts.passes as f64;
     let of = |of: fn(&SpeedUpRun) -> f64| [fast, asynchronous].map(|other| (us(of(plus)) - us(of(other))) * a_pass);
     let ([printed_all, printed_wait], [our_all, our_wait]) =
         (of(|line| line.row.target.value), of(|line| line.row.ours));
-    Prose::new(
+    paragraph(
         "A pass takes {} of our rays, each of which meets the card {} times. By this count the printed figures leave {} us for a pass, {} us of \
          which asynchronous read-back saves; ours are {} us and {} us.",
         [
@@ -74,14 +72,14 @@ fn passes(lines: &[&SpeedUpRun]) -> Prose {
 }
 
 /// Paragraph on the largest step of the sweep, of its last row: the infinitely fast card.
-fn octree(found: &SpeedUps) -> Prose {
+fn octree(found: &SpeedUps) -> String {
     let settings = found.under(&found.host_leaf, PLACE);
     let fast = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);
     let step = |two: &&[(String, Vec<f64>)]| fast(&two[1].1) - fast(&two[0].1);
     let largest = settings.windows(2).max_by(|a, b| step(a).total_cmp(&step(b)));
-    let Some([(from, low), (to, high)]) = largest else { return Prose::from("") };
-    let stated = super::workload::OCTREE.most_triangles.to_string();
-    Prose::new(OCTREE, [from.clone(), to.clone(), number(fast(low), 0), number(fast(high), 0), stated])
+    let Some([(from, low), (to, high)]) = largest else { return String::new() };
+    let stated = OCTREE_OF_ALL.most_triangles.to_string();
+    paragraph(OCTREE, [from.clone(), to.clone(), number(fast(low), 0), number(fast(high), 0), stated])
 }
 
 fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
@@ -90,7 +88,7 @@ fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
         label: line.name.to_owned(),
         points: settings.iter().filter_map(|(at, values)| Some((at.parse().ok()?, values[i]))).collect(),
     };
-    let stated = super::workload::OCTREE.most_triangles as f64;
+    let stated = OCTREE_OF_ALL.most_triangles as f64;
     Chart {
         title: "Speed-up over the host alone".to_owned(),
         x: "triangles in a leaf of the octree of the host alone".to_owned(),

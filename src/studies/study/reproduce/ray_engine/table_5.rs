@@ -4,9 +4,9 @@ use super::engine_run::Run;
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::teapot::{TeapotRoom, Variant};
 use super::{
-    EntryChart, EntryFindings, Method, PaperRow, Prose, QUESTION, Shared, Standing, StudyError, how, number, paper_row,
+    Dependence, EntryFindings, Method, PaperRow, QUESTION, Shared, StudyError, how, number, paper_row, paragraph,
 };
-use crate::report::{Chart, Series};
+use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 5";
 
@@ -18,7 +18,7 @@ const FILL: &str = "Section 5.3 says how full the buckets of the ray tree typica
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
-    let lines = found.of(PLACE);
+    let lines = found.lines_of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), size(&lines), FILL.into()],
         rows: found.rows(PLACE).into_iter().chain(fill(room)?).collect(),
@@ -30,8 +30,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             table(room, &lines, PLACE)?,
             found.table(&found.commands, "Speed-ups by a factor on the costs of all commands"),
         ],
-        charts: vec![EntryChart {
-            name: "ray-engine-table-5",
+        charts: vec![NamedChart {
+            name: "ray-engine-table-5".into(),
             chart: chart(found, &lines),
             caption: "Table 5, with the costs of commands as stated and more.".into(),
         }],
@@ -43,14 +43,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 fn fill(room: &TeapotRoom) -> Result<[PaperRow; 2], StudyError> {
     let means = Run::fill_of(&room.work, Variant::PLUS_CARD.parameters())?;
     let filled = 100.0 * means.iter().sum::<f64>() / means.len().max(1) as f64;
-    let row = |id: &str, ours: f64| paper_row(id, ("host", Method::Engine), (ours, Standing::Counted));
+    let row = |id: &str, ours: f64| paper_row(id, ("host", Method::Engine), (ours, Dependence::Counted));
     Ok([row("ray-engine/buckets-least", filled)?, row("ray-engine/buckets-free", 100.0 - filled)?])
 }
 
-fn size(lines: &[&SpeedUpRun]) -> Prose {
+fn size(lines: &[&SpeedUpRun]) -> String {
     let forced = |line: &SpeedUpRun| number(line.run.counts.forced_rays as f64 / line.run.counts.rays as f64, 2);
-    let (Some(first), Some(last)) = (lines.first(), lines.last()) else { return Prose::from("") };
-    Prose::new(SIZE, [forced(first), first.name.to_owned(), forced(last), last.name.to_owned()])
+    let (Some(first), Some(last)) = (lines.first(), lines.last()) else { return String::new() };
+    paragraph(SIZE, [forced(first), first.name.to_owned(), forced(last), last.name.to_owned()])
 }
 
 fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {

@@ -75,7 +75,7 @@ impl TeapotRoom {
         }
         // One thread per engine; the runs are independent.
         let work = &self.work;
-        let run = |variant: Variant| Ok((Run::of(work, variant.parameters())?, variant));
+        let run = |variant: Variant| Ok((Run::new(work, variant.parameters())?, variant));
         let made: Vec<(Run, Variant)> = missing.into_par_iter().map(run).collect::<Result<_, StudyError>>()?;
         self.runs.borrow_mut().extend(made.into_iter().map(|(run, variant)| (variant, Rc::new(run))));
         Ok(wanted.iter().filter_map(|variant| self.known(variant)).collect())

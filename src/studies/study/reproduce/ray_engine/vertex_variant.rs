@@ -5,7 +5,9 @@ use refsim::machine::{ExecutorKind, Machine};
 
 use super::equation_11::MEGA;
 use super::pipeline::{model, timed};
-use super::{EntryFindings, Method, Prose, Standing, StudyError, failed, figure, number, paper_row, printed_value};
+use super::{
+    Dependence, EntryFindings, Method, StudyError, failed, figure, number, paper_row, paragraph, printed_value,
+};
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::{Cell, Table};
@@ -63,10 +65,10 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         rates.push(rate);
     }
     let [first, others @ ..] = &rates[..] else { return Ok(EntryFindings::default()) };
-    let ours = (*first, Standing::Predicted { from: "" });
+    let ours = (*first, Dependence::Predicted { from: "" });
     let row = paper_row(PRINTED, (DEVICES[0], Method::Pipeline), ours)?.with_readings(others.iter().copied());
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, seen.into_iter().flatten())],
+        text: vec![paragraph(HOW, seen.into_iter().flatten())],
         rows: vec![row],
         questions: vec![
             "which card it was, how long the program was, and whether a test was one vertex (a point) or three (a triangle).",

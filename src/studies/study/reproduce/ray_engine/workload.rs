@@ -6,10 +6,8 @@ use super::{StudyError, failed};
 use crate::error::InputError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
-use crate::picture::RgbImage;
 use crate::renderer::{RenderedPicture, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
-use crate::study::prt::{auto_exposure, linear_picture};
 use crate::tracer::octree::OctreeParameters;
 use crate::tracer::{self, CastError, Caster, HostTracer};
 
@@ -62,7 +60,7 @@ impl Workload {
         for bundle in &self.bundles {
             cost += tracer.nearest_all(bundle).1;
         }
-        HostOnly::of(&cost)
+        HostOnly::new(&cost)
     }
 }
 
@@ -85,23 +83,14 @@ impl Caster for Recording {
 impl Job {
     /// Runs the renderer and records its workload.
     pub(super) fn workload(&self) -> Result<Workload, StudyError> {
-        let (scene, camera) = self.scene_and_camera(self.side)?;
+        let (scene, camera) = self.scene_and_camera()?;
         let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
         let mut recording = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
-        self.render(&scene, &camera, &mut recording, 1).map_err(|e| failed(TIMES)(&e))?;
-        Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::of(&recording.cost) })
+        self.render(&scene, &camera, &mut recording).map_err(|e| failed(TIMES)(&e))?;
+        Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::new(&recording.cost) })
     }
 
-    /// Renders a picture to look at by rays of the host, with `samples` times the job's samples per pixel.
-    pub(super) fn picture(&self, side: u32, samples: u32) -> Result<RgbImage, StudyError> {
-        let (scene, camera) = self.scene_and_camera(side)?;
-        let mut tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
-        let rendered = self.render(&scene, &camera, &mut tracer, samples).map_err(|e| failed(TIMES)(&e))?;
-        let exposure = auto_exposure(&rendered.color);
-        linear_picture(&camera, &rendered.color).display(exposure).map_err(|e| failed(TIMES)(&e))
-    }
-
-    fn scene_and_camera(&self, side: u32) -> Result<(Scene, Camera), StudyError> {
+    fn scene_and_camera(&self) -> Result<(Scene, Camera), StudyError> {
         let fail = failed(TIMES);
         let scene = built::build(self.scene).ok_or_else(|| fail(&format!("no scene `{}`", self.scene)))?;
         let view = match self.view {
@@ -109,24 +98,18 @@ impl Job {
             None => scene.views.first(),
         };
         let view = view.ok_or_else(|| fail(&format!("scene `{}` lacks its view", self.scene)))?;
-        let camera = view.camera(side, side).map_err(|e| fail(&e))?;
+        let camera = view.camera(self.side, self.side).map_err(|e| fail(&e))?;
         Ok((scene, camera))
     }
 
-    fn render(
-        &self,
-        scene: &Scene,
-        camera: &Camera,
-        caster: &mut dyn Caster,
-        samples: u32,
-    ) -> Result<RenderedPicture, InputError> {
-        let settings = Settings { samples, ..Settings::default() };
+    fn render(&self, scene: &Scene, camera: &Camera, caster: &mut dyn Caster) -> Result<RenderedPicture, InputError> {
+        let settings = Settings { samples: 1, ..Settings::default() };
         let mut watch = |_| {};
         match self.renderer {
             JobRenderer::Eyes => eye::render(scene, camera, &settings, caster, &mut watch),
             JobRenderer::Classical => whitted::render(scene, camera, &settings, caster, &mut watch),
             JobRenderer::MonteCarlo(per_pixel) => {
-                let settings = Settings { samples: samples * per_pixel, ..settings };
+                let settings = Settings { samples: per_pixel, ..settings };
                 distributed::render(scene, camera, &settings, caster, &mut watch)
             }
         }
@@ -142,7 +125,7 @@ pub(super) struct HostOnly {
 
 impl HostOnly {
     /// Converts the counters of a host tracer.
-    pub(super) fn of(cost: &tracer::HostCounts) -> Self {
+    pub(super) fn new(cost: &tracer::HostCounts) -> Self {
         let counts = HostCounts::default()
             .with(HostOperation::OctreeCell, cost.traversal.cells)
             .with(HostOperation::RayTriangleTest, cost.tests);

@@ -3,54 +3,49 @@
 use serde::{Deserialize, Serialize};
 
 use super::cells::{coded, decoded};
-use super::error::RecordError;
-use super::inputs::RecordInputs;
-use super::status::RecordMade;
-use crate::report::{Table, sha256};
-use crate::study::reproduce::{EntryFindings, PaperRow, Setting};
+use super::made::{RecordMade, RecordStatus};
+use crate::report::Table;
+use crate::study::reproduce::{
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, RowSource, StudyError, equations, paper_row,
+};
 
-const HEAD: &str = "# A run at full size. `crossbar reproduce --record` writes this file; a value that is changed by hand is refused.\n";
-const DIGEST: &str = "digest = ";
+const HEAD: &str = "# A run at full size, written by `crossbar reproduce --record`.\n";
 
-/// Recorded run of an entry at full size.
+/// Recorded run of an entry at full size: its findings, but for charts and rows that are expressions of printed values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EntryRecord {
-    /// Name of the entry.
-    pub(super) entry: String,
-    /// Numbers of its paragraphs.
-    pub(super) text: Vec<Vec<String>>,
-    /// How it was made.
-    pub(super) made: RecordMade,
-    /// Digests of what determines it.
-    pub(super) inputs: RecordInputs,
+    entry: String,
+    text: Vec<String>,
+    questions: Vec<String>,
+    made: RecordMade,
     #[serde(default)]
-    pub(super) row: Vec<RecordedRow>,
-    #[serde(default)]
-    pub(super) sweep: Vec<RecordedSweep>,
+    row: Vec<RecordedRow>,
     #[serde(default)]
     table: Vec<RecordedTable>,
 }
 
-/// Values of a row.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RecordedRow {
-    pub(super) figure: String,
-    pub(super) ours: f64,
+struct RecordedRow {
+    figure: String,
+    device: String,
+    method: Method,
+    /// Printed values that ours was predicted from, or calibrated on; counted without either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    predicted_from: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    calibrated_on: Option<String>,
+    ours: f64,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) readings: Vec<f64>,
-    /// Values on reduced models: ours, then the readings.
-    pub(super) reduced: Vec<f64>,
-}
-
-/// Values of rows at the settings of a sweep.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RecordedSweep {
-    pub(super) name: String,
-    pub(super) figures: Vec<String>,
-    pub(super) setting: Vec<Setting>,
+    readings: Vec<f64>,
+    /// Range of the values that the computation can give, and why.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    range: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    why: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    contradiction: Option<Contradiction>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,40 +53,26 @@ pub(super) struct RecordedSweep {
 struct RecordedTable {
     title: String,
     headings: Vec<String>,
-    /// Cells as text, row by row.
-    row: Vec<RecordedCells>,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RecordedCells {
-    cells: Vec<String>,
+    /// Cells as text.
+    rows: Vec<Vec<String>>,
 }
 
 impl EntryRecord {
-    /// Creates the record of a run at full size, with the run of the same program on reduced models.
-    pub(super) fn new(entry: &str, inputs: RecordInputs, (full, reduced): (&EntryFindings, &EntryFindings)) -> Self {
-        let row = |(row, smaller): (&PaperRow, &PaperRow)| RecordedRow {
-            figure: row.target.id.clone(),
-            ours: row.ours,
-            readings: row.readings.clone(),
-            reduced: smaller.values().collect(),
-        };
+    /// Creates the record of a run at full size.
+    pub fn new(entry: &str, found: &EntryFindings, made: RecordMade) -> Self {
         Self {
             entry: entry.to_owned(),
-            text: full.text.iter().map(|paragraph| paragraph.figures().to_vec()).collect(),
-            made: RecordMade::default(),
-            inputs,
-            row: full.rows.iter().zip(&reduced.rows).map(row).collect(),
-            sweep: sweeps(&full.rows),
-            table: full.tables.iter().map(RecordedTable::of).collect(),
+            text: found.text.clone(),
+            questions: found.questions.iter().map(|question| (*question).to_owned()).collect(),
+            made,
+            row: found.rows.iter().filter(|row| row.target.equation.is_none()).map(RecordedRow::new).collect(),
+            table: found.tables.iter().map(RecordedTable::new).collect(),
         }
     }
 
-    /// Adds how the record was made.
-    #[must_use]
-    pub fn made_by(self, made: RecordMade) -> Self {
-        Self { made, ..self }
+    /// Name of the entry.
+    pub fn entry(&self) -> &str {
+        &self.entry
     }
 
     /// How the record was made.
@@ -99,105 +80,104 @@ impl EntryRecord {
         &self.made
     }
 
-    /// Names of the rows' figures.
-    pub fn figures(&self) -> impl Iterator<Item = &str> {
-        self.row.iter().map(|row| row.figure.as_str())
-    }
-
-    /// Number of rows.
-    pub const fn len(&self) -> usize {
-        self.row.len()
-    }
-
-    /// Returns `true` if no row is recorded.
-    pub const fn is_empty(&self) -> bool {
-        self.row.is_empty()
+    /// Values of the row of a figure: ours, then the other readings. `None` if it has no row.
+    pub(super) fn values(&self, figure: &str) -> Option<impl Iterator<Item = f64> + Clone> {
+        let row = self.row.iter().find(|row| row.figure == figure)?;
+        Some(std::iter::once(row.ours).chain(row.readings.iter().copied()))
     }
 
     /// Formats the file.
     ///
     /// # Errors
     /// If the record cannot be written as TOML.
-    pub fn text(&self) -> Result<String, RecordError> {
-        let body = toml::to_string(self).map_err(|error| malformed(&self.entry, error.to_string()))?;
-        Ok(format!("{HEAD}{DIGEST}\"{}\"\n{body}", digest(&body)))
+    pub fn text(&self) -> Result<String, StudyError> {
+        let body = toml::to_string(self).map_err(|error| StudyError::coded("reproduce::record", error))?;
+        Ok(format!("{HEAD}{body}"))
     }
 
-    /// Parses a file.
+    /// Parses the file of an entry; errors are sentences.
     ///
     /// # Errors
-    /// If it is malformed, was changed by hand, or is the record of another entry.
-    pub fn parse(entry: &str, text: &str) -> Result<Self, RecordError> {
-        // Checkouts may end lines in another way.
-        let text = text.replace('\r', "");
-        let rest = text.strip_prefix(HEAD).unwrap_or(&text).strip_prefix(DIGEST);
-        let parts = rest.and_then(|rest| rest.strip_prefix('"')?.split_once("\"\n"));
-        let missing = || malformed(entry, format!("expected a line `{DIGEST}\"...\"` at its beginning"));
-        let (stated, body) = parts.ok_or_else(missing)?;
-        let found = digest(body);
-        if found != stated {
-            return Err(RecordError::Edited { entry: entry.to_owned(), stated: stated.to_owned(), found });
-        }
-        let record: Self = toml::from_str(body).map_err(|error| malformed(entry, error.to_string()))?;
+    /// If it is malformed, or is the record of another entry.
+    pub fn parse(entry: &str, text: &str) -> Result<Self, String> {
+        let malformed = |reason: String| format!("the record of `{entry}`: {reason}");
+        let record: Self = toml::from_str(text).map_err(|error| malformed(error.to_string()))?;
         if record.entry != entry {
-            return Err(RecordError::Entry { expected: entry.to_owned(), found: record.entry });
+            return Err(format!("expected the record of `{entry}`, found that of `{}`", record.entry));
         }
-        match record.table.iter().find_map(RecordedTable::no_cell) {
-            Some(text) => Err(malformed(entry, format!("expected a cell of a table, found `{text}`"))),
+        let mut cells = record.table.iter().flat_map(|table| table.rows.iter().flatten());
+        match cells.find(|cell| decoded(cell).is_none()) {
+            Some(cell) => Err(malformed(format!("expected a cell of a table, found `{cell}`"))),
             None => Ok(record),
         }
     }
 
-    /// Tables of the run.
-    pub(super) fn tables(&self) -> Vec<Table> {
-        self.table.iter().map(RecordedTable::table).collect()
+    /// Findings of the run. Rows that are expressions of printed values are of this program, and come first.
+    pub(super) fn findings(&'static self) -> Result<EntryFindings, StudyError> {
+        let mut rows = equations(&self.entry)?;
+        for row in &self.row {
+            rows.push(row.row()?);
+        }
+        Ok(EntryFindings {
+            text: self.text.clone(),
+            rows,
+            questions: self.questions.iter().map(String::as_str).collect(),
+            tables: self.table.iter().map(RecordedTable::table).collect(),
+            record: Some(RecordStatus::Recorded(&self.made)),
+            ..EntryFindings::default()
+        })
+    }
+}
+
+impl RecordedRow {
+    fn new(row: &PaperRow) -> Self {
+        let (predicted_from, calibrated_on) = match row.dependence {
+            Dependence::Predicted { from } => (Some(from.to_owned()), None),
+            Dependence::Calibrated { on } => (None, Some(on.to_owned())),
+            Dependence::Counted => (None, None),
+        };
+        let (range, why) = row.confinement().unzip();
+        Self {
+            figure: row.target.id.clone(),
+            device: row.device.to_owned(),
+            method: row.method,
+            predicted_from,
+            calibrated_on,
+            ours: row.ours,
+            readings: row.readings.clone(),
+            range,
+            why: why.map(str::to_owned),
+            contradiction: row.contradiction().cloned(),
+        }
+    }
+
+    fn row(&'static self) -> Result<PaperRow, StudyError> {
+        let dependence = match (&self.calibrated_on, &self.predicted_from) {
+            (Some(on), _) => Dependence::Calibrated { on },
+            (None, Some(from)) => Dependence::Predicted { from },
+            (None, None) => Dependence::Counted,
+        };
+        let row = paper_row(&self.figure, (&self.device, self.method), (self.ours, dependence))?;
+        let mut row = row.with_readings(self.readings.iter().copied()).contradicted(self.contradiction.clone());
+        row.source = RowSource::Recorded;
+        Ok(match (self.range, &self.why) {
+            (Some(range), Some(why)) => row.confined(range, why),
+            _ => row,
+        })
     }
 }
 
 impl RecordedTable {
-    fn of(table: &Table) -> Self {
-        let cells = |row: &Vec<_>| RecordedCells { cells: row.iter().map(coded).collect() };
-        Self {
-            title: table.title().to_owned(),
-            headings: table.headings().to_vec(),
-            row: table.rows().iter().map(cells).collect(),
-        }
-    }
-
-    /// First text that is no cell.
-    fn no_cell(&self) -> Option<&str> {
-        let mut cells = self.row.iter().flat_map(|row| &row.cells);
-        cells.find(|cell| decoded(cell).is_none()).map(String::as_str)
+    fn new(table: &Table) -> Self {
+        let rows = table.rows().iter().map(|row| row.iter().map(coded).collect());
+        Self { title: table.title().to_owned(), headings: table.headings().to_vec(), rows: rows.collect() }
     }
 
     fn table(&self) -> Table {
         let mut table = Table::new(self.title.as_str(), &self.headings);
-        for row in &self.row {
-            table.push(row.cells.iter().filter_map(|cell| decoded(cell)));
+        for row in &self.rows {
+            table.push(row.iter().filter_map(|cell| decoded(cell)));
         }
         table
     }
-}
-
-/// Sweeps of some rows, each once.
-fn sweeps(rows: &[PaperRow]) -> Vec<RecordedSweep> {
-    let mut found: Vec<RecordedSweep> = Vec::new();
-    for applied in rows.iter().flat_map(PaperRow::swept) {
-        if found.iter().all(|known| known.name != applied.name || known.figures != applied.figures) {
-            found.push(RecordedSweep {
-                name: applied.name.to_owned(),
-                figures: applied.figures.clone(),
-                setting: applied.settings.clone(),
-            });
-        }
-    }
-    found
-}
-
-fn malformed(entry: &str, reason: String) -> RecordError {
-    RecordError::Malformed { entry: entry.to_owned(), reason }
-}
-
-fn digest(body: &str) -> String {
-    sha256(body.as_bytes()).expect("memory can be read")
 }

@@ -1,13 +1,17 @@
 //! Contradictions between printed values of one paper.
 
+use serde::{Deserialize, Serialize};
+
 use super::PaperFigure;
 use crate::study::reproduce::prose::number;
 
 /// Computation from printed values alone that gives another value than is printed. Created by the functions below,
 /// which refuse values that agree.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Contradiction {
     text: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     value: Option<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! Printed values of a paper with their origin.
 
-use super::{Bound, Standing};
+use super::{Bound, Dependence};
 use crate::report::Cell;
 use crate::study::reproduce::Paper;
 
@@ -110,11 +110,11 @@ pub struct PaperEquation {
 
 impl PaperEquation {
     /// Dependence of the value on printed ones.
-    pub fn standing(&'static self) -> Standing {
+    pub fn dependence(&'static self) -> Dependence {
         match (&self.chose, &self.uses) {
-            (Some(on), _) => Standing::Calibrated { on },
-            (None, Some(from)) => Standing::Predicted { from },
-            (None, None) => Standing::Counted,
+            (Some(on), _) => Dependence::Calibrated { on },
+            (None, Some(from)) => Dependence::Predicted { from },
+            (None, None) => Dependence::Counted,
         }
     }
 }

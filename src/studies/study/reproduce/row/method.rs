@@ -1,9 +1,12 @@
 //! Methods by which values were computed, and their dependence on printed values.
 
+use serde::{Deserialize, Serialize};
+
 use crate::card::frame_time::FrameTime;
 
 /// Method by which our value was computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, strum::Display)]
+#[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Method {
     /// The paper's own equations, its printed values and constants calibrated on them. Nothing is drawn or measured.
@@ -13,6 +16,7 @@ pub enum Method {
     /// Rendered through the whole engine, with its work counted and timed.
     Engine,
     /// A model of the paper's host.
+    #[serde(rename = "host model")]
     #[strum(to_string = "host model")]
     Host,
     /// Solved in f64.
@@ -30,7 +34,7 @@ impl From<&FrameTime> for Method {
 /// Dependence of our value on printed values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
-pub enum Standing {
+pub enum Dependence {
     /// Prediction: this value was not used; other printed ones were.
     Predicted {
         /// Printed values that were used; empty for none.
@@ -46,7 +50,7 @@ pub enum Standing {
     Counted,
 }
 
-impl Standing {
+impl Dependence {
     /// Printed values that our value depends on.
     pub const fn inputs(self) -> &'static str {
         match self {

@@ -1,6 +1,6 @@
 //! Rows: a printed value of a paper and ours, with a bound and the verdict.
 //!
-//! Verdicts follow from how a value was computed ([`Method`], [`Standing`], the range that confines it) and from the
+//! Verdicts follow from how a value was computed ([`Method`], [`Dependence`], the range that confines it) and from the
 //! bound. [`Explanation`]s are created only by a [`Sweep`] of the same run, [`Contradiction`]s only by computations
 //! from printed values; calibrated values are listed separately and still have to lie within their bounds.
 
@@ -9,7 +9,6 @@ mod contradiction;
 mod explanation;
 mod figure;
 mod method;
-mod setting;
 mod source;
 mod sweep;
 mod verdict;
@@ -18,15 +17,10 @@ pub use bound::Bound;
 pub use contradiction::Contradiction;
 pub use explanation::Explanation;
 pub use figure::{Judgement, MissClass, Origin, PaperEquation, PaperFigure};
-pub use method::{Method, Standing};
-pub use setting::Setting;
+pub use method::{Dependence, Method};
 pub use source::RowSource;
-pub use sweep::Sweep;
+pub use sweep::{Setting, Sweep};
 pub use verdict::RowVerdict;
-
-use std::sync::Arc;
-
-use setting::AppliedSweep;
 
 /// Row: a value of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,15 +36,13 @@ pub struct PaperRow {
     /// Our values by the other readings and models that the text allows.
     pub readings: Vec<f64>,
     /// Dependence of ours on printed values.
-    pub standing: Standing,
+    pub dependence: Dependence,
     /// Tolerance, stated on [`PaperFigure::stated`].
     pub bound: Bound,
     /// Run that our value is from.
     pub source: RowSource,
     /// Range of the values that the computation can give, and why.
     confined: Option<([f64; 2], &'static str)>,
-    /// Sweeps that the row takes part in.
-    swept: Vec<Arc<AppliedSweep>>,
     /// Set by [`Sweep::explain`] alone.
     explanation: Option<Explanation>,
     contradiction: Option<Contradiction>,
@@ -61,7 +53,7 @@ impl PaperRow {
     pub fn new(
         (device, method): (&'static str, Method),
         target: &PaperFigure,
-        (ours, standing): (f64, Standing),
+        (ours, dependence): (f64, Dependence),
     ) -> Option<Self> {
         let Judgement::Within(bound) = target.judgement else { return None };
         let (target, readings) = (target.clone(), Vec::new());
@@ -71,11 +63,10 @@ impl PaperRow {
             target,
             ours,
             readings,
-            standing,
+            dependence,
             bound,
             source: RowSource::Computed,
             confined: None,
-            swept: Vec::new(),
             explanation: None,
             contradiction: None,
         })
@@ -103,17 +94,6 @@ impl PaperRow {
     #[must_use]
     pub fn contradicted(self, contradiction: Option<Contradiction>) -> Self {
         Self { contradiction, ..self }
-    }
-
-    /// Replaces our values by those of a recorded run. Explanations go with the old values: [`Sweep::explain`] finds
-    /// those of the new ones.
-    pub(super) fn with_values(self, ours: f64, readings: Vec<f64>, source: RowSource) -> Self {
-        Self { ours, readings, source, swept: Vec::new(), explanation: None, ..self }
-    }
-
-    /// Sweeps that the row takes part in.
-    pub(super) fn swept(&self) -> &[Arc<AppliedSweep>] {
-        &self.swept
     }
 
     /// Smallest and largest value within the bound; `None` where the text is too vague.
@@ -157,8 +137,6 @@ impl PaperRow {
     pub fn verdict(&self) -> RowVerdict {
         if matches!(self.bound, Bound::TooVague) {
             RowVerdict::TooVague
-        } else if self.source == RowSource::Reduced && self.method != Method::Equation {
-            RowVerdict::Reduced
         } else if self.is_contradictory() {
             RowVerdict::Contradictory
         } else if self.holds() {
@@ -172,8 +150,8 @@ impl PaperRow {
 
     /// Verdict of a row that holds.
     fn class(&self) -> RowVerdict {
-        match (self.standing, self.method, self.bound) {
-            (Standing::Calibrated { .. }, ..) => RowVerdict::Calibrated,
+        match (self.dependence, self.method, self.bound) {
+            (Dependence::Calibrated { .. }, ..) => RowVerdict::Calibrated,
             (_, Method::Equation, _) => RowVerdict::Consistent,
             _ if self.cannot_fail() => RowVerdict::ByConstruction,
             (.., Bound::Order | Bound::AtLeast) => RowVerdict::OrderOnly,
@@ -202,7 +180,7 @@ impl PaperRow {
 
     /// Returns `true` if the printed value determined a constant of the model: agreement is no evidence.
     pub const fn is_calibrated(&self) -> bool {
-        matches!(self.standing, Standing::Calibrated { .. })
+        matches!(self.dependence, Dependence::Calibrated { .. })
     }
 
     /// Returns `true` if a recorded run has another value than this run at full size.
@@ -251,8 +229,8 @@ pub(super) mod tests {
     }
 
     pub(in crate::study::reproduce) fn row(ours: f64) -> PaperRow {
-        let standing = Standing::Predicted { from: "" };
-        PaperRow::new(("nv20", Method::Pipeline), &target(15.6, 1), (ours, standing)).expect("a judged figure")
+        let dependence = Dependence::Predicted { from: "" };
+        PaperRow::new(("nv20", Method::Pipeline), &target(15.6, 1), (ours, dependence)).expect("a judged figure")
     }
 
     #[test]
@@ -326,25 +304,14 @@ pub(super) mod tests {
 
     #[test]
     fn a_calibrated_value_proves_nothing_and_still_has_a_bound() {
-        let standing = Standing::Calibrated { on: "itself" };
-        assert_eq!(PaperRow { standing, ..row(15.6) }.verdict(), RowVerdict::Calibrated);
-        assert_eq!(PaperRow { standing, ..row(10.0) }.verdict(), RowVerdict::Missed);
+        let dependence = Dependence::Calibrated { on: "itself" };
+        assert_eq!(PaperRow { dependence, ..row(15.6) }.verdict(), RowVerdict::Calibrated);
+        assert_eq!(PaperRow { dependence, ..row(10.0) }.verdict(), RowVerdict::Missed);
     }
 
     #[test]
     fn vague_text_is_no_success() {
         assert_eq!(PaperRow { bound: Bound::TooVague, ..row(15.6) }.verdict(), RowVerdict::TooVague);
-    }
-
-    /// Reduced models judge nothing; what follows from print alone is judged whatever the models.
-    #[test]
-    fn rows_of_reduced_models_are_not_judged() {
-        let reduced = |row: PaperRow| PaperRow { source: RowSource::Reduced, ..row }.verdict();
-        assert_eq!([15.6, 30.0].map(|ours| reduced(row(ours))), [RowVerdict::Reduced; 2]);
-        assert_eq!(reduced(PaperRow { method: Method::Equation, ..row(15.6) }), RowVerdict::Consistent);
-        let contradiction = Contradiction::between(&target(15.6, 1), 33.2, "the other table");
-        assert_eq!(reduced(row(15.6).contradicted(contradiction)), RowVerdict::Reduced);
-        assert!(!RowVerdict::counted().any(|verdict| verdict == RowVerdict::Reduced));
     }
 
     #[test]

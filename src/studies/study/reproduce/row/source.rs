@@ -4,13 +4,10 @@
 #[derive(Clone, Copy, Debug, PartialEq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum RowSource {
-    /// This run, on models of full size or on none.
+    /// This run.
     Computed,
-    /// A recorded run at full size. This run had reduced models.
-    Recorded {
-        /// Value on the reduced models.
-        reduced: f64,
-    },
+    /// A recorded run at full size.
+    Recorded,
     /// A recorded run at full size, and this one, with the same bits.
     #[strum(to_string = "recorded and computed")]
     Confirmed,
@@ -20,6 +17,4 @@ pub enum RowSource {
         /// Recorded value.
         recorded: f64,
     },
-    /// This run, on reduced models: no judgement.
-    Reduced,
 }

@@ -1,10 +1,16 @@
 //! Sweeps over parameters that the papers do not print: the only source of explanations.
 
-use std::sync::Arc;
-
-use super::setting::{AppliedSweep, Setting};
 use super::{Explanation, PaperRow};
 use crate::report::{Cell, Table};
+
+/// Setting of the swept parameter, and the rows' values at it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Setting, as in "2" of a factor.
+    pub at: String,
+    /// One value per row, in the order of the rows and in their units.
+    pub values: Vec<f64>,
+}
 
 /// Variation of a parameter that a paper does not print, with the resulting values of some rows. The rows themselves
 /// are computed at one of the settings, which was chosen beforehand.
@@ -25,13 +31,6 @@ impl Sweep {
     /// ones have no say.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
-        let applied = Arc::new(AppliedSweep {
-            name: self.name,
-            parameter: self.parameter,
-            settings: self.settings.clone(),
-            figures: rows.iter().map(|row| row.target.id.clone()).collect(),
-        });
-        rows.iter_mut().for_each(|row| row.swept.push(Arc::clone(&applied)));
         let open = |row: &PaperRow| {
             !row.is_contradictory() && !row.is_calibrated() && !row.holds() && row.explanation.is_none()
         };

@@ -1,7 +1,5 @@
 //! Verdicts on rows.
 
-use strum::VariantArray as _;
-
 /// Verdict on a row; tallies list the variants in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, strum::Display, strum::VariantArray)]
 #[strum(serialize_all = "lowercase")]
@@ -28,16 +26,9 @@ pub enum RowVerdict {
     /// The text is too vague to be tested; not a success either.
     #[strum(to_string = "too vague to judge")]
     TooVague,
-    /// Computed on reduced models, and no run at full size is recorded: a smoke test, neither judged nor counted.
-    Reduced,
 }
 
 impl RowVerdict {
-    /// Verdicts that tallies count, in their order: all but [`Self::Reduced`].
-    pub fn counted() -> impl Iterator<Item = Self> {
-        Self::VARIANTS.iter().copied().filter(|verdict| *verdict != Self::Reduced)
-    }
-
     /// Words behind a number of rows, as in "3 predicted within bounds in numbers".
     pub const fn of_rows(self) -> &'static str {
         match self {
@@ -50,7 +41,6 @@ impl RowVerdict {
             Self::Missed => "missed",
             Self::Contradictory => "contradicted by their own paper",
             Self::TooVague => "too vague to judge",
-            Self::Reduced => "of reduced models",
         }
     }
 }

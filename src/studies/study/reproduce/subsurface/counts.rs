@@ -2,8 +2,8 @@
 
 use super::gather::{EIGHT, GatherCost, VARIANTS, Variant};
 use super::{
-    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep, failed, number,
-    paper_row,
+    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Setting, Shared, StudyError, Sweep, failed, number,
+    paper_row, paragraph,
 };
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
@@ -25,7 +25,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
     let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
     let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
-    let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Standing::Counted));
+    let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Dependence::Counted));
     // A texel of fixed links has the factors of four.
     let layout = [LINKS as f64 * 1.25; 2];
     let of_fixed =
@@ -46,7 +46,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(nodes(model, stand_in)?);
     }
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
+        text: vec![paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
         tables: vec![storage(), programs(costs), held],
         questions: vec!["how the authors cluster faces, and which of the two choices of links was timed."],
@@ -59,7 +59,7 @@ fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
     let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
     let mesh = meshes::build(stand_in).ok_or_else(missing)?;
     let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
-    let ours = (atlas.tree().nodes().len() as f64, Standing::Counted);
+    let ours = (atlas.tree().nodes().len() as f64, Dependence::Counted);
     let row = paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)?;
     let nodes = (2 * mesh.len() - 1) as f64;
     Ok(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"))

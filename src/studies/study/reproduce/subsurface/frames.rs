@@ -5,17 +5,15 @@
 //! [`super::gather`]. The window is not printed; ours has as many pixels as the smaller atlas has texels.
 
 use super::counts::MODELS;
-use super::frame_cost::{FrameCost, MapCost, WINDOW, cost};
-use super::gather::{GatherCost, VARIANTS, Variant, all_costs, left_open};
+use super::frame_cost::{FrameCost, WINDOW, cost};
+use super::gather::{self, GatherCost, VARIANTS};
 use super::table_1::{DISPLAY, PrintedFrame, SIDES, display_lock};
 use super::{
-    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep, failed, number,
-    paper_row,
+    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, failed, number, paper_row, paragraph,
 };
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::built::meshes;
-use crate::subsurface::on_card::MapFormat;
 
 /// Card of Figure 7.
 const OTHER_CARD: &str = "fx5800";
@@ -24,19 +22,16 @@ const OTHER_CARD: &str = "fx5800";
 const EVALUATION_CLOCKS: f64 = 2.0 * (95.0 + 27.0 + 20.0);
 /// Its clock in Hz (Tom's Hardware).
 const HOST_HZ: f64 = 2.083e9;
-/// Evaluations of R_d per link, in the table.
-const EVALUATIONS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 8.0];
 
 const HOW: &str = "The first and the third pass are drawn on stand-ins of as many faces, by vertex as the text has it, with the transmittance towards the \
-    eye from a texture and a window of {} x {} pixels, which is not printed. Links are fixed and the map has bytes, which the sweep replaces by the other \
-    variants, each with its own first pass and levels: the card generates levels of bytes by itself, those of floats are passes, {} times as dear in half \
-    precision.";
+    eye from a texture and a window of {} x {} pixels, which is not printed. Links are fixed and the map has bytes, \
+    whose levels the card generates by itself.";
 const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so that a frame takes a whole number of periods of {} ms: the modelled \
     rates are {} over the periods that the three passes and the map's levels need. The waits are in the printed shares, so the printed times of passes are \
     upper bounds of what they took, most of all for the shorter passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at \
     the larger one.";
 const HOST: &str = "The time of links is that of one evaluation of R_d per link on the host of section three of the paper; which host computed them is not \
-    printed. More evaluations per link stand in the table; what an evaluation costs is a guess of ours, so that they explain nothing.";
+    printed. What an evaluation costs is a guess of ours.";
 
 /// Place of the variant of the rows in [`VARIANTS`]: fixed links and an 8-bit map.
 const OURS: usize = 0;
@@ -53,43 +48,31 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (model, _, stand_in) in MODELS {
         let mesh = mesh(stand_in)?;
         for frame in printed.iter().filter(|frame| frame.model == model) {
-            let cost = cost(CARD, &mesh, frame.side as u32, &VARIANTS)?;
+            let cost = cost(CARD, &mesh, frame.side as u32)?;
             for row in passes(frame, (&cost, costs[OURS].seconds(frame.side)))? {
                 rows.push(row.contradicted(display_lock(&printed)));
             }
             frames.push((*frame, cost));
         }
     }
-    let mut rates: Vec<PaperRow> = frames.iter().map(|frame| rate(frame, &costs[OURS])).collect::<Result<_, _>>()?;
-    let setting = |(at, (variant, cost)): (usize, (&Variant, &GatherCost))| Setting {
-        at: variant.name.to_owned(),
-        values: frames.iter().map(|(printed, frame)| locked(frame.frame(at, cost.seconds(printed.side)))).collect(),
-    };
-    let settings = left_open(costs).map(setting).collect();
-    Sweep { name: "frames by format and precision of pass 2", parameter: "variant", settings }.explain(&mut rates);
-    let small = gather_at(SIDES[0], &rows, costs);
+    let rates: Vec<PaperRow> = frames.iter().map(|frame| rate(frame, &costs[OURS])).collect::<Result<_, _>>()?;
     rows.extend(rates);
     rows.push(figure_7()?);
     rows.push(paper_row(
         "subsurface/link-time",
         ("Athlon 2800+", Method::Host),
-        (link_seconds(EVALUATIONS[0]), PREDICTED),
+        (LINKS as f64 * SIDES[1] * SIDES[1] * EVALUATION_CLOCKS / HOST_HZ, PREDICTED),
     )?);
     let dolphin = |at: usize| number(printed[2 + at].milliseconds(1), 1);
-    let half = VARIANTS.iter().position(|variant| variant.fixed && variant.map == MapFormat::Fp16).unwrap_or(OURS);
-    let dear = frames.first().map_or(1.0, |(_, cost)| cost.maps[half].levels / cost.maps[OURS].levels);
     let [width, height] = WINDOW.map(|pixels| pixels.to_string());
     Ok(EntryFindings {
         text: vec![
-            Prose::new(HOW, [width, height, number(dear, 1)]),
-            Prose::new(
-                LOCK,
-                [number(DISPLAY, 0), number(1e3 / DISPLAY, 1), number(DISPLAY, 0), dolphin(0), dolphin(1)],
-            ),
+            paragraph(HOW, [width, height]),
+            paragraph(LOCK, [number(DISPLAY, 0), number(1e3 / DISPLAY, 1), number(DISPLAY, 0), dolphin(0), dolphin(1)]),
             HOST.into(),
         ],
         rows,
-        tables: vec![table(&frames, &costs[OURS]), small, variants(&frames, costs), links()],
+        tables: vec![table(&frames, &costs[OURS])],
         questions: vec![
             "the size of the window, the model of Figure 7, and the host that computed links with what it evaluated for each.",
         ],
@@ -102,14 +85,13 @@ fn mesh(stand_in: &'static str) -> Result<Mesh, StudyError> {
     meshes::build(stand_in).ok_or_else(missing)
 }
 
-/// Standing of values for which nothing printed was used.
-const PREDICTED: Standing = Standing::Predicted { from: "" };
+/// Dependence of values for which nothing printed was used.
+const PREDICTED: Dependence = Dependence::Predicted { from: "" };
 
 /// Rows on the times of the passes of one frame: 1 and 3 always; 2 where Table 1's own entry does not judge it.
 fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<Vec<PaperRow>, StudyError> {
-    let MapCost { light, levels } = cost.maps[OURS];
     let gather = (printed.side == SIDES[0]).then_some(gather);
-    let ours = [Some(light + levels), gather, Some(cost.view)];
+    let ours = [Some(cost.light + cost.levels), gather, Some(cost.view)];
     let judged = (1..).zip(ours).filter_map(|(pass, seconds)| Some((pass, seconds?)));
     judged
         .map(|(pass, seconds)| paper_row(&printed.pass_id(pass), (CARD, Method::Pipeline), (1e3 * seconds, PREDICTED)))
@@ -120,46 +102,17 @@ fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<V
 const DISPLAYED: &str = "the six frame rates, of which the display's was read off";
 
 fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Result<PaperRow, StudyError> {
-    let ours = (locked(cost.frame(OURS, gather.seconds(printed.side))), Standing::Calibrated { on: DISPLAYED });
+    let ours = (locked(cost.frame(gather.seconds(printed.side))), Dependence::Calibrated { on: DISPLAYED });
     paper_row(&format!("subsurface/rate-{}-{}", printed.model, printed.side), (CARD, Method::Pipeline), ours)
 }
 
 /// Row on Figure 7: 40 frames per second are no integer fraction of the display's rate, so that the frame counts
 /// without synchronisation, for the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, StudyError> {
-    let costs = all_costs(OTHER_CARD)?;
-    let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32, &VARIANTS[..=OURS])?;
-    let ours = (1.0 / cost.frame(OURS, costs[OURS].seconds(SIDES[0])), PREDICTED);
+    let gather = gather::cost(OTHER_CARD, VARIANTS[OURS])?;
+    let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;
+    let ours = (1.0 / cost.frame(gather.seconds(SIDES[0])), PREDICTED);
     paper_row("subsurface/figure-7", (OTHER_CARD, Method::Pipeline), ours)
-}
-
-/// Modelled seconds of all links of the larger atlas on a host.
-fn link_seconds(evaluations: f64) -> f64 {
-    evaluations * LINKS as f64 * SIDES[1] * SIDES[1] * EVALUATION_CLOCKS / HOST_HZ
-}
-
-/// Table of the time of links by the number of evaluations per link.
-fn links() -> Table {
-    let mut table = Table::of("Links of the larger atlas on the host", "evaluations_per_link seconds");
-    EVALUATIONS.into_iter().for_each(|evaluations| {
-        table.push([Cell::decimals(evaluations, 0), Cell::measured(link_seconds(evaluations))]);
-    });
-    table
-}
-
-/// Table of the rows on pass 2 at a size, under each variant that the text leaves open. It explains nothing: the
-/// printed times contain waits for the display.
-fn gather_at(side: f64, rows: &[PaperRow], costs: &[GatherCost]) -> Table {
-    let rows: Vec<PaperRow> =
-        rows.iter().filter(|row| row.target.id.ends_with(&format!("-{side}-2"))).cloned().collect();
-    let setting = |(_, (variant, cost)): (usize, (&Variant, &GatherCost))| Setting {
-        at: variant.name.to_owned(),
-        values: vec![1e3 * cost.seconds(side); rows.len()],
-    };
-    let settings = left_open(costs).map(setting).collect();
-    let sweep = Sweep { name: "pass 2 by format and precision", parameter: "variant", settings };
-    let title = format!("Pass 2 at {side} x {side} by variant of fixed links; the printed times contain waits");
-    sweep.table(&title, &rows, (None, |value| value))
 }
 
 /// Table of modelled and printed passes.
@@ -170,14 +123,13 @@ fn table(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
     );
     for (printed, cost) in frames {
         let gather = gather.seconds(printed.side);
-        let frame = cost.frame(OURS, gather);
-        let MapCost { light, levels } = cost.maps[OURS];
+        let frame = cost.frame(gather);
         let ms = |seconds: f64| Cell::measured(1e3 * seconds);
         table.push([
             printed.model.into(),
             format!("{0} x {0}", printed.side).into(),
-            ms(light),
-            ms(levels),
+            ms(cost.light),
+            ms(cost.levels),
             ms(gather),
             ms(cost.view),
             ms(frame),
@@ -185,26 +137,6 @@ fn table(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
             ((DISPLAY / locked(frame)).round() as u32).into(),
             (printed.periods() as u32).into(),
         ]);
-    }
-    table
-}
-
-/// Table of the first model's frames in each variant, as the sweep has those with fixed links.
-fn variants(frames: &[(PrintedFrame, FrameCost)], costs: &[GatherCost]) -> Table {
-    let model = frames.first().map_or("", |(printed, _)| printed.model);
-    let mut table = Table::of(
-        format!("Frames of the {model} by variant of pass 2, in ms, and their rates on the display"),
-        "variant atlas pass_1_ms levels_ms pass_2_ms pass_3_ms frame_ms frames_per_s",
-    );
-    for (PrintedFrame { side, .. }, cost) in frames.iter().filter(|(printed, _)| printed.model == model) {
-        for (at, (variant, gather)) in VARIANTS.iter().zip(costs).enumerate() {
-            let (MapCost { light, levels }, gather) = (cost.maps[at], gather.seconds(*side));
-            let frame = cost.frame(at, gather);
-            let ms = |seconds: f64| Cell::measured(1e3 * seconds);
-            let head: [Cell; 2] = [variant.name.into(), format!("{side} x {side}").into()];
-            let times = [light, levels, gather, cost.view, frame].map(ms);
-            table.push(head.into_iter().chain(times).chain([Cell::measured(locked(frame))]));
-        }
     }
     table
 }

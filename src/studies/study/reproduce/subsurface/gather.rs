@@ -39,7 +39,7 @@ pub(super) struct Variant {
 }
 
 impl Variant {
-    const fn of(name: &'static str, fixed: bool, map: MapFormat, half: bool) -> Self {
+    const fn new(name: &'static str, fixed: bool, map: MapFormat, half: bool) -> Self {
         Self { name, fixed, map, half, tiles: None }
     }
 }
@@ -49,23 +49,17 @@ pub(super) const EIGHT: MapFormat = MapFormat::Unorm8 { scale: 0.25 };
 
 /// All variants, those with fixed links first.
 pub(super) const VARIANTS: [Variant; 9] = [
-    Variant::of("fixed, 8-bit map", true, EIGHT, false),
-    Variant::of("fixed, 8-bit map, half precision", true, EIGHT, true),
-    Variant::of("fixed, fp16 map", true, MapFormat::Fp16, false),
-    Variant::of("fixed, fp16 map, half precision", true, MapFormat::Fp16, true),
-    Variant::of("fixed, fp32 map", true, MapFormat::Fp32, false),
-    Variant::of("adaptive, 8-bit map", false, EIGHT, false),
-    Variant::of("adaptive, fp16 map", false, MapFormat::Fp16, false),
-    Variant::of("adaptive, fp32 map", false, MapFormat::Fp32, false),
+    Variant::new("fixed, 8-bit map", true, EIGHT, false),
+    Variant::new("fixed, 8-bit map, half precision", true, EIGHT, true),
+    Variant::new("fixed, fp16 map", true, MapFormat::Fp16, false),
+    Variant::new("fixed, fp16 map, half precision", true, MapFormat::Fp16, true),
+    Variant::new("fixed, fp32 map", true, MapFormat::Fp32, false),
+    Variant::new("adaptive, 8-bit map", false, EIGHT, false),
+    Variant::new("adaptive, fp16 map", false, MapFormat::Fp16, false),
+    Variant::new("adaptive, fp32 map", false, MapFormat::Fp32, false),
     // As many textures of 512 x 512 texels lie in one of 2048 x 2048; of the larger atlas, in four of them.
-    Variant { tiles: Some(4), ..Variant::of("adaptive, 8-bit map, tiled links", false, EIGHT, false) },
+    Variant { tiles: Some(4), ..Variant::new("adaptive, 8-bit map, tiled links", false, EIGHT, false) },
 ];
-
-/// Variants that may explain a time, with their costs: those with fixed links. Section 4.3 gives adaptive links up,
-/// which leaves open the format of the map and the precision. With the place of each in [`VARIANTS`].
-pub(super) fn left_open(costs: &[GatherCost]) -> impl Iterator<Item = (usize, (&'static Variant, &GatherCost))> {
-    VARIANTS.iter().zip(costs).enumerate().filter(|(_, (variant, _))| variant.fixed)
-}
 
 /// Cost of a variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,7 +101,7 @@ pub(super) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, StudyErro
 }
 
 /// Measures a variant on a card.
-fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, StudyError> {
+pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, StudyError> {
     let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
         let profile = Profile::named(card)?;

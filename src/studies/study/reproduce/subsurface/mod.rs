@@ -15,6 +15,6 @@ pub(super) use table_1::findings as table_1;
 use super::error::{failed, no_time};
 use super::shared::Shared;
 use super::{
-    Contradiction, EntryFindings, Method, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number, paper_row,
-    printed_value,
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row,
+    paragraph, printed_value,
 };

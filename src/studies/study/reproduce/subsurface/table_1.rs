@@ -4,10 +4,10 @@
 //! waits. Only pass 2 at 1024 x 1024 is longer than the possible wait, and the same on all three models.
 
 use super::counts::MODELS;
-use super::gather::{GatherCost, VARIANTS, all_costs, left_open};
+use super::gather::{GatherCost, VARIANTS, all_costs};
 use super::{
-    CARD, Contradiction, EntryFindings, LINKS, Method, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep,
-    number, paper_row, printed_value,
+    CARD, Contradiction, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, number, paper_row,
+    paragraph, printed_value,
 };
 use crate::report::{Cell, Table};
 
@@ -27,10 +27,10 @@ impl PrintedFrame {
     /// All rows, model by model.
     pub(super) fn all() -> Result<Vec<Self>, StudyError> {
         let all = MODELS.iter().flat_map(|(model, ..)| SIDES.map(|side| (*model, side)));
-        all.map(|(model, side)| Self::of(model, side)).collect()
+        all.map(|(model, side)| Self::named(model, side)).collect()
     }
 
-    fn of(model: &'static str, side: f64) -> Result<Self, StudyError> {
+    fn named(model: &'static str, side: f64) -> Result<Self, StudyError> {
         let share = |pass: usize| printed_value(&format!("subsurface/share-{model}-{side}-{pass}"));
         let rate = printed_value(&format!("subsurface/rate-{model}-{side}"))?;
         Ok(Self { model, side, rate, shares: [share(1)?, share(2)?, share(3)?] })
@@ -72,17 +72,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let printed = PrintedFrame::all()?;
     let mut rows: Vec<PaperRow> = Vec::new();
     for frame in printed.iter().filter(|frame| frame.side == SIDES[1]) {
-        let ours = (ms(&costs[0]), Standing::Predicted { from: "" });
+        let ours = (ms(&costs[0]), Dependence::Predicted { from: "" });
         rows.push(paper_row(&frame.pass_id(2), (CARD, Method::Pipeline), ours)?);
     }
-    let setting = |(variant, cost): (&super::gather::Variant, &GatherCost)| Setting {
-        at: variant.name.to_owned(),
-        values: vec![ms(cost); rows.len()],
-    };
-    let settings = left_open(costs).map(|(_, variant)| setting(variant)).collect();
-    let sweep =
-        Sweep { name: "format and precision of pass 2, which the text leaves open", parameter: "variant", settings };
-    sweep.explain(&mut rows);
     let times: Vec<f64> = costs.iter().map(ms).collect();
     let spread = times.iter().copied().fold(0.0, f64::max) / times.iter().copied().fold(f64::INFINITY, f64::min);
     let target = |row: &PaperRow| row.target.value;
@@ -91,7 +83,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let [factors, least, most] = locked(&printed);
     Ok(EntryFindings {
         text: vec![
-            Prose::new(
+            paragraph(
                 LOCKED,
                 [
                     factors,
@@ -103,7 +95,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
                     number(100.0 * apart, 1),
                 ],
             ),
-            Prose::new(OPEN, [number(spread, 1)]),
+            paragraph(OPEN, [number(spread, 1)]),
         ],
         rows,
         tables: vec![variants(costs)?, frames(&printed)],

@@ -1,4 +1,4 @@
-//! Radiance of vertices by factored transfer, compressed or not.
+//! Radiance of vertices by compressed factored transfer.
 
 use super::scene::FigureScene;
 use super::{HOST, Shared, StudyError, failed};
@@ -6,7 +6,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::shade::{Representatives, Shader, exit_radiance};
-use crate::study::prt::{CompressionTally, SegmentedCompression, raw_radiance};
+use crate::study::prt::{CompressionTally, SegmentedCompression};
 use crate::transfer::light::HaarLight;
 use crate::transfer::visibility::VisibilityMaps;
 
@@ -45,24 +45,11 @@ impl Surface<'_> {
         Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
     }
 
-    /// Radiance of the vertices from raw matrices: per light, and per vertex of the mesh, the rows of T_p.
-    pub(super) fn raw(&self, lights: &[&HaarLight]) -> Result<Vec<Vec<[f64; 3]>>, StudyError> {
-        let (scene, (shared, name)) = (self.scene, self.pieces);
-        let at = (&scene.vertices, self.maps);
-        let raw = || raw_radiance(at, scene.hats.width(), self.reflectance, lights).map_err(|e| failed(HOST)(&e));
-        shared.piece(&format!("{name}-raw"), raw)
-    }
-
     /// Step 4 with T_p of the mesh's vertices.
-    pub(super) fn exit(&self, transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync)) -> Vec<[f64; 3]> {
+    fn exit(&self, transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync)) -> Vec<[f64; 3]> {
         let color = self.color;
         let color = |_: usize| color;
         let all = exit_radiance(&self.scene.vertices, self.reflectance, &color, transferred, self.scene.eye());
         self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect()
-    }
-
-    /// Step 4 with the leading rows of a larger T_p.
-    pub(super) fn exit_of_rows(&self, (rows, radiance): (usize, &[[f64; 3]])) -> Vec<[f64; 3]> {
-        self.exit(&|vertex, row| radiance[vertex * rows + row])
     }
 }

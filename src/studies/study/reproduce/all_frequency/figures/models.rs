@@ -4,7 +4,6 @@ use super::{ModelSize, StudyError, failed};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
 use crate::geom::Mesh;
-use crate::geom::teapot::teapot;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::all_frequency::forms::{bare, quarter_of_half_vector};
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
@@ -17,15 +16,6 @@ pub(super) fn tweety(models: ModelSize) -> Mesh {
 
 pub(super) fn buddha(models: ModelSize) -> Mesh {
     TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 12 })
-}
-
-pub(super) fn teapot_of(models: ModelSize) -> Result<Mesh, StudyError> {
-    teapot(if models == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))
-}
-
-/// The teapot of pictures on which no row depends: reduced, it has about a quarter of the vertices of [`teapot_of`].
-pub(super) fn drawn_teapot(models: ModelSize) -> Result<Mesh, StudyError> {
-    teapot(if models == ModelSize::Printed { 40 } else { 2 }).map_err(|e| failed(super::HOST)(&e))
 }
 
 /// Vertices per cluster: fewer for models with few vertices, so that there are several clusters.

@@ -1,25 +1,18 @@
-//! Figure 7: frame rates by the model, including the ground; and pictures of the models.
+//! Figure 7: frame rates by the model, including the ground.
 
 use glam::DVec3;
 use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
 
-use super::baselines::COLORS;
-use super::lit::Surface;
-use super::models::NamedLobe;
-use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, PaperRow, Prose, Shared, Standing, StudyError, failed, models, number, paper_row};
-use crate::all_frequency::Reflectance;
-use crate::all_frequency::factor::Lobe;
+use super::scene::FigureScene;
+use super::{Dependence, EntryFindings, ModelSize, PaperRow, StudyError, failed, models, number, paper_row, paragraph};
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
 use crate::all_frequency::on_card::{ProductPlace, VertexColors};
 use crate::all_frequency::shade::Multiplies;
 use crate::card::frame_time::{FrameTime, frame_time};
-use crate::geom::Mesh;
-use crate::report::{Cell, NamedPicture, PictureGrid, Table};
+use crate::geom::teapot::teapot;
+use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
-use crate::transfer::grid::Segmentation;
-use crate::transfer::light::HaarLight;
 use crate::transfer::visibility::SegmentCensus;
 
 const CARD: &str = "r350";
@@ -42,16 +35,11 @@ const COEFFICIENTS: u64 = 256;
 const SEGMENTS: u64 = 24;
 const PER_CLUSTER: u64 = 200;
 const CHANNELS: u64 = 3;
-/// Bands of the low-frequency light.
-const ORDER: usize = 5;
-/// Terms of the glossy models.
-const TERMS: usize = 10;
 const CALIBRATED: &str = "Table 1: frames without drawing, its vertices, clusters and omega";
 
 const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} vertices, of whose segments {} % hold transfer here: host and card work side by \
     side, colors of vertices are sent as bytes, no pixel takes time, {} vertices are run per triangle. Rates of Table 1 with drawing are the same without a ground. Light of low frequency has as many \
-    Haar coefficients as any, so the model has one rate for both lights. Pictures are without compression, of {} and {} vertices, each glossy one in two forms of its \
-    reflectance: the textbooks', and the one that is nearest to the errors of section 3.";
+    Haar coefficients as any, so the model has one rate for both lights.";
 
 /// Vertices processed per triangle, for meshes that are not ordered for the card's vertex cache.
 const RUN_PER_TRIANGLE: f64 = 1.1;
@@ -106,80 +94,13 @@ fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, Study
 }
 
 fn rate_row(id: &str, time: &FrameTime) -> Result<PaperRow, StudyError> {
-    paper_row(id, (CARD, time.into()), (time.per_second(), Standing::Predicted { from: CALIBRATED }))
+    paper_row(id, (CARD, time.into()), (time.per_second(), Dependence::Predicted { from: CALIBRATED }))
 }
 
-/// Reflectance of a model of Figure 7 on its ground, with the name and caption of its picture under each light.
-struct GroundedModel {
-    lobe: Option<Lobe>,
-    shown: Vec<(String, String)>,
-}
-
-impl GroundedModel {
-    /// A model with a lobe, or a diffuse one; `shown` has names and captions without the lobe's form.
-    fn new(lobe: Option<NamedLobe>, shown: &[(&str, &str)]) -> Self {
-        let (ending, form) =
-            lobe.map_or_else(Default::default, |(form, _)| (models::ending(form), format!("; {form}")));
-        let shown =
-            shown.iter().map(|(name, caption)| (format!("figure-7-{name}{ending}"), format!("{caption}{form}")));
-        Self { lobe: lobe.map(|(_, lobe)| lobe), shown: shown.collect() }
-    }
-}
-
-/// Pictures of all models, each under all lights.
-fn pictures(
-    mesh: &Mesh,
-    (shared, name): (&Shared, &str),
-    lights: &[&HaarLight],
-    all: &[GroundedModel],
-) -> Result<(FigureScene, Vec<NamedPicture>), StudyError> {
-    let size = shared.models;
-    let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2), size)?;
-    let of_ground = format!("figure-7-ground-of-{name}");
-    let ground = Surface {
-        scene: &scene,
-        maps: &scene.of_ground,
-        reflectance: &Reflectance::Diffuse,
-        color: COLORS[1],
-        pieces: (shared, &of_ground),
-    };
-    let of_ground = ground.raw(lights)?;
-    let mut found = Vec::new();
-    for GroundedModel { lobe, shown } in all {
-        let reflectance = match lobe {
-            Some(lobe) => Reflectance::Factored(models::factorization(lobe, TERMS)?.factors(TERMS)),
-            None => Reflectance::Diffuse,
-        };
-        let (scene, reflectance, color) = (&scene, &reflectance, COLORS[0]);
-        let model = Surface { scene, maps: &scene.of_model, reflectance, color, pieces: (shared, shown[0].0.as_str()) };
-        let rows = reflectance.terms();
-        for ((of_model, of_ground), shown) in model.raw(lights)?.iter().zip(&of_ground).zip(shown) {
-            let colors = scene.joined(&model.exit_of_rows((rows, of_model)), &ground.exit_of_rows((1, of_ground)));
-            found.push(scene.picture(&colors, scene.exposure(&colors), shown.clone())?);
-        }
-    }
-    Ok((scene, found))
-}
-
-pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
-    let size = shared.models;
-    let sky = stand_in()?;
-    let whole = HaarLight::new(&sky, Segmentation::Quarters);
-    let smooth = HaarLight::new(&super::scene::of_low_frequency(&sky, ORDER)?, Segmentation::Quarters);
-    let glossy = models::cook_torrance().map(|lobe| GroundedModel::new(Some(lobe), &[("glossy", "glossy Buddha")]));
-    let buddhas: Vec<GroundedModel> =
-        [GroundedModel::new(None, &[("diffuse", "diffuse Buddha")])].into_iter().chain(glossy).collect();
-    let (buddha, of_buddha) = pictures(&models::buddha(size), (shared, "buddha"), &[&whole], &buddhas)?;
-    let by_light = [("low", "teapot, light of low frequency"), ("all", "teapot, light of all frequencies")];
-    let teapots = models::schlick().map(|lobe| GroundedModel::new(Some(lobe), &by_light));
-    let (teapot, of_teapot) = pictures(&models::teapot_of(size)?, (shared, "teapot"), &[&smooth, &whole], &teapots)?;
-    let [low, all, low_of_form, all_of_form] = [0, 1, 2, 3].map(|at| of_teapot.get(at).cloned());
-    let [diffuse, glossy, glossy_of_form] = [0, 1, 2].map(|at| of_buddha.get(at).cloned());
-    let columns = ["Buddha, diffuse", "Buddha, glossy", "teapot, low frequencies", "teapot, all frequencies"];
-    let grid = PictureGrid::new("Figure 7", columns)
-        .sparse_row("reflectances in the textbooks' form", [diffuse, glossy, low, all])
-        .sparse_row("in the form nearest to section 3", [None, glossy_of_form, low_of_form, all_of_form]);
-    let census = SegmentCensus::new(&teapot.vertices, &teapot.of_ground, &teapot.hats);
+pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
+    let teapot = teapot(if size == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))?;
+    let scene = FigureScene::new(&teapot, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
+    let census = SegmentCensus::new(&scene.vertices, &scene.of_ground, &scene.hats);
     let omega = census.omega();
     let mut table = Table::of("Figure 7: frames a second", "model printed modelled on_an_open_ground without_ground");
     let mut rows = Vec::new();
@@ -201,12 +122,8 @@ pub(super) fn figure(shared: &Shared) -> Result<FigureParts, StudyError> {
         .zip(&TABLE_1)
         .map(|(id, model)| rate_row(&format!("all-frequency/fps-{id}"), &time_of(model, None)?));
     rows.extend(without.collect::<Result<Vec<_>, StudyError>>()?);
-    let figures = [
-        number(f64::from(GROUND_SIDE * GROUND_SIDE), 0),
-        number(100.0 * omega, 0),
-        number(RUN_PER_TRIANGLE, 1),
-        number(buddha.of_model.len() as f64, 0),
-        number(teapot.of_model.len() as f64, 0),
-    ];
-    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures: vec![grid] })
+    let figures =
+        [number(f64::from(GROUND_SIDE * GROUND_SIDE), 0), number(100.0 * omega, 0), number(RUN_PER_TRIANGLE, 1)];
+    let text = vec![paragraph(HOW, figures)];
+    Ok(EntryFindings { text, rows, tables: vec![table], ..EntryFindings::default() })
 }

@@ -2,18 +2,14 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{HOST, ModelSize, StudyError, failed};
+use super::{HOST, StudyError, failed};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-use crate::picture::metrics::{ScreenPicture, flip};
-use crate::report::NamedPicture;
 use crate::scene::Camera;
 use crate::scene::built::ground::on_ground;
-use crate::sphere::{function_count, harmonics};
-use crate::study::prt::{FineView, SeenSurface, auto_exposure, linear_picture};
+use crate::study::prt::SeenSurface;
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::tracer::HostTracer;
-use crate::transfer::grid::LIGHT_MAP;
 use crate::transfer::light::{CubeLight, Decimation, DistantLight};
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
@@ -21,8 +17,6 @@ use crate::transfer::{Tangents, Vertices};
 
 /// Side of the pictures whose differences are measured, in pixels.
 const SIDE: u32 = 160;
-/// Pixels per degree of the observer, FLIP's usual value.
-const PIXELS_PER_DEGREE: f64 = 67.0;
 
 /// Model on a ground: vertices of the model first.
 pub(super) struct FigureScene {
@@ -34,23 +28,11 @@ pub(super) struct FigureScene {
     pub(super) hats: LinearBasis,
     camera: Camera,
     seen: SeenSurface,
-    /// View of the pictures that are shown.
-    pub(super) fine: FineView,
-}
-
-/// Difference of a picture from the exact one.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct PictureDifference {
-    /// Root mean square of the pixels' differences, relative to that of the picture.
-    pub(super) rms: f64,
-    /// Mean FLIP, with the same exposure of both.
-    pub(super) flip: f64,
 }
 
 impl FigureScene {
-    /// Creates the scene, seen from an eye in units of the model's size, relative to its center. The model fills the
-    /// pictures that are shown, of the size that goes with that of the models.
-    pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3, models: ModelSize) -> Result<Self, StudyError> {
+    /// Creates the scene, seen from an eye in units of the model's size, relative to its center.
+    pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3) -> Result<Self, StudyError> {
         let problem = |reason: &dyn std::fmt::Display| failed(HOST)(reason);
         let (mesh, materials) = on_ground(model, ground).map_err(|e| problem(&e))?;
         let vertices =
@@ -66,9 +48,7 @@ impl FigureScene {
         let camera = Camera::new(place, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.3, SIDE, SIDE);
         let camera = camera.map_err(|e| problem(&e))?;
         let seen = SeenSurface::new(&mesh, &vertices, &camera);
-        let framed = (models.picture_side(), &own[..]);
-        let fine = FineView::new((&mesh, &vertices), place, framed).map_err(|e| problem(&e))?;
-        Ok(Self { vertices, of_model, of_ground, hats: LinearBasis::new(BasisWidth::default()), camera, seen, fine })
+        Ok(Self { vertices, of_model, of_ground, hats: LinearBasis::new(BasisWidth::default()), camera, seen })
     }
 
     pub(super) fn eye(&self) -> DVec3 {
@@ -84,39 +64,14 @@ impl FigureScene {
         all
     }
 
-    pub(super) fn pixels(&self, of_vertex: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        self.seen.colors(of_vertex, [0.0; 3])
-    }
-
-    pub(super) fn exposure(&self, of_vertex: &[[f64; 3]]) -> f64 {
-        auto_exposure(&self.pixels(of_vertex))
-    }
-
-    pub(super) fn picture(
-        &self,
-        of_vertex: &[[f64; 3]],
-        exposure: f64,
-        (name, caption): (String, String),
-    ) -> Result<NamedPicture, StudyError> {
-        let image = self.fine.picture(of_vertex).display(exposure).map_err(|e| failed(HOST)(&e))?;
-        Ok(NamedPicture::new(name, image, caption))
-    }
-
-    pub(super) fn error(
-        &self,
-        found: &[[f64; 3]],
-        exact: &[[f64; 3]],
-        exposure: f64,
-    ) -> Result<PictureDifference, StudyError> {
-        let [found, exact] = [found, exact].map(|colors| self.pixels(colors));
-        let pairs = || found.iter().flatten().zip(exact.iter().flatten());
-        let apart: f64 = pairs().map(|(a, b)| (a - b) * (a - b)).sum();
+    /// Difference of a picture from the exact one: root mean square of the pixels' differences, relative to that of the
+    /// picture.
+    pub(super) fn rms(&self, found: &[[f64; 3]], exact: &[[f64; 3]]) -> f64 {
+        let [found, exact] = [found, exact].map(|of_vertex| self.seen.colors(of_vertex, [0.0; 3]));
+        let pairs = found.iter().flatten().zip(exact.iter().flatten());
+        let apart: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
         let whole: f64 = exact.iter().flatten().map(|value| value * value).sum();
-        let screen = |colors: &[[f64; 3]]| {
-            ScreenPicture::new(&linear_picture(&self.camera, colors), exposure).map_err(|e| failed(HOST)(&e))
-        };
-        let seen = flip(&screen(&found)?, &screen(&exact)?, PIXELS_PER_DEGREE);
-        Ok(PictureDifference { rms: (apart / whole).sqrt(), flip: seen.map_or(0.0, |seen| seen.mean) })
+        (apart / whole).sqrt()
     }
 }
 
@@ -124,26 +79,4 @@ impl FigureScene {
 pub(super) fn stand_in() -> Result<CubeLight, StudyError> {
     let cube = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     cube.map_err(|e| failed(HOST)(&e))
-}
-
-/// Projects the light to harmonics of an order, as radiances of texels; negative ringing is clipped to 0.
-pub(super) fn of_low_frequency(light: &CubeLight, order: usize) -> Result<CubeLight, StudyError> {
-    let mut coefficients = vec![[0.0; 3]; function_count(order)];
-    let mut y = vec![0.0; coefficients.len()];
-    let at = |texel: usize| {
-        let [face, row, column] = [texel / 1024, texel / 32 % 32, texel % 32];
-        (LIGHT_MAP.direction(face, column, row), LIGHT_MAP.solid_angle(column, row))
-    };
-    for (texel, radiance) in light.texels().iter().enumerate() {
-        let (direction, angle) = at(texel);
-        harmonics(order, direction, &mut y);
-        for (sum, y) in coefficients.iter_mut().zip(&y) {
-            (0..3).for_each(|channel| sum[channel] += y * radiance[channel] * angle);
-        }
-    }
-    let smooth = (0..light.texels().len()).map(|texel| {
-        harmonics(order, at(texel).0, &mut y);
-        [0, 1, 2].map(|channel| y.iter().zip(&coefficients).map(|(y, rgb)| y * rgb[channel]).sum::<f64>().max(0.0))
-    });
-    CubeLight::new(smooth.collect()).map_err(|e| failed(HOST)(&e))
 }

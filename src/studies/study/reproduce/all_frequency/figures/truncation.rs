@@ -1,26 +1,23 @@
-//! Figure 6: light truncated to a number of coefficients, pictures and flicker.
+//! Figure 6: flicker of light truncated to a number of coefficients.
 
 use glam::{DMat3, DVec3};
 
 use super::rates::{buddha_without_drawing, seconds_of};
 use super::scene::FigureScene;
-use super::{FigureParts, HOST, ModelSize, PaperRow, Prose, StudyError, failed, models, number, solved};
+use super::{EntryFindings, HOST, ModelSize, PaperRow, StudyError, failed, models, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
 use crate::geom::random::CounterRng;
-use crate::report::{Cell, PictureGrid, Table};
+use crate::report::{Cell, Table};
 use crate::sphere::turn_around_z;
-use crate::study::prt::{light_picture, of_texels};
-use crate::study::reproduce::{Setting, Sweep};
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 use crate::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
 use crate::transfer::linear_basis::LinearBasis;
 
 const SOURCES: u64 = 40;
-/// Angular radii of sources in degrees; the rows use the third.
-const RADII: [f64; 5] = [1.4, 2.0, 3.0, 4.0, 5.0];
-const RADIUS: usize = 2;
+/// Angular radius of sources in degrees.
+const RADIUS: f64 = 3.0;
 /// Numbers of coefficients kept.
 const KEPT: [usize; 5] = [50, 100, 200, 400, 800];
 /// Number of steps of half a degree around z.
@@ -33,7 +30,7 @@ const HOW: &str = "Figure 6 has a diffuse Buddha of {} vertices under {} disks w
     square of their radiance. Frame rates are modelled for the printed Buddha with its ground, without drawing.";
 
 /// Returns disks on a spiral over the sphere.
-fn sources(degrees: f64) -> Vec<DiskSource> {
+fn sources() -> Vec<DiskSource> {
     let random = CounterRng::new(6);
     let source = |at: u64| {
         let z = 1.0 - (2 * at + 1) as f64 / SOURCES as f64;
@@ -41,19 +38,15 @@ fn sources(degrees: f64) -> Vec<DiskSource> {
         let [x, y] = on_circle((at as f64 * 0.381_966_011_250_105).fract());
         let radius = (1.0 - z * z).sqrt();
         let radiance = [0, 1, 2].map(|channel| 1.0 + 9.0 * random.unit(at, 0, channel));
-        DiskSource { towards: DVec3::new(radius * x, radius * y, z), radius: degrees.to_radians(), radiance }
+        DiskSource { towards: DVec3::new(radius * x, radius * y, z), radius: RADIUS.to_radians(), radiance }
     };
     (0..SOURCES).map(source).collect()
 }
 
-/// Light of the sources.
-fn cube_of(degrees: f64, turn: &DMat3) -> Result<CubeLight, StudyError> {
-    CubeLight::from_disks(&sources(degrees), turn, Decimation::SolidAngle).map_err(|e| failed(HOST)(&e))
-}
-
-/// Projects the sources to coefficients on six faces.
-fn on_faces(degrees: f64, turn: &DMat3) -> Result<HaarLight, StudyError> {
-    Ok(HaarLight::new(&cube_of(degrees, turn)?, Segmentation::Faces))
+/// Projects the light of the sources to coefficients on six faces.
+fn on_faces(turn: &DMat3) -> Result<HaarLight, StudyError> {
+    let cube = CubeLight::from_disks(&sources(), turn, Decimation::SolidAngle).map_err(|e| failed(HOST)(&e))?;
+    Ok(HaarLight::new(&cube, Segmentation::Faces))
 }
 
 fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, StudyError> {
@@ -90,7 +83,7 @@ impl FlickerFrames {
     fn new(segments: &[TransferSegment], vertices: usize) -> Result<Self, StudyError> {
         let mut found = Self { whole: Vec::new(), lost: vec![Vec::new(); KEPT.len()] };
         for frame in 0..FRAMES {
-            let faces = on_faces(RADII[RADIUS], &turn_around_z(f64::from(frame) / 720.0))?;
+            let faces = on_faces(&turn_around_z(f64::from(frame) / 720.0))?;
             let whole = radiance(segments, vertices, &faces.reprojected(Segmentation::Quarters));
             for (keep, lost) in KEPT.into_iter().zip(&mut found.lost) {
                 let few = radiance(segments, vertices, &cut(&faces, keep)?);
@@ -115,67 +108,41 @@ impl FlickerFrames {
     }
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
-    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6), size)?;
+pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
+    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
     let hats: &LinearBasis = &scene.hats;
     let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
     let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().map_err(|e| failed(HOST)(&e))?;
     let frames = FlickerFrames::new(&segments, scene.vertices.len())?;
     let flicker = frames.flicker();
-    let faces = on_faces(RADII[RADIUS], &DMat3::IDENTITY)?;
+    let faces = on_faces(&DMat3::IDENTITY)?;
     let (nonzero, energy) = (faces.nonzero(), faces.energy());
-    let exposure = scene.exposure(&frames.whole[0]);
-    let mut table =
-        Table::of("Figure 6: light coefficients", "kept of_nonzero_% energy_% rms_% flip flicker_% modelled_fps");
-    let mut pictures = Vec::new();
+    let mut table = Table::of("Figure 6: light coefficients", "kept of_nonzero_% energy_% flicker_% modelled_fps");
     for (at, keep) in KEPT.into_iter().enumerate() {
         let few = cut(&faces, keep)?;
-        let pairs = frames.whole[0].iter().zip(&frames.lost[at][0]);
-        let drawn: Vec<[f64; 3]> = pairs.map(|(whole, lost)| [0, 1, 2].map(|c| whole[c] - lost[c])).collect();
-        let error = scene.error(&drawn, &frames.whole[0], exposure)?;
         let steps = buddha_without_drawing(keep.min(nonzero) as f64 / LIGHT_TEXELS as f64);
         table.push([
             keep.into(),
             Cell::percent(100.0 * keep.min(nonzero) as f64 / nonzero as f64),
             Cell::percent(100.0 * few.energy() / energy),
-            Cell::measured(100.0 * error.rms),
-            Cell::measured(error.flip),
             Cell::measured(100.0 * flicker[at]),
             Cell::measured(1.0 / seconds_of(steps)?),
         ]);
-        pictures.push(scene.picture(
-            &drawn,
-            exposure,
-            (format!("figure-6-{keep}"), format!("coefficients kept: {keep}")),
-        )?);
     }
-    let all = "all coefficients".to_owned();
-    let columns = KEPT.map(|keep| format!("|L| = {keep}")).into_iter().chain(["all".to_owned()]);
-    let disks = cube_of(RADII[RADIUS], &DMat3::IDENTITY)?;
-    let light = of_texels(disks.texels());
-    let light = light_picture("figure-6-light", "disks of random colors", light).map_err(|e| failed(HOST)(&e))?;
-    pictures.push(scene.picture(&frames.whole[0], exposure, ("figure-6-all".to_owned(), all))?);
-    let grid = PictureGrid::new("Figure 6", columns).row("", pictures).row("", [light]);
     let rows = rows(nonzero, &flicker)?;
     let figures = [
         number(scene.of_model.len() as f64, 0),
         number(SOURCES as f64, 0),
-        number(RADII[RADIUS], 0),
+        number(RADIUS, 0),
         number(f64::from(FRAMES - 1), 0),
     ];
-    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures: vec![grid] })
+    let text = vec![paragraph(HOW, figures)];
+    Ok(EntryFindings { text, rows, tables: vec![table], ..EntryFindings::default() })
 }
 
 fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, StudyError> {
-    let mut counted = [solved("coefficients-of-faces", nonzero as f64)?];
-    let setting = |degrees: &f64| -> Result<Setting, StudyError> {
-        let values = vec![on_faces(*degrees, &DMat3::IDENTITY)?.nonzero() as f64];
-        Ok(Setting { at: number(*degrees, 1), values })
-    };
-    let settings = RADII.iter().map(setting).collect::<Result<_, _>>()?;
-    Sweep { name: "sizes of sources", parameter: "radius in degrees", settings }.explain(&mut counted);
     let needed =
         KEPT.iter().zip(flicker).find(|(_, flicker)| **flicker < SEEN).map_or(f64::NAN, |(&keep, _)| keep as f64);
     let share = solved("without-flicker", 100.0 * needed.min(nonzero as f64) / nonzero as f64)?;
-    Ok(counted.into_iter().chain([share]).collect())
+    Ok(vec![solved("coefficients-of-faces", nonzero as f64)?, share])
 }

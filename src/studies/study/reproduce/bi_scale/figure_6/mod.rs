@@ -1,34 +1,31 @@
 //! Figure 6: biclusters compared with clusters of rows and wavelets, and with the other methods of sections II and
 //! IV-A.
 
-mod chair;
-mod pictures;
 mod sizes;
 
 use glam::DMat3;
 
+use super::models::ModelVisibility;
 use super::scenes::SCENES;
 use super::{
-    EntryFindings, HOST, ModelSize, PaperRow, Prose, Shared, StudyError, failed, number, printed_value, solved,
+    EntryFindings, HOST, ModelSize, PaperRow, Shared, StudyError, failed, number, paragraph, printed_value, solved,
 };
-use crate::bi_scale::baselines::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
+use crate::bi_scale::baselines::{HaarRowOptions, LocalTransfer, RowClusterOptions};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::light_vectors;
 use crate::scene::built::flat_models::FlatModel;
 use crate::study::prt::{LightChannels, StoredComparison, stored_ways_table};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::transfer::light::{CubeLight, Decimation, DistantLight};
-use chair::ChairModel;
-use pictures::VertexPictures;
+use crate::transfer::visibility::Horizon;
 use sizes::chair_sizes;
 
-/// Rows from which clusters are found first, on the chair of full size.
-pub(super) const SAMPLED_ROWS: usize = 8192;
 /// Order of the harmonics of low-frequency bi-scale transfer.
 const ORDER: usize = 5;
 
-const HOW: &str = "Figure 6 is drawn of a chair with {} vertices that is not at hand; ours is made by code and has {}. Each way to store its transfer \
+const HOW: &str = "Figure 6 has a chair with {} vertices that is not at hand; ours is made by code and has {}. Each way to store its transfer \
     is held against rows of the matrix under two lights, a clear sky with a sun, and two disks: {} clusters of rows of {} vectors, found from {} rows and \
     then made better with all rows in {} rounds; {} wavelets a row, by magnitude times area, in bytes; light of order {}, on one side and on both; and the form \
     that section IV-A rejects. Ways that the paper compares at about equal bytes stand here also with as many numbers as go into the bytes of biclusters.";
@@ -40,14 +37,15 @@ const QUESTION: &str = "the chair, its light and camera; whether clusters had me
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (mesh, sample) = match shared.models {
         ModelSize::Reduced => (FlatModel::Chair.model(4).mesh, 1024),
-        ModelSize::Printed => (FlatModel::Chair.model(1).mesh, SAMPLED_ROWS),
+        ModelSize::Printed => (FlatModel::Chair.model(1).mesh, 8192),
     };
-    let scene = ChairModel::new(&mesh)?;
+    let (seen, directions) = (ModelVisibility::new(&mesh, Horizon::Normal)?, LocalDirections::new(SCENES[2].side));
+    let (matrix, directions) = (seen.matrix(SCENES[2].side)?, directions.map_err(|error| failed(HOST)(&error))?);
     let biclusters =
-        bicluster(&scene.matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
-    let transfer = LocalTransfer::new(&scene.matrix, scene.seen.vertices.frames(), &scene.directions);
+        bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
+    let transfer = LocalTransfer::new(&matrix, seen.vertices.frames(), &directions);
     let comparison = StoredComparison {
-        matrix: &scene.matrix,
+        matrix: &matrix,
         biclusters: &biclusters,
         transfer: Some(transfer.map_err(|error| failed(HOST)(&error))?),
         clusters: RowClusterOptions { sample, ..RowClusterOptions::default() },
@@ -55,27 +53,17 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         order: ORDER,
     };
     let lights = lights()?;
-    let mut pictures = VertexPictures::new(&scene, &lights[0], shared.models.picture_side())?;
-    let mut visit = |name: &str, stored: &dyn StoredTransfer| {
-        pictures.add(name, |light| stored.multiply(light));
-    };
-    let ways = comparison.ways(&lights, &mut |_, _, _| (), &mut visit).map_err(|error| failed(HOST)(&error))?;
-    let (shown, differences) = pictures.finish()?;
+    let ways = comparison.ways(&lights, &mut |_, _, _| (), &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
     let RowClusterOptions { clusters, vectors, sample, rounds, .. } = comparison.clusters;
-    let sizes = [SCENES[2].vertices()?, scene.seen.vertices.len(), clusters, vectors, sample, rounds]
+    let sizes = [SCENES[2].vertices()?, seen.vertices.len(), clusters, vectors, sample, rounds]
         .into_iter()
         .chain([comparison.wavelets.keep, ORDER])
         .map(|size| number(size as f64, 0));
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, sizes), CAPTIONS.into()],
-        rows: rows(&scene.matrix, &biclusters)?,
+        text: vec![paragraph(HOW, sizes), CAPTIONS.into()],
+        rows: rows(&matrix, &biclusters)?,
         questions: vec![QUESTION],
-        tables: vec![
-            stored_ways_table("Ways to store transfer", &ways, &["sky", "disks"]),
-            chair_sizes()?,
-            differences,
-        ],
-        pictures: vec![shown],
+        tables: vec![stored_ways_table("Ways to store transfer", &ways, &["sky", "disks"]), chair_sizes()?],
         ..EntryFindings::default()
     })
 }

@@ -1,0 +1,67 @@
+//! How records were made, and the relation of an entry's findings to its record.
+
+use serde::{Deserialize, Serialize};
+
+use crate::report::words::counted;
+use crate::study::reproduce::prose::{number, paragraph};
+
+const RECORDED: &str = "Rows and tables are recorded: `{}`, version {} ({}), {}.";
+const CONFIRMED: &str = "All is computed anew at full size, and has the bits of the record: `{}`, version {} ({}), {}.";
+const DIFFERS: &str = "All is computed anew at full size; {} not as recorded: `{}`, version {} ({}), {}. Either the record is of another program, or this \
+    program does not compute the same everywhere.";
+
+/// How a record was made.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordMade {
+    /// Command line that computes the same.
+    pub command: String,
+    /// Version of the program.
+    pub version: String,
+    /// Commit of its sources.
+    pub commit: String,
+    /// Processor time of all threads, in seconds; none where the system does not say it.
+    pub processor_s: Option<f64>,
+    /// Time on the wall clock, in seconds.
+    pub wall_s: f64,
+}
+
+/// Relation of an entry's findings to its record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RecordStatus {
+    /// The findings are those of the record.
+    Recorded(&'static RecordMade),
+    /// Computed at full size, beside a record.
+    Computed {
+        /// How the record was made.
+        made: &'static RecordMade,
+        /// Number of rows that are not as recorded.
+        differ: usize,
+    },
+}
+
+impl RecordStatus {
+    /// How the record was made.
+    pub const fn made(&self) -> &'static RecordMade {
+        match self {
+            Self::Recorded(made) | Self::Computed { made, .. } => made,
+        }
+    }
+
+    /// Sentence on the findings.
+    pub fn sentence(&self) -> String {
+        let made = self.made();
+        let seconds = |time: f64, what: &str| format!("{} s {what}", number(time, 0));
+        let processor = made.processor_s.map(|time| seconds(time, "of processor time"));
+        let times = processor.into_iter().chain([seconds(made.wall_s, "on the clock")]).collect::<Vec<_>>();
+        let made = [made.command.clone(), made.version.clone(), made.commit.clone(), times.join(" and ")];
+        match self {
+            Self::Recorded(_) => paragraph(RECORDED, made),
+            Self::Computed { differ: 0, .. } => paragraph(CONFIRMED, made),
+            Self::Computed { differ, .. } => {
+                let rows = counted(*differ as u64, "row is", "rows are");
+                paragraph(DIFFERS, [rows].into_iter().chain(made))
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Files and blocks of pages that are the program's own text: held against it, or written by `INSTA_UPDATE=always`.
+#![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
+
+use std::fs;
+use std::path::Path;
+
+use crate::environment::writes_files;
+
+/// Holds a file against what it should be, or writes it.
+pub(crate) fn hold(path: &Path, expected: &str) {
+    if writes_files() {
+        fs::write(path, expected).expect("it can be written");
+    }
+    let found = fs::read_to_string(path).unwrap_or_default().replace('\r', "");
+    let other = expected.lines().zip(found.lines()).find(|(expected, found)| expected != found);
+    let path = path.display();
+    assert!(
+        found == expected,
+        "{path} is out of date, INSTA_UPDATE=always cargo test writes it; expected, found: {other:?}"
+    );
+}
+
+/// The text with what stands between `<!-- KIND: NAME -->` and `<!-- /KIND -->` replaced by what `said` says of the
+/// name.
+pub(crate) fn filled(text: &str, kind: &str, said: impl Fn(&str) -> String) -> String {
+    let (begin, end) = (format!("<!-- {kind}: "), format!("<!-- /{kind} -->"));
+    let mut parts = text.split(&begin);
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once(" -->").expect("the mark's end");
+        let (_, rest) = rest.split_once(&end).expect("an end mark for each mark");
+        out.push_str(&format!("{begin}{name} -->{}{end}{rest}", said(name)));
+    }
+    out
+}
+
+#[test]
+fn blocks_are_filled() {
+    let text = "a <!-- study: tally -->old<!-- /study --> b <!-- other: x -->old<!-- /other -->";
+    assert_eq!(filled(text, "study", str::to_uppercase), text.replacen("old", "TALLY", 1));
+}
