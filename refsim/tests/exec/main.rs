@@ -18,4 +18,3 @@ mod rules;
 #[path = "../common/running.rs"]
 mod running;
 mod step_budget;
-mod storage_formats;

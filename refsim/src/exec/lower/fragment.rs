@@ -163,11 +163,10 @@ impl Translator<'_> {
         let Some(destination) = instruction.destination else { return [self.make.zero(); 4] };
         let k = self.arith(instruction);
         let raw = self.fragment_raw(instruction, k);
-        let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
+        let to = of_file(destination.register.file);
         raw.map(|x| {
             let clamped = if destination.saturate { self.make.saturate_number(k, x) } else { x };
-            let left = self.make.convert(k, to, clamped);
-            self.make.stored(to, storage, left)
+            self.make.convert(k, to, clamped)
         })
     }
 
@@ -217,11 +216,10 @@ impl Translator<'_> {
             let k = self.arith(instruction);
             texel = self.through(k, texel);
         }
-        let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
+        let to = of_file(destination.register.file);
         texel.map(|x| {
             let clamped = if destination.saturate { self.make.saturate_number(Arith::Main, x) } else { x };
-            let left = self.make.convert(Arith::Main, to, clamped);
-            self.make.stored(to, storage, left)
+            self.make.convert(Arith::Main, to, clamped)
         })
     }
 
