@@ -1,12 +1,9 @@
-//! The batch executor's own code paths against the scalar executor and against `num`.
+//! Arithmetic of the batch executor against `num`, and large textures.
 
 mod array_operation;
 #[path = "../common/environment.rs"]
 mod environment;
-mod filter_rows;
-mod guarded_rows;
 mod lanes;
+mod large_textures;
 #[path = "../common/random.rs"]
 mod random;
-#[path = "../common/sampling.rs"]
-mod sampling;
