@@ -1,13 +1,21 @@
-//! Bi-scale transfer: light times biclusters on every executor.
+//! Bi-scale transfer: light times biclusters, and pictures of bidirectional textures, on every executor.
 
 use crossbar::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::kernels::BlockEdges;
 use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::bi_scale::on_card::{GatherCard, LightFormat};
+use crossbar::bi_scale::on_card::{BiScaleCard, DisplayOptions, GatherCard, LightFormat, LocalFormat, TexturedMesh};
 use crossbar::bi_scale::product::Gather;
+use crossbar::bi_scale::texture::BidirectionalTexture;
+use crossbar::card::MeshView;
 use crossbar::geom::random::CounterRng;
+use crossbar::scene::Camera;
+use crossbar::transfer::synthetic::hills;
+use crossbar::transfer::{Tangents, Vertices};
 use refsim::device::Profile;
+use refsim::texture::TexelFormat;
 
-use crate::system::executors;
+use crate::system::{bits, executors};
 
 #[test]
 fn products_are_the_same_everywhere_and_the_hosts() {
@@ -43,6 +51,70 @@ fn products_are_the_same_everywhere_and_the_hosts() {
                 assert!(bits == host, "{what}: differs from the host");
             }
             assert!(reference.get_or_insert_with(|| bits.clone()) == &bits, "{what}: differs from the scalar executor");
+        }
+    }
+}
+
+#[test]
+fn pictures_are_the_same_everywhere() {
+    let vertices = Vertices::new(&hills(4), Tangents::Any).expect("vertices");
+    let random = CounterRng::new(5);
+    let at = |vertex: u32| {
+        let [x, y, _] = vertices.positions()[vertex as usize];
+        [1.7 * x, 0.9 * y + 0.3]
+    };
+    let coordinates: Vec<[[f32; 2]; 3]> = vertices.triangles().iter().map(|corners| corners.map(at)).collect();
+    let of = |side| LocalDirections::new(side).expect("directions");
+    for (device, format, size, views, lights, options) in [
+        ("gt200", TexelFormat::Bgra8, 8, 3, 4, DisplayOptions::default()),
+        (
+            "gt200",
+            TexelFormat::Rgba16f,
+            5,
+            2,
+            3,
+            DisplayOptions { edges: BlockEdges::Touching, texture: TexelFormat::Rgba16f, local: LocalFormat::Fp16 },
+        ),
+        (
+            "ideal-fp32",
+            TexelFormat::Rgba32f,
+            4,
+            12,
+            2,
+            DisplayOptions { edges: BlockEdges::Wrapped, texture: TexelFormat::Rgba32f, local: LocalFormat::Bytes },
+        ),
+        ("ideal-fp16", TexelFormat::Rgba32f, 4, 2, 2, DisplayOptions::default()),
+    ] {
+        let count = (size * size * views * views * lights * lights) as u64;
+        let samples = (0..count).map(|at| [0, 1, 2].map(|channel| random.unit(at, channel, 0) as f32)).collect();
+        let texture = BidirectionalTexture::new(size, of(views), of(lights), samples).expect("a texture");
+        let flat = BidirectionalTexture::new(1, of(1), of(lights), vec![[0.3, 0.2, 0.1]; lights * lights]);
+        let textures = [texture, flat.expect("a texture")];
+        let texture_of: Vec<u32> = (0..coordinates.len() as u32).map(|triangle| triangle % 3 / 2).collect();
+        let numbers = (vertices.len() * lights * lights) as u64;
+        let local: Vec<[f32; 3]> =
+            (0..numbers).map(|at| [0, 1, 2].map(|channel| (0.2 * random.unit(at, channel, 1)) as f32)).collect();
+        let mesh = TexturedMesh {
+            vertices: &vertices,
+            coordinates: &coordinates,
+            textures: &textures,
+            texture_of: &texture_of,
+        };
+        let cameras = [[0.5, -1.4, 2.6], [2.2, -1.9, 0.45]]
+            .map(|eye| Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], 0.45, 29, 23).expect("a camera"));
+        let mut reference = None;
+        for (executor, how) in executors() {
+            let what = format!("{device}, {format}, {options:?}, {executor}");
+            let profile = Profile::named(device).expect("a device");
+            let mut card = BiScaleCard::new(profile, how, mesh, options).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let seen = cameras.map(|camera| {
+                let view = MeshView { camera, exposure: 0.8, format };
+                let picture = card.view_texels(&local, &view).unwrap_or_else(|e| panic!("{what}: {e}"));
+                let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value > 0.0)).count();
+                assert!(lit > 20, "{what}: {lit} pixels with light");
+                bits(&picture)
+            });
+            assert!(reference.get_or_insert_with(|| seen.clone()) == &seen, "{what}: differs from the scalar executor");
         }
     }
 }

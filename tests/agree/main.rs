@@ -2,16 +2,16 @@
 //!
 //! A suite draws cases from a seed: a program, a device, a scene. Each case is drawn by the scalar executor and by
 //! every other one at every SIMD level and thread count, and all targets, the depth buffer and every counter are
-//! compared. A failing case is printed with the instruction to blame and the command that shows it again: the suite's name and
+//! compared. A failing case is cut down and printed with the command that shows it again: the suite's name and
 //! `CROSSBAR_SEED`. `CROSSBAR_FULL=1` goes through 105 times as many, `CROSSBAR_FUZZ=10m` goes on for ten
 //! minutes.
 
 mod agreement;
+mod all_frequency;
 mod bi_scale;
 mod blame;
 mod constants;
 mod coverage;
-mod describe;
 mod dice;
 #[path = "../../refsim/tests/common/environment.rs"]
 mod environment;
@@ -21,17 +21,20 @@ mod fuzz;
 mod generate;
 mod mipmaps;
 mod planted;
+mod prt;
 mod radiosity;
 #[path = "../../refsim/tests/common/random.rs"]
 mod random;
 mod rules;
 mod scene;
 mod shapes;
+mod shrink;
 mod steps;
 mod subsurface;
 mod suite;
 mod system;
 mod traces;
+mod visibility;
 
 /// Runs the suite that a test is named after: its path without the crate.
 fn suite(module: &str, test: &str) {

@@ -1,12 +1,16 @@
-//! Passes 1 and 2 of system 3: the same bits by every executor, and pass 2 as the host's loop has it.
+//! The three passes of system 3: the same bits by every executor, and pass 2 as the host's loop has it.
 
 use crate::environment::is_full;
 use crossbar::atlas::Atlas;
-use crossbar::card::Texels;
+use crossbar::card::{MeshView, Texels};
 use crossbar::geom::Mesh;
+use crossbar::scene::Camera;
+use crossbar::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
 use crossbar::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, order,
+    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View,
+    order,
 };
+use refsim::texture::TexelFormat;
 
 use crate::random::Random;
 use crate::system::{bits, executors, nv35};
@@ -63,9 +67,22 @@ fn lights() -> Vec<Light> {
     ]
 }
 
-/// Maps of a card on every executor, against the scalar one's; pass 2 against the host's loop. In the
+fn view(kernel: ViewKernel, format: TexelFormat) -> View {
+    let camera = Camera::new([2.5, -3.0, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.4, 33, 27).expect("a camera");
+    let scattered = View::scattered(MeshView { camera, exposure: 1.5, format });
+    View { kernel, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, ..scattered }
+}
+
+/// Maps and pictures of a card on every executor, against the scalar one's; pass 2 against the host's loop. In the
 /// short form one case in five is drawn on a GPU: all that the loops of the tests choose turns up among these.
-fn agrees(case: usize, name: &str, links: &LinkTextures, options: SubsurfaceCardOptions) {
+fn agrees(
+    case: usize,
+    name: &str,
+    links: &LinkTextures,
+    options: SubsurfaceCardOptions,
+    views: &[View],
+    lights: &[Light],
+) {
     let model = model();
     let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
     let on_gpu = case.is_multiple_of(5) || is_full();
@@ -73,14 +90,19 @@ fn agrees(case: usize, name: &str, links: &LinkTextures, options: SubsurfaceCard
         let what = format!("{name}, {executor}");
         let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options)
             .unwrap_or_else(|e| panic!("{what}: {e}"));
-        card.light(&lights()).unwrap_or_else(|e| panic!("{what}: {e}"));
+        card.light(lights).unwrap_or_else(|e| panic!("{what}: {e}"));
         let levels = card.read_levels().unwrap_or_else(|e| panic!("{what}: {e}"));
         let scattered = card.read_scattered().unwrap_or_else(|e| panic!("{what}: {e}"));
         let half = nv35().rules.partial.unwrap_or(refsim::num::Format::FP16);
         let expected = order::gathered(&levels, links, card.gather_programs(), half, &options).expect("an order");
         assert!(scattered.texels.iter().any(|texel| texel[0] > 0.0), "{name}: dark");
         assert_eq!(bits(&scattered), bits(&expected), "{name}, {executor}: pass 2 against the host's loop");
-        let seen: Vec<Vec<[u32; 4]>> = levels.iter().map(bits).collect();
+        let mut seen: Vec<Vec<[u32; 4]>> = levels.iter().map(bits).collect();
+        for view in views {
+            let picture = card.view_texels(view).unwrap_or_else(|e| panic!("{what}: {e}"));
+            assert!(picture.texels.iter().any(|texel| texel[..3] != [0.0; 3]), "{name}: a black picture");
+            seen.push(bits(&picture));
+        }
         assert!(reference.get_or_insert_with(|| seen.clone()) == &seen, "{name}: {executor} differs");
     }
 }
@@ -98,7 +120,7 @@ fn fixed_links_are_the_hosts() {
                     let scattered = if half { FloatTexels::Fp16 } else { FloatTexels::Fp32 };
                     let options = SubsurfaceCardOptions { map, half, scattered, ..SubsurfaceCardOptions::default() };
                     let name = format!("{count} fixed links, rgb {rgb}, {map:?}, half {half}");
-                    agrees(case, &name, &links, options);
+                    agrees(case, &name, &links, options, &[], &lights());
                     case += 1;
                 }
             }
@@ -123,14 +145,52 @@ fn adaptive_links_are_the_hosts() {
                         ..SubsurfaceCardOptions::default()
                     };
                     let name = format!("{count} adaptive links, rgb {rgb}, {map:?}, half {half}");
-                    agrees(case, &name, &links, options);
+                    agrees(case, &name, &links, options, &[], &lights());
                     case += 1;
                     if count == 16 && !half {
                         let tiled = SubsurfaceCardOptions { tiles: Some(4), ..options };
-                        agrees(case, &format!("{name}, as tiles"), &links, tiled);
+                        agrees(case, &format!("{name}, as tiles"), &links, tiled, &[], &lights());
                     }
                 }
             }
         }
+    }
+}
+
+/// More lights than a pass takes: by vertex and by texel, in every map.
+#[test]
+fn many_lights_are_the_same_everywhere() {
+    let links = links(Some(2), false, 16);
+    let mut many = lights();
+    for n in 0..29 {
+        let towards = [(n % 3) as f64 - 1.0, (n % 5) as f64 - 2.0, 1.0];
+        many.push(Light::Directional { towards, irradiance: [0.01, 0.02, 0.005 * n as f64] });
+    }
+    for (stage, light) in [LightStage::Vertices, LightStage::Texels].into_iter().enumerate() {
+        for (at, map) in MAPS.into_iter().enumerate() {
+            let options = SubsurfaceCardOptions { light, map, ..SubsurfaceCardOptions::default() };
+            agrees(3 * stage + at, &format!("30 lights, {light:?}, {map:?}"), &links, options, &[], &many);
+        }
+    }
+}
+
+#[test]
+fn every_view_is_the_same_everywhere() {
+    let links = links(Some(2), true, 16);
+    let views: Vec<View> = ViewKernel::all()
+        .into_iter()
+        .zip([TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Bgra8].into_iter().cycle())
+        .map(|(kernel, format)| view(kernel, format))
+        .collect();
+    assert_eq!(views.len(), 15);
+    let modulated = ViewKernel {
+        transmittance: EyeTransmittance::Table,
+        direct: DirectLight::ByFragment,
+        combine: Combine::Modulated,
+    };
+    assert!(views.iter().any(|view| view.kernel == modulated));
+    for light in [LightStage::Vertices, LightStage::Texels] {
+        let options = SubsurfaceCardOptions { light, scattered: FloatTexels::Fp16, ..SubsurfaceCardOptions::default() };
+        agrees(0, &format!("views, {light:?}"), &links, options, &views, &lights());
     }
 }

@@ -1,0 +1,149 @@
+//! All-frequency transfer: pictures by colors of vertices and by products per pixel, on every executor.
+
+use crossbar::all_frequency::Reflectance;
+use crossbar::all_frequency::code::{CodeOptions, CodedTransfer};
+use crossbar::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
+use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crossbar::all_frequency::kernels::{MapFilter, ViewNumbers};
+use crossbar::all_frequency::on_card::{
+    FactoredCard, ProductOptions, ProductPlace, RadianceFormat, SumCard, TransferredMesh, VertexColors, ViewMaker,
+};
+use crossbar::all_frequency::shade::TransferredRadiance;
+use crossbar::card::MeshView;
+use crossbar::scene::Camera;
+use crossbar::transfer::synthetic::{hills, signal_at, torus_signal};
+use crossbar::transfer::{Tangents, Vertices};
+use refsim::device::Profile;
+use refsim::isa::Version;
+use refsim::texture::TexelFormat;
+
+use crate::system::{bits, executors};
+
+/// Hills with made-up transferred radiance.
+struct Hills {
+    vertices: Vertices,
+    reflectance: Reflectance,
+    transferred: TransferredRadiance,
+}
+
+impl Hills {
+    fn new(terms: usize) -> Self {
+        let sampling = FactorSampling { side: 8, supersamples: Supersamples::NONE, ..FactorSampling::default() };
+        let table = sampling.table(&Lobe::schlick(0.3, 0.5, 0.8), &mut |_, _| ()).expect("a table");
+        let factors = Factorization::new(&table, terms).expect("terms").factors(terms);
+        Self::of(Reflectance::Factored(factors))
+    }
+
+    fn of(reflectance: Reflectance) -> Self {
+        let vertices = Vertices::new(&hills(6), Tangents::Any).expect("vertices");
+        let place = |at: usize| vertices.positions()[at].map(f64::from);
+        let signal = signal_at(vertices.len(), 3 * reflectance.terms(), 5, place);
+        let transferred = TransferredRadiance::new(reflectance.terms(), signal.values().as_chunks().0.to_vec());
+        Self { vertices, reflectance, transferred }
+    }
+
+    /// Pictures from above and at a grazing angle, where hills hide each other and reads of maps leave the rim.
+    fn agrees(&self, device: &str, format: TexelFormat, place: ProductPlace) {
+        let Self { vertices, reflectance, transferred } = self;
+        let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
+        let cameras = [[0.5, -1.4, 2.6], [2.2, -1.9, 0.45]]
+            .map(|eye| Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], 0.45, 29, 23).expect("a camera"));
+        let mut reference = None;
+        for (executor, how) in executors() {
+            let what = format!("{} terms, {device}, {format:?}, {place:?}, {executor}", reflectance.terms());
+            let profile = Profile::named(device).expect("a device");
+            let mut card = FactoredCard::new(profile, how, mesh, place).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let seen = cameras.map(|camera| {
+                let view = MeshView { camera, exposure: 0.8, format };
+                let picture = card.view_texels(&view).unwrap_or_else(|e| panic!("{what}: {e}"));
+                let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value != 0.0)).count();
+                assert!(lit > 20, "{what}: {lit} pixels with light");
+                bits(&picture)
+            });
+            assert!(reference.get_or_insert_with(|| seen.clone()) == &seen, "{what}: differs from the scalar executor");
+        }
+    }
+}
+
+#[test]
+fn colors_of_vertices_are_the_same_everywhere() {
+    let hills = Hills::new(10);
+    for (device, colors, format) in [
+        ("r350", VertexColors::Bytes, TexelFormat::Bgra8),
+        ("nv25", VertexColors::Bytes, TexelFormat::Bgra8),
+        ("r200", VertexColors::Bytes, TexelFormat::Bgra8),
+        ("r350", VertexColors::Floats, TexelFormat::Rgba32f),
+        ("nv35", VertexColors::Floats, TexelFormat::Rgba16f),
+    ] {
+        hills.agrees(device, format, ProductPlace::Vertices(colors));
+    }
+    let pixels = ProductPlace::Pixels(ProductOptions::default());
+    Hills::of(Reflectance::Diffuse).agrees("r350", TexelFormat::Bgra8, pixels);
+}
+
+#[test]
+fn products_per_pixel_are_the_same_everywhere() {
+    let hills = Hills::new(10);
+    let options = ProductOptions::default();
+    let per_channel = ProductOptions { view: ViewNumbers::Vector, is_pass_per_channel: true, ..options };
+    let by_program = ProductOptions { filter: MapFilter::Program, ..options };
+    let in_8_bits = ProductOptions { map_format: TexelFormat::Rgba8Snorm, ..options };
+    for (device, format, options) in [
+        ("r350", TexelFormat::Bgra8, options),
+        ("r350", TexelFormat::Rgba32f, per_channel),
+        ("r350", TexelFormat::Rgba16f, ProductOptions { map_format: TexelFormat::Rgba16f, ..by_program }),
+        ("r350", TexelFormat::Rgba16, ProductOptions { vertex_version: Some(Version::Vs1_1), ..by_program }),
+        (
+            "r350",
+            TexelFormat::Bgra8,
+            ProductOptions { view_maker: ViewMaker::Host, radiance: RadianceFormat::Fp16, ..options },
+        ),
+        ("nv35", TexelFormat::Rgba32f, ProductOptions { map_format: TexelFormat::Rg16Snorm, ..options }),
+        ("nv35", TexelFormat::Bgra8, ProductOptions { is_partial: true, ..in_8_bits }),
+        ("ideal-fp16", TexelFormat::Rgba32f, ProductOptions { map_bits: Some(10), ..by_program }),
+        ("ideal-fp32", TexelFormat::Rgba32f, ProductOptions { map_format: TexelFormat::Rgba32f, ..options }),
+    ] {
+        hills.agrees(device, format, ProductPlace::Pixels(options));
+    }
+    for terms in [2, 3, 5, 8] {
+        Hills::new(terms).agrees("r350", TexelFormat::Rgba32f, ProductPlace::Pixels(options));
+    }
+}
+
+/// Made-up transfer of 150 vertices: three segments, clusters of up to so many representatives.
+fn coded(rows: usize, vectors: usize) -> CodedTransfer {
+    let segment = |segment: usize, vertices: Vec<u32>| {
+        let options = SegmentOptions { points_per_cluster: 40, vectors, iterations: 3, ..SegmentOptions::default() };
+        let signal = torus_signal(vertices.len(), rows * 16, segment as u64);
+        CompressedSegment::new(segment, vertices, &signal, &options, |_| ()).expect("compressed")
+    };
+    let segments =
+        vec![segment(0, (0..90).collect()), segment(3, (40..150).collect()), segment(7, (5..150).step_by(9).collect())];
+    let transfer = CompressedTransfer::new(rows, 150, segments).expect("transfer");
+    CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded")
+}
+
+#[test]
+fn sums_over_representatives_are_the_same_everywhere() {
+    for (device, rows, vectors) in
+        [("r350", 10, 16), ("nv35", 10, 5), ("r300", 1, 16), ("ideal-fp32", 3, 20), ("ideal-fp16", 2, 7)]
+    {
+        let coded = coded(rows, vectors);
+        let light: Vec<[f32; 3]> =
+            (0..8 * 16).map(|at| [at % 3, at % 5, at % 7].map(|value| value as f32 - 1.75)).collect();
+        let mut reference = None;
+        for (executor, how) in executors() {
+            let what = format!("{rows} rows, {device}, {executor}");
+            let profile = Profile::named(device).expect("a device");
+            let mut card = SumCard::new(profile, how, &coded).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let (found, log) = card.transferred(&light).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let slices = coded.segments.iter().map(|part| part.counts.iter().max().map_or(0, |m| m.div_ceil(16)));
+            let slices: usize = slices.map(usize::from).sum();
+            assert_eq!(log.passes, slices * (3 * rows).div_ceil(4), "{what}");
+            let bits: Vec<u32> =
+                (0..150).flat_map(|vertex| found.of(vertex).as_flattened().to_vec()).map(f32::to_bits).collect();
+            assert!(bits.iter().any(|&bits| bits != 0), "{what}");
+            assert!(reference.get_or_insert_with(|| bits.clone()) == &bits, "{what}: differs from the scalar executor");
+        }
+    }
+}
