@@ -1,10 +1,11 @@
-//! The body of all agreement tests: draw a case with every executor, compare, say how to repeat a difference.
+//! The body of all agreement tests: draw a case with every executor, compare, shrink a difference, say how to repeat
+//! it.
 
 use crate::blame::{Side, blame};
-use crate::describe::describe;
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Outcome, Programs};
+use crate::shrink;
 use crate::suite::Suite;
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -52,6 +53,13 @@ fn differs(expected: &Outcome, found: Result<Outcome, String>, executor: &Execut
     }
 }
 
+/// The difference of one executor from the reference on a case; `None` also if the case is not legal.
+pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
+    let programs = case.build().ok()?;
+    let expected = draw(case, &programs, &REFERENCE).ok()?;
+    differs(&expected, draw(case, &programs, executor), executor)
+}
+
 /// Runs a suite, by default in its short form.
 pub(crate) fn run(suite: &Suite) {
     let seeds = seeds(suite.seeds, 105);
@@ -68,21 +76,23 @@ pub(crate) fn run(suite: &Suite) {
     assert!(one || fragments > 0, "the scenes of {} cover nothing", suite.name);
 }
 
-/// A report of a difference: how to repeat it, the instruction to blame, and the case.
+/// A report of a difference: how to repeat it, and the smallest case that shows it.
 pub(crate) fn report(suite: &Suite, seed: u64, difference: &Difference) -> String {
-    let case = &suite.case(seed);
+    let case = suite.case(seed);
     let executor = &EXECUTORS[difference.executor];
+    let small = shrink::shrink(&case, |smaller| self::difference(smaller, executor).is_some());
     let mut text = format!(
         "scalar and {} differ; to see it again:\n  CROSSBAR_SEED={seed} cargo test --test agree -- --exact {}\n",
         executor.name, suite.name
     );
     let _ = writeln!(text, "first difference: {}", difference.what);
-    let followed = blame(Side { case, executor: &REFERENCE }, Side { case, executor });
+    let _ = writeln!(text, "cut down: {}", self::difference(&small, executor).unwrap_or_default());
+    let followed = blame(Side { case: &small, executor: &REFERENCE }, Side { case: &small, executor });
     let _ = writeln!(text, "{followed}");
-    let _ = writeln!(text, "{}", case.pixel.join("\n"));
-    if let Some(vertex) = &case.vertex {
+    let _ = writeln!(text, "{}", small.pixel.join("\n"));
+    if let Some(vertex) = &small.vertex {
         let _ = writeln!(text, "{}", vertex.join("\n"));
     }
-    let _ = write!(text, "{}", describe(&case.scene));
+    let _ = write!(text, "{}", shrink::describe(&small.scene));
     text
 }

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Number of differences that are printed; more are only counted.
+/// Number of differences that are shrunk and printed; more are only counted.
 const REPORTS: usize = 10;
 /// The first seed, where `CROSSBAR_SEED` names no other: beyond those of the short and the full form.
 const FIRST: u64 = 1 << 32;

@@ -1,9 +1,10 @@
-//! Tests of the tools: a planted difference is found and blamed on its instruction.
+//! Tests of the tools: a planted difference is found, shrunk to its cause, and blamed on its instruction.
 
 use crate::blame::{Side, blame};
 use crate::executors::REFERENCE;
 use crate::scene::{Case, Outcome};
 use crate::shapes::Shape;
+use crate::shrink::shrink;
 use crate::suite::{self, Kind};
 use refsim::device::MadMode;
 use refsim::isa::Version;
@@ -39,9 +40,16 @@ fn planted() -> Case {
 }
 
 #[test]
-fn a_planted_difference_is_blamed_on_its_instruction() {
+fn a_planted_difference_is_cut_down_and_blamed() {
     let case = planted();
-    let (one, two) = (with(&case, MadMode::TwoRoundings), with(&case, MadMode::Fused));
+    let small = shrink(&case, shows);
+    assert!(shows(&small));
+    assert!(small.pixel.len() < 16, "cut down to\n{}", small.pixel.join("\n"));
+    let has_mad = |line: &String| WITH_MAD.iter().any(|name| line.starts_with(name));
+    assert!(small.pixel.iter().any(has_mad), "{}", small.pixel.join("\n"));
+    assert!(small.scene.size[0] * small.scene.size[1] <= case.scene.size[0] * case.scene.size[1]);
+    assert!(small.scene.alpha.is_none() && small.scene.blend.is_none() && !small.scene.second_pass);
+    let (one, two) = (with(&small, MadMode::TwoRoundings), with(&small, MadMode::Fused));
     let text = blame(Side { case: &one, executor: &REFERENCE }, Side { case: &two, executor: &REFERENCE });
     assert!(WITH_MAD.iter().any(|name| text.contains(&format!("`{name}"))), "{text}");
 }
