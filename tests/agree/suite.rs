@@ -7,7 +7,7 @@ use crate::random::Random;
 use crate::rules::{self, Family, Group};
 use crate::scene::{Case, Scene, build};
 use crate::shapes::Shape;
-use refsim::device::Profile;
+use refsim::device::{Profile, Storage};
 use refsim::isa::{Stage, Version};
 use refsim::machine::StepRate;
 use refsim::output::{BlendOp, CompareFunction, DepthFormat};
@@ -195,12 +195,22 @@ fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
     Case { scene, pixel, vertex: Some(vertex) }
 }
 
-/// The case with formats of their own for two in three instructions of the program of this version.
+/// The case with formats of their own for two in three instructions of the program of this version, and for a third of
+/// the storages and accumulators of pixel programs.
 fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     let any = |r: &mut Random| {
         let formats = r.of(&Family::ALL).formats();
         r.of(formats).parse().expect("a format")
     };
+    for storage in Storage::ALL.into_iter().filter(|_| version.stage() == Stage::Pixel) {
+        if r.one_in(3) {
+            // Most formats have numbers that most registers lack.
+            let _ = (0..8).any(|_| case.scene.profile.set_storage_format(storage, Some(any(r))).is_ok());
+        }
+    }
+    if version.stage() == Stage::Pixel && r.one_in(3) {
+        let _ = (0..8).any(|_| case.scene.profile.set_accumulator(Some(any(r))).is_ok());
+    }
     let lines = case.vertex.as_ref().filter(|_| version.stage() == Stage::Vertex).unwrap_or(&case.pixel);
     let program = refsim::asm::assemble(&lines.join("\n")).expect("a program that was built before");
     for index in 0..program.instructions.len() {

@@ -35,6 +35,15 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
     let said = |case: &str| run(&["run", case, "--out", "drawn"]).stderr;
     assert_eq!(said("same.toml"), "");
     assert!(said("changed.toml").contains("which the case does not run"), "{}", said("changed.toml"));
+    // So do formats of storages that it does not use.
+    let device = "device = \"ideal-fp32\"\n[storage]\nconstants = \"e5m2\"\ncolors = \"e5m2\"\n";
+    fs::write(root.path().join("storing.toml"), device).expect("a file");
+    fs::write(root.path().join("stored.toml"), case.replace("\"nv25\"", "\"storing.toml\"")).expect("a file");
+    let warning = said("stored.toml");
+    assert!(warning.contains("a format for colors, which the pixel program does not use"), "{warning}");
+    assert!(!warning.contains("constants"), "{warning}");
+    let shown = run(&["devices", "storing.toml"]).stdout;
+    assert!(shown.contains("Formats of storages and sums") && shown.contains("| constants | e5m2"), "{shown}");
 }
 
 #[test]

@@ -1,13 +1,14 @@
-//! Device files: devices with switches and with formats of registers and single instructions.
+//! Device files: devices with switches and with formats of registers, storages, sums and single instructions.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use serde::Deserialize;
 
+use super::accumulator::{ACCUMULATORS, accumulates};
 use super::instruction_formats::{InstructionFormats, MAX_INSTRUCTION_FORMATS};
 use super::switch::FORMAT_RULES;
-use super::{DeviceError, Profile};
+use super::{DeviceError, Profile, Rules, Storage};
 use crate::isa::Program;
 use crate::num::Format;
 
@@ -18,11 +19,41 @@ struct DeviceFile {
     device: String,
     /// Format of pixel registers and pixel arithmetic, in place of the device's.
     format: Option<Format>,
+    /// Format of the sums of dot products.
+    accumulator: Option<Format>,
+    /// Formats of storages.
+    #[serde(default)]
+    storage: StorageTable,
     #[serde(default)]
     switches: BTreeMap<String, String>,
     /// By digest in hexadecimal, then by index in decimal.
     #[serde(default)]
     programs: BTreeMap<String, BTreeMap<String, Format>>,
+}
+
+/// Formats of storages by their names.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StorageTable {
+    temporaries: Option<Format>,
+    constants: Option<Format>,
+    texels: Option<Format>,
+    colors: Option<Format>,
+    coordinates: Option<Format>,
+    outputs: Option<Format>,
+}
+
+impl StorageTable {
+    fn of(&self, storage: Storage) -> Option<Format> {
+        match storage {
+            Storage::Temporaries => self.temporaries,
+            Storage::Constants => self.constants,
+            Storage::Texels => self.texels,
+            Storage::Colors => self.colors,
+            Storage::Coordinates => self.coordinates,
+            Storage::Outputs => self.outputs,
+        }
+    }
 }
 
 impl Profile {
@@ -31,8 +62,11 @@ impl Profile {
     /// ```toml
     /// device = "ideal-fp32"     # any device
     /// format = "e8m20"          # registers and arithmetic, if not the device's
+    /// accumulator = "e8m13"     # sums of dot products
     /// [switches]
     /// mad = "fused"
+    /// [storage]
+    /// temporaries = "e5m10"     # what is written to r#
     /// [programs.b1946ac92492d234]
     /// 3 = "s3.12"               # the fourth instruction of that program
     /// ```
@@ -61,6 +95,10 @@ impl Profile {
         for (name, value) in &file.switches {
             profile.set_switch(name, value)?;
         }
+        for storage in Storage::ALL {
+            profile.set_storage_format(storage, file.storage.of(storage))?;
+        }
+        profile.set_accumulator(file.accumulator)?;
         for (digest, formats) in file.programs {
             let expected = "expected the 16 hexadecimal digits of a program's digest";
             let number = Some(&digest).filter(|d| d.len() == 16).and_then(|d| u64::from_str_radix(d, 16).ok());
@@ -91,16 +129,26 @@ impl Profile {
             same = same.and_then(|mut p| p.set_switch(&switch.name, &switch.current).ok().map(|()| p));
         }
         // Where the switches do not say all about the registers, the format does.
-        if same.is_none_or(|same| same.rules != self.rules) {
+        let of_file = (self.rules.storage, self.rules.accumulator);
+        if same.is_none_or(|same| Rules { storage: of_file.0, accumulator: of_file.1, ..same.rules } != self.rules) {
             let _ = writeln!(text, "format = \"{}\"", self.rules.format);
             let of_format = |name: &str| name == "format" || FORMAT_RULES.contains(&name);
             switched.retain(|switch| self.stated.0.contains(&switch.name) || !of_format(&switch.name));
+        }
+        if let Some(format) = self.rules.accumulator {
+            let _ = writeln!(text, "accumulator = \"{format}\"");
         }
         if !switched.is_empty() {
             text.push_str("\n[switches]\n");
         }
         for switch in switched {
             let _ = writeln!(text, "{} = \"{}\"", switch.name, switch.current);
+        }
+        if self.rules.storage.iter().next().is_some() {
+            text.push_str("\n[storage]\n");
+        }
+        for (storage, format) in self.rules.storage.iter() {
+            let _ = writeln!(text, "{} = \"{format}\"", storage.name());
         }
         for (digest, formats) in self.instruction_formats.iter() {
             let program = programs.iter().find(|program| program.digest() == digest);
@@ -112,6 +160,45 @@ impl Profile {
             }
         }
         text
+    }
+
+    /// Gives a storage of pixel programs a number format of its own, or takes it away.
+    ///
+    /// # Errors
+    /// [`DeviceError::StorageFormat`] if registers cannot have the format ([`Format::for_registers`]) or lack a number
+    /// of it ([`Format::holds`]); the profile is unchanged.
+    pub fn set_storage_format(&mut self, storage: Storage, format: Option<Format>) -> Result<(), DeviceError> {
+        if let Some(found) = format {
+            // Coordinates are single precision.
+            let (registers, expected) = match storage {
+                Storage::Coordinates => (Format::FP32, "a format whose numbers single precision has"),
+                _ => (self.rules.format, "a format whose numbers the registers have"),
+            };
+            self.fits(found.for_registers().is_ok() && registers.holds(found), storage.name(), expected, found)?;
+        }
+        self.rules.storage.set(storage, format);
+        Ok(())
+    }
+
+    /// Gives the sums of dot products in pixel programs a number format of their own, or takes it away: products of
+    /// operands are rounded once into it and added up in it, and the sum is converted to the format of the operation.
+    /// An instruction whose own format does not fit the accumulator adds up in its own.
+    ///
+    /// # Errors
+    /// [`DeviceError::StorageFormat`] if registers cannot have the format, or executors cannot round products of the
+    /// registers' numbers into it once; the profile is unchanged.
+    pub fn set_accumulator(&mut self, format: Option<Format>) -> Result<(), DeviceError> {
+        if let Some(found) = format {
+            let is_fit = found.for_registers().is_ok() && accumulates(found, self.rules.format);
+            self.fits(is_fit, "accumulator", ACCUMULATORS, found)?;
+        }
+        self.rules.accumulator = format;
+        Ok(())
+    }
+
+    fn fits(&self, is_fit: bool, what: &'static str, expected: &'static str, found: Format) -> Result<(), DeviceError> {
+        let (device, registers) = (self.name.clone(), self.rules.format);
+        is_fit.then_some(()).ok_or(DeviceError::StorageFormat { device, registers, what, expected, found })
     }
 
     /// Formats of single instructions.

@@ -48,7 +48,14 @@ pub enum DeviceError {
     #[error("device file: {problem}")]
     #[diagnostic(
         code(device::file),
-        help("a device file names a `device`, and may have `format`, `[switches]` and `[programs.DIGEST]`")
+        help(
+            "a device file names a `device`, and may have `format`, `accumulator`, `[switches]`, `[storage]` and \
+             `[programs.DIGEST]`"
+        )
     )]
     File { problem: String },
+    /// A storage or the sums of dot products cannot have this format on the device.
+    #[error("{what} of device `{device}`, whose registers are {registers}: expected {expected}, found {found}")]
+    #[diagnostic(code(device::storage), help("`crossbar alu {found}` shows the numbers of a format"))]
+    StorageFormat { device: String, registers: Format, what: &'static str, expected: &'static str, found: Format },
 }

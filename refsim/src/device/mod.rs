@@ -9,6 +9,7 @@
 //!
 //! In addition there is `ideal-<format>` for any number format: without limits or timing, and with the rules of r300.
 
+mod accumulator;
 mod cards;
 mod device_file;
 mod error;
@@ -17,12 +18,16 @@ mod instruction_formats;
 mod limits;
 mod profile;
 mod rules;
+mod storage_formats;
 mod switch;
 
+pub(crate) use accumulator::PRODUCTS;
 pub use error::DeviceError;
 pub use figure::{Confidence, FigureRow, MeasuredCounts};
 pub use instruction_formats::{InstructionFormats, MAX_INSTRUCTION_FORMATS, takes_format};
 pub use limits::{Bus, DEFAULT_STEP_BUDGET, Limits, Rates};
 pub use profile::Profile;
 pub use rules::*;
+pub(crate) use storage_formats::MAX_PROGRAM_FORMATS;
+pub use storage_formats::{Storage, StorageFormats};
 pub use switch::Switch;

@@ -10,6 +10,7 @@ use super::figure::{FigureRow, RawFigure, Section};
 use super::instruction_formats::InstructionFormats;
 use super::limits::{Bus, Limits, Rates};
 use super::rules::{ResultRange, Rules};
+use super::storage_formats::StorageFormats;
 use super::switch::{FORMAT_RULES, Switch, apply, denormals_name, overflow_name, registers_name, sets_rule};
 use crate::isa::{Opcode, Version};
 use crate::num::{Format, FormatError};
@@ -209,7 +210,8 @@ impl Profile {
     }
 
     /// Replaces the format of pixel registers and pixel arithmetic with all its rules, for parameter sweeps. Also
-    /// disables `_pp`, and clamps results to the format's own range only.
+    /// disables `_pp`, clamps results to the format's own range only, and drops the formats of storages and of sums,
+    /// which were chosen for the other registers.
     ///
     /// # Errors
     /// If registers cannot have the format ([`Format::for_registers`]); the profile is unchanged.
@@ -217,13 +219,15 @@ impl Profile {
         self.rules.format = format.for_registers()?;
         self.rules.result_range = ResultRange::Format;
         self.rules.partial = None;
+        self.rules.storage = StorageFormats::default();
+        self.rules.accumulator = None;
         self.refresh_format_switches();
         Ok(())
     }
 
     /// Replaces the format as `--format` and a case's `format` do: as [`Self::set_format`], but what was set for this
     /// device stays. That is its switches of rounding, overflow and subnormal numbers, unless the text has a suffix for
-    /// the rule.
+    /// the rule, and the formats of storages and sums.
     ///
     /// ```
     /// use refsim::device::Profile;
@@ -237,8 +241,8 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// [`DeviceError::Format`] unless registers can have the format; [`DeviceError::FormatRule`] if what was set does
-    /// not fit it. The profile is unchanged.
+    /// [`DeviceError::Format`] unless registers can have the format; [`DeviceError::FormatRule`] and
+    /// [`DeviceError::StorageFormat`] if what was set does not fit it. The profile is unchanged.
     pub fn replace_format(&mut self, text: &str) -> Result<(), DeviceError> {
         let format: Format = text.parse()?;
         let mut new = self.clone();
@@ -250,6 +254,10 @@ impl Profile {
                 new.set_switch(&switch.name, &switch.current)?;
             }
         }
+        for (storage, format) in self.rules.storage.iter() {
+            new.set_storage_format(storage, Some(format))?;
+        }
+        new.set_accumulator(self.rules.accumulator)?;
         *self = new;
         Ok(())
     }

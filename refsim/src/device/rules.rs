@@ -1,5 +1,6 @@
 //! Arithmetic rules of a device, resolved to plain values for the executors.
 
+use super::storage_formats::StorageFormats;
 use crate::isa::Version;
 use crate::num::{DotOrder, Format, Specials};
 
@@ -268,25 +269,30 @@ impl RuleValue for ColorIterator {
 
 /// Defines the rules, each with its field, its type and its name in profiles and switches.
 macro_rules! rules {
-    ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident: $type:ty = $text:literal),* $(,)? }) => {
+    ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident: $type:ty = $text:literal),* $(,)? }
+     beside { $($(#[$beside_doc:meta])* $beside:ident: $beside_type:ty),* $(,)? }) => {
         $(#[$meta])*
         #[derive(Clone, Debug, PartialEq, Eq)]
         #[non_exhaustive]
         pub struct $name {
             $($(#[$doc])* pub $field: $type,)*
+            $($(#[$beside_doc])* pub $beside: $beside_type,)*
         }
 
         impl $name {
             /// Names of the rules, which every profile must state.
             pub(super) const NAMES: &[&'static str] = &[$($text),*];
 
-            /// Reads all rules; `text` returns the value of a name.
+            /// Reads all rules; `text` returns the value of a name. What stands beside them is as by default.
             pub(super) fn read(text: impl Fn(&str) -> Option<String>) -> Result<Self, String> {
                 fn value<T: RuleValue>(name: &str, text: Option<String>) -> Result<T, String> {
                     let text = text.ok_or_else(|| format!("rules.{name} is missing"))?;
                     T::from_text(&text).ok_or_else(|| format!("rules.{name}: `{text}` means nothing"))
                 }
-                Ok(Self { $($field: value($text, text($text))?,)* })
+                Ok(Self {
+                    $($field: value($text, text($text))?,)*
+                    $($beside: Default::default(),)*
+                })
             }
 
             /// Sets one rule from its text; `None` if there is no such rule, or the text is not a value of it.
@@ -368,6 +374,13 @@ rules! {
         missing_channels: MissingChannels = "missing-channels",
         /// Storage of border colors.
         border_storage: BorderStorage = "border-storage",
+    }
+    beside {
+        /// Formats of storages of pixel programs; no card has any ([`super::Profile::set_storage_format`]).
+        storage: StorageFormats,
+        /// Format of the sums of dot products in pixel programs, if not that of the operation; no card has one
+        /// ([`super::Profile::set_accumulator`]).
+        accumulator: Option<Format>,
     }
 }
 

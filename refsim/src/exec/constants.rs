@@ -1,6 +1,6 @@
 //! Conversion of constants from host values to register contents, once per draw and shared by all executors.
 
-use crate::device::{ConstantStorage, Rules};
+use crate::device::{ConstantStorage, Rules, Storage};
 use std::collections::BTreeMap;
 
 use super::FixedFunctionState;
@@ -60,16 +60,19 @@ pub struct ResolvedConstants {
 
 impl ResolvedConstants {
     /// Constants of a pixel program: clamped to [-1, 1] in ps_1_x, then brought to the device's [`ConstantStorage`],
-    /// then converted to the register format.
+    /// then converted to the register format, and rounded to that of [`Storage::Constants`].
     pub fn pixel(program: &Program, rules: &Rules, host: &Constants) -> Self {
         let clamp = program.version.is_ps_1_x();
         Self::resolve(program, host, |bits| {
             let bits = if clamp { clamped_to_one(bits) } else { bits };
-            match rules.constant_storage {
+            let held = match rules.constant_storage {
                 ConstantStorage::Register => num::ops::convert(&Format::FP32, rules.format, bits).bits,
                 ConstantStorage::Snorm8 => snorm8(rules.format, bits, unorm_steps(magnitude(bits), 255)),
                 ConstantStorage::Snorm8Cut => snorm8(rules.format, bits, cut_255ths(magnitude(bits))),
-            }
+            };
+            let Some(storage) = rules.storage.of(Storage::Constants) else { return held };
+            let narrowed = num::ops::convert(&rules.format, storage, held).bits;
+            num::ops::convert(&storage, rules.format, narrowed).bits
         })
     }
 

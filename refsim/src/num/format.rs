@@ -209,6 +209,52 @@ impl Format {
         }
     }
 
+    /// Returns `true` if every number of another format, with its infinities, NaN and negative zero, is one of this
+    /// format too, so that conversion there and back changes nothing. What the other format only reads as zero,
+    /// subnormals under `:ftz`, is no number of it.
+    pub fn holds(self, other: Self) -> bool {
+        use FormatKind::{Fixed, Float, Normalized};
+        let least = |exponent: i32, digits: u8, denormals: Denormals| match denormals {
+            Denormals::Keep => exponent - i32::from(digits),
+            Denormals::Flush => exponent,
+        };
+        match (self.kind, other.kind) {
+            (Fixed { int_bits, frac_bits }, Fixed { int_bits: int, frac_bits: frac }) => {
+                int_bits >= int && frac_bits >= frac
+            }
+            (Normalized { int_bits, frac_bits }, Normalized { int_bits: int, frac_bits: frac }) => {
+                int_bits >= int && frac_bits == frac
+            }
+            (Float { man_bits, .. }, Fixed { int_bits, frac_bits }) => {
+                let (normal, largest) = self.exponents();
+                // The most negative number, -2^I, is a power of two.
+                i32::from(int_bits + frac_bits) <= i32::from(man_bits) + 1
+                    && i32::from(int_bits) <= largest
+                    && -i32::from(frac_bits) >= least(normal, man_bits, self.denormals)
+            }
+            (Float { man_bits, .. }, Float { man_bits: digits, .. }) => {
+                let ((normal, largest), (its_normal, its_largest)) = (self.exponents(), other.exponents());
+                let smallest = least(its_normal, digits, other.denormals);
+                man_bits >= digits
+                    && (largest > its_largest || largest == its_largest && self.reaches(other))
+                    && smallest >= least(normal, man_bits, self.denormals)
+                    && (self.infinity(false).is_some() || other.infinity(false).is_none())
+                    && (self.has_nan() || !other.has_nan())
+                    && (self.has_negative_zero() || !other.has_negative_zero())
+            }
+            _ => false,
+        }
+    }
+
+    /// Returns `true` if the largest number of this float is at least that of another with the same largest exponent.
+    fn reaches(self, other: Self) -> bool {
+        let digits = |format: Self| match format.kind {
+            FormatKind::Float { man_bits, .. } => (format.max_finite() & ((1 << man_bits) - 1)) << (23 - man_bits),
+            _ => 0,
+        };
+        digits(self) >= digits(other)
+    }
+
     /// Bit mask of the width.
     #[inline]
     pub const fn mask(&self) -> u32 {

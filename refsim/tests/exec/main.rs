@@ -18,3 +18,4 @@ mod rules;
 #[path = "../common/running.rs"]
 mod running;
 mod step_budget;
+mod storage_formats;

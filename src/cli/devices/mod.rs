@@ -25,7 +25,9 @@ Examples:
   crossbar devices ideal-fp24 --json
       an unlimited card with 24-bit floats, for machines
   crossbar devices --adapters
-      the GPUs of this computer that the wgpu executor can use";
+      the GPUs of this computer that the wgpu executor can use
+  crossbar devices --probe llvmpipe
+      which of an adapter's own operations are exact, and which WGSL doesn't allow";
 
 /// Show the device profiles: limits, and every figure with its source and how sure it is
 #[derive(Debug, clap::Args)]
@@ -36,9 +38,15 @@ pub(super) struct Args {
     /// The GPU adapters of this computer instead
     #[arg(long, conflicts_with = "name")]
     adapters: bool,
+    /// Try a GPU adapter's own single precision, an operation at a time, against IEEE 754; a part of its name will do
+    #[arg(long, value_name = "ADAPTER", conflicts_with_all = ["name", "adapters"])]
+    probe: Option<String>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    if let Some(adapter) = &args.probe {
+        return adapters::probe(adapter, out);
+    }
     if args.adapters {
         adapters::list(out)?;
         return Ok(Verdict::Done);
@@ -113,6 +121,16 @@ fn instructions(profile: &Profile) -> FoundTable {
     table.into()
 }
 
+/// The formats of storages and sums of a device file.
+fn storages(profile: &Profile) -> FoundTable {
+    let mut table = Table::new("Formats of storages and sums", &["storage", "format"]);
+    let storages = profile.rules.storage.iter().map(|(storage, format)| (storage.name(), format));
+    for (name, format) in storages.chain(profile.rules.accumulator.map(|format| ("accumulator", format))) {
+        table.push([name.into(), format.to_string().into()]);
+    }
+    table.into()
+}
+
 /// Everything about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
@@ -130,6 +148,7 @@ fn one(profile: &Profile) -> Findings {
         figures.push([row.key.into(), value, row.unit.into(), confidence.into(), row.source.into()]);
     }
     found.table(figures);
+    found.table(storages(profile).field("storages"));
     found.table(instructions(profile).field("instructions"));
     let title = "Switches: open questions of the hardware. Set one in a case file under [switches].";
     let mut switches = Table::new(title, &["switch", "now", "values", "confidence", "decides", "source"]);

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, path::Path};
 
 use refsim::{
     check::{Checked, WarningId},
-    device::Profile,
+    device::{Profile, Storage},
     exec::{BUMP_STAGES, BumpStage, Constants, Projection},
     isa::{Program, Register, RegisterFile, Stage, Version},
     machine::{ExecutorKind, Machine, MachineError},
@@ -154,7 +154,7 @@ impl Setup {
     }
 }
 
-/// Warnings on formats of instructions that the device has for other programs.
+/// Warnings on formats of instructions and storages that the device has for other programs.
 fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) -> Vec<CaseWarning> {
     let programs: Vec<&Program> = [pixel].into_iter().chain(vertex).collect();
     let own: Vec<String> = programs.iter().map(|program| format!("{:016x}", program.digest())).collect();
@@ -170,7 +170,14 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
             None => format!("a changed program has another digest; here they are {}", own.join(" and ")),
         },
     };
-    profile.instruction_formats().unused(&programs).into_iter().map(of_unused).collect()
+    let of_storage = |storage: Storage| CaseWarning::Formats {
+        device: profile.name.clone(),
+        formats: format!("a format for {}", storage.name()),
+        reason: "the pixel program does not use",
+        help: "leave it out of the device file, or run another program".to_owned(),
+    };
+    let instructions = profile.instruction_formats().unused(&programs).into_iter().map(of_unused);
+    instructions.chain(profile.rules.storage.unused(pixel).into_iter().map(of_storage)).collect()
 }
 
 fn reads_fog(pixel: &Program) -> bool {

@@ -3,7 +3,7 @@
 use super::formats::Formats;
 use super::graph::TRUE;
 use super::graph::{Arith, Graph, NodeId, NodeKind};
-use crate::device::{LrpMode, MadMode, Rules};
+use crate::device::{LrpMode, MadMode, PRODUCTS, Rules};
 use crate::isa::Version;
 use crate::num::{self, DotOrder, Format, FormatKind, NumberOperation as Op, Rounding, Specials};
 
@@ -18,12 +18,13 @@ pub(crate) struct GraphBuilder<'a> {
     pub(crate) rules: &'a Rules,
     /// `true` if zero times anything is zero in register arithmetic.
     legacy_zero: bool,
+    is_pixel: bool,
 }
 
 impl<'a> GraphBuilder<'a> {
     pub(crate) fn new(formats: Formats, rules: &'a Rules, pixel: bool) -> Self {
         let legacy_zero = if pixel { rules.zero_times_anything } else { rules.vertex_zero_times_anything };
-        Self { graph: Graph::default(), formats, rules, legacy_zero }
+        Self { graph: Graph::default(), formats, rules, legacy_zero, is_pixel: pixel }
     }
 
     /// A constant given as a bit pattern of a format.
@@ -163,8 +164,19 @@ impl<'a> GraphBuilder<'a> {
         }
     }
 
+    /// Rounds a number of format `from` to that of a storage, if it has one, and back.
+    pub(crate) fn stored(&mut self, from: Arith, storage: Option<Format>, x: NodeId) -> NodeId {
+        let Some(storage) = storage else { return x };
+        let storage = self.formats.arith_of(storage);
+        let narrowed = self.convert(from, storage, x);
+        self.convert(storage, from, narrowed)
+    }
+
     /// Dot product of the first `terms` components, 1 to 4.
     pub(crate) fn dot(&mut self, k: Arith, terms: usize, a: &[NodeId], b: &[NodeId]) -> NodeId {
+        if let Some(accumulator) = self.accumulator(k) {
+            return self.accumulated(k, accumulator, terms, (a, b));
+        }
         match self.rules.dot {
             DotOrder::Sequential => {
                 let mut sum = self.mul(k, a[0], b[0]);
@@ -194,6 +206,43 @@ impl<'a> GraphBuilder<'a> {
             level = level.chunks(2).map(|p| if p.len() == 2 { self.add(k, p[0], p[1]) } else { p[0] }).collect();
         }
         level[0]
+    }
+
+    /// The accumulator of dot products of pixel arithmetic in a format.
+    fn accumulator(&self, k: Arith) -> Option<Format> {
+        let has_one = self.is_pixel && k != Arith::Single;
+        self.rules.accumulator_of(self.formats.format(k)).filter(|_| has_one)
+    }
+
+    /// Dot product with sums in an accumulator. If it lacks numbers of the operands, products are rounded to odd first
+    /// ([`PRODUCTS`]), which makes the second rounding that of the exact product.
+    fn accumulated(&mut self, k: Arith, accumulator: Format, terms: usize, (a, b): (&[NodeId], &[NodeId])) -> NodeId {
+        let to = self.formats.arith_of(accumulator);
+        let products = if accumulator.holds(self.formats.format(k)) { to } else { self.formats.arith_of(PRODUCTS) };
+        let zero = self.zero();
+        let (mut left, mut right) = ([zero; 4], [zero; 4]);
+        for i in 0..terms {
+            let (x, y) = self.factors(k, a[i], b[i]);
+            (left[i], right[i]) = (self.convert(k, products, x), self.convert(k, products, y));
+        }
+        if self.rules.dot == DotOrder::Exact {
+            let sum = self.graph.node(NodeKind::Dot(products, terms as u8, left, right));
+            let rounded = self.convert(products, to, sum);
+            return self.convert(to, k, rounded);
+        }
+        let mut rounded = Vec::with_capacity(terms);
+        for i in 0..terms {
+            let product = self.binary(products, Op::Mul, left[i], right[i]);
+            rounded.push(self.convert(products, to, product));
+        }
+        let sum = match self.rules.dot {
+            DotOrder::Tree => self.tree(to, rounded),
+            _ => {
+                let first = rounded[0];
+                rounded.into_iter().skip(1).fold(first, |sum, product| self.add(to, sum, product))
+            }
+        };
+        self.convert(to, k, sum)
     }
 
     pub(crate) fn lrp(&mut self, k: Arith, version: Version, [factor, a, b]: [NodeId; 3]) -> NodeId {

@@ -2,7 +2,7 @@
 
 use super::graph::{Arith, NAMED_FORMATS};
 use super::raw;
-use crate::device::Rules;
+use crate::device::{PRODUCTS, Rules};
 use crate::exec::FragmentFormats;
 use crate::isa::Program;
 use crate::num::{Format, NumberOperation as Op, Overflow};
@@ -14,21 +14,23 @@ pub(crate) struct Formats(Vec<Format>);
 impl Formats {
     /// Formats of a pixel program.
     pub(crate) fn pixel(program: &Program, rules: &Rules) -> Self {
-        Self::new(program, rules.format, rules.partial)
+        let products = rules.accumulator.map(|_| PRODUCTS);
+        let stored = rules.storage.iter().map(|(_, format)| format);
+        Self::new(program, rules.format, rules.partial, stored.chain(rules.accumulator).chain(products))
     }
 
     /// Formats of a vertex program.
     pub(crate) fn vertex(program: &Program, rules: &Rules) -> Self {
-        Self::new(program, rules.vertex_format, None)
+        Self::new(program, rules.vertex_format, None, [])
     }
 
-    /// Formats with registers in `main` and `_pp` arithmetic in `partial`.
-    fn new(program: &Program, main: Format, partial: Option<Format>) -> Self {
+    /// Formats with registers in `main` and `_pp` arithmetic in `partial`, and those of storages and sums.
+    fn new(program: &Program, main: Format, partial: Option<Format>, stored: impl IntoIterator<Item = Format>) -> Self {
         let FragmentFormats { half, fixed, .. } = FragmentFormats::of_registers(main, partial);
         let named: [Format; NAMED_FORMATS] =
             [main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap), half, fixed];
         let mut formats = Self(named.to_vec());
-        for own in program.instructions.iter().filter_map(|i| i.format) {
+        for own in program.instructions.iter().filter_map(|i| i.format).chain(stored) {
             if own != main && !formats.own().contains(&own) {
                 formats.0.push(own);
             }
@@ -36,12 +38,12 @@ impl Formats {
         formats
     }
 
-    /// Formats of single instructions that are not the registers', each once.
+    /// Formats of single instructions, storages and sums that are not the registers', each once.
     pub(crate) fn own(&self) -> &[Format] {
         &self.0[NAMED_FORMATS..]
     }
 
-    /// The arithmetic of an instruction with this format of its own.
+    /// The arithmetic of an instruction or a storage with this format of its own.
     pub(crate) fn arith_of(&self, own: Format) -> Arith {
         self.own().iter().position(|&f| f == own).map_or(Arith::Main, |index| Arith::Own(index as u8))
     }

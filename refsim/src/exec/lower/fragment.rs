@@ -163,10 +163,11 @@ impl Translator<'_> {
         let Some(destination) = instruction.destination else { return [self.make.zero(); 4] };
         let k = self.arith(instruction);
         let raw = self.fragment_raw(instruction, k);
-        let to = of_file(destination.register.file);
+        let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
         raw.map(|x| {
             let clamped = if destination.saturate { self.make.saturate_number(k, x) } else { x };
-            self.make.convert(k, to, clamped)
+            let left = self.make.convert(k, to, clamped);
+            self.make.stored(to, storage, left)
         })
     }
 
@@ -216,10 +217,11 @@ impl Translator<'_> {
             let k = self.arith(instruction);
             texel = self.through(k, texel);
         }
-        let to = of_file(destination.register.file);
+        let (to, storage) = (of_file(destination.register.file), self.storage(destination.register.file));
         texel.map(|x| {
             let clamped = if destination.saturate { self.make.saturate_number(Arith::Main, x) } else { x };
-            self.make.convert(Arith::Main, to, clamped)
+            let left = self.make.convert(Arith::Main, to, clamped);
+            self.make.stored(to, storage, left)
         })
     }
 

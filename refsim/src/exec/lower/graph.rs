@@ -31,7 +31,7 @@ pub(crate) enum Arith {
     Half,
     /// X in OpenGL's fragment programs.
     Fixed,
-    /// A format of single instructions: its index in [`super::Formats::own`].
+    /// A format of single instructions, storages or sums: its index in [`super::Formats::own`].
     Own(u8),
 }
 

@@ -2,6 +2,7 @@
 
 use super::graph::{Arith, NodeId};
 use super::translate::{Effect, Translator};
+use crate::device::Storage;
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
 use crate::num::NumberOperation as Op;
 
@@ -106,7 +107,8 @@ fn final_colors(t: &mut Translator<'_>, program: &Program) -> [Option<[NodeId; 4
     if program.version.is_ps_1_x() {
         colors[0] = Some(std::array::from_fn(|c| {
             let value = t.registers.get(&(RegisterFile::Temp, 0, c as u8)).copied().unwrap_or(zero);
-            t.make.unary(Arith::Main, Op::Saturate, value)
+            let clamped = t.make.unary(Arith::Main, Op::Saturate, value);
+            t.make.stored(Arith::Main, t.make.rules.storage.of(Storage::Outputs), clamped)
         }));
         return colors;
     }

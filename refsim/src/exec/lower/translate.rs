@@ -6,13 +6,13 @@ use super::arith::{GraphBuilder, NodeVector};
 use super::formats::Formats;
 use super::graph::{Arith, NodeId, NodeKind};
 use super::graph::{Slot, TRUE};
-use crate::device::{ColorIterator, ResultRange, Rules};
+use crate::device::{ColorIterator, ResultRange, Rules, Storage};
 use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
     Comparison, Destination, Instruction, Modifier, Opcode, Precision, Program, Register, RegisterFile, Relative,
     Source, Stage, Version,
 };
-use crate::num::NumberOperation as Op;
+use crate::num::{Format, NumberOperation as Op};
 use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A component of a register: file, number, component.
@@ -101,17 +101,24 @@ impl<'a> Translator<'a> {
         self.bindings.and_then(|b| b.bump.get(usize::from(stage)).copied()).unwrap_or_default()
     }
 
-    /// An interpolated coordinate, single precision; zero beyond the last set.
+    /// An interpolated coordinate, single precision, rounded to the format of coordinates; zero beyond the last set.
     pub(crate) fn coordinate(&mut self, set: u16, component: usize) -> NodeId {
         if set >= 8 {
             return self.make.zero();
         }
         let number = TEXCOORD_COMPONENT + 4 * usize::from(set) + component;
-        self.make.graph.node(NodeKind::Input(number as u16))
+        let input = self.make.graph.node(NodeKind::Input(number as u16));
+        self.make.stored(Arith::Single, self.make.rules.storage.of(Storage::Coordinates), input)
     }
 
-    /// A colour as the program reads it: clamped, rounded to the iterator's precision, in the register format.
+    /// A colour as the program reads it: clamped, rounded to the iterator's precision, in the register format, and
+    /// rounded to the format of colors.
     fn color(&mut self, number: u16, component: usize) -> NodeId {
+        let delivered = self.delivered_color(number, component);
+        self.make.stored(Arith::Main, self.make.rules.storage.of(Storage::Colors), delivered)
+    }
+
+    fn delivered_color(&mut self, number: u16, component: usize) -> NodeId {
         if number >= 2 {
             return self.make.zero();
         }
@@ -250,12 +257,21 @@ impl<'a> Translator<'a> {
         self.make.binary(Arith::Main, Op::Max, below, minus)
     }
 
+    /// Format of what instructions write to a register file, if not the file's.
+    pub(crate) fn storage(&self, file: RegisterFile) -> Option<Format> {
+        self.make.rules.storage.written(file).filter(|_| self.is_pixel())
+    }
+
     /// Writes the components in the destination's mask.
     pub(crate) fn writes(&mut self, instruction: &Instruction, mut value: NodeVector, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let (file, index) = (destination.register.file, destination.register.index);
         if !matches!(file, RegisterFile::Predicate | RegisterFile::Address) {
-            value = value.map(|x| self.in_range(x));
+            let storage = self.storage(file);
+            value = value.map(|x| {
+                let clamped = self.in_range(x);
+                self.make.stored(Arith::Main, storage, clamped)
+            });
         }
         if file == RegisterFile::DepthOut {
             // A scalar is taken from the lowest component of the mask.

@@ -3,7 +3,7 @@
 use super::arith::NodeVector;
 use super::graph::{Arith, Detail, NodeId, NodeKind};
 use super::translate::{Effect, Translator};
-use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
+use crate::device::{Storage, TexcrdOverflow, TexdepthDenominator, TexkillComponents};
 use crate::exec::Projection;
 use crate::exec::fragment::zero_components;
 use crate::isa::{Destination, Instruction, Modifier, Opcode, Register, RegisterFile, Source, Version};
@@ -193,13 +193,14 @@ impl Translator<'_> {
         self.through(k, texel)
     }
 
-    /// A texture read.
+    /// A texture read, rounded to the format of texels.
     pub(super) fn fetch(&mut self, stage: usize, coordinates: NodeVector, detail: Detail) -> NodeVector {
+        let storage = self.make.rules.storage.of(Storage::Texels);
         let binding = self.bindings.and_then(|b| b.samplers.get(stage)).and_then(Option::as_ref);
         let zeros = zero_components(self.program.version, binding.map(|binding| binding.image.format()));
         let mut texel = self.sampled(stage, coordinates, detail);
         texel[zeros].fill(self.make.zero());
-        texel
+        texel.map(|x| self.make.stored(Arith::Main, storage, x))
     }
 
     fn sampled(&mut self, stage: usize, coordinates: NodeVector, detail: Detail) -> NodeVector {

@@ -11,6 +11,8 @@ pub(crate) struct Alu<'r> {
     legacy_zero: bool,
     /// `true` if results are clamped to [-1, 1] when written to a register.
     to_one: bool,
+    /// Format of the sums of dot products, if not [`Self::format`].
+    accumulator: Option<Format>,
     /// Format of operands and results.
     pub(crate) format: Format,
     /// Flags raised since [`Self::take_flags`].
@@ -30,17 +32,19 @@ impl<'r> Alu<'r> {
     /// Creates pixel arithmetic in `format`.
     pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
         let to_one = rules.result_range == ResultRange::One;
-        Self { rules, legacy_zero: rules.zero_times_anything, to_one, format, flags: Flags::empty() }
+        let accumulator = rules.accumulator_of(format);
+        Self { rules, legacy_zero: rules.zero_times_anything, to_one, accumulator, format, flags: Flags::empty() }
     }
 
-    /// Creates vertex arithmetic in `format`: without the range of pixel arithmetic.
+    /// Creates vertex arithmetic in `format`: without the range and the accumulator of pixel arithmetic.
     pub(crate) fn vertex(rules: &'r Rules, format: Format) -> Self {
         Self { legacy_zero: rules.vertex_zero_times_anything, ..Self::plain(rules, format) }
     }
 
-    /// Creates address arithmetic in `format`: without the legacy rule for zero and the range of pixel results.
+    /// Creates address arithmetic in `format`: without the legacy rule for zero, the range of pixel results and the
+    /// accumulator.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
-        Self { legacy_zero: false, to_one: false, ..Self::new(rules, format) }
+        Self { legacy_zero: false, to_one: false, accumulator: None, ..Self::new(rules, format) }
     }
 
     /// Returns and clears the accumulated flags.
@@ -133,14 +137,18 @@ impl<'r> Alu<'r> {
         }
     }
 
-    /// Dot product of equally long vectors (at most 4 terms), summed in the order given by the rules.
+    /// Dot product of equally long vectors (at most 4 terms), summed in the order and the format given by the rules.
     pub(crate) fn dot(&mut self, a: &[u32], b: &[u32]) -> u32 {
         let n = a.len().min(b.len()).min(4);
         let mut terms = [(0, 0); 4];
         for (term, (&x, &y)) in terms.iter_mut().zip(a.iter().zip(b)) {
             *term = self.factors(x, y);
         }
-        self.keep(ops::dot(self.format, self.rules.dot, &terms[..n]))
+        let (order, terms) = (self.rules.dot, &terms[..n]);
+        self.keep(match self.accumulator {
+            Some(accumulator) => ops::dot_accumulated(self.format, accumulator, order, terms),
+            None => ops::dot(self.format, order, terms),
+        })
     }
 
     /// `_SAT` of OpenGL's programs (GL_NV_fragment_program 3.11.4.4, GL_ARB_fragment_program 3.11.4.3): what is below 0
@@ -165,6 +173,13 @@ impl<'r> Alu<'r> {
                 self.add(first, second)
             }
         }
+    }
+
+    /// Rounds a number of format `from` to that of a storage, if it has one, and back.
+    pub(crate) fn stored(&mut self, from: Format, storage: Option<Format>, bits: u32) -> u32 {
+        let Some(storage) = storage.filter(|storage| *storage != from) else { return bits };
+        let narrowed = self.keep(ops::convert(&from, storage, bits));
+        self.keep(ops::convert(&storage, from, narrowed))
     }
 
     /// Multiplies by two to the power `shift`.

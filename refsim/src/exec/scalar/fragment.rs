@@ -2,8 +2,8 @@
 //! GL_ARB_fragment_program, whose mnemonics it uses.
 //!
 //! Order within an instruction: operands are loaded, swizzled, made absolute, negated, then converted to the format of
-//! the operation. The result is saturated, converted to the format of the destination, and written subject to mask and
-//! condition; the written components also update the condition codes, if requested.
+//! the operation. The result is saturated, converted to the format of the destination, rounded to that of its storage,
+//! and written subject to mask and condition; the written components also update the condition codes, if requested.
 //!
 //! A packed word is stored in `R#` as bits. Full-precision `MOV` without modifiers copies bits; everything else,
 //! including the end of the program, interprets them as a number of the register format.
@@ -108,11 +108,13 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         };
         let k = self.unit_of(instruction, precision);
         let raw = self.fragment_raw(lane, instruction, k, destination.mask);
+        let storage = self.prepared.written(destination.register.file);
         let unit = self.alu(k);
         let mut out = [0; 4];
         for i in destination.mask.components() {
             let x = if destination.saturate { unit.saturate_number(raw[i]) } else { raw[i] };
-            out[i] = unit.leave(to, x);
+            let left = unit.leave(to, x);
+            out[i] = unit.stored(to, storage, left);
         }
         self.assign_flags(lane);
         out

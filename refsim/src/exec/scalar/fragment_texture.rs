@@ -38,12 +38,14 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         };
         let stage = usize::from(sampler.register.index);
         let to = self.fragment_formats().of_file(destination.register.file);
+        let storage = self.prepared.written(destination.register.file);
         for lane in 0..LANES {
             let texel = self.fetch(stage, lane, &coordinates, &detail);
             let texel = self.through(instruction.format, texel);
             let value = texel.map(|x| {
                 let clamped = if destination.saturate { self.full.saturate_number(x) } else { x };
-                self.full.leave(to, clamped)
+                let left = self.full.leave(to, clamped);
+                self.full.stored(to, storage, left)
             });
             self.fragment_store(at, lane, instruction, value);
         }

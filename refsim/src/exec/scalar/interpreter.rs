@@ -336,11 +336,13 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         operand(self.alu(unit), prepared.format, source, value, wanted)
     }
 
-    /// Clamps a result to the range of results, writes it subject to mask and predicate, and notifies the observer.
+    /// Clamps a result to the range of results, rounds it to the format of its storage, writes it subject to mask and
+    /// predicate, and notifies the observer.
     pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, mut value: Components) {
         let Some(destination) = &instruction.destination else {
             return;
         };
+        let prepared = self.prepared;
         let registers = &mut self.lanes[lane];
         let mut mask = destination.mask;
         if let Some(predicate) = &instruction.predicate {
@@ -363,8 +365,10 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 }
             }
             _ => {
+                let storage = prepared.written(destination.register.file);
                 for i in mask.components() {
                     value[i] = self.full.in_range(value[i]);
+                    value[i] = self.full.stored(prepared.format, storage, value[i]);
                 }
                 registers.write(&destination.register, mask, value);
             }

@@ -1,9 +1,10 @@
 //! Execution of pixel programs, one quad at a time.
 
+use super::alu::Alu;
 use super::interpreter::Interpreter;
 use super::prepared::Prepared;
 use super::registers::LANES;
-use crate::device::Rules;
+use crate::device::{Rules, Storage};
 use crate::event::SAMPLERS;
 use crate::exec::usage::registers_delivered;
 use crate::exec::{CheckedProgram, DepthValue, FragmentResult, Observer, PixelBindings, delivered_color};
@@ -35,7 +36,22 @@ impl<'a> PixelProgram<'a> {
 
     /// Converts an interpolated colour to the value that instructions read.
     fn color(&self, interpolated: [u32; 4]) -> [u32; 4] {
-        interpolated.map(|x| delivered_color(self.prepared.rules, x))
+        let delivered = interpolated.map(|x| delivered_color(self.prepared.rules, x));
+        self.stored(Storage::Colors, self.prepared.format, delivered)
+    }
+
+    /// Interpolated texture coordinates in the format of their storage, single precision.
+    fn delivered_coordinates(&self, interpolated: [u32; 4]) -> [u32; 4] {
+        self.stored(Storage::Coordinates, Format::FP32, interpolated)
+    }
+
+    /// Rounds numbers of a format to that of a storage.
+    fn stored(&self, storage: Storage, format: Format, value: [u32; 4]) -> [u32; 4] {
+        let rules = self.prepared.rules;
+        match rules.storage.of(storage) {
+            Some(storage) => value.map(|x| Alu::new(rules, format).stored(format, Some(storage), x)),
+            None => value,
+        }
     }
 
     /// Converts interpolated FP32 values to those that arithmetic instructions read.
@@ -58,7 +74,7 @@ impl<'a> PixelProgram<'a> {
                 RegisterFile::Input => self.color(input.v[number]),
                 RegisterFile::FogIn => self.fog(input),
                 RegisterFile::WindowPosition => self.coordinates(input.position),
-                _ => self.coordinates(input.t[number]),
+                _ => self.coordinates(self.delivered_coordinates(input.t[number])),
             }
         };
         registers_delivered(self.prepared.program).into_iter().map(|register| (register, value(&register))).collect()
@@ -80,7 +96,7 @@ impl<'a> PixelProgram<'a> {
         let mut run = Interpreter::new(prepared, 0b1111, observer);
         run.covered = covered;
         for (lane, input) in inputs.iter().enumerate() {
-            run.coordinates[lane] = input.t;
+            run.coordinates[lane] = input.t.map(|set| self.delivered_coordinates(set));
             let registers = &mut run.lanes[lane];
             for (number, color) in input.v.iter().enumerate() {
                 if prepared.reads.has(COLOR_COMPONENT + 4 * number) {
@@ -118,7 +134,8 @@ impl<'a> PixelProgram<'a> {
                 result.colors[0] = fragment.color(prepared.program, lane, result.colors[0]);
             }
             if version.is_ps_1_x() {
-                result.colors[0] = registers.temp[0].map(|x| ops::saturate01(format, x).bits);
+                let clamped = registers.temp[0].map(|x| ops::saturate01(format, x).bits);
+                result.colors[0] = self.stored(Storage::Outputs, format, clamped);
             }
         }
         (results, run.cut_at)

@@ -6,7 +6,7 @@ use crate::exec::budget::enforced;
 use crate::exec::{
     BumpStage, Constants, FlowMap, PixelBindings, Projection, ResolvedConstants, SamplerBinding, inputs_read,
 };
-use crate::isa::{Program, Stage};
+use crate::isa::{Program, RegisterFile, Stage};
 use crate::num::{Format, ops};
 use crate::raster::ComponentMask;
 use crate::texture::SampleRules;
@@ -64,6 +64,11 @@ impl<'a> Prepared<'a> {
     /// Arithmetic of the program's stage in `format`.
     pub(crate) fn alu(&self, format: Format) -> Alu<'a> {
         if self.is_pixel() { Alu::new(self.rules, format) } else { Alu::vertex(self.rules, format) }
+    }
+
+    /// Format of what instructions write to a register file, if not the register format.
+    pub(crate) fn written(&self, file: RegisterFile) -> Option<Format> {
+        self.rules.storage.written(file).filter(|_| self.is_pixel())
     }
 
     pub(crate) fn is_pixel(&self) -> bool {

@@ -4,7 +4,7 @@
 
 use super::interpreter::{ArithmeticUnit, Interpreter};
 use super::registers::{Components, LANES};
-use crate::device::TexcrdOverflow;
+use crate::device::{Storage, TexcrdOverflow};
 use crate::exec::fragment::zero_components;
 use crate::exec::{Observer, Projection, TextureRead};
 use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Version};
@@ -244,13 +244,14 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         out
     }
 
-    /// Reads a texel for one lane, and counts the read. An unbound sampler returns
+    /// Reads a texel for one lane, rounded to the format of texels, and counts the read. An unbound sampler returns
     /// (0, 0, 0, 1), in `!!FP1.0` zeros.
     pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {
+        let (format, storage) = (self.prepared.format, self.prepared.rules.storage.of(Storage::Texels));
         let image = self.prepared.sampler(stage).map(|binding| binding.image.format());
         let mut texel = self.sampled(stage, lane, coordinates, detail);
         texel[zero_components(self.prepared.program.version, image)].fill(0);
-        texel
+        texel.map(|x| self.full.stored(format, storage, x))
     }
 
     fn sampled(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {

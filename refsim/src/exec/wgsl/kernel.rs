@@ -4,7 +4,7 @@ use super::number::{format_words, library};
 use super::parts::Parts;
 use super::program::{IN_OUT_ROWS, Interpolation, Microcode, PLANES};
 use super::{INTERFACE, target};
-use crate::device::{MAX_INSTRUCTION_FORMATS, Rules};
+use crate::device::{MAX_PROGRAM_FORMATS, Rules};
 use crate::exec::FragmentFormats;
 use crate::exec::lower::Formats;
 use crate::isa::Program;
@@ -43,7 +43,7 @@ const SAVED_ROWS: usize = 4;
 
 /// Fields of `draw`, in order, and their sizes in words.
 const FIELDS: [(&str, usize); 22] = [
-    ("D_FORMATS", 8 * (11 + MAX_INSTRUCTION_FORMATS)),
+    ("D_FORMATS", 8 * (11 + MAX_PROGRAM_FORMATS)),
     ("D_STRIDE", 1),
     ("D_SETUP_WORDS", 1),
     ("D_GROUPS", 1),

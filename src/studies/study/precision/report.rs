@@ -68,6 +68,12 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
     let (goal, measure) = (runs.goal, &runs.goal.measure);
     let given = outcome.given.map_or(String::new(), |value| format!(", and {} on the device as given", number(value)));
     found.conclusion(format!("Goal: {goal}; {measure} is {} in the exact run{given}.", number(outcome.exact)));
+    let rules = &runs.subject.profile().rules;
+    if rules.accumulator.is_some() || rules.storage.iter().next().is_some() {
+        found.conclusion(
+            "The device's formats of storages and sums are left out: only those of instructions are searched.",
+        );
+    }
     for family in &outcome.families {
         let name = family.curve.family.name();
         let Some(minimum) = family.curve.minimum else {
