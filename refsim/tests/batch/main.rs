@@ -1,8 +1,10 @@
-//! Arithmetic of the batch executor against `num`, and large textures.
+//! The batch executor's arithmetic against `num`; rows that leave a format's range and large textures against the scalar
+//! executor.
 
 mod array_operation;
 #[path = "../common/environment.rs"]
 mod environment;
+mod guarded_rows;
 mod lanes;
 mod large_textures;
 #[path = "../common/random.rs"]
