@@ -120,7 +120,7 @@ pub(crate) fn without_cache(mut log: Vec<Event>) -> Vec<Event> {
     for event in &mut log {
         let Event::Draw(record) = event else { continue };
         for traffic in record.samplers.iter_mut().filter_map(|sampler| sampler.traffic.as_mut()) {
-            traffic.misses = [traffic.requests; 3];
+            traffic.misses = [traffic.accesses; 3];
         }
     }
     log

@@ -15,18 +15,15 @@ use refsim::exec::wgsl::kernel::RESUMES;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DepthId, DrawCall, ExecutorKind, Machine, TextureId, VertexSource};
 use refsim::num::Format;
-use refsim::output::{
-    AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask,
-};
-use refsim::raster::{ClipSpace, Cull, PixelCenter, Primitive, Vertex, Viewport};
-use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::output::{BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState};
+use refsim::raster::{Primitive, Vertex};
+use refsim::texture::{Filter, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 use running::{bits, checked, ideal};
 use std::process::ExitCode;
 use std::sync::Arc;
 
 fn main() -> ExitCode {
     adapter::run(adapter::trials![on_adapter:
-        output_stage,
         memory_follows,
         short_programs_agree_on_any_driver,
         long_traces_are_whole,
@@ -112,98 +109,6 @@ fn copy(profile: &Profile) -> CheckedProgram {
     checked("ps_2_0\ndcl t0\nmov oC0, t0", profile)
 }
 
-/// Pipeline state of a random draw.
-struct State {
-    alpha: Option<AlphaTest>,
-    depth: DepthState,
-    blend: Option<BlendState>,
-    mask: WriteMask,
-    scissor: Option<Region>,
-    viewport: Option<Viewport>,
-    center: PixelCenter,
-    clip_space: ClipSpace,
-    cull: Cull,
-}
-
-impl State {
-    fn random(random: &mut Random) -> Self {
-        let on = |random: &mut Random| random.coin();
-        let equation = |random: &mut Random| BlendEquation {
-            source: random.of(BlendFactor::ALL),
-            destination: random.of(BlendFactor::ALL),
-            op: random.of(&[BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max]),
-        };
-        Self {
-            alpha: on(random).then(|| AlphaTest {
-                function: random.of(CompareFunction::ALL),
-                reference: random.between(-0.2, 1.2).to_bits(),
-            }),
-            depth: DepthState { test: on(random).then(|| random.of(CompareFunction::ALL)), write: on(random) },
-            blend: on(random).then(|| BlendState { color: equation(random), alpha: equation(random) }),
-            mask: if on(random) { WriteMask::ALL } else { WriteMask(random.below(16)) },
-            scissor: on(random).then_some(Region { x: 3, y: 5, width: 27, height: 17 }),
-            viewport: on(random).then_some(Viewport { x: -7, y: 3, ..Viewport::new(50, 30) }),
-            center: random.of(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
-            clip_space: random.of(&[ClipSpace::Direct3d, ClipSpace::OpenGl]),
-            cull: random.of(&[Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
-        }
-    }
-
-    fn apply(&self, call: &mut DrawCall<'_>) {
-        call.alpha_test = self.alpha;
-        call.depth = self.depth;
-        call.blend = self.blend;
-        call.masks = [self.mask; 4];
-        call.scissor = self.scissor;
-        call.viewport = self.viewport;
-        call.center = self.center;
-        call.clip_space = self.clip_space;
-        call.cull = self.cull;
-    }
-}
-
-/// Every target and depth format and the whole output stage, in number formats of every kind.
-fn output_stage(gpu: &Arc<Gpu>) {
-    for (number, device) in ["fp32", "fp16", "fp24", "s3.12", "s7.24", "e4m3", "n3.8:rna"].into_iter().enumerate() {
-        let mut profile = ideal(device);
-        if number % 2 == 1 {
-            profile.rules.target_rounding = TargetRounding::Truncate;
-            profile.rules.depth_rounding = TargetRounding::Truncate;
-        }
-        output_under(&profile, gpu, number as u64, TexelFormat::ALL);
-    }
-}
-
-fn output_under(profile: &Profile, gpu: &Arc<Gpu>, seed: u64, formats: &[TexelFormat]) {
-    let program = copy(profile);
-    let host = Constants::default();
-    let mut pair = Pair::new(profile, gpu);
-    let mut random = Random::new(seed);
-    for (i, &format) in formats.iter().enumerate() {
-        if !profile.limits.target_formats.contains(&format) {
-            continue;
-        }
-        let clear = bits([0; 4].map(|_| random.between(-0.3, 1.3)));
-        let target = pair.target(format, 40, 24, clear);
-        let depth_format = DepthFormat::ALL[i % DepthFormat::ALL.len()];
-        let depth = pair.depth(depth_format, 40, 24, random.between(0.0, 1.0).to_bits());
-        for round in 0..3 {
-            let corners = vertices(&mut random, 12);
-            let state = State::random(&mut random);
-            let source = VertexSource::Transformed(&corners);
-            let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, target);
-            call.depth_buffer = Some(depth);
-            state.apply(&mut call);
-            let what = format!("{}: {format} {depth_format} {round}, {call:?}", profile.name);
-            let what = what.get(..what.len().min(3000)).unwrap_or_default();
-            pair.draw(&call, what);
-            pair.same(&[target], Some(depth), what);
-        }
-        pair.reference.release_texture(target).unwrap();
-        pair.device.release_texture(target).unwrap();
-    }
-}
-
 /// Handles, clears, releases and read-back between draws.
 fn memory_follows(gpu: &Arc<Gpu>) {
     let profile = ideal("fp32");
@@ -238,17 +143,10 @@ fn memory_follows(gpu: &Arc<Gpu>) {
 
 /// A short comparison for drivers that compile slowly.
 fn short_programs_agree_on_any_driver(gpu: &Arc<Gpu>) {
-    agree(
-        gpu,
-        &[
-            ("ideal-fp32", "ps_2_0\ndcl t0\nmad r0, t0, c0, c1\nmov oC0, r0"),
-            ("r200", "ps_1_4\ntexld r0, t0\nmad r0, r0, c0, r0"),
-        ],
-    );
-}
-
-fn agree(gpu: &Arc<Gpu>, texts: &[(&str, &str)]) {
-    for &(device, text) in texts {
+    for (device, text) in [
+        ("ideal-fp32", "ps_2_0\ndcl t0\nmad r0, t0, c0, c1\nmov oC0, r0"),
+        ("r200", "ps_1_4\ntexld r0, t0\nmad r0, r0, c0, r0"),
+    ] {
         let profile = Profile::named(device).unwrap();
         let program = checked(text, &profile);
         let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]; 4]);

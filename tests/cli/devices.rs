@@ -61,7 +61,7 @@ fn adapters_need_the_feature() {
 #[cfg(feature = "wgpu")]
 #[test]
 fn an_unknown_adapter_is_refused() {
-    let ran = crossbar(&["devices", "--probe", "no such card"], "");
+    let ran = crossbar(&["leaky-teapot", "--executor", "wgpu", "--adapter", "no such card"], "");
     assert_eq!(ran.code, Some(2));
     assert!(ran.stderr.contains("adapter"), "{}", ran.stderr);
 }

@@ -96,7 +96,7 @@ fn guesses_are_halved_and_doubled() {
     // With four pixels the host needs longer to submit the draw than the card to execute it.
     let draw = row("queue.draw_ps");
     assert!(number(&draw["halved_ps"]) < total && total < number(&draw["doubled_ps"]), "{draw}");
-    let unused = row("queue.test_fence_ps");
+    let unused = row("queue.finish_fence_ps");
     assert_eq!([&unused["halved_ps"], &unused["doubled_ps"]].map(number), [total, total]);
     assert!(rows.iter().any(|row| row["guess"].as_str().is_some_and(|key| key.starts_with("bus."))));
 }
@@ -111,9 +111,9 @@ fn the_texture_cache_on_request() {
     let rows = simulated["texture_cache"].as_array().expect("rows");
     assert!(!rows.is_empty());
     for row in rows {
-        let figures = ["texels", "lines", "misses_half", "misses", "misses_double", "distinct_lines"];
-        let [texels, lines, half, same, double, distinct] = figures.map(|figure| number(&row[figure]));
-        assert!(texels > 0 && lines >= texels && lines >= half, "{row}");
+        let figures = ["texels", "misses_half", "misses", "misses_double", "distinct_lines"];
+        let [texels, half, same, double, distinct] = figures.map(|figure| number(&row[figure]));
+        assert!(texels > 0 && texels >= half, "{row}");
         assert!(half >= same && same >= double && double >= distinct && distinct > 0, "{row}");
     }
     // The same work, whichever model counts the cache misses.

@@ -22,7 +22,6 @@ fn main() -> std::process::ExitCode {
         on_adapter: display::the_same_pictures,
         leaky_teapot::the_same_study,
         programs::adapters_are_listed,
-        programs::an_adapter_is_probed,
         programs::every_example_is_equal_down_to_its_instructions,
         programs::the_first_instruction_that_differs_is_named,
     ])

@@ -1,7 +1,6 @@
 //! Log of a machine: the host's calls in order.
 
-use super::{DrawEvents, ProgramWork, SAMPLERS, SamplerTraffic};
-use std::borrow::Cow;
+use super::{DrawEvents, HostOperation, ProgramWork, SAMPLERS, SamplerTraffic};
 use std::sync::Arc;
 
 /// Identifies a resource in the card's memory; numbered as in its handle.
@@ -30,8 +29,8 @@ pub enum ReadBackMode {
 /// Operations of the host between two calls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HostWork {
-    /// Kind of operation, as named by the host model.
-    pub kind: Cow<'static, str>,
+    /// Kind of operation.
+    pub kind: HostOperation,
     /// Number of operations.
     pub operations: u64,
 }
@@ -77,10 +76,6 @@ pub enum Event {
         /// Fence of an asynchronous read-back, passed when the last byte has arrived.
         fence: Option<FenceId>,
     },
-    /// A fence set after all previous calls.
-    SetFence(FenceId),
-    /// The host tests whether a fence is passed.
-    TestFence(FenceId),
     /// The host waits for a fence.
     FinishFence(FenceId),
     /// Work of the host itself.

@@ -9,12 +9,14 @@
 //! ([`SamplerTraffic`]).
 
 mod counts;
+mod host;
 mod log;
 mod program;
 mod texels;
 mod vertex_cache;
 
 pub use counts::{ByteCounts, DrawEvents, FragmentCounts, PrimitiveCounts, SAMPLERS};
+pub use host::HostOperation;
 pub use log::{
     DepthRecord, DrawRecord, Event, FenceId, HostWork, MipmapLevel, MipmapRecord, ReadBackMode, ResourceId,
     SamplerRecord, TargetRecord,

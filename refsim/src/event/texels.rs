@@ -15,16 +15,14 @@ pub struct TexelTouch {
 
 /// Cache traffic of one sampler in one draw.
 ///
-/// An access is one texel of one fragment, so a bilinear read makes four. A request is one cache line of one access.
+/// An access is one texel of one fragment, which lies in one cache line; a bilinear read makes four.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SamplerTraffic {
     /// Texels read.
     pub accesses: u64,
-    /// Cache lines requested.
-    pub requests: u64,
-    /// Requests that missed, with caches of half the profile's size, its size, and twice its size.
+    /// Accesses that missed, with caches of half the profile's size, its size, and twice its size.
     pub misses: [u64; 3],
-    /// Number of different lines requested: the misses of an unlimited cache.
+    /// Number of different lines read: the misses of an unlimited cache.
     pub distinct: u64,
 }
 

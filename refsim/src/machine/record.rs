@@ -8,8 +8,8 @@ use super::validate::Plan;
 use super::vertices::VertexStage;
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
-    DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FlowConstants, HostWork, ProgramWork, ReadBackMode,
-    ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, vertex_cache_misses,
+    DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FlowConstants, ProgramWork, ReadBackMode, ResourceId,
+    SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, vertex_cache_misses,
 };
 use crate::exec::batch::{Instances, Surfaces};
 use crate::exec::{CheckedProgram, Constants, program};
@@ -17,7 +17,6 @@ use crate::isa::{Opcode, RegisterFile};
 use crate::output::DepthSurface;
 use crate::raster::{ComponentMask, Edge, RasterRules, TriangleSetup};
 use crate::texture::{Image, MipFilter, Region};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
 
@@ -64,27 +63,9 @@ impl Machine {
         Ok((fence, surface))
     }
 
-    /// Sets a fence after all calls so far (`SetFenceNV`).
-    pub fn set_fence(&self) -> FenceId {
-        let fence = self.next_fence();
-        self.recorder.push(|| Event::SetFence(fence));
-        fence
-    }
-
-    /// Records a test of a fence by the host (`TestFenceNV`). Its result is determined in the replay; the machine
-    /// itself has always finished everything.
-    pub fn test_fence(&self, fence: FenceId) {
-        self.recorder.push(|| Event::TestFence(fence));
-    }
-
     /// Records that the host waits for a fence (`FinishFenceNV`).
     pub fn finish_fence(&self, fence: FenceId) {
         self.recorder.push(|| Event::FinishFence(fence));
-    }
-
-    /// Records work of the host: `operations` of a kind named by the host model.
-    pub fn host_work(&self, kind: impl Into<Cow<'static, str>>, operations: u64) {
-        self.recorder.push(|| Event::Host(HostWork { kind: kind.into(), operations }));
     }
 
     /// A new fence number; always the same if recording is off.

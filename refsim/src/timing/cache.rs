@@ -119,7 +119,6 @@ impl TexelObserver for TextureCaches {
         let sampler = usize::from(texel.sampler) % SAMPLERS;
         let traffic = &mut self.traffic[sampler];
         traffic.accesses += 1;
-        traffic.requests += 1;
         for (cache, misses) in self.caches.iter_mut().zip(&mut traffic.misses) {
             *misses += u64::from(!cache.access(texel.address));
         }

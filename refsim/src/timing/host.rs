@@ -4,120 +4,31 @@
 //! the operation counts of the same run, and stays fixed. So the total host time of that run is right by construction,
 //! its distribution over operations is not.
 
-use std::fmt;
 use std::ops::AddAssign;
 
 use super::Picoseconds;
 use crate::device::{Confidence, FigureRow};
 
+pub use crate::event::HostOperation;
+
 /// Rays per second on the host alone for the teapot room: Ray Engine paper, Table 3, first row. The only figure on
 /// which the scale of [`HostModel`] is calibrated.
 pub const CPU_ONLY_RAYS_PER_SECOND: u64 = 135_812;
 
-macro_rules! operations {
-    ($($(#[$doc:meta])* $variant:ident = $name:literal, $weight:literal, $source:literal;)*) => {
-        /// A kind of host operation.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum HostOperation {
-            $($(#[$doc])* $variant,)*
-        }
-
-        impl HostOperation {
-            /// All kinds.
-            pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
-
-            /// The name in logs and reports.
-            pub const fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name,)*
-                }
-            }
-
-            const fn weight(self) -> u64 {
-                match self {
-                    $(Self::$variant => $weight,)*
-                }
-            }
-
-            const fn source(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $source,)*
-                }
-            }
-        }
-    };
-}
-
-operations! {
-    /// Visit of a triangle octree cell by a ray or a bucket.
-    OctreeCell = "octree-cell", 25, "three slab distances and a choice of the next cell; no source was found";
-    /// Ray-triangle intersection test.
-    RayTriangleTest = "ray-triangle-test", 50, "two cross and four dot products, a division; no source was found";
-    /// Visit of a ray tree node by a ray on its way to its bucket.
-    RayTreeNode = "ray-tree-node", 10, "a comparison of one of five coordinates, a miss in the cache now and then; no source was found";
-    /// Insertion of a ray into a bucket, or its transfer to another.
-    BucketInsert = "bucket-insert", 25, "six numbers and an index copied; no source was found";
-    /// Generation of a ray, by the camera or at a hit.
-    RayGenerated = "ray-generated", 40, "a direction and its length; no source was found";
-    /// Writing of a ray into the textures of a pass.
-    RayPacked = "ray-packed", 10, "six numbers written one after the other; taken like a result that is read";
-    /// Evaluation of a result read back from the card.
-    ResultRead = "result-read", 10, "an index and a distance kept if nearer; no source was found";
-    /// Submission of a vertex with its attributes to the driver.
-    VertexSent = "vertex-sent", 20, "some twenty numbers copied; no source was found";
-    /// Gathering of a triangle from the scene for the card.
-    TriangleSent = "triangle-sent", 20, "nine numbers gathered; no source was found";
-    /// Multiply-add in sums over matrices and vectors.
-    MultiplyAdd = "multiply-add", 2, "a product and an addition; no source was found";
-    /// Shading of a hit.
-    Shade = "shade", 100, "a normal, a light, a material; no source was found";
-}
-
-impl HostOperation {
-    /// Index in [`HostOperation::ALL`].
-    const fn index(self) -> usize {
-        self as usize
-    }
-
-    /// Returns the operation with this name.
-    ///
-    /// # Errors
-    /// [`HostError::UnknownOperation`] with the names that exist.
-    pub fn named(name: &str) -> Result<Self, HostError> {
-        Self::ALL.iter().copied().find(|operation| operation.name() == name).ok_or_else(|| {
-            let known: Vec<&str> = Self::ALL.iter().map(|operation| operation.name()).collect();
-            HostError::UnknownOperation { name: name.chars().take(60).collect(), known: known.join(" ") }
-        })
-    }
-}
-
-impl fmt::Display for HostOperation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-/// Error of calibrating or evaluating the host model.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum HostError {
-    /// The calibration run has no counted operations.
-    #[error("expected counted operations with some weight to calibrate the host on, found none")]
-    #[diagnostic(code(timing::host_counts), help("count the operations of the run that the printed figure is of"))]
-    NoCounts,
-    /// The calibration run cast no rays.
-    #[error("expected at least one ray to calibrate the host on, found none")]
-    #[diagnostic(code(timing::host_rays), help("count the rays of the run that the printed figure is of"))]
-    NoRays,
-    /// The published figure is 0.
-    #[error("expected at least one ray a second to calibrate the host on, found 0")]
-    #[diagnostic(code(timing::host_rate), help("take the printed figure"))]
-    NoRate,
-    /// A log contains an operation that the model does not know.
-    #[error("unknown host operation `{name}`; expected one of {known}")]
-    #[diagnostic(code(timing::host_operation))]
-    UnknownOperation { name: String, known: String },
+/// Error of calibrating the host model: the run has no counted operations with some weight, no rays, or a rate of 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[error(
+    "expected counted operations with some weight, and some rays at some rate, to calibrate the host on; found a weight \
+     of {weight}, and {rays} rays at {rays_per_second} a second"
+)]
+#[diagnostic(code(timing::host), help("count the run that the printed figure is of"))]
+pub struct HostError {
+    /// Weighted sum of the counted operations.
+    pub weight: u128,
+    /// Number of rays.
+    pub rays: u64,
+    /// The published rate.
+    pub rays_per_second: u64,
 }
 
 /// Number of operations by kind.
@@ -187,7 +98,8 @@ impl HostWeights {
 
     /// Mutable access to the weight with this key; `None` if there is no such key.
     pub fn figure_mut(&mut self, key: &str) -> Option<&mut u64> {
-        let operation = HostOperation::named(key.strip_prefix("host.")?).ok()?;
+        let name = key.strip_prefix("host.")?;
+        let operation = HostOperation::ALL.iter().find(|operation| operation.name() == name)?;
         Some(&mut self.0[operation.index()])
     }
 
@@ -229,14 +141,8 @@ impl HostModel {
         rays_per_second: u64,
     ) -> Result<Self, HostError> {
         let units = weights.total(counts);
-        if units == 0 {
-            return Err(HostError::NoCounts);
-        }
-        if rays == 0 {
-            return Err(HostError::NoRays);
-        }
-        if rays_per_second == 0 {
-            return Err(HostError::NoRate);
+        if units == 0 || rays == 0 || rays_per_second == 0 {
+            return Err(HostError { weight: units, rays, rays_per_second });
         }
         // rays / rate seconds for all units: up to 2^104 by up to 2^64 times the units.
         let (picoseconds, units) = (u128::from(rays) * 1_000_000_000_000, units.saturating_mul(rays_per_second.into()));

@@ -214,11 +214,6 @@ impl Model {
         Ok(scaled)
     }
 
-    /// Returns the model of a card without a texture cache: every access fetches a line.
-    pub fn without_texture_cache(&self) -> Self {
-        Self { cache: CacheSize::None, ..self.clone() }
-    }
-
     /// Current value of a figure.
     fn figure(&self, key: &str) -> Option<u64> {
         match key.split_once('.')? {

@@ -1,12 +1,12 @@
 //! Replay of a machine's log on the time axis.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::host::{HostError, HostModel, HostOperation};
-use super::queue::{DoubleBuffer, Fence, FenceError, Queue, QueueFigures, ResourceId};
+use super::host::HostModel;
+use super::queue::{Fence, Queue, QueueFigures, ResourceCopy};
 use super::timeline::Timeline;
 use super::{DrawCost, Level, Model, Picoseconds};
-use crate::event::{self, DrawRecord, Event, FenceId, MipmapRecord, ReadBackMode};
+use crate::event::{DrawRecord, Event, FenceId, MipmapRecord, ReadBackMode, ResourceId};
 
 /// Durations of a log's events on a card and its bus.
 pub trait Costs {
@@ -73,19 +73,15 @@ impl Costs for Model {
     }
 }
 
-/// Error of replaying a log. Events are numbered from 0.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum ReplayError {
-    /// A fence was tested or waited for before it was set.
-    #[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
-    #[diagnostic(code(timing::replay_fence), help("set the fence before it is tested or waited for"))]
-    Fence { event: usize, fence: FenceId },
-    /// Host work of an unknown kind.
-    #[error("event {event}: the host model can't cost it")]
-    #[diagnostic(code(timing::replay_host))]
-    Host { event: usize, source: HostError },
+/// Error of replaying a log: the host waits for a fence that no read-back has set. Events are numbered from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
+#[diagnostic(code(timing::replay_fence), help("wait for a fence after the read-back that sets it"))]
+pub struct ReplayError {
+    /// The event that names the fence.
+    pub event: usize,
+    /// The fence.
+    pub fence: FenceId,
 }
 
 /// Result of a replay.
@@ -97,8 +93,6 @@ pub struct Replay {
     pub draws: Vec<DrawCost>,
     /// Cost of each generation of mip levels, in the order of the log.
     pub mipmaps: Vec<DrawCost>,
-    /// Result of each fence test.
-    pub fence_tests: Vec<bool>,
     /// Number of host operations without cost because there is no host model.
     pub uncosted: u64,
 }
@@ -125,12 +119,12 @@ pub struct Replay {
 /// ```
 ///
 /// # Errors
-/// [`ReplayError`] for fences that are not set, and for host work of an unknown kind.
+/// [`ReplayError`] for fences that are not set.
 pub fn replay(log: &[Event], costs: &impl Costs, options: &Options<'_>) -> Result<Replay, ReplayError> {
     let mut player = Player {
         queue: Queue::new(options.queue),
         options,
-        copies: BTreeMap::new(),
+        seconds: BTreeSet::new(),
         fences: BTreeMap::new(),
         found: Replay::default(),
     };
@@ -143,7 +137,8 @@ pub fn replay(log: &[Event], costs: &impl Costs, options: &Options<'_>) -> Resul
 struct Player<'a> {
     queue: Queue,
     options: &'a Options<'a>,
-    copies: BTreeMap<event::ResourceId, DoubleBuffer>,
+    /// Resources whose second copy is in use.
+    seconds: BTreeSet<ResourceId>,
     fences: BTreeMap<FenceId, Fence>,
     found: Replay,
 }
@@ -176,37 +171,24 @@ impl Player<'_> {
                     self.fences.insert(*id, passed);
                 }
             }
-            Event::SetFence(id) => {
-                let fence = self.queue.set_fence();
-                self.fences.insert(*id, fence);
-            }
-            Event::TestFence(id) => {
-                let fence = self.fence(place, *id)?;
-                let answer = self.queue.test(fence).map_err(|error| unset(place, *id, error))?;
-                self.found.fence_tests.push(answer);
-            }
             Event::FinishFence(id) => {
                 let fence = self.fence(place, *id)?;
-                self.queue.finish(fence).map_err(|error| unset(place, *id, error))?;
+                self.queue.finish(fence);
             }
-            Event::Host(work) => {
-                let operation =
-                    HostOperation::named(&work.kind).map_err(|source| ReplayError::Host { event: place, source })?;
-                match self.options.host {
-                    Some(model) => {
-                        let label = format!("{} {operation}", work.operations);
-                        self.queue.host(model.time_of(operation, work.operations), label);
-                    }
-                    None => self.found.uncosted = self.found.uncosted.saturating_add(work.operations),
+            Event::Host(work) => match self.options.host {
+                Some(model) => {
+                    let label = format!("{} {}", work.operations, work.kind);
+                    self.queue.host(model.time_of(work.kind, work.operations), label);
                 }
-            }
+                None => self.found.uncosted = self.found.uncosted.saturating_add(work.operations),
+            },
         }
         Ok(())
     }
 
     fn draw(&mut self, record: &DrawRecord, cost: DrawCost) {
-        let reads: Vec<ResourceId> = record.reads().into_iter().map(|resource| self.current(resource)).collect();
-        let writes: Vec<ResourceId> = record.writes().into_iter().map(|resource| self.current(resource)).collect();
+        let reads: Vec<ResourceCopy> = record.reads().into_iter().map(|resource| self.current(resource)).collect();
+        let writes: Vec<ResourceCopy> = record.writes().into_iter().map(|resource| self.current(resource)).collect();
         self.queue.draw(&reads, &writes, cost, format!("draw {}", self.found.draws.len()));
         self.found.draws.push(cost);
     }
@@ -219,39 +201,26 @@ impl Player<'_> {
     }
 
     fn fence(&self, event: usize, fence: FenceId) -> Result<Fence, ReplayError> {
-        self.fences.get(&fence).copied().ok_or(ReplayError::Fence { event, fence })
+        self.fences.get(&fence).copied().ok_or(ReplayError { event, fence })
     }
 
     /// The copy of a resource in use.
-    fn current(&mut self, resource: event::ResourceId) -> ResourceId {
-        self.copies_of(resource).current()
+    fn current(&self, resource: ResourceId) -> ResourceCopy {
+        ResourceCopy { resource, second: self.seconds.contains(&resource) }
     }
 
-    /// The copy of a resource to overwrite.
-    fn overwritten(&mut self, resource: event::ResourceId) -> ResourceId {
-        let double = self.options.double_buffered;
-        let copies = self.copies_of(resource);
-        if double { copies.flip() } else { copies.current() }
-    }
-
-    fn copies_of(&mut self, resource: event::ResourceId) -> &mut DoubleBuffer {
-        let number = match resource {
-            event::ResourceId::Texture(number) => 4 * number as u64,
-            event::ResourceId::Depth(number) => 4 * number as u64 + 2,
-        };
-        let copies = || DoubleBuffer::new(ResourceId(number), ResourceId(number + 1));
-        self.copies.entry(resource).or_insert_with(copies)
+    /// The copy of a resource to overwrite: of a double-buffered one, the copy not used last.
+    fn overwritten(&mut self, resource: ResourceId) -> ResourceCopy {
+        if self.options.double_buffered && !self.seconds.remove(&resource) {
+            self.seconds.insert(resource);
+        }
+        self.current(resource)
     }
 }
 
-/// The queue generated the fence, so the only possible error is that it is unset.
-fn unset(event: usize, fence: FenceId, _: FenceError) -> ReplayError {
-    ReplayError::Fence { event, fence }
-}
-
-fn name(resource: event::ResourceId) -> String {
+fn name(resource: ResourceId) -> String {
     match resource {
-        event::ResourceId::Texture(number) => format!("texture {number}"),
-        event::ResourceId::Depth(number) => format!("depth buffer {number}"),
+        ResourceId::Texture(number) => format!("texture {number}"),
+        ResourceId::Depth(number) => format!("depth buffer {number}"),
     }
 }

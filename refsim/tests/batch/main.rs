@@ -1,12 +1,11 @@
-//! The batch executor's own code paths against the scalar executor and against `num`.
+//! The batch executor's arithmetic against `num`; rows that leave a format's range and large textures against the scalar
+//! executor.
 
 mod array_operation;
 #[path = "../common/environment.rs"]
 mod environment;
-mod filter_rows;
 mod guarded_rows;
 mod lanes;
+mod large_textures;
 #[path = "../common/random.rs"]
 mod random;
-#[path = "../common/sampling.rs"]
-mod sampling;

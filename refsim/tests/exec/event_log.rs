@@ -3,9 +3,7 @@
 use crate::running::{bits, checked};
 use refsim::asm::assemble;
 use refsim::device::Profile;
-use refsim::event::{
-    DepthRecord, Event, FenceId, FlowConstants, HostWork, ProgramWork, ReadBackMode, ResourceId, TargetRecord,
-};
+use refsim::event::{DepthRecord, Event, FenceId, FlowConstants, ProgramWork, ReadBackMode, ResourceId, TargetRecord};
 use refsim::exec::Constants;
 use refsim::isa::Opcode;
 use refsim::machine::{DrawCall, DrawWatcher, Executor, ExecutorKind, Machine, MachineError, VertexSource};
@@ -74,7 +72,6 @@ fn everything_is_written_down_in_order() {
     let depth = machine.create_depth(DepthFormat::Unorm16, 16, 16).unwrap();
     machine.clear_target(target, [0; 4]).unwrap();
     machine.clear_depth(depth, 0x3f80_0000).unwrap();
-    machine.host_work("ray", 64);
     let (vertices, host) = (triangle(), Constants::default());
     let mut call =
         DrawCall::new(VertexSource::Transformed(&vertices), Primitive::TriangleList, &program, &host, target)
@@ -90,9 +87,7 @@ fn everything_is_written_down_in_order() {
     machine.update_texture(texture, &Image::new_2d(TexelFormat::Bgr565, 8, 8).unwrap()).unwrap();
     let (fence, image) = machine.read_back_async(target).unwrap();
     assert_eq!(image.bytes().len(), 1024);
-    let second = machine.set_fence();
-    machine.test_fence(fence);
-    machine.finish_fence(second);
+    machine.finish_fence(fence);
     machine.read_depth(depth).unwrap();
 
     let log = machine.take_log();
@@ -117,15 +112,12 @@ fn everything_is_written_down_in_order() {
             upload.clone(),
             Event::Clear { resource: target, bytes: 1024 },
             Event::Clear { resource: depth, bytes: 512 },
-            Event::Host(HostWork { kind: "ray".into(), operations: 64 }),
             // The first draw sets all state; the second changes nothing; the third changes alpha test and masks.
             Event::StateChange { changes: 29, constants: 0 },
             Event::StateChange { changes: 2, constants: 0 },
             upload,
             Event::ReadBack { resource: target, bytes: 1024, mode, fence: Some(FenceId(1)) },
-            Event::SetFence(FenceId(2)),
-            Event::TestFence(FenceId(1)),
-            Event::FinishFence(FenceId(2)),
+            Event::FinishFence(FenceId(1)),
             Event::ReadBack { resource: depth, bytes: 512, mode: ReadBackMode::Synchronous, fence: None },
         ]
     );

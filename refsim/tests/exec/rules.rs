@@ -109,43 +109,6 @@ fn alpha_is_lost_at_the_phase_marker() {
 }
 
 #[test]
-fn constants_are_clamped_in_ps_1_x_only() {
-    let c = [[2.0, -3.0, 0.5, f32::INFINITY]];
-    let ran = run("ps_1_4\nmov r0, c0", &r200(), &c);
-    assert_eq!(ran.value(0), s([1.0, -1.0, 0.5, 1.0]));
-    let ran = run("ps_2_0\nmov r0, c0\nmov oC0, r0", &ideal("s3.12"), &c);
-    assert_eq!(ran.value(0), s([2.0, -3.0, 0.5, 8.0]));
-    let ran = run("ps_1_4\ndef c0, 0.25, 0.5, 0.75, 1\nmov r0, c0", &r200(), &c);
-    assert_eq!(ran.value(0), s([0.25, 0.5, 0.75, 1.0]), "def wins over the host");
-}
-
-#[test]
-fn r200_constants_have_eight_bits() {
-    let mut profile = Profile::named("r200").unwrap();
-    profile.set_switch("constants", "snorm8").unwrap();
-    profile.set_switch("rounding", "rne").unwrap();
-    let ran = run("ps_1_4\nmov r0, c0", &profile, &[[0.5, -0.5, 0.001, 1.0]]);
-    // 127.5 goes away from zero: 128/255 = 0.50196, 2056.03 in units of 2^-12.
-    assert_eq!(ran.value(0), [2056, (-2056i32 & 0xffff).cast_unsigned(), 0, 4096]);
-}
-
-#[test]
-fn nv20_rounds_constants_or_cuts_them_to_bytes() {
-    let moved = |value: &str| {
-        let mut profile = Profile::named("nv20").unwrap();
-        profile.set_switch("constants", value).unwrap();
-        run("ps_1_1\nmov r0, c0", &profile, &[[0.5, -0.5, 0.001, 1.0]]).value(0)
-    };
-    let codes = |codes: [i32; 4]| {
-        let format: Format = "n3.8".parse().unwrap();
-        codes.map(|k| refsim::num::from_ratio(format, k < 0, k.unsigned_abs().into(), 255).bits)
-    };
-    assert_eq!(moved("snorm8-cut"), codes([127, -127, 0, 255]));
-    assert_eq!(moved("snorm8"), codes([128, -128, 0, 255]));
-    assert_eq!(moved("register"), codes([128, -128, 0, 255]));
-}
-
-#[test]
 fn ps_1_x_output_is_saturated_and_ps_2_output_is_not() {
     let text = "ps_1_4\nmov_x4 r0, c0";
     let ran = run(text, &r200(), &[[1.0, -1.0, 0.125, 0.25]]);
@@ -348,16 +311,4 @@ fn the_trace_has_flags() {
     let ran = run_with_coordinates(text, &r200(), &[[0.1; 4]]);
     let flags: Vec<Flags> = ran.steps.iter().map(|s| s.flags).collect();
     assert_eq!(flags, [Flags::INEXACT, Flags::empty(), Flags::empty(), Flags::empty()]);
-}
-
-#[test]
-fn colors_pass_the_iterator() {
-    let mut profile = r200();
-    profile.set_switch("color-iterator", "8").unwrap();
-    let constants = Constants::default();
-    let mut fragment = FragmentInput::default();
-    fragment.v[0] = bits([0.5, -1.0, 2.0, 0.003]);
-    let ran = run_quad("ps_1_4\nmov r0, v0", &profile, &PixelBindings::new(&constants), &[fragment; 4]);
-    // 127.5 steps round up to 128/255; .003 is .765 steps: 1/255.
-    assert_eq!(ran.value(0), s([128.0 / 255.0, 0.0, 1.0, 1.0 / 255.0]));
 }

@@ -1,51 +1,6 @@
-//! s3.12 compared with plain integers.
+//! Fixed point compared with plain integers.
 
-use rayon::prelude::*;
-use refsim::num::{Flags, Format, Overflow, Rounding, ops};
-
-use crate::environment::by_form;
-
-/// `p / 4096` rounded, in 64-bit integer arithmetic.
-fn round(p: i64, rounding: Rounding) -> i64 {
-    match rounding {
-        Rounding::NearestEven => (p + 0x7ff + ((p >> 12) & 1)) >> 12,
-        Rounding::NearestAway if p < 0 => -((-p + 0x800) >> 12),
-        Rounding::NearestAway => (p + 0x800) >> 12,
-        Rounding::TowardZero => p / 4096,
-        Rounding::Down => p.div_euclid(4096),
-        Rounding::Up => -(-p).div_euclid(4096),
-        Rounding::Odd if p % 4096 != 0 => p.div_euclid(4096) | 1,
-        Rounding::Odd => p / 4096,
-        Rounding::Stochastic(_) => unreachable!("not among those tested here"),
-    }
-}
-
-#[test]
-fn s3_12_products_equal_integers() {
-    let stride = by_form(509, 1);
-    for (_, rounding) in Rounding::ALL {
-        for overflow in [Overflow::Saturate, Overflow::Wrap] {
-            let f = Format::S3_12.with_rounding(rounding).with_overflow(overflow);
-            (0..=0xffffu32 / stride).into_par_iter().for_each(|i| {
-                let a = i16::MIN.wrapping_add((i * stride) as i16);
-                for b in i16::MIN..=i16::MAX {
-                    let product = i64::from(a) * i64::from(b);
-                    let whole = round(product, rounding);
-                    let clamped = whole.clamp(-0x8000, 0x7fff);
-                    let kept = if overflow == Overflow::Wrap { whole } else { clamped };
-                    let mut flags = Flags::empty();
-                    flags.set(Flags::INEXACT, whole * 4096 != product || whole != clamped);
-                    flags.set(Flags::OVERFLOW, whole != clamped);
-                    let found = ops::mul(f, a.cast_unsigned().into(), b.cast_unsigned().into());
-                    assert!(
-                        found.bits == (kept as u32 & 0xffff) && found.flags == flags,
-                        "{f} {a} * {b}: found {found:?}, expected {kept} {flags:?}"
-                    );
-                }
-            });
-        }
-    }
-}
+use refsim::num::{Format, Rounding, ops};
 
 /// Widths up to 32 bits, with the longest intermediate results.
 #[test]

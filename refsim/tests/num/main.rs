@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `values` | values a reader can check by hand, and messages |
 //! | `half` | every fp16 operand pair with rustc_apfloat |
-//! | `fixed` | every s3.12 product with plain integers |
+//! | `fixed` | fixed point of up to 32 bits with plain integers |
 //! | `wide` | fp24 with double precision, fp32 with the host, fused operations with rustc_apfloat |
 //! | `normalized` | sums, products, conversions of `n3.8` and the like with their definition |
 //! | `small` | every operation of every format of at most 6 bits with exact rational arithmetic |

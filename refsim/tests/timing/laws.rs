@@ -55,7 +55,7 @@ fn record(work: &Work) -> DrawRecord {
     counts.fragments.fetches = [fetches; SAMPLERS];
     (counts.primitives.assembled, counts.primitives.rasterised) = (triangles, triangles);
     (counts.bytes.depth_read, counts.bytes.color_written, counts.bytes.vertices) = (depth, color, streams);
-    let traffic = SamplerTraffic { accesses: fetches, requests: fetches, misses: [misses; 3], distinct: misses };
+    let traffic = SamplerTraffic { accesses: fetches, misses: [misses; 3], distinct: misses };
     let sampler = |sampler| SamplerRecord {
         sampler,
         texture: ResourceId::Texture(sampler.into()),

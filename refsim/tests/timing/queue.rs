@@ -5,7 +5,7 @@ mod host;
 mod laws;
 mod replay;
 
-use refsim::timing::queue::{Fence, Queue, QueueFigures, ReadBackMode, ResourceId};
+use refsim::timing::queue::{Fence, Queue, QueueFigures, ReadBackMode, ResourceCopy, ResourceId};
 use refsim::timing::timeline::{Timeline, Unit};
 use refsim::timing::{DrawCost, Picoseconds};
 
@@ -43,11 +43,8 @@ enum Command {
         cost: [u64; 4],
     },
     ReadBack(u64, u64),
-    SetFence,
-    /// Of the last fence set, if any.
-    Test,
+    /// Waits for the last fence, if any.
     Finish,
-    FinishAll,
 }
 
 impl Command {
@@ -73,36 +70,36 @@ impl Command {
     }
 }
 
-fn ids(names: &[u64]) -> Vec<ResourceId> {
-    names.iter().map(|name| ResourceId(*name)).collect()
+fn texture(name: u64) -> ResourceCopy {
+    ResourceId::Texture(name as usize).into()
 }
 
-/// Submits the commands; returns the results of fence tests, and the timeline.
-fn play(commands: &[Command], figures: QueueFigures, mode: ReadBackMode) -> (Vec<bool>, Timeline) {
+fn textures(names: &[u64]) -> Vec<ResourceCopy> {
+    names.iter().map(|name| texture(*name)).collect()
+}
+
+/// Submits the commands; returns the timeline.
+fn play(commands: &[Command], figures: QueueFigures, mode: ReadBackMode) -> Timeline {
     let mut queue = Queue::new(figures);
     let mut fence: Option<Fence> = None;
-    let mut answers = Vec::new();
     for command in commands {
         match command {
             Command::Host(time) => queue.host(Picoseconds(*time), "work"),
-            Command::Upload(resource, time) => queue.upload(ResourceId(*resource), Picoseconds(*time), "upload"),
+            Command::Upload(resource, time) => queue.upload(texture(*resource), Picoseconds(*time), "upload"),
             Command::State(time) => queue.state(Picoseconds(*time), 0, "state"),
-            Command::Clear(resource, time) => queue.clear(ResourceId(*resource), Picoseconds(*time), "clear"),
+            Command::Clear(resource, time) => queue.clear(texture(*resource), Picoseconds(*time), "clear"),
             Command::Draw { reads, writes, cost: [front_end, shader, memory, fill] } => {
-                queue.draw(&ids(reads), &ids(writes), cost(*front_end, *shader, *memory, *fill), "draw");
+                queue.draw(&textures(reads), &textures(writes), cost(*front_end, *shader, *memory, *fill), "draw");
             }
             Command::ReadBack(resource, time) => {
-                queue.read_back(ResourceId(*resource), Picoseconds(*time), mode, "read back");
+                fence = queue.read_back(texture(*resource), Picoseconds(*time), mode, "read back").or(fence);
             }
-            Command::SetFence => fence = Some(queue.set_fence()),
-            Command::Test => answers.extend(fence.map(|fence| queue.test(fence).expect("a fence that is set"))),
             Command::Finish => {
                 if let Some(fence) = fence {
-                    queue.finish(fence).expect("a fence that is set");
+                    queue.finish(fence);
                 }
             }
-            Command::FinishAll => queue.finish_all(),
         }
     }
-    (answers, queue.timeline())
+    queue.timeline()
 }

@@ -1,14 +1,9 @@
 //! GPU adapters in a build without the feature `wgpu`: an error that names the feature.
 
-use crate::cli::{Out, Problem, Verdict};
+use crate::cli::{Out, Problem};
 
 /// `devices --adapters`
 pub(super) fn list(_: &mut Out) -> miette::Result<()> {
-    Err(missing().into())
-}
-
-/// `devices --probe`
-pub(super) fn probe(_: &str, _: &mut Out) -> miette::Result<Verdict> {
     Err(missing().into())
 }
 

@@ -144,21 +144,20 @@ fn mipmaps(log: &[Event], timed: &TimedLog) -> Option<Table> {
 
 /// Texture cache hits and misses per sampler, over all draws.
 fn cache(log: &[Event]) -> Table {
-    let headings = ["sampler", "texels", "lines", "misses, half", "misses", "misses, double", "distinct lines"];
+    let headings = ["sampler", "texels", "misses, half", "misses", "misses, double", "distinct lines"];
     let mut table = Table::new("Texture cache, also of half and of double the size", &headings);
     let mut samplers = BTreeMap::<u8, SamplerTraffic>::new();
     let records = log.iter().filter_map(record).flat_map(|record| &record.samplers);
     for (sampler, traffic) in records.filter_map(|sampler| Some((sampler.sampler, sampler.traffic?))) {
         let sum = samplers.entry(sampler).or_default();
         sum.accesses += traffic.accesses;
-        sum.requests += traffic.requests;
         sum.distinct += traffic.distinct;
         for (sum, misses) in sum.misses.iter_mut().zip(traffic.misses) {
             *sum += misses;
         }
     }
-    for (sampler, SamplerTraffic { accesses, requests, misses: [half, same, double], distinct }) in samplers {
-        let numbers = [sampler.into(), accesses, requests, half, same, double, distinct];
+    for (sampler, SamplerTraffic { accesses, misses: [half, same, double], distinct }) in samplers {
+        let numbers = [sampler.into(), accesses, half, same, double, distinct];
         table.push(numbers.map(Cell::Count));
     }
     table

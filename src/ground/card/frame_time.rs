@@ -85,10 +85,7 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
     let mut longest = BTreeMap::<Bottleneck, Picoseconds>::new();
     for event in log {
         match event {
-            Event::Host(work) => {
-                let operation = HostOperation::named(&work.kind)?;
-                time.products += host.time_of(operation, work.operations);
-            }
+            Event::Host(work) => time.products += host.time_of(work.kind, work.operations),
             Event::Upload { bytes, .. } => time.uploads += model.upload(*bytes),
             Event::StateChange { changes, constants } => {
                 time.state += model.state_change(*changes, *constants);
@@ -114,7 +111,7 @@ const ATTRIBUTE_BYTES: u64 = 16;
 
 /// Host work as an event of a log.
 pub fn host_work(operation: HostOperation, operations: u64) -> Event {
-    Event::Host(HostWork { kind: operation.name().into(), operations })
+    Event::Host(HostWork { kind: operation, operations })
 }
 
 /// The log of a frame whose pixels take no time, from numbers of triangles alone.

@@ -11,7 +11,7 @@ use crossbar::scene::Camera;
 use crossbar::tracer::HostTracer;
 use crossbar::tracer::octree::OctreeParameters;
 use refsim::device::Profile;
-use refsim::event::Event;
+use refsim::event::{Event, HostOperation};
 use refsim::machine::ExecutorKind;
 
 const SMALL: OctreeParameters = OctreeParameters { most_triangles: 4, most_depth: 6 };
@@ -131,17 +131,17 @@ fn every_pass_is_in_the_log_with_the_work_around_it() {
     let (counts, log) = (engine.counts(), engine.take_log());
     let draws = log.iter().filter(|event| matches!(event, Event::Draw(_))).count() as u64;
     assert_eq!(draws, counts.passes);
-    let host = |kind: &str| -> u64 {
+    let host = |kind: HostOperation| -> u64 {
         let of = |event: &Event| match event {
             Event::Host(work) if work.kind == kind => work.operations,
             _ => 0,
         };
         log.iter().map(of).sum()
     };
-    assert_eq!(host("ray-triangle-test"), counts.host_tests);
-    assert_eq!(host("octree-cell"), counts.traversal.cells + counts.beam_cells);
-    assert_eq!(host("ray-packed"), counts.pass_rays);
-    assert_eq!(host("result-read"), counts.pass_rays);
+    assert_eq!(host(HostOperation::RayTriangleTest), counts.host_tests);
+    assert_eq!(host(HostOperation::OctreeCell), counts.traversal.cells + counts.beam_cells);
+    assert_eq!(host(HostOperation::RayPacked), counts.pass_rays);
+    assert_eq!(host(HostOperation::ResultRead), counts.pass_rays);
     assert!(counts.pass_rays >= 32 * counts.passes / 2 && counts.passes > 0);
 }
 

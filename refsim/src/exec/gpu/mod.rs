@@ -2,8 +2,7 @@
 //!
 //! - `adapter`: enumeration and selection of adapters; `error`: errors.
 //! - `opened`: an opened adapter: buffers, compute pipelines, dispatches, read-back.
-//! - `probe`: comparison of an adapter's own single precision with IEEE 754 and WGSL. `testing`: access to an adapter
-//!   for tests.
+//! - `testing`: access to an adapter for tests.
 //! - `board`: the GPU buffers of an emulated card.
 //!
 //! Results are determined by the shaders alone (`refsim::exec::wgsl`), which operate on storage buffers of 32-bit
@@ -13,11 +12,9 @@ mod adapter;
 mod board;
 mod error;
 mod opened;
-mod probe;
 pub mod testing;
 
 pub use adapter::{Adapter, AdapterKind, adapters};
 pub use board::{BINDINGS, Board, LoadedProgram};
 pub use error::GpuError;
 pub use opened::{Access, Buffer, CompileObserver, Gpu, Kernel, Pipeline};
-pub use probe::{FULL as FULL_PROBE, OperationReport, ProbeDifference, ProbeReport, Tally, probe};

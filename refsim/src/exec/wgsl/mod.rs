@@ -5,12 +5,10 @@
 //! - [`follow`]: kernel for pixel traces.
 //! - [`number`]: arithmetic in every format of [`crate::num`]. [`texture`]: texture reads from a storage buffer.
 //!   [`program`]: pixel programs and interpolation. [`parts`]: reduction of the text to the parts that a draw uses.
-//! - [`accuracy`]: accuracy that WGSL requires of an adapter's own floats.
 //!
 //! Values have the \"raw\" representation of the batch executor: a fixed-point number is a sign-extended two's
 //! complement integer; a float of any format is the binary32 pattern of the same number, NaN always `0x7fc00000`.
 
-pub mod accuracy;
 pub mod follow;
 pub mod kernel;
 pub mod number;

@@ -13,8 +13,6 @@ pub enum CacheSize {
     Stated,
     /// Twice that size.
     Double,
-    /// No cache: every access fetches a line.
-    None,
 }
 
 impl CacheSize {
@@ -25,7 +23,6 @@ impl CacheSize {
             Self::Half => half,
             Self::Stated => stated,
             Self::Double => double,
-            Self::None => seen.requests,
         }
     }
 
@@ -34,7 +31,7 @@ impl CacheSize {
         let [half, stated, double] = draw.vertices_run;
         match self {
             Self::Half => half,
-            Self::Stated | Self::None => stated,
+            Self::Stated => stated,
             Self::Double => double,
         }
     }
@@ -72,7 +69,7 @@ pub fn traffic(draw: &DrawRecord, rates: &Rates, (cache, vertex_cache): (CacheSi
     let observed = draw.is_observed();
     let missed = if observed { draw.samplers.iter().filter_map(misses).fold(0, u64::saturating_add) } else { 0 };
     Traffic {
-        textures: if observed { missed.saturating_mul(line) } else { estimate(draw, rates, cache) },
+        textures: if observed { missed.saturating_mul(line) } else { estimate(draw, rates) },
         misses: missed,
         depth: bytes.depth_read.saturating_add(bytes.depth_written),
         color: bytes.color_read.saturating_add(bytes.color_written),
@@ -86,14 +83,9 @@ fn fetched(draw: &DrawRecord, cache: CacheSize) -> u64 {
     u64::try_from((bytes * run).div_ceil(u128::from(draw.counts.vertices.max(1)))).unwrap_or(u64::MAX)
 }
 
-/// Without a cache each read fetches a line. With a cache, compulsory misses are estimated: if all textures of the draw
-/// fit into the cache, each texel is fetched once, else once per primitive. At most one texel per read, because the
-/// neighbours that a filter needs hit the cache.
-fn estimate(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> u64 {
-    if cache == CacheSize::None {
-        let line = rates.texture_cache_line_bytes.unwrap_or(1);
-        return draw.samplers.iter().fold(0, |sum, s| sum.saturating_add(draw.fetches(s.sampler).saturating_mul(line)));
-    }
+/// Compulsory misses are estimated: if all textures of the draw fit into the cache, each texel is fetched once, else once
+/// per primitive. At most one texel per read, because the neighbours that a filter needs hit the cache.
+fn estimate(draw: &DrawRecord, rates: &Rates) -> u64 {
     let read = |s: &&SamplerRecord| draw.fetches(s.sampler) > 0;
     let size = draw.samplers.iter().filter(read).fold(0_u64, |sum, s| sum.saturating_add(s.texture_bytes));
     let fits = size <= rates.texture_cache_bytes.unwrap_or_default();

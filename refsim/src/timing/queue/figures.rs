@@ -47,10 +47,6 @@ queue_figures! {
     draw_ps = 1_000_000 "ps" "no source was found; about a million draws a second when nothing else is done";
     /// Host time to submit a read-back, without the transfer, in picoseconds.
     read_back_ps = 2_000_000 "ps" "no source was found; taken like an upload";
-    /// Host time to set a fence, in picoseconds.
-    set_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
-    /// Host time to test a fence, in picoseconds.
-    test_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
     /// Host time to start waiting for a fence, in picoseconds.
     finish_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
     /// Commands that the queue holds before the host has to wait; at least 1.
@@ -70,8 +66,6 @@ impl QueueFigures {
             clear_ps: 0,
             draw_ps: 0,
             read_back_ps: 0,
-            set_fence_ps: 0,
-            test_fence_ps: 0,
             finish_fence_ps: 0,
             ..self
         }

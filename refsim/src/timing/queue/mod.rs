@@ -4,27 +4,37 @@
 //! is a maximum of ends, so shortening an operation or removing a dependency never lengthens the whole. All durations
 //! are inputs. docs/timing.md lists the rules, with an example.
 
-mod double;
-mod fence;
 mod figures;
 mod schedule;
 
 use std::collections::{BTreeMap, VecDeque};
 
-pub use double::DoubleBuffer;
-pub use fence::{Fence, FenceError};
 pub use figures::QueueFigures;
 
-pub use crate::event::ReadBackMode;
+pub use crate::event::{ReadBackMode, ResourceId};
 
 use super::timeline::{Label, Mark, SpanKind, Timeline, Unit, WaitReason};
 use super::{DrawCost, Picoseconds};
-use fence::Fences;
 use schedule::{Schedule, SpanWork};
 
-/// Name of a texture, target or depth buffer; the caller chooses the numbers.
+/// A texture, target or depth buffer, or its second copy if it is double-buffered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ResourceId(pub u64);
+pub struct ResourceCopy {
+    /// The resource.
+    pub resource: ResourceId,
+    /// `true` for the second copy.
+    pub second: bool,
+}
+
+impl From<ResourceId> for ResourceCopy {
+    fn from(resource: ResourceId) -> Self {
+        Self { resource, second: false }
+    }
+}
+
+/// A fence as in `NV_fence`: it is passed when every command before it, transfers included, is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fence(Mark);
 
 /// Times at which a resource is free for reading and writing.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,8 +54,7 @@ pub struct Queue {
     bodies: VecDeque<Mark>,
     /// End of all work submitted to the card, transfers included.
     done: Mark,
-    resources: BTreeMap<ResourceId, ResourceUse>,
-    fences: Fences,
+    resources: BTreeMap<ResourceCopy, ResourceUse>,
     commands: u32,
 }
 
@@ -72,7 +81,6 @@ impl Queue {
             bodies: VecDeque::new(),
             done: Mark::default(),
             resources: BTreeMap::new(),
-            fences: Fences::default(),
             commands: 0,
         }
     }
@@ -80,11 +88,6 @@ impl Queue {
     /// Current time of the host: the end of all that it has done and waited for.
     pub fn now(&self) -> Picoseconds {
         self.schedule.free(Unit::Host).time
-    }
-
-    /// Time at which everything submitted so far is done.
-    pub fn end(&self) -> Picoseconds {
-        self.schedule.free(Unit::Host).or_later(self.done).time
     }
 
     /// Adds work of the host.
@@ -95,7 +98,7 @@ impl Queue {
 
     /// Uploads data for a whole resource, in parallel with the card's work. The bus waits for earlier draws that read
     /// or write the resource.
-    pub fn upload(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
+    pub fn upload(&mut self, resource: ResourceCopy, duration: Picoseconds, label: impl Into<Label>) {
         let command = self.submit(self.figures.upload_ps, label.into());
         let taken = self.dequeue(command.ready);
         let held = self.resource_use(resource);
@@ -115,7 +118,7 @@ impl Queue {
     }
 
     /// Fills a resource with one value, in memory time.
-    pub fn clear(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
+    pub fn clear(&mut self, resource: ResourceCopy, duration: Picoseconds, label: impl Into<Label>) {
         let command = self.submit(self.figures.clear_ps, label.into());
         let (start, _) = self.front_end(&command, Picoseconds::ZERO, SpanKind::State);
         let needs = self.body_needs(start, &[], &[resource]);
@@ -126,7 +129,7 @@ impl Queue {
 
     /// Submits a draw that reads some resources and writes others. The front end may be ahead of the pixel pipelines by
     /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory work in parallel, on one draw at a time.
-    pub fn draw(&mut self, reads: &[ResourceId], writes: &[ResourceId], cost: DrawCost, label: impl Into<Label>) {
+    pub fn draw(&mut self, reads: &[ResourceCopy], writes: &[ResourceCopy], cost: DrawCost, label: impl Into<Label>) {
         let command = self.submit(self.figures.draw_ps, label.into());
         // Remainder of the total without the busiest unit: the time to fill and drain the pipeline.
         let fill = cost.front_end.max(cost.shader).max(cost.memory).until(cost.total);
@@ -144,7 +147,7 @@ impl Queue {
     /// a fence is returned that is passed when the data have arrived and all earlier work is done; setting it is free.
     pub fn read_back(
         &mut self,
-        resource: ResourceId,
+        resource: ResourceCopy,
         duration: Picoseconds,
         mode: ReadBackMode,
         label: impl Into<Label>,
@@ -172,68 +175,15 @@ impl Queue {
     }
 
     /// A fence after all commands so far, at no cost: it is part of another command.
-    pub(super) fn fence_for_free(&mut self) -> Fence {
-        let fence = self.fences.generate();
-        // The name is new, so setting it can't fail.
-        self.fences.set(fence, self.done).ok();
-        fence
-    }
-
-    /// Generates a fence that is not set yet.
-    pub fn generate_fence(&mut self) -> Fence {
-        self.fences.generate()
-    }
-
-    /// Generates a fence and sets it after all commands so far.
-    pub fn set_fence(&mut self) -> Fence {
-        let fence = self.fences.generate();
-        self.mark_fence(fence);
-        fence
-    }
-
-    /// Sets a fence, possibly again, after all commands so far.
-    ///
-    /// # Errors
-    /// [`FenceError::Unknown`].
-    pub fn set(&mut self, fence: Fence) -> Result<(), FenceError> {
-        self.fences.check(fence)?;
-        self.mark_fence(fence);
-        Ok(())
-    }
-
-    fn mark_fence(&mut self, fence: Fence) {
-        let command = self.submit(self.figures.set_fence_ps, "set fence".into());
-        let taken = self.dequeue(command.ready);
-        self.fences.set(fence, self.done.or_later(taken)).ok();
-    }
-
-    /// Tests a fence: `true` if it is passed when the host, after paying the cost of the test, gets the answer.
-    ///
-    /// # Errors
-    /// [`FenceError`] for a fence that is not set or not known.
-    pub fn test(&mut self, fence: Fence) -> Result<bool, FenceError> {
-        let passed = self.fences.passed(fence)?;
-        let command = self.new_command("test fence".into());
-        self.on_host(SpanKind::Submit, Picoseconds(self.figures.test_fence_ps), &command);
-        Ok(passed.time <= self.now())
+    pub(super) fn fence_for_free(&self) -> Fence {
+        Fence(self.done)
     }
 
     /// Waits on the host until the fence is passed.
-    ///
-    /// # Errors
-    /// [`FenceError`] for a fence that is not set or not known.
-    pub fn finish(&mut self, fence: Fence) -> Result<(), FenceError> {
-        let passed = self.fences.passed(fence)?;
+    pub fn finish(&mut self, fence: Fence) {
         let command = self.new_command("finish fence".into());
         self.on_host(SpanKind::Submit, Picoseconds(self.figures.finish_fence_ps), &command);
-        self.schedule.host_waits(passed, WaitReason::Fence, command.index);
-        Ok(())
-    }
-
-    /// Waits on the host until everything is done, as `glFinish` does.
-    pub fn finish_all(&mut self) {
-        let command = self.new_command("finish".into());
-        self.schedule.host_waits(self.done, WaitReason::Finish, command.index);
+        self.schedule.host_waits(fence.0, WaitReason::Fence, command.index);
     }
 
     /// Returns everything submitted as a timeline.
@@ -283,7 +233,7 @@ impl Queue {
     }
 
     /// Dependencies of a draw's or clear's first pixel; `filled` is when the pipeline has one.
-    fn body_needs(&self, filled: Mark, reads: &[ResourceId], writes: &[ResourceId]) -> [(Mark, WaitReason); 3] {
+    fn body_needs(&self, filled: Mark, reads: &[ResourceCopy], writes: &[ResourceCopy]) -> [(Mark, WaitReason); 3] {
         let inputs = reads.iter().map(|resource| self.resource_use(*resource).written);
         let outputs = writes.iter().map(|resource| {
             let held = self.resource_use(*resource);
@@ -294,7 +244,7 @@ impl Queue {
         [(order, WaitReason::Order), (filled, WaitReason::Input), (hazard, WaitReason::Hazard)]
     }
 
-    fn body_ends(&mut self, end: Mark, reads: &[ResourceId], writes: &[ResourceId]) {
+    fn body_ends(&mut self, end: Mark, reads: &[ResourceCopy], writes: &[ResourceCopy]) {
         for resource in reads {
             let held = self.resources.entry(*resource).or_default();
             held.read = held.read.or_later(end);
@@ -310,7 +260,7 @@ impl Queue {
         self.done = self.done.or_later(end);
     }
 
-    fn resource_use(&self, resource: ResourceId) -> ResourceUse {
+    fn resource_use(&self, resource: ResourceCopy) -> ResourceUse {
         self.resources.get(&resource).copied().unwrap_or_default()
     }
 }

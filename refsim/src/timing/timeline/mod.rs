@@ -131,8 +131,6 @@ pub enum WaitReason {
     /// Host: a synchronous read-back.
     #[strum(to_string = "read-back")]
     Transfer,
-    /// Host: completion of everything submitted.
-    Finish,
     /// The resource is still being read, written or transferred.
     #[strum(to_string = "resource in use")]
     Hazard,

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{
     AddressMode, ChannelValue, Filter, Image, Lod, MipFilter, SampleRules, SamplerState, SignedTexelMinimum,
-    TargetRounding, TexelFormat, TextureKind, fetch_nearest, lod_from_derivatives, sample, unbound,
+    TargetRounding, TexelFormat, TextureKind, fetch_nearest, sample, unbound,
 };
 
 fn rules(format: Format) -> SampleRules {
@@ -146,23 +146,6 @@ fn levels_follow_the_level_of_detail() {
 }
 
 #[test]
-fn derivatives_choose_the_level() {
-    let image = stepped(TextureKind::D2, 1);
-    let lod =
-        |ddx: [f32; 4], ddy: [f32; 4]| f32::from_bits(lod_from_derivatives(&image, [0; 4], bits(ddx), bits(ddy), 8));
-    let step = 1.0 / 8.0;
-    assert_eq!(lod([step, 0., 0., 0.], [0., step, 0., 0.]), 0.0);
-    assert_eq!(lod([step, 0., 0., 0.], [0., 2. * step, 0., 0.]), 1.0);
-    assert_eq!(lod([step, step, 0., 0.], [0.; 4]), 0.5);
-    let cube = stepped(TextureKind::Cube, 1);
-    // On the +z face, x changing by 2/8 a pixel at z = 1 moves one texel.
-    let d = bits([0.25, 0., 0., 0.]);
-    assert_eq!(lod_from_derivatives(&cube, bits([0., 0., 1., 0.]), d, [0; 4], 8), 0);
-    let d = bits([1.0, 0., 0., 0.]);
-    assert_eq!(f32::from_bits(lod_from_derivatives(&cube, bits([0., 0., 2., 0.]), d, [0; 4], 8)), 1.0);
-}
-
-#[test]
 fn volumes_filter_along_three_axes() {
     let mut image = Image::new(TexelFormat::L8, TextureKind::Volume, [2, 2, 2], 1).unwrap();
     image.bytes_mut().copy_from_slice(&[0, 8, 16, 24, 32, 40, 48, 56]);
@@ -171,19 +154,6 @@ fn volumes_filter_along_three_axes() {
     let state = SamplerState::NEAREST_CLAMP;
     let corner = sample(Some(&image), &state, &rules(Format::FP32), bits([0.9, 0.1, 0.9, 0.]), Lod::Base);
     assert_eq!(f32::from_bits(corner[0]), 40.0 / 255.0);
-}
-
-#[test]
-fn cube_faces_are_slices() {
-    let mut image = Image::new(TexelFormat::L8, TextureKind::Cube, [1, 1, 1], 1).unwrap();
-    image.bytes_mut().copy_from_slice(&[0, 1, 2, 3, 4, 5]);
-    let directions = [[1., 0., 0.], [-1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., 1.], [0., 0., -1.]];
-    for (face, [x, y, z]) in directions.into_iter().enumerate() {
-        for state in [SamplerState::NEAREST_CLAMP, linear(AddressMode::Border)] {
-            let value = sample(Some(&image), &state, &rules(Format::FP32), bits([x, y, z, 0.]), Lod::Base);
-            assert_eq!(f32::from_bits(value[0]), face as f32 / 255.0, "{x} {y} {z}");
-        }
-    }
 }
 
 #[test]

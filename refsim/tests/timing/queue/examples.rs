@@ -1,13 +1,13 @@
 //! Small programs with manually derived timelines.
 
-use refsim::timing::queue::{DoubleBuffer, Fence, FenceError, Queue, QueueFigures, ReadBackMode, ResourceId};
+use refsim::timing::queue::{Queue, QueueFigures, ReadBackMode, ResourceCopy, ResourceId};
 use refsim::timing::timeline::{SpanKind, Unit, WaitReason};
 use refsim::timing::{DrawCost, Picoseconds};
 
 use super::{cost, free, spans};
 
-const RAYS: ResourceId = ResourceId(0);
-const IDS: ResourceId = ResourceId(1);
+const RAYS: ResourceCopy = ResourceCopy { resource: ResourceId::Texture(0), second: false };
+const IDS: ResourceCopy = ResourceCopy { resource: ResourceId::Texture(1), second: false };
 
 fn ps(time: u64) -> Picoseconds {
     Picoseconds(time)
@@ -108,18 +108,15 @@ fn a_full_queue_stalls_the_host() {
 
 /// Two buckets of rays; the host needs 6 to prepare each, and reads the results at the end.
 fn two_buckets(mode: ReadBackMode, double: bool) -> u64 {
-    let second = |first: ResourceId| if double { ResourceId(first.0 + 10) } else { first };
-    let (mut rays, mut ids) = (DoubleBuffer::new(RAYS, second(RAYS)), DoubleBuffer::new(IDS, second(IDS)));
     let mut queue = Queue::new(free());
-    for _ in 0..2 {
+    for second in [false, double] {
+        let [rays, ids] = [RAYS, IDS].map(|copy| ResourceCopy { second, ..copy });
         queue.host(ps(6), "make rays");
-        queue.upload(rays.flip(), ps(3), "rays");
-        let target = ids.flip();
-        queue.clear(target, ps(1), "ids");
-        queue.draw(&[rays.current()], &[target], cost(0, 20, 0, 0), "triangles");
-        queue.read_back(target, ps(5), mode, "ids");
+        queue.upload(rays, ps(3), "rays");
+        queue.clear(ids, ps(1), "ids");
+        queue.draw(&[rays], &[ids], cost(0, 20, 0, 0), "triangles");
+        queue.read_back(ids, ps(5), mode, "ids");
     }
-    queue.finish_all();
     queue.timeline().makespan().0
 }
 
@@ -136,33 +133,6 @@ fn what_asynchrony_and_double_buffers_are_good_for() {
 }
 
 #[test]
-fn fences_as_nv_fence_has_them() {
-    let mut queue = Queue::new(QueueFigures { test_fence_ps: 2, finish_fence_ps: 1, ..free() });
-    let name = queue.generate_fence();
-    assert_eq!(queue.test(name), Err(FenceError::Unset(name)));
-    assert_eq!(queue.finish(name), Err(FenceError::Unset(name)));
-    let foreign = Fence(99);
-    assert_eq!(queue.set(foreign), Err(FenceError::Unknown(foreign)));
-    assert_eq!(queue.test(foreign), Err(FenceError::Unknown(foreign)));
-    assert_eq!(FenceError::Unset(name).to_string(), "expected a fence that has been set, found fence 0 that was not");
-
-    queue.draw(&[], &[IDS], cost(0, 10, 0, 0), "first");
-    queue.set(name).expect("a name of this queue");
-    queue.draw(&[], &[IDS], cost(0, 10, 0, 0), "second");
-    assert_eq!(queue.test(name), Ok(false), "at 2");
-    queue.host(ps(6), "work");
-    assert_eq!(queue.test(name), Ok(true), "at 10, when the first draw ends; the second is not before the fence");
-    queue.set(name).expect("set again");
-    assert_eq!(queue.test(name), Ok(false), "at 12: now the second is before it");
-    queue.finish(name).expect("it is set");
-    assert_eq!(queue.now(), ps(20));
-    assert_eq!(queue.test(name), Ok(true));
-    let timeline = queue.timeline();
-    let wait = timeline.waits().iter().find(|wait| wait.unit == Unit::Host).expect("the host has waited");
-    assert_eq!((wait.start, wait.end, wait.reason), (ps(13), ps(20), WaitReason::Fence));
-}
-
-#[test]
 fn an_asynchronous_read_back_has_a_fence() {
     let mut queue = Queue::new(free());
     queue.draw(&[], &[IDS], cost(0, 10, 0, 0), "draw");
@@ -170,13 +140,14 @@ fn an_asynchronous_read_back_has_a_fence() {
     // To another target: in parallel with the transfer. To the same: after it.
     queue.draw(&[], &[RAYS], cost(0, 3, 0, 0), "beside");
     queue.draw(&[], &[IDS], cost(0, 3, 0, 0), "after");
-    assert_eq!(queue.test(fence), Ok(false));
-    queue.finish(fence).expect("it is set");
+    queue.finish(fence);
     assert_eq!(queue.now(), ps(15));
     assert!(queue.read_back(IDS, ps(5), ReadBackMode::Synchronous, "ids").is_none());
     let timeline = queue.timeline();
     assert_eq!(spans(&timeline, Unit::ShaderArray), [(0, 10), (10, 13), (15, 18)]);
     assert_eq!(spans(&timeline, Unit::ReadBackBus), [(10, 15), (18, 23)]);
+    let wait = timeline.waits().iter().find(|wait| wait.unit == Unit::Host).expect("the host has waited");
+    assert_eq!((wait.start, wait.end, wait.reason), (ps(0), ps(15), WaitReason::Fence));
 }
 
 #[test]
@@ -193,7 +164,7 @@ fn an_upload_waits_for_draws_that_read_what_it_overwrites() {
     let mut queue = Queue::new(free());
     queue.draw(&[RAYS], &[IDS], cost(0, 10, 0, 0), "draw");
     queue.upload(RAYS, ps(2), "more rays");
-    queue.upload(ResourceId(7), ps(2), "something else");
+    queue.upload(ResourceId::Texture(7).into(), ps(2), "something else");
     let timeline = queue.timeline();
     assert_eq!(spans(&timeline, Unit::UploadBus), [(10, 12), (12, 14)]);
     let wait = timeline.waits()[0];

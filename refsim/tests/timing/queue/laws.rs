@@ -22,10 +22,7 @@ fn command() -> impl Strategy<Value = Command> {
         6 => (some(), some(), [time(), time(), time(), time()])
             .prop_map(|(reads, writes, cost)| Command::Draw { reads, writes, cost }),
         3 => (0..4_u64, time()).prop_map(|(resource, time)| Command::ReadBack(resource, time)),
-        1 => Just(Command::SetFence),
-        1 => Just(Command::Test),
         1 => Just(Command::Finish),
-        1 => Just(Command::FinishAll),
     ]
 }
 
@@ -46,8 +43,6 @@ fn figures() -> impl Strategy<Value = QueueFigures> {
         clear_ps: c,
         draw_ps: a,
         read_back_ps: b,
-        set_fence_ps: c,
-        test_fence_ps: a,
         finish_fence_ps: b,
         commands,
         draws_ahead,
@@ -55,7 +50,7 @@ fn figures() -> impl Strategy<Value = QueueFigures> {
 }
 
 fn makespan(commands: &[Command], figures: QueueFigures, mode: ReadBackMode) -> Picoseconds {
-    play(commands, figures, mode).1.makespan()
+    play(commands, figures, mode).makespan()
 }
 
 /// Spans and waits of a unit as intervals, by time.
@@ -68,20 +63,20 @@ fn intervals(timeline: &Timeline, unit: Unit) -> Vec<(u64, u64)> {
 }
 
 /// Resources that each command reads and writes, by the command index of its spans.
-fn uses(commands: &[Command]) -> Vec<(Vec<u64>, Vec<u64>)> {
+fn uses(commands: &[Command], mode: ReadBackMode) -> Vec<(Vec<u64>, Vec<u64>)> {
     let mut fence = false;
     let mut uses = Vec::new();
     for command in commands {
         match command {
             Command::Upload(resource, _) | Command::Clear(resource, _) => uses.push((vec![], vec![*resource])),
-            Command::ReadBack(resource, _) => uses.push((vec![*resource], vec![])),
-            Command::Draw { reads, writes, .. } => uses.push((reads.clone(), writes.clone())),
-            // Without a fence there is nothing to test or wait for.
-            Command::Test | Command::Finish if !fence => {}
-            other => {
-                fence |= matches!(other, Command::SetFence);
-                uses.push((vec![], vec![]));
+            Command::ReadBack(resource, _) => {
+                fence |= mode == ReadBackMode::Asynchronous;
+                uses.push((vec![*resource], vec![]));
             }
+            Command::Draw { reads, writes, .. } => uses.push((reads.clone(), writes.clone())),
+            // Without a fence there is nothing to wait for.
+            Command::Finish if !fence => {}
+            _ => uses.push((vec![], vec![])),
         }
     }
     uses
@@ -92,7 +87,7 @@ proptest! {
 
     #[test]
     fn no_unit_does_two_things_at_a_time(commands in program(), figures in figures(), mode in mode()) {
-        let (_, timeline) = play(&commands, figures, mode);
+        let timeline = play(&commands, figures, mode);
         for unit in Unit::ALL {
             let intervals = intervals(&timeline, unit);
             prop_assert!(intervals.iter().all(|(start, end)| start < end), "{unit}: {intervals:?}");
@@ -103,7 +98,7 @@ proptest! {
 
     #[test]
     fn nothing_starts_before_its_cause_has_ended(commands in program(), figures in figures(), mode in mode()) {
-        let (_, timeline) = play(&commands, figures, mode);
+        let timeline = play(&commands, figures, mode);
         for (place, span) in timeline.spans().iter().enumerate() {
             let cause = span.after.map(|id| (id.0 as usize, timeline.span(id).expect("a cause is a span").end));
             prop_assert!(cause.is_none_or(|(id, _)| id < place), "a cause comes first");
@@ -114,7 +109,7 @@ proptest! {
 
     #[test]
     fn the_critical_path_is_the_whole_run(commands in program(), figures in figures(), mode in mode()) {
-        let (_, timeline) = play(&commands, figures, mode);
+        let timeline = play(&commands, figures, mode);
         let path = timeline.critical_path();
         let mut now = Picoseconds::ZERO;
         for segment in &path {
@@ -130,7 +125,7 @@ proptest! {
 
     #[test]
     fn busy_waiting_and_idle_are_all_there_is(commands in program(), figures in figures(), mode in mode()) {
-        let (_, timeline) = play(&commands, figures, mode);
+        let timeline = play(&commands, figures, mode);
         for usage in timeline.usage() {
             prop_assert!(usage.busy <= timeline.makespan());
             prop_assert_eq!(usage.busy + usage.waiting + usage.idle, timeline.makespan());
@@ -184,9 +179,8 @@ proptest! {
     fn all_durations_scale_together(commands in program(), figures in figures(), mode in mode(), by in 1..50_u64) {
         let figures = figures.without_overhead();
         let scaled: Vec<Command> = commands.iter().map(|command| command.scaled(by)).collect();
-        let (answers, once) = play(&commands, figures, mode);
-        let (scaled_answers, times) = play(&scaled, figures, mode);
-        prop_assert_eq!(answers, scaled_answers);
+        let once = play(&commands, figures, mode);
+        let times = play(&scaled, figures, mode);
         prop_assert_eq!(once.spans().len(), times.spans().len());
         for (one, many) in once.spans().iter().zip(times.spans()) {
             prop_assert_eq!((one.start.0 * by, one.end.0 * by, one.after), (many.start.0, many.end.0, many.after));
@@ -201,8 +195,8 @@ proptest! {
 
     #[test]
     fn whoever_writes_a_resource_has_it_alone(commands in program(), figures in figures(), mode in mode()) {
-        let (_, timeline) = play(&commands, figures, mode);
-        let uses = uses(&commands);
+        let timeline = play(&commands, figures, mode);
+        let uses = uses(&commands, mode);
         let touches = |kind| {
             use SpanKind::{Clear, Fragments, ReadBack, Traffic, Upload};
             matches!(kind, Upload | Clear | Fragments | Traffic | ReadBack)
@@ -222,7 +216,7 @@ proptest! {
 
     #[test]
     fn the_host_has_what_it_waits_for(commands in program(), figures in figures()) {
-        let (_, timeline) = play(&commands, figures, ReadBackMode::Synchronous);
+        let timeline = play(&commands, figures, ReadBackMode::Synchronous);
         // Synchronous: the host continues only after its read-back and everything before it.
         let arrivals = timeline.spans().iter().filter(|span| span.kind == SpanKind::ReadBack);
         for arrival in arrivals {

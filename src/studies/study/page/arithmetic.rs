@@ -1,13 +1,12 @@
 //! Operations on operands of many formats: shaders, and the results that the emulator's arithmetic gives.
 
 use rayon::prelude::*;
-use refsim::exec::wgsl::accuracy::{Allowed, SingleOperation, allowed};
 use refsim::exec::wgsl::number::{format_words, library};
 use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation as Op};
 use serde::Serialize;
 
-use super::encode::{base64, base64_words};
+use super::encode::base64;
 use super::operands::PatternBits;
 
 /// Operand sets per operation and format.
@@ -63,8 +62,6 @@ pub(super) struct Arithmetic {
     /// Results by operation, then format: little-endian patterns of the fewest bytes that hold the format's width.
     expected: Vec<Vec<String>>,
     native: NativeShader,
-    /// Results that WGSL allows of the adapter's `f32`, by operation ([`limits`]); empty where it is not judged.
-    limits: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -118,7 +115,6 @@ impl Arithmetic {
             shader,
             accuracy: accuracy(operation),
         });
-        let single = formats.iter().position(|(name, ..)| *name == NATIVE[0]).unwrap_or_default();
         Self {
             sets: SETS,
             shaders: SHADERS.map(|(entry, operations)| shader(entry, operations, &formats)).into(),
@@ -131,7 +127,6 @@ impl Arithmetic {
                     .map(|(operation, ..)| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()))
                     .concat(),
             },
-            limits: (0..OPERATIONS.len()).map(|row| limits(row, single, &formats[single].2)).collect(),
         }
     }
 }
@@ -168,26 +163,6 @@ fn shader(entry: &'static str, operations: &[Op], formats: &[(&str, &str, Format
     formats.iter().for_each(|(.., format)| parts.add_format(format));
     let text = parts.of(&(library() + include_str!("assets/arithmetic.wgsl")), entry);
     ArithmeticShader { entry, text }
-}
-
-/// Encodes what WGSL allows for each set in words: the number of ranges of [`refsim::exec::wgsl::accuracy::order`],
-/// then the ends of each; `u32::MAX` where any result is allowed.
-fn limits(row: usize, column: usize, format: &Format) -> String {
-    let operation = OPERATIONS[row].0;
-    let Some(single) = SingleOperation::ALL
-        .into_iter()
-        .find(|single| single.operation() == operation && *single != SingleOperation::FromInteger)
-    else {
-        return String::new();
-    };
-    let words = operand_sets(row, column, format).flat_map(|set| match allowed(single, set) {
-        Allowed::Any => vec![u32::MAX],
-        Allowed::Within(ranges) => {
-            let ends = ranges.iter().flat_map(|&(low, high)| [low, high]).map(|end| (end as i32).cast_unsigned());
-            std::iter::once(ranges.len() as u32).chain(ends).collect()
-        }
-    });
-    base64_words(words)
 }
 
 /// Accuracy that WGSL (section 15.7.4) requires of `f32`.

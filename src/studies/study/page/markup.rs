@@ -83,8 +83,8 @@ fn arithmetic() -> Markup {
             h2 #floats { "Your GPU's own floats" }
             p {
                 "The same operands in the GPU's own arithmetic: distance of its results from the exact result rounded to \
-                 nearest, in units in the last place (ULP), for normal operands and results. WGSL allows such distances; the \
-                 last column counts results beyond what it allows."
+                 nearest, in units in the last place (ULP), for normal operands and results. The last column \
+                 says what WGSL requires."
             }
             div #native {}
         }

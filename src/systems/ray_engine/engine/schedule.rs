@@ -200,7 +200,7 @@ impl RayEngine<'_> {
         }
         for event in self.log.iter_mut().rev() {
             match event {
-                Event::Host(work) if work.kind == operation.name() => {
+                Event::Host(work) if work.kind == operation => {
                     work.operations += count;
                     return;
                 }
@@ -208,6 +208,6 @@ impl RayEngine<'_> {
                 _ => break,
             }
         }
-        self.log.push(Event::Host(HostWork { kind: operation.name().into(), operations: count }));
+        self.log.push(Event::Host(HostWork { kind: operation, operations: count }));
     }
 }
