@@ -25,9 +25,7 @@ Examples:
   crossbar devices ideal-fp24 --json
       an unlimited card with 24-bit floats, for machines
   crossbar devices --adapters
-      the GPUs of this computer that the wgpu executor can use
-  crossbar devices --probe llvmpipe
-      which of an adapter's own operations are exact, and which WGSL doesn't allow";
+      the GPUs of this computer that the wgpu executor can use";
 
 /// Show the device profiles: limits, and every figure with its source and how sure it is
 #[derive(Debug, clap::Args)]
@@ -38,15 +36,9 @@ pub(super) struct Args {
     /// The GPU adapters of this computer instead
     #[arg(long, conflicts_with = "name")]
     adapters: bool,
-    /// Try a GPU adapter's own single precision, an operation at a time, against IEEE 754; a part of its name will do
-    #[arg(long, value_name = "ADAPTER", conflicts_with_all = ["name", "adapters"])]
-    probe: Option<String>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    if let Some(adapter) = &args.probe {
-        return adapters::probe(adapter, out);
-    }
     if args.adapters {
         adapters::list(out)?;
         return Ok(Verdict::Done);

@@ -67,7 +67,7 @@ pub(super) const TABLE: &[Tried] = &[
                   --step-budget=1 --pixel=1,1 --registers",
     },
     Tried { bases: &["completions bash"], options: "" },
-    Tried { bases: &["devices", "devices r200"], options: "--adapters --probe=x" },
+    Tried { bases: &["devices", "devices r200"], options: "--adapters" },
     Tried {
         bases: &["diff docs/examples/exact.png docs/examples/leaky.png --out OUT"],
         options: "--channel=G --exposure=2 --ppd=30 --scale=0.5 --max-rmse=0 --max-error=0 --max-flip=0 --min-ssim=1 \
