@@ -26,6 +26,7 @@ mod workload;
 
 pub(super) use equation_11::findings as equation_11;
 pub(super) use figure_7::findings as figure_7;
+pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub(super) use radeon_8500::findings as radeon_8500;
 pub(super) use table_1::findings as table_1;
 pub(super) use table_3::findings as table_3;

@@ -7,7 +7,7 @@ use refsim::event::{DrawRecord, Event};
 use refsim::exec::Constants;
 use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
+use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{DrawCost, Level, Model};
 
@@ -21,7 +21,7 @@ const SIDE: u32 = 256;
 const QUADS: usize = 64;
 /// Program with two textures per pixel, as for ray origins and directions, and as much arithmetic as a ps_1_1 card can
 /// execute in one clock.
-const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
+pub const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
 /// Draw with its cost.
 pub(super) struct TimedDraw {
@@ -109,7 +109,7 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, StudyError> {
         let target = machine.create_target(TexelFormat::Bgra8, SIDE, SIDE)?;
         let depth = machine.create_depth(DepthFormat::Unorm24, SIDE, SIDE)?;
         let textures = [(); 2].map(|()| Image::new_2d(TexelFormat::Bgra8, SIDE, SIDE));
-        let vertices = full_screen_quad(|u, v| [[u, v, 0.0, 1.0]; 2]).repeat(quads);
+        let vertices: Vec<Vertex> = (0..quads).flat_map(|_| screen_quad()).collect();
         let constants = Constants::default();
         let source = VertexSource::Transformed(&vertices);
         let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
@@ -124,4 +124,15 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, StudyError> {
     };
     draw(&mut machine).map_err(|e| fail(&e))?;
     Ok(machine.take_log())
+}
+
+/// Quad over the whole screen, at depth 0.5; coordinate sets 0 and 1 go from 0 to 1 over it, with row 0 at the top.
+pub fn screen_quad() -> [Vertex; 4] {
+    [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
+        let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
+        for set in 0..2 {
+            vertex.texcoords[set] = [0.5 + 0.5 * x, 0.5 - 0.5 * y, 0.0, 1.0].map(f32::to_bits);
+        }
+        vertex
+    })
 }
