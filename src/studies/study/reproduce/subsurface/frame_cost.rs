@@ -46,8 +46,7 @@ pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32, variants: &[Varia
     let profile = Profile::named(card)?;
     let atlas = Atlas::new(mesh, side).map_err(|e| failed(card)(&e))?;
     let model = CardModel::new(&atlas);
-    let kernel =
-        ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex, ..ViewKernel::default() };
+    let kernel = ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex };
     let shown = MeshView { format: TexelFormat::Bgra8, ..camera(mesh).map_err(|e| failed(card)(&e))?.into() };
     let shown = View { kernel, diffuse: [0.1; 3], ..View::scattered(shown) };
     let sun = Light::Directional { towards: [1.0, -2.0, 3.0], irradiance: [1.0; 3] };
@@ -98,7 +97,6 @@ fn model_on(
         scattered: FloatTexels::Fp16,
         half: false,
         tiles: None,
-        memory: None,
     };
     Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, model, &links, 1.3, options)?)
 }
