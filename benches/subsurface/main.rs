@@ -12,8 +12,8 @@
 use criterion::{BenchmarkId, Criterion, Throughput};
 use crossbar::atlas::Atlas;
 use crossbar::scene::built::stand_ins;
-use crossbar::subsurface::factor::{ClusterId, Factors, SurfaceMoments, TOLERANCE};
 use crossbar::subsurface::links::{LinkChoice, Links, MeanWeighting};
+use crossbar::subsurface::multipole::{ClusterId, Factors, SurfaceMoments, TOLERANCE};
 use crossbar::subsurface::on_card::{
     CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions,
 };

@@ -1,14 +1,13 @@
-//! The three passes of system 3: the same bits by every executor, and pass 2 as the host's loop has it.
+//! The three passes of system 3: the same bits by every executor.
 
 use crate::environment::is_full;
 use crossbar::atlas::Atlas;
 use crossbar::card::{MeshView, Texels};
 use crossbar::geom::Mesh;
 use crossbar::scene::Camera;
-use crossbar::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
+use crossbar::subsurface::kernels::ViewKernel;
 use crossbar::subsurface::on_card::{
     CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View,
-    order,
 };
 use refsim::texture::TexelFormat;
 
@@ -73,8 +72,8 @@ fn view(kernel: ViewKernel, format: TexelFormat) -> View {
     View { kernel, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, ..scattered }
 }
 
-/// Maps and pictures of a card on every executor, against the scalar one's; pass 2 against the host's loop. In the
-/// short form one case in five is drawn on a GPU: all that the loops of the tests choose turns up among these.
+/// Maps and pictures of a card on every executor, against the scalar one's. In the short
+/// form one case in five is drawn on a GPU: all that the loops of the tests choose turns up among these.
 fn agrees(
     case: usize,
     name: &str,
@@ -93,11 +92,8 @@ fn agrees(
         card.light(lights).unwrap_or_else(|e| panic!("{what}: {e}"));
         let levels = card.read_levels().unwrap_or_else(|e| panic!("{what}: {e}"));
         let scattered = card.read_scattered().unwrap_or_else(|e| panic!("{what}: {e}"));
-        let half = nv35().rules.partial.unwrap_or(refsim::num::Format::FP16);
-        let expected = order::gathered(&levels, links, card.gather_programs(), half, &options).expect("an order");
         assert!(scattered.texels.iter().any(|texel| texel[0] > 0.0), "{name}: dark");
-        assert_eq!(bits(&scattered), bits(&expected), "{name}, {executor}: pass 2 against the host's loop");
-        let mut seen: Vec<Vec<[u32; 4]>> = levels.iter().map(bits).collect();
+        let mut seen: Vec<Vec<[u32; 4]>> = levels.iter().chain([&scattered]).map(bits).collect();
         for view in views {
             let picture = card.view_texels(view).unwrap_or_else(|e| panic!("{what}: {e}"));
             assert!(picture.texels.iter().any(|texel| texel[..3] != [0.0; 3]), "{name}: a black picture");
@@ -110,7 +106,7 @@ fn agrees(
 const MAPS: [MapFormat; 3] = [MapFormat::Unorm8 { scale: 0.75 }, MapFormat::Fp16, MapFormat::Fp32];
 
 #[test]
-fn fixed_links_are_the_hosts() {
+fn fixed_links_are_the_same_everywhere() {
     let mut case = 0;
     for (level, count) in [(2, 16), (1, 64), (4, 1)] {
         for rgb in [false, true] {
@@ -129,7 +125,7 @@ fn fixed_links_are_the_hosts() {
 }
 
 #[test]
-fn adaptive_links_are_the_hosts() {
+fn adaptive_links_are_the_same_everywhere() {
     let mut case = 0;
     for count in [1, 16, 31] {
         for rgb in [false, true] {
@@ -182,13 +178,7 @@ fn every_view_is_the_same_everywhere() {
         .zip([TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Bgra8].into_iter().cycle())
         .map(|(kernel, format)| view(kernel, format))
         .collect();
-    assert_eq!(views.len(), 15);
-    let modulated = ViewKernel {
-        transmittance: EyeTransmittance::Table,
-        direct: DirectLight::ByFragment,
-        combine: Combine::Modulated,
-    };
-    assert!(views.iter().any(|view| view.kernel == modulated));
+    assert_eq!(views.len(), 9);
     for light in [LightStage::Vertices, LightStage::Texels] {
         let options = SubsurfaceCardOptions { light, scattered: FloatTexels::Fp16, ..SubsurfaceCardOptions::default() };
         agrees(0, &format!("views, {light:?}"), &links, options, &views, &lights());

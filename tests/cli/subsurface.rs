@@ -41,10 +41,6 @@ fn what_it_says_and_writes() {
         "8bit",
         "--map",
         "fp32",
-        "--frames",
-        "2",
-        "--probe",
-        "0.5,0.5,0",
         "--light",
         "directional:1,1,1:2,2,1",
         "--light",
@@ -55,28 +51,9 @@ fn what_it_says_and_writes() {
     insta::assert_snapshot!("subsurface_tables", ran.stdout);
     insta::assert_snapshot!("subsurface_files", files(&folder).join("\n"));
     let page = std::fs::read_to_string(folder.path().join("out/subsurface/index.html")).expect("a page");
-    assert_eq!(page.matches("<img").count(), 3 + 2 + 8 + 8 + 2, "lead, maps, ways, their errors, frames");
+    assert_eq!(page.matches("<img").count(), 3 + 2 + 8 + 8, "lead, maps, ways, their errors");
     let faces = std::fs::read_to_string(folder.path().join("out/subsurface/faces.csv")).expect("a table");
     assert_eq!(faces.lines().filter(|line| !line.starts_with('#')).count(), 5, "a heading and four faces: {faces}");
-}
-
-/// Each other value of each rounding switch is a row; what they change is small, and not nothing.
-#[test]
-fn rounding_switches_are_swept() {
-    let (ran, folder) = subsurface(&["--roundings", "--map", "8bit", "--links", "4"]);
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-    let text = std::fs::read_to_string(folder.path().join("out/subsurface/roundings.csv")).expect("a table");
-    let rows: Vec<Vec<&str>> =
-        text.lines().filter(|line| line.starts_with("fixed-4")).map(|line| line.split(',').collect()).collect();
-    let switches: Vec<(&str, &str)> = rows.iter().map(|row| (row[1], row[2])).collect();
-    let expected =
-        [("mad", "fused"), ("mipmap-rounding", "truncate"), ("rounding", "rtz"), ("target-rounding", "truncate")];
-    assert_eq!(switches, expected);
-    let changes: Vec<f64> = rows.iter().map(|row| row[3].parse().expect("per cent")).collect();
-    // Of bytes a step is 0.4 %: rounded twice, in the map and in its levels. Arithmetic of 32 bits is lost in that.
-    assert!(changes.iter().all(|&change| change < 3.0), "{changes:?}");
-    assert!(changes[1] > 0.0 && changes[3] > 0.0, "{changes:?}");
-    assert!(ran.stdout.contains("Of the card's rounding switches "), "{}", ran.stdout);
 }
 
 #[test]
@@ -115,12 +92,6 @@ fn table(folder: &tempfile::TempDir, name: &str) -> Vec<BTreeMap<String, String>
 
 fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: expected a number, found `{}`", row[column]))
-}
-
-fn done(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
-    let (ran, folder) = subsurface(more);
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{more:?}");
-    (ran, folder)
 }
 
 fn refused(more: &[&str], expected: &str) {
@@ -288,44 +259,9 @@ fn environment_maps_shine() {
     assert!(disk[0][0] > 0.05 && disk[1][0] < 0.1 * disk[0][0] && disk[3][0] == 0.0, "from below: {disk:?}");
     assert!(disk[3][1] > 0.0, "light comes through from behind");
     refused(&["--light", "constant", "--light", "ambient:1,1,1"], "expected one environment map alone");
-    for option in [["--frames", "2"], ["--diffuse", "0.2"]] {
-        let told = format!("`{}` changes nothing without lights of pass 1", option[0]);
-        refused(&[&["--light", "red-and-blue"], &option[..]].concat(), &told);
-    }
+    let told = "`--diffuse` changes nothing without lights of pass 1";
+    refused(&["--light", "red-and-blue", "--diffuse", "0.2"], told);
     refused(&["--light", "nowhere.exr"], "nowhere.exr");
-}
-
-/// The links of a probe's texel: each choice once, whatever the formats; all clusters of a level, or of several.
-#[test]
-fn links_are_listed() {
-    let more = ["--choice", "fixed", "--choice", "adaptive", "--links", "4,16", "--map", "fp16", "--map", "fp32"];
-    let list = ["--link-table", "--probe", "0.5,0.5,0", "--all-pairs", "no"];
-    let (_, folder) = done(&[&more[..], &list].concat());
-    let rows = table(&folder, "links.csv");
-    let of = |name: &str| rows.iter().filter(|row| row["links"] == name).collect::<Vec<_>>();
-    assert_eq!(
-        ["fixed-4-rgb", "fixed-16-rgb", "adaptive-4-rgb", "adaptive-16-rgb"].map(|n| of(n).len()),
-        [4, 16, 4, 16]
-    );
-    assert_eq!(rows.len(), 40);
-    assert!(of("fixed-16-rgb").iter().all(|row| row["level"] == "2"), "4 x 4 of 16 x 16 texels");
-    let levels: std::collections::BTreeSet<&str> =
-        of("adaptive-16-rgb").iter().map(|row| row["level"].as_str()).collect();
-    assert!(levels.len() > 1, "{levels:?}");
-    let sum = |name: &str| of(name).iter().map(|row| number(row, "factor_g")).sum::<f64>();
-    let [one, all] = ["fixed-4-rgb", "adaptive-16-rgb"].map(sum);
-    assert!((one / all - 1.0).abs() < 0.02, "the same surface, divided otherwise: {one} {all}");
-    let near = |row: &&&BTreeMap<String, String>| number(row, "distance_mm");
-    let (links, brightest) = (of("adaptive-16-rgb"), of("adaptive-16-rgb"));
-    let nearest = links.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("a link");
-    let farthest = brightest.iter().max_by(|a, b| near(a).total_cmp(&near(b))).expect("a link");
-    assert!(number(nearest, "distance_mm") < 2.0 && number(farthest, "distance_mm") > 3.0, "mm of a body of 10");
-    let (_, folder) = done(&["--link-table", "--links", "4", "--all-pairs", "no"]);
-    assert_eq!(table(&folder, "links.csv").len(), 4 * 16 * 16, "without probes all texels");
-    refused(
-        &["--link-table", "--choice", "adaptive", "--links", "4096"],
-        "expected at most 262144 links to list, found 1048576",
-    );
 }
 
 /// Help, page and program agree on the atlases up to which all pairs are gathered unasked.

@@ -25,16 +25,13 @@ Examples:
       both choices of links, and how the error falls with their number
   crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
       the coefficients of the paper's Figure 7, in every format of map and links
-  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2 --frames 8
-      a lamp and a sky, and the lamp carried round the model
-  crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20 --walk 20000
-      an environment map with shadows, marble behind another boundary, and photons that walk beside the dipole
-  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice adaptive --link-table --probe 0,-1,0
-      where one texel gathers from: clusters, factors and distances
+  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2
+      a lamp and a sky
+  crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20
+      an environment map with shadows, and marble behind another boundary
 
 Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of every vertex of the model, in every \
-way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), with --walk walk.csv, with --link-table links.csv, \
-with --probe probes.csv, timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
+way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
 
 /// The index of refraction where coefficients come without one.
 const ETA: f64 = 1.3;
@@ -112,7 +109,7 @@ impl StudyArgs for Args {
 
     /// Memory of the atlas, its links, the card's textures and the pictures of every way.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        let SubsurfaceOptions { side, ref links, frames, link_table, .. } = self.options;
+        let SubsurfaceOptions { side, ref links, .. } = self.options;
         // Before memory, which what cannot be has no need of.
         require_side(side).map_err(no_atlas)?;
         const PER_TEXEL: u64 = 1000;
@@ -121,10 +118,8 @@ impl StudyArgs for Args {
         let texels = u64::from(side) * u64::from(side);
         let most = u64::from(links.iter().copied().max().unwrap_or(0));
         let ways = self.options.way_count();
-        let pictures = 3 * ways + u64::from(frames);
-        // Rows of the table of links, of which there are at most 2^18 per study.
-        let table = if link_table { 128 << 20 } else { 0 };
-        let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways).saturating_add(table);
+        let pictures = 3 * ways;
+        let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways);
         Ok(Some(MemoryNeed {
             what: format!(
                 "{side} x {side} texels with {most} links each, and {pictures} pictures of {} pixels",
@@ -182,16 +177,13 @@ impl Args {
         }
     }
 
-    /// Refuses options of lights where the light is a table of faces or an environment map.
+    /// Refuses `--diffuse` where the light is a table of faces or an environment map.
     fn require_lights(&self) -> Result<(), Problem> {
         let has_map = self.light.iter().any(|light| matches!(light, LightArg::Environment(_)));
-        let of_lights = [("--diffuse", self.options.diffuse.is_some()), ("--frames", self.options.frames > 0)];
-        match of_lights.iter().find(|(_, is_given)| *is_given) {
-            Some((option, _)) if has_map || self.irradiance.is_some() => {
-                let help = "it is for `--light` of the kinds ambient, directional and point; what enters is known here";
-                Err(Problem::usage(format!("`{option}` changes nothing without lights of pass 1"), help))
-            }
-            _ => Ok(()),
+        if self.options.diffuse.is_some() && (has_map || self.irradiance.is_some()) {
+            let help = "it is for `--light` of the kinds ambient, directional and point; what enters is known here";
+            return Err(Problem::usage("`--diffuse` changes nothing without lights of pass 1", help));
         }
+        Ok(())
     }
 }

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use super::fresnel::{internal_reflectance, internal_reflectance_polynomial};
+use super::fresnel::internal_reflectance_polynomial;
 use super::material::{Coefficients, check_eta};
 use crate::elementary::{exp, exp_m1, hypot};
 use crate::error::InputError;
@@ -13,16 +13,6 @@ use crate::quadrature::graded_integral;
 
 /// Intervals of the quadrature over the plane: the first ends at 2^-59 of the last one's end.
 const PANELS: u32 = 60;
-
-/// How the diffuse reflectance of the boundary from inside, F_dr, is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum InternalReflection {
-    /// The polynomial of the paper's reference 13.
-    #[default]
-    Polynomial,
-    /// The integral of Fresnel's formula.
-    Integral,
-}
 
 /// The dipole of one channel. Lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,20 +31,9 @@ impl Dipole {
     /// # Errors
     /// [`InputError`]: see [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
     pub fn new(c: Coefficients, eta: f64) -> Result<Self, InputError> {
-        Self::with(c, eta, InternalReflection::default())
-    }
-
-    /// The dipole of a medium.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn with(c: Coefficients, eta: f64, reflection: InternalReflection) -> Result<Self, InputError> {
         c.check()?;
         check_eta(eta)?;
-        let f_dr = match reflection {
-            InternalReflection::Polynomial => internal_reflectance_polynomial(eta),
-            InternalReflection::Integral => internal_reflectance(eta),
-        };
+        let f_dr = internal_reflectance_polynomial(eta);
         let boundary = (1.0 + f_dr) / (1.0 - f_dr);
         let sigma_t = c.sigma_t_prime();
         let z_r = 1.0 / sigma_t;

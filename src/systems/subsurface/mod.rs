@@ -7,36 +7,29 @@
 //! - [`fresnel`]: transmittance of the boundary and its means;
 //! - [`irradiance`], [`distant_irradiance`]: equation 8 on the host;
 //! - [`materials`]: the published media, each figure with its source;
-//! - [`factor`]: throughput factors, equation 10;
+//! - [`multipole`]: throughput factors, equation 10;
 //! - [`links`]: which clusters a texel gathers from, and how textures hold them;
 //! - [`kernels`], [`on_card`]: the three passes as programs of an emulated card;
 //! - [`Reference`]: equation 9 over all pairs of texels;
-//! - [`point_to_polygon`], [`uniform_sphere`], [`SphereSeries`]: exact answers for polygons and spheres;
-//! - [`median_thickness`]: whether a model is thin for the dipole, which is made for a half space;
-//! - [`walk`]: photons followed through the medium, for the dipole's own error.
+//! - [`median_thickness`]: whether a model is thin for the dipole, which is made for a half space.
 
 mod dipole;
 mod dipole_sum;
-pub mod factor;
 pub mod fresnel;
 mod irradiance;
 pub mod kernels;
 pub mod links;
 mod material;
 pub mod materials;
+pub mod multipole;
 pub mod on_card;
-mod polygon;
 mod reference;
-mod sphere;
 mod thickness;
 mod triangles;
-pub mod walk;
 
-pub use dipole::{Dipole, InternalReflection};
+pub use dipole::Dipole;
 pub use fresnel::fresnel_transmittance;
 pub use irradiance::{DistantSource, distant_irradiance, irradiance};
 pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material};
-pub use polygon::point_to_polygon;
 pub use reference::Reference;
-pub use sphere::{SphereSeries, legendre_coefficients, legendre_sum, uniform_sphere};
 pub use thickness::median_thickness;

@@ -12,11 +12,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
+use super::Dipole;
 use super::dipole_sum::DipoleSum;
-use super::factor::{FactorError, MAX_MM_PER_UNIT, MIN_MM_PER_UNIT};
+use super::multipole::{check_scale, check_values};
 use super::triangles::TriangleIntegrals;
-use super::{Dipole, point_to_polygon};
 use crate::atlas::Atlas;
+use crate::error::InputError;
 use crate::quadrature::FIVE;
 
 /// Texels nearer than this many times the sum of their radii are integrated.
@@ -60,11 +61,10 @@ impl<'a> Reference<'a> {
     /// For an atlas of a model with a scale.
     ///
     /// # Errors
-    /// [`FactorError::Scale`] if the scale is not from [`MIN_MM_PER_UNIT`] to [`MAX_MM_PER_UNIT`].
-    pub fn new(atlas: &'a Atlas, mm_per_unit: f64, dipole: &Dipole) -> Result<Self, FactorError> {
-        if !(MIN_MM_PER_UNIT..=MAX_MM_PER_UNIT).contains(&mm_per_unit) {
-            return Err(FactorError::Scale { found: mm_per_unit });
-        }
+    /// [`InputError`] if the scale is not from [`MIN_MM_PER_UNIT`](super::multipole::MIN_MM_PER_UNIT) to
+    /// [`MAX_MM_PER_UNIT`](super::multipole::MAX_MM_PER_UNIT).
+    pub fn new(atlas: &'a Atlas, mm_per_unit: f64, dipole: &Dipole) -> Result<Self, InputError> {
+        check_scale(mm_per_unit)?;
         let mut texels = PartColumns::default();
         for (texel, cluster) in atlas.texels().iter().zip(atlas.clusters(0)) {
             texels.x.push(mm_per_unit * texel.point.x);
@@ -80,8 +80,8 @@ impl<'a> Reference<'a> {
     /// B_i = sum over j of F_ij E_j. `done` is called now and then with the number of rows done and of all.
     ///
     /// # Errors
-    /// [`FactorError::Values`] if there is not one irradiance per texel.
-    pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, FactorError> {
+    /// [`InputError`] if there is not one irradiance per texel.
+    pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, InputError> {
         self.radiosity_of_rows(irradiance, 0..self.atlas.side() as usize, done)
     }
 
@@ -94,7 +94,7 @@ impl<'a> Reference<'a> {
         irradiance: &[f64],
         rows: Range<usize>,
         done: &mut dyn FnMut(usize, usize),
-    ) -> Result<Vec<f64>, FactorError> {
+    ) -> Result<Vec<f64>, InputError> {
         let power = self.power(irradiance)?;
         let side = self.atlas.side() as usize;
         let mut radiosity = Vec::with_capacity(rows.len() * side);
@@ -105,24 +105,6 @@ impl<'a> Reference<'a> {
             done(last - rows.start, rows.len());
         }
         Ok(radiosity)
-    }
-
-    /// The radiosity at a point, in mm: equation 7 with an irradiance that is constant on every texel,
-    /// B(x) = sum over j of E_j times the integral over P_j of R_d(x_j, x).
-    ///
-    /// # Errors
-    /// [`FactorError::Values`] if there is not one irradiance per texel.
-    pub fn radiosity_at(&self, point: DVec3, irradiance: &[f64]) -> Result<f64, FactorError> {
-        let power = self.power(irradiance)?;
-        Ok(self.sum(point, 0.0, &power, |j, is_close| {
-            if is_close && self.length(j) > f64::from(MAX_DIVISIONS) && self.texels.area[j] > 0.0 {
-                let parts = self.atlas.part(j as u32);
-                let in_mm = |part: &[DVec3]| part.iter().map(|corner| self.mm_per_unit * *corner).collect::<Vec<_>>();
-                let integral = |part| point_to_polygon(&self.dipole, point, &in_mm(part));
-                return parts.polygons().map(integral).sum::<f64>() / self.texels.area[j];
-            }
-            self.mean_r_d(&[(point, 1.0)], &self.points(j, is_close))
-        }))
     }
 
     /// F_ij of equation 10 for two texels, by index: 1 / A_i times the double integral of R_d over both parts.
@@ -141,11 +123,9 @@ impl<'a> Reference<'a> {
     }
 
     /// A_j E_j.
-    fn power(&self, irradiance: &[f64]) -> Result<Vec<f64>, FactorError> {
+    fn power(&self, irradiance: &[f64]) -> Result<Vec<f64>, InputError> {
         let texels = self.texels.area.len();
-        if irradiance.len() != texels {
-            return Err(FactorError::Values { found: irradiance.len(), texels });
-        }
+        check_values(irradiance.len(), texels)?;
         Ok(self.texels.area.iter().zip(irradiance).map(|(area, irradiance)| area * irradiance).collect())
     }
 

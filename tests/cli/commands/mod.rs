@@ -38,8 +38,6 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("subsurface", "--size", "8x8", true),
     ("subsurface", "--links", "4", false),
     ("subsurface", "--tolerance", "0.1", true),
-    ("subsurface", "--frames", "2", false),
-    ("subsurface", "--walk", "64", false),
     ("timeline", "--eye-rays", "8x8", false),
 ];
 

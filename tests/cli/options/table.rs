@@ -153,9 +153,8 @@ pub(super) const TABLE: &[Tried] = &[
         options: concat!(
             "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --tolerance=0.5 \
-             --light=ambient:1,1,1 --irradiance=faces.csv --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --walk=64 --link-table --roundings --device=nv30 \
-             --switch=rounding=rtz same:--executor=scalar --adapter=x --frames=2 --exposure=0.3 --part=1/2 --out=other \
-             --model-up=y --strict@1",
+             --light=ambient:1,1,1 --irradiance=faces.csv --diffuse=0.5 --all-pairs=no --device=nv30 --switch=rounding=rtz \
+             same:--executor=scalar --adapter=x --exposure=0.3 --part=1/2 --out=other --model-up=y --strict@1",
             eye!()
         ),
     },

@@ -3,8 +3,8 @@
 use crate::environment::by_form;
 use crossbar::geom::Mesh;
 use crossbar::subsurface::Dipole;
-use crossbar::subsurface::factor::Factors;
 use crossbar::subsurface::links::{LinkChoice, Links};
+use crossbar::subsurface::multipole::Factors;
 
 use super::links_models::{atlas, figure_7, fine_tolerance, medium, sphere, surface, texels};
 

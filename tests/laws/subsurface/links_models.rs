@@ -3,7 +3,7 @@
 use crate::environment::by_form;
 use crossbar::atlas::Atlas;
 use crossbar::geom::Mesh;
-use crossbar::subsurface::factor::{ClusterId, SurfaceMoments};
+use crossbar::subsurface::multipole::{ClusterId, SurfaceMoments};
 use crossbar::subsurface::{Coefficients, Dipole};
 
 /// A sphere of radius 1: the sides of a cube, each of n x n squares, pushed outward; with dents if asked for.

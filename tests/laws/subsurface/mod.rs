@@ -11,6 +11,7 @@ mod on_card;
 mod on_card_views;
 mod physics;
 mod physics_bodies;
-mod physics_traced;
 mod physics_walk;
+pub(super) mod polygon;
 mod thickness;
+mod walk;

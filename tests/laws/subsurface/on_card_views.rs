@@ -8,7 +8,7 @@ use crossbar::geom::vector::wide;
 use crossbar::scene::Camera;
 use crossbar::subsurface::fresnel::mean_transmittance;
 use crossbar::subsurface::fresnel_transmittance;
-use crossbar::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
+use crossbar::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
 use crossbar::subsurface::on_card::{Light, LightStage, SubsurfaceCard, SubsurfaceCardOptions, View};
 use glam::DVec3;
 use refsim::texture::TexelFormat;
@@ -39,7 +39,8 @@ fn no_face_reads_another() {
         let faces = shape.len();
         let atlas = Atlas::new(&shape, SIDE).expect("an atlas");
         let mut card = card(&atlas, &to_itself(), options());
-        card.irradiate(&colors[..faces]).expect("irradiances");
+        let by_texel: Vec<[f64; 3]> = atlas.texels().iter().map(|texel| colors[texel.face as usize]).collect();
+        card.irradiate(&by_texel).expect("irradiances");
         let scattered = card.read_scattered().expect("a map");
         let factor = (mean_transmittance(ETA) / PI) as f32;
         let allowed: BTreeSet<[u32; 3]> =
@@ -47,11 +48,7 @@ fn no_face_reads_another() {
         assert!(allowed.len() <= faces);
         let mut seen = BTreeSet::new();
         for camera in cameras() {
-            let kernel = ViewKernel {
-                transmittance: EyeTransmittance::Mean,
-                direct: DirectLight::None,
-                ..ViewKernel::default()
-            };
+            let kernel = ViewKernel { transmittance: EyeTransmittance::Mean, direct: DirectLight::None };
             let picture = card.view_texels(&View { kernel, ..View::scattered(camera) }).expect("a picture");
             for &[r, g, b, alpha] in picture.texels.iter().filter(|texel| texel[3] != 0.0) {
                 let color = [r, g, b].map(f32::to_bits);
@@ -100,12 +97,10 @@ impl Host<'_> {
             EyeTransmittance::Exact | EyeTransmittance::Table => fresnel_transmittance(ETA, normal.dot(to_eye)),
         };
         let scattered = self.bilinear(face, weights).map(|b| b * transmittance / PI * self.view.mesh.exposure);
-        let exposure = if self.view.kernel.combine == Combine::Modulated { 1.0 } else { self.view.mesh.exposure };
-        let direct = self.direct(point, normal, to_eye).map(|value| value * exposure);
-        Some([0, 1, 2].map(|c| match (self.view.kernel.direct, self.view.kernel.combine) {
-            (DirectLight::None, _) => scattered[c],
-            (_, Combine::Added) => scattered[c] + direct[c],
-            (_, Combine::Modulated) => scattered[c] * direct[c],
+        let direct = self.direct(point, normal, to_eye).map(|value| value * self.view.mesh.exposure);
+        Some([0, 1, 2].map(|c| match self.view.kernel.direct {
+            DirectLight::None => scattered[c],
+            DirectLight::ByVertex | DirectLight::ByFragment => scattered[c] + direct[c],
         }))
     }
 
@@ -211,7 +206,7 @@ fn pixels_are_those_of_the_formulas() {
             compared += pixels_agree(&mut card, &host, 2e-5 + table);
         }
     }
-    assert!(compared > 15 * 5 * 200, "{compared} pixels");
+    assert!(compared > 9 * 5 * 200, "{compared} pixels");
 }
 
 #[test]

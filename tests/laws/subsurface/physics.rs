@@ -5,7 +5,7 @@ use crossbar::elementary::{exp, ln};
 use crossbar::error::InputError;
 use crossbar::quadrature::{graded_integral, integral};
 use crossbar::subsurface::fresnel::{internal_reflectance, internal_reflectance_polynomial, mean_transmittance};
-use crossbar::subsurface::{Coefficients, Dipole, InternalReflection, MAX_ETA, Material, fresnel_transmittance};
+use crossbar::subsurface::{Coefficients, Dipole, MAX_ETA, Material, fresnel_transmittance};
 use std::f64::consts::PI;
 
 /// The material of the paper's Figure 7, per mm.
@@ -145,9 +145,8 @@ fn r_d_is_the_printed_formula() {
 #[test]
 fn totals_and_radii_of_figure_7() {
     let [a, b] = [1.3, 1.5].map(|eta| Dipole::new(FIGURE_7, eta).unwrap());
-    let exact = Dipole::with(FIGURE_7, 1.3, InternalReflection::Integral).unwrap();
-    let totals = [a, exact, b].map(|dipole| format!("{:.6}", dipole.total()));
-    assert_eq!(totals, ["0.897233", "0.897278", "0.867847"]);
+    let totals = [a, b].map(|dipole| format!("{:.6}", dipole.total()));
+    assert_eq!(totals, ["0.897233", "0.867847"]);
     assert_eq!(format!("{:.3}", a.diffusion_length()), "11.208");
     for (dipole, radii) in [(a, ["1.486", "6.99", "20.97"]), (b, ["1.663", "8.31", "23.28"])] {
         let [half, most, nearly] = [0.5, 0.9, 0.99].map(|fraction| dipole.radius_of(fraction));

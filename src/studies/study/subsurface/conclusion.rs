@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-use super::{AngleBin, BinError, GatherWay, Parameters, RoundingRow, SubsurfaceOutcome, WayRow};
+use super::{AngleBin, BinError, GatherWay, Parameters, SubsurfaceOutcome, WayRow};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
@@ -14,13 +14,7 @@ const ENOUGH: f64 = 0.01;
 /// Sentences, warnings and the tally.
 pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &SubsurfaceOutcome) {
     let rows = &outcome.rows;
-    let sentences = [
-        accuracy(rows),
-        by_angle(parameters, rows),
-        smallest(rows),
-        roundings(&outcome.roundings),
-        speed(parameters, rows),
-    ];
+    let sentences = [accuracy(rows), by_angle(parameters, rows), smallest(rows), speed(parameters, rows)];
     let warnings = [repeated(outcome), coarse(outcome), thin(outcome)];
     sentences.into_iter().chain(warnings).flatten().for_each(|sentence| found.conclusion(sentence));
     let within = |row: &&WayRow| row.error.is_some_and(|error| error.rms <= ENOUGH);
@@ -113,18 +107,6 @@ fn smallest(rows: &[WayRow]) -> Option<String> {
         }
         None => "No way is within 1 % of all pairs.".to_owned(),
     })
-}
-
-/// The rounding switch that changes most.
-fn roundings(rows: &[RoundingRow]) -> Option<String> {
-    let most = rows.iter().max_by(|a, b| a.change.rms.total_cmp(&b.change.rms))?;
-    Some(format!(
-        "Of the card's rounding switches {}={} changes most: B of {} by {} (root mean square).",
-        most.switch,
-        most.value,
-        most.label,
-        percent(most.change.rms)
-    ))
 }
 
 fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {

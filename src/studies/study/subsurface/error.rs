@@ -5,12 +5,6 @@ use refsim::timing::TimingError;
 use crate::card::CardError;
 use crate::error::InputError;
 use crate::study::StudyError;
-use crate::study::error::library_errors;
-use crate::subsurface::factor::FactorError;
-
-library_errors! {
-    FactorError => "subsurface::links";
-}
 
 /// Error of a model without an atlas.
 pub fn no_atlas(error: InputError) -> StudyError {

@@ -30,13 +30,9 @@ pub struct GatherWay {
 impl GatherWay {
     /// A name for tables and files.
     pub fn label(&self, side: u32) -> String {
-        format!("{}-{}-map-{}", self.links_label(side), name(self.links), self.map)
-    }
-
-    /// A name of the links, which formats do not change.
-    pub(super) fn links_label(&self, side: u32) -> String {
         let channels = if self.rgb { "-rgb" } else { "" };
-        format!("{}-{}{channels}", self.choice.word(), self.choice.per_texel(side))
+        let (choice, count, links) = (self.choice.word(), self.choice.per_texel(side), name(self.links));
+        format!("{choice}-{count}{channels}-{links}-map-{}", self.map)
     }
 
     /// Returns `true` if the other way gathers over the same links.

@@ -8,41 +8,35 @@ mod conclusion;
 mod environment;
 mod error;
 mod gather_way;
-mod link_table;
 mod model;
 mod options;
 mod outcome;
 mod parameters;
 mod pictures;
 mod report;
-mod roundings;
 mod tables;
 mod vertices;
-mod walk;
 mod way;
 
 use crate::atlas::Atlas;
 use crate::report::{Findings, Provenance};
 use crate::split::{Computed, SplitRun};
 use crate::study::{ProgressFn, Study, StudyError};
-use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::{LinkBands, Links};
+use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 use bands::GatheredBands;
 
-pub use all_pairs::{AllPairs, GatherError};
+pub use all_pairs::GatherError;
 pub use angles::{AngleBin, BinError};
 pub use error::no_atlas;
 pub(in crate::study) use error::no_card;
 pub use gather_way::{GatherWay, MapBits};
-pub use link_table::LinkRow;
 pub use model::ModelLengths;
 pub use options::{ALL_PAIRS_SIDE, MAX_ALL_PAIRS_SIDE, SubsurfaceOptions};
 pub use outcome::SubsurfaceOutcome;
 pub use parameters::{Lighting, Parameters};
-pub use roundings::RoundingRow;
-pub use walk::WalkedChannel;
 pub use way::WayRow;
 
 impl Study for Parameters {
@@ -75,15 +69,13 @@ fn run(
     split: &SplitRun,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Computed<SubsurfaceOutcome>, StudyError> {
-    link_table::require_rows(parameters)?;
     let eta = parameters.material.eta;
     let [red, green, blue] = parameters.material.channels;
     let dipoles = [Dipole::new(red, eta)?, Dipole::new(green, eta)?, Dipole::new(blue, eta)?];
     progress("atlas", 0, 1);
     let atlas = Atlas::new(&parameters.mesh, parameters.options.side).map_err(no_atlas)?;
     let surface = SurfaceMoments::new(&atlas, parameters.options.mm_per_unit)?;
-    let lengths = ModelLengths::of(&atlas, &surface, parameters, &dipoles);
-    let probe_texels = model::probe_texels(&atlas, parameters, lengths.diagonal)?;
+    let lengths = ModelLengths::of(&atlas, parameters, &dipoles);
     let irradiance = match &parameters.lighting {
         Lighting::Lights(lights) => irradiance(&atlas, lights, eta),
         Lighting::Environment(light) => {
@@ -122,16 +114,12 @@ fn run(
             Some(known) => std::mem::take(&mut known.all_pairs),
             None => scene.all_pairs().rows(&(0..parameters.options.side as usize), progress)?,
         };
-        Some(scene.all_pairs().of_rows(rows)?)
+        Some(scene.all_pairs().of_rows(rows))
     } else {
         None
     };
-    let walked = match parameters.options.photons {
-        Some(photons) => Some(walk::walk(&atlas, parameters, (&dipoles, &irradiance), photons, progress)?),
-        None => None,
-    };
-    let scene = way::Scene { truth: truth.as_ref(), ..scene };
-    let (mut rows, mut roundings, mut listed) = (Vec::new(), Vec::new(), Vec::new());
+    let scene = way::Scene { truth: truth.as_deref(), ..scene };
+    let mut rows = Vec::new();
     // Ways that differ in formats alone follow each other and share their links.
     let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
@@ -142,26 +130,8 @@ fn run(
                 None => way::links(&scene, way, progress)?,
             },
         };
-        if parameters.options.link_table && parameters.has_new_links(at) {
-            listed.extend(link_table::rows(&atlas, (parameters, way), &links, &probe_texels));
-        }
-        let row = way::run(&scene, way, (&links, at == 0), progress)?;
-        if parameters.options.roundings {
-            roundings.extend(roundings::roundings(&scene, way, (&links, &row.radiosity), progress)?);
-        }
-        rows.push(row);
+        rows.push(way::run(&scene, way, (&links, at == 0), progress)?);
         last = Some((way, links));
     }
-    Ok(Computed::Whole(SubsurfaceOutcome {
-        lengths,
-        truth,
-        walked,
-        probe_texels,
-        rows,
-        roundings,
-        links: listed,
-        atlas,
-        dipoles,
-        irradiance,
-    }))
+    Ok(Computed::Whole(SubsurfaceOutcome { lengths, truth, rows, atlas, dipoles, irradiance }))
 }

@@ -1,12 +1,9 @@
-//! The model as an atlas: faces, probes, and how its lengths compare with the medium's.
+//! The model as an atlas: faces, and how its lengths compare with the medium's.
 
 use glam::DVec3;
 
 use super::Parameters;
 use crate::atlas::Atlas;
-use crate::study::StudyError;
-use crate::subsurface::factor::SurfaceMoments;
-use crate::subsurface::links::Fitness;
 use crate::subsurface::{Dipole, median_thickness};
 
 /// Lengths of the model beside those of the medium, in mm.
@@ -29,16 +26,18 @@ pub struct ModelLengths {
 }
 
 impl ModelLengths {
-    pub(super) fn of(atlas: &Atlas, surface: &SurfaceMoments, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
+    pub(super) fn of(atlas: &Atlas, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
         let mm = parameters.options.mm_per_unit;
-        let fitness = dipoles.each_ref().map(|dipole| Fitness::new(surface, dipole));
+        let mean_free_path = dipoles.iter().map(Dipole::mean_free_path).fold(f64::INFINITY, f64::min);
+        let areas = || atlas.texels().iter().map(|texel| texel.area);
+        let coarse: f64 = areas().filter(|area| area.sqrt() * mm > mean_free_path).sum();
         let extent = parameters.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| {
             (DVec3::from(high.map(f64::from)) - DVec3::from(low.map(f64::from))) * mm
         });
         Self {
             texel: atlas.mean_texel_area().sqrt() * mm,
-            coarse: fitness.iter().map(|of| of.coarse_fraction).fold(0.0, f64::max),
-            mean_free_path: dipoles.iter().map(Dipole::mean_free_path).fold(f64::INFINITY, f64::min),
+            coarse: coarse / areas().sum::<f64>(),
+            mean_free_path,
             diffusion_length: dipoles.iter().map(Dipole::diffusion_length).fold(0.0, f64::max),
             diagonal: extent.length(),
             shortest_side: extent.min_element(),
@@ -64,21 +63,4 @@ pub(super) fn by_face(atlas: &Atlas, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
 /// The value of each face at all of its texels.
 pub(super) fn by_texel(atlas: &Atlas, faces: &[[f64; 3]]) -> Vec<[f64; 3]> {
     atlas.texels().iter().map(|texel| faces[texel.face as usize]).collect()
-}
-
-/// The texel whose mean point is nearest to each probe.
-pub(super) fn probe_texels(atlas: &Atlas, parameters: &Parameters, diagonal: f64) -> Result<Vec<usize>, StudyError> {
-    let nearest = |&[x, y, z]: &[f64; 3]| {
-        let probe = DVec3::new(x, y, z);
-        let distance = |texel: usize| atlas.texels()[texel].point.distance_squared(probe);
-        let nearest = (0..atlas.texels().len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-        let near = |&texel: &usize| distance(texel).sqrt() * parameters.options.mm_per_unit <= diagonal;
-        let far = || {
-            let what = format!("the probe {x},{y},{z} is farther from the model than its size");
-            let help = "a probe is a point of the surface, in the model's units";
-            StudyError::new("subsurface::probe", what).with_help(help)
-        };
-        nearest.filter(near).ok_or_else(far)
-    };
-    parameters.options.probes.iter().map(nearest).collect()
 }

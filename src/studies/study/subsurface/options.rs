@@ -46,39 +46,18 @@ pub struct SubsurfaceOptions {
     #[arg(long = "map", value_name = "F", value_parser = maps())]
     pub maps: Vec<MapBits>,
 
-    /// Largest relative error of factors, beside 1e-5 of the total; of the total between texels so long that less light
-    /// leaves them
-    #[arg(long, value_name = "X", default_value_t = crate::subsurface::factor::TOLERANCE, value_parser = number::positive)]
+    /// Largest relative error of factors, beside 1e-5 of the total
+    #[arg(long, value_name = "X", default_value_t = crate::subsurface::multipole::TOLERANCE, value_parser = number::positive)]
     pub tolerance: f64,
 
     /// Diffuse reflectance for direct light, 0 to 1 [default: 0.1]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     pub diffuse: Option<f64>,
 
-    /// A point of the surface at which B is asked for, in units of the model; may be repeated.
-    #[arg(long = "probe", value_name = "X,Y,Z", value_parser = number::place, allow_hyphen_values = true)]
-    pub probes: Vec<[f64; 3]>,
-
     #[arg(long, value_name = "YES", value_parser = yes_or_no(), help = format!(
         "Gather over all pairs of texels too [default: yes for atlases up to {ALL_PAIRS_SIDE}]"
     ))]
     all_pairs: Option<bool>,
-
-    /// Follow so many photons per channel through the model as well: the dipole's own error.
-    #[arg(long = "walk", value_name = "N", value_parser = clap::value_parser!(u64).range(32..=1_000_000_000))]
-    pub photons: Option<u64>,
-
-    /// List the links of the probes' texels, or of all texels without --probe: cluster, factor, distance.
-    #[arg(long)]
-    pub link_table: bool,
-
-    /// Run every way with each value of the card's rounding switches too.
-    #[arg(long)]
-    pub roundings: bool,
-
-    /// Pictures of the first way with the lights turned round the model in so many steps.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
-    pub frames: u32,
 
     /// Factor of radiance in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
     /// average]

@@ -1,10 +1,6 @@
 //! Results of the study.
 
-use super::all_pairs::AllPairs;
-use super::link_table::LinkRow;
 use super::model::ModelLengths;
-use super::roundings::RoundingRow;
-use super::walk::WalkedChannel;
 use super::way::WayRow;
 use crate::atlas::Atlas;
 use crate::subsurface::Dipole;
@@ -20,24 +16,16 @@ pub struct SubsurfaceOutcome {
     pub dipoles: [Dipole; 3],
     /// E of equation 8 per texel, by the host.
     pub irradiance: Vec<[f64; 3]>,
-    /// All pairs, if asked for.
-    pub truth: Option<AllPairs>,
-    /// Photons that walked, per channel, if asked for; `None` for a channel without light.
-    pub walked: Option<[Option<WalkedChannel>; 3]>,
-    /// For each probe its texel.
-    pub probe_texels: Vec<usize>,
+    /// Radiosities over all pairs, in f64, per texel, row by row, if asked for.
+    pub truth: Option<Vec<[f64; 3]>>,
     /// A row per way.
     pub rows: Vec<WayRow>,
-    /// Other values of the card's rounding switches, if asked for.
-    pub roundings: Vec<RoundingRow>,
-    /// Links of texels, if asked for.
-    pub links: Vec<LinkRow>,
 }
 
 impl SubsurfaceOutcome {
     /// Values per texel by name: E, B over all pairs if there, and B of every way.
     pub(super) fn columns(&self) -> impl Iterator<Item = (&str, &[[f64; 3]])> {
-        let truth = self.truth.iter().map(|truth| ("all_pairs", &truth.texels[..]));
+        let truth = self.truth.iter().map(|truth| ("all_pairs", &truth[..]));
         let ways = self.rows.iter().map(|row| (row.label.as_str(), &row.radiosity[..]));
         [("E", &self.irradiance[..])].into_iter().chain(truth).chain(ways)
     }

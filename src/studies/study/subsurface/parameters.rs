@@ -47,13 +47,9 @@ pub enum Lighting {
 }
 
 impl Parameters {
-    /// Returns `true` if no way before this one gathers over the same links.
-    pub(super) fn has_new_links(&self, at: usize) -> bool {
-        !self.ways[..at].iter().any(|other| other.has_links_of(&self.ways[at]))
-    }
-
     /// The ways whose links are not those of an earlier one.
     pub(super) fn ways_with_links(&self) -> impl Iterator<Item = GatherWay> + '_ {
-        (0..self.ways.len()).filter(|at| self.has_new_links(*at)).map(|at| self.ways[at])
+        let is_new = |(at, way): &(usize, &GatherWay)| !self.ways[..*at].iter().any(|other| other.has_links_of(way));
+        self.ways.iter().enumerate().filter(is_new).map(|(_, way)| *way)
     }
 }

@@ -51,17 +51,6 @@ pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, 
     rows.iter().map(picture).collect()
 }
 
-/// Frames of turned lights.
-pub(super) fn frames(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
-    let frames = rows.first().map_or(&[][..], |row| &row.frames);
-    let picture = |(at, frame): (usize, &Picture)| {
-        let turn = 360.0 * at as f64 / frames.len() as f64;
-        let caption = format!("lights turned by {} degrees", shown(turn, Quantity::Measured));
-        Ok(NamedPicture::new(format!("frame-{at}"), frame.display(exposure)?, caption))
-    };
-    frames.iter().enumerate().map(picture).collect()
-}
-
 /// The atlas after passes 1 and 2 (Figure 6), each map with its brightest channel at white.
 pub(super) fn maps(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
     let Some(first) = outcome.rows.first() else { return Vec::new() };
@@ -82,13 +71,13 @@ fn atlas(side: u32, values: &[[f64; 3]]) -> RgbImage {
 /// B of each way against all pairs, on the atlas, in false colors of one scale.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
     let Some(truth) = &outcome.truth else { return Vec::new() };
-    let most = truth.texels.iter().flatten().copied().filter(|b| b.is_finite()).fold(0.0, f64::max);
+    let most = truth.iter().flatten().copied().filter(|b| b.is_finite()).fold(0.0, f64::max);
     let error = |row: &WayRow| -> Vec<f64> {
         let texel = |(b, t): (&[f64; 3], &[f64; 3])| {
             let off = [0, 1, 2].map(|channel| value_error(b[channel], t[channel]));
             off.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0) / most
         };
-        row.radiosity.iter().zip(&truth.texels).map(texel).collect()
+        row.radiosity.iter().zip(truth).map(texel).collect()
     };
     let errors: Vec<(&str, Vec<f64>)> = outcome.rows.iter().map(|row| (row.label.as_str(), error(row))).collect();
     let finite = errors.iter().flat_map(|(_, error)| error).filter(|error| error.is_finite());

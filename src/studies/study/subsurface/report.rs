@@ -1,20 +1,15 @@
 //! The study's page, tables, charts, pictures and trace.
 
 use super::conclusion::conclude;
-use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, link_table, pictures, tables, vertices};
+use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, pictures, tables, vertices};
 use crate::report::words::counted;
-use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table};
+use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series};
 use crate::study::{StudyError, timeline_trace};
 
 pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<Findings, StudyError> {
     let mut found = Findings::new("Subsurface scattering");
-    let has_rows = |table: &Table| !table.rows().is_empty();
     found.keep_table(FoundTable::from(tables::faces(parameters, outcome)).csv("faces").field("faces"));
     found.keep_table(FoundTable::from(vertices::table(parameters, outcome)).csv("vertices"));
-    let links = link_table::table(&outcome.links);
-    if has_rows(&links) {
-        found.keep_table(FoundTable::from(links).csv("links"));
-    }
     if let Some(row) = outcome.rows.first() {
         let what = format!("{}: light, levels, gather, view", row.label);
         if let Some(bytes) = timeline_trace::file(&parameters.profile, &row.log, &what)? {
@@ -48,29 +43,9 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
     error_chart(parameters, outcome).into_iter().for_each(|chart| found.chart(chart));
     found.pictures(pictures::ways(&outcome.rows, exposure)?);
     found.pictures(pictures::errors(outcome));
-    let walked = tables::walked(parameters, outcome);
-    if has_rows(&walked) {
-        found.heading("The dipole's own error");
-    }
-    found.explained_table(FoundTable::from(walked).csv("walk").field("walk"), WALKED);
     found.heading("On the card");
     found.explained_table(FoundTable::from(tables::storage(outcome)).field("storage"), STORAGE);
     found.explained_table(FoundTable::from(tables::times(outcome)).field("times"), TIMES);
-    let roundings = tables::roundings(outcome);
-    if has_rows(&roundings) {
-        found.heading("Roundings");
-    }
-    found.explained_table(FoundTable::from(roundings).csv("roundings").field("roundings"), ROUNDINGS);
-    let frames = pictures::frames(&outcome.rows, exposure)?;
-    if !frames.is_empty() {
-        found.heading("Lights turned round");
-        found.pictures(frames);
-    }
-    let probes = tables::probes(parameters, outcome);
-    if has_rows(&probes) {
-        found.heading("Probes");
-    }
-    found.table(FoundTable::from(probes).csv("probes").field("probes"));
     Ok(found)
 }
 
@@ -84,16 +59,9 @@ const ERRORS: &str = "links: the host's sum over the links, in double precision,
 const ANGLES: &str = "A root mean square over the model is made by its lit side. Here every bin of angles is held against its own light: 0 degrees is \
     the surface that faces the light, 180 degrees the one that is turned away from it, which all light reaches from afar.";
 
-const WALKED: &str = "Photons enter diffusely where the light enters, and are followed by chance until they leave, are absorbed, are given up at a \
-    limit of steps, or are lost through a hole of the model: an open model loses many. The difference is that of the dipole to them, relative, with its \
-    standard error. The table of faces has both per face.";
-
 const STORAGE: &str = "Fixed links have their places in constants and four factors a texel, adaptive ones a texel each with place, factor and level. Factors \
     lost to 0 are smaller than the format's least number; places rounded are coordinates of adaptive links that the format does not hold, which read a \
     neighbour's light. Instructions are of all programs of pass 2 together, samplers of the largest.";
-
-const ROUNDINGS: &str =
-    "Which of the values a card had is not documented: one switch at a time differs from the card as it was asked for.";
 
 const TIMES: &str = "Times are modelled, not measured: nothing in the model was set by this paper.";
 

@@ -1,10 +1,8 @@
 //! The tables of the study.
 
-use super::{GatherError, Parameters, SubsurfaceOutcome, WalkedChannel, model};
+use super::{GatherError, Parameters, SubsurfaceOutcome, model};
 use crate::report::{Cell, Table};
-use crate::subsurface::Material;
 use crate::subsurface::on_card::PassKind;
-use crate::subsurface::walk::WalkEstimate;
 
 /// Model and medium.
 pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
@@ -140,97 +138,18 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Other values of the card's rounding switches, a row each; none unless asked for.
-pub(super) fn roundings(outcome: &SubsurfaceOutcome) -> Table {
-    let mut table = Table::of(
-        "Rounding switches set otherwise; changes of B against the card as asked for, and errors against all pairs",
-        "way switch value change_rms_% change_largest_% all_rms_%",
-    );
-    for row in &outcome.roundings {
-        table.push([
-            row.label.as_str().into(),
-            row.switch.as_str().into(),
-            row.value.as_str().into(),
-            Cell::percent(100.0 * row.change.rms),
-            Cell::percent(100.0 * row.change.largest),
-            row.error.map_or(Cell::Empty, |error| Cell::percent(100.0 * error.rms)),
-        ]);
-    }
-    table
-}
-
-/// B at each probe.
-pub(super) fn probes(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
-    let mut table = Table::of("B at the probes", "probe x y z way r g b");
-    for (at, (&place, &texel)) in parameters.options.probes.iter().zip(&outcome.probe_texels).enumerate() {
-        let mut add = |way: &str, value: [f64; 3]| {
-            let head: [Cell; 5] = [at.into(), place[0].into(), place[1].into(), place[2].into(), way.into()];
-            table.push(head.into_iter().chain(value.map(Cell::measured)));
-        };
-        if let Some(truth) = &outcome.truth {
-            add("all pairs", truth.probes[at]);
-        }
-        outcome.rows.iter().for_each(|row| add(&row.label, row.radiosity[texel]));
-    }
-    table
-}
-
-/// Photons beside the dipole, a row per channel; none unless asked for. The dipole is that over all pairs of texels if
-/// there, else that of the first way.
-pub(super) fn walked(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
-    let mut table = Table::of(
-        "Photons followed one by one beside the dipole: the light that leaves, of what enters; standard errors",
-        "channel photons left_% left_error_% dipole dipole_% difference_% difference_error_% absorbed_% given_up lost",
-    );
-    let channels = outcome.walked.iter().flatten().enumerate();
-    for (channel, walked) in channels.filter_map(|(channel, walked)| Some((channel, walked.as_ref()?))) {
-        let Some((name, texels)) = outcome.columns().nth(1) else { continue };
-        let (tally, left) = (&walked.tally, walked.tally.total());
-        let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
-        let gathered: f64 =
-            outcome.atlas.texels().iter().zip(texels).map(|(texel, b)| texel.area * scale * b[channel]).sum();
-        let dipole = gathered / walked.flux;
-        // The dipole has no spread: the relative error of a quotient is that of its divisor.
-        let relative =
-            |value: f64| if left.mean > 0.0 { Cell::percent(100.0 * value / left.mean) } else { Cell::Empty };
-        let share = |share: f64| Cell::percent(100.0 * share);
-        table.push([
-            Material::CHANNELS[channel].into(),
-            tally.entered().into(),
-            share(left.mean),
-            share(left.standard_error()),
-            name.into(),
-            share(dipole),
-            relative(dipole - left.mean),
-            relative(left.standard_error() * dipole / left.mean),
-            share(tally.absorbed() as f64 / tally.entered() as f64),
-            tally.cut().into(),
-            tally.lost().into(),
-        ]);
-    }
-    table
-}
-
-/// A row per face: its area, what entered it, B in every way, and B by photons with its standard error.
+/// A row per face: its area, what entered it, and B in every way.
 pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let columns: Vec<(&str, Vec<[f64; 3]>)> =
         outcome.columns().map(|(label, texels)| (label, model::by_face(&outcome.atlas, texels))).collect();
     let mut headings = ["face", "area_mm2"].map(str::to_owned).to_vec();
-    let walked = outcome.walked.as_ref();
-    let names = columns.iter().map(|(label, _)| *label).chain(walked.iter().flat_map(|_| ["walk", "walk_error"]));
-    headings.extend(names.flat_map(|name| ["r", "g", "b"].map(|c| format!("{name}_{c}"))));
+    headings.extend(columns.iter().flat_map(|(label, _)| ["r", "g", "b"].map(|c| format!("{label}_{c}"))));
     let mut table = Table::new("Faces", &headings);
     let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
     for face in 0..outcome.atlas.places().len() {
         let area = parameters.mesh.area(face as u32) * scale;
-        let estimate = |channel: &Option<WalkedChannel>| channel.as_ref().map(|walked| walked.radiosity(face, area));
-        let walked = walked.into_iter().flat_map(|channels| {
-            let estimates = channels.each_ref().map(estimate);
-            let means = estimates.map(|estimate| estimate.map_or(0.0, |estimate| estimate.mean));
-            means.into_iter().chain(estimates.map(|of| of.map_or(0.0, WalkEstimate::standard_error)))
-        });
-        let found = columns.iter().flat_map(|(_, values)| values[face]).chain(walked);
         let head: [Cell; 2] = [face.into(), area.into()];
+        let found = columns.iter().flat_map(|(_, values)| values[face]);
         table.push(head.into_iter().chain(found.map(Cell::from)));
     }
     table

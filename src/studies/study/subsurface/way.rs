@@ -2,13 +2,12 @@
 
 use std::ops::Range;
 
-use glam::{DQuat, DVec3};
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::num::Format;
 use refsim::timing::TimingError;
 
-use super::all_pairs::{AllPairSums, AllPairs, GatherError};
+use super::all_pairs::{AllPairSums, GatherError};
 use super::error::{no_card, no_time};
 use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
 use crate::atlas::Atlas;
@@ -16,21 +15,20 @@ use crate::card::CardError;
 use crate::picture::Picture;
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::Dipole;
-use crate::subsurface::factor::SurfaceMoments;
-use crate::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
+use crate::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
 use crate::subsurface::links::{
     EncodedLinks, IrradianceMeans, LinkBands, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
 };
+use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, PassTime, SubsurfaceCard,
-    SubsurfaceCardOptions, View, pass_times,
+    CardModel, FloatTexels, LightStage, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,
+    pass_times,
 };
 
 /// Diffuse reflectance for direct light, unless asked for.
 const DIFFUSE: f64 = 0.1;
 /// Pass 3.
-const VIEW: ViewKernel =
-    ViewKernel { transmittance: EyeTransmittance::Exact, direct: DirectLight::ByFragment, combine: Combine::Added };
+const VIEW: ViewKernel = ViewKernel { transmittance: EyeTransmittance::Exact, direct: DirectLight::ByFragment };
 
 /// Inputs that all ways of gathering share.
 #[derive(Clone, Copy)]
@@ -42,7 +40,8 @@ pub(super) struct Scene<'a> {
     pub(super) dipoles: &'a [Dipole; 3],
     /// Per texel, by the host.
     pub(super) irradiance: &'a [[f64; 3]],
-    pub(super) truth: Option<&'a AllPairs>,
+    /// Radiosities over all pairs, if asked for.
+    pub(super) truth: Option<&'a [[f64; 3]]>,
 }
 
 impl<'a> Scene<'a> {
@@ -89,8 +88,6 @@ pub struct WayRow {
     pub picture: Picture,
     /// Scattered light alone.
     pub scattered: Picture,
-    /// Of the first way, the lights turned.
-    pub frames: Vec<Picture>,
     pub(super) log: Vec<Event>,
 }
 
@@ -121,7 +118,7 @@ fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
     if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }
 
-/// Runs one way with its links; frames of turned lights if it is the first.
+/// Runs one way with its links.
 pub(super) fn run(
     scene: &Scene<'_>,
     way: GatherWay,
@@ -151,7 +148,7 @@ pub(super) fn run(
     let scattered = card.view(&view(parameters, DirectLight::None)).map_err(no_card)?;
     let irradiance = if first { entered(scene, &card).map_err(no_card)? } else { Vec::new() };
     let off = |found: &[[f64; 3]], expected: &[[f64; 3]]| GatherError::between(scene.atlas, found, expected);
-    let against_truth = |found: &[[f64; 3]]| scene.truth.map(|truth| off(found, &truth.texels));
+    let against_truth = |found: &[[f64; 3]]| scene.truth.map(|truth| off(found, truth));
     let programs = card.gather_programs();
     let row = WayRow {
         lookups: [encoded.texture_count(), links.per_texel()],
@@ -169,7 +166,6 @@ pub(super) fn run(
         picture,
         scattered,
         log: events.into_iter().map(|event| event.event).collect(),
-        frames: if first { frames(scene, &mut card, progress).map_err(no_card)? } else { Vec::new() },
         radiosity,
         way,
         label,
@@ -181,7 +177,7 @@ pub(super) fn run(
 fn angles(scene: &Scene<'_>, found: [&[[f64; 3]]; 2]) -> Vec<AngleBin> {
     let light = angles::direction(&scene.parameters.lighting);
     let judged = light.zip(scene.truth);
-    judged.map_or_else(Vec::new, |(towards, truth)| angles::by_angle(scene.atlas, towards, &truth.texels, found))
+    judged.map_or_else(Vec::new, |(towards, truth)| angles::by_angle(scene.atlas, towards, truth, found))
 }
 
 /// A card with the links of a way, its maps lit and gathered; its events recorded if asked for.
@@ -200,15 +196,13 @@ pub(super) fn lit_card(
         scattered: way.links,
         half: false,
         tiles: None,
-        memory: None,
     };
     let (executor, eta) = (parameters.executor.clone(), parameters.material.eta);
     let mut card = SubsurfaceCard::new(profile, executor, scene.model.clone(), textures, eta, options)?;
     card.record(record);
     match &parameters.lighting {
         Lighting::Lights(lights) => card.light(lights)?,
-        Lighting::ByFace(values) => card.irradiate(values)?,
-        Lighting::Environment(_) => card.irradiate_texels(scene.irradiance)?,
+        Lighting::ByFace(_) | Lighting::Environment(_) => card.irradiate(scene.irradiance)?,
     }
     Ok(card)
 }
@@ -253,44 +247,4 @@ fn entered(scene: &Scene<'_>, card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, Ca
         [r, g, b].map(|value| f64::from(value) * factor)
     };
     Ok(map.texels.iter().zip(scene.atlas.texels()).map(texel).collect())
-}
-
-/// The lights turned about the camera's up direction through the middle of the model: a new light is all three passes.
-fn frames(
-    scene: &Scene<'_>,
-    card: &mut SubsurfaceCard,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Vec<Picture>, CardError> {
-    let parameters = scene.parameters;
-    let (count, Lighting::Lights(lights)) = (parameters.options.frames, &parameters.lighting) else {
-        return Ok(Vec::new());
-    };
-    let middle = parameters
-        .mesh
-        .bounds()
-        .map_or(DVec3::ZERO, |[low, high]| (DVec3::from(low.map(f64::from)) + DVec3::from(high.map(f64::from))) / 2.0);
-    let axis = parameters.camera.up().normalize_or(DVec3::Z);
-    let mut frames = Vec::new();
-    for frame in 0..count {
-        progress("frames", frame.into(), count.into());
-        let [cos, sin] = crate::elementary::on_circle(f64::from(frame) / f64::from(count) / 2.0);
-        let turn = DQuat::from_vec4((axis * sin).extend(cos));
-        let lights: Vec<Light> = lights.iter().map(|light| turned(*light, turn, middle)).collect();
-        card.light(&lights)?;
-        frames.push(card.view(&view(parameters, VIEW.direct))?);
-    }
-    Ok(frames)
-}
-
-fn turned(light: Light, turn: DQuat, middle: DVec3) -> Light {
-    match light {
-        Light::Directional { towards, irradiance } => {
-            Light::Directional { towards: (turn * DVec3::from(towards)).to_array(), irradiance }
-        }
-        Light::Point { position, intensity, attenuation } => {
-            let position = (middle + turn * (DVec3::from(position) - middle)).to_array();
-            Light::Point { position, intensity, attenuation }
-        }
-        sky @ Light::Sky { .. } => sky,
-    }
 }

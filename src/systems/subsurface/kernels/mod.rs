@@ -8,7 +8,7 @@ mod view;
 use crate::card::kernels;
 pub use gather::{GatherKernel, LinkLayout, MapTexture};
 pub use repeated::LightKernel;
-pub use view::{Combine, DirectLight, EyeTransmittance, ViewKernel};
+pub use view::{DirectLight, EyeTransmittance, ViewKernel};
 
 kernels! {
     /// Every file of this folder; those with lights have one.

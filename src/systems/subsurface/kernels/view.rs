@@ -39,30 +39,13 @@ pub enum DirectLight {
     ByFragment,
 }
 
-/// How scattered and direct light make a color.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "lowercase")]
-pub enum Combine {
-    /// Their sum.
-    ///
-    /// Section 4.2: "added in".
-    #[default]
-    Added,
-    /// Their product.
-    ///
-    /// Section 4.2.4: "modulated".
-    Modulated,
-}
-
 /// A fragment program of pass 3, but for the number of lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ViewKernel {
     /// Transmittance towards the eye.
     pub transmittance: EyeTransmittance,
-    /// Direct light.
+    /// Direct light, which is added.
     pub direct: DirectLight,
-    /// Sum or product.
-    pub combine: Combine,
 }
 
 const PLACE: &str = "!!FP1.0
@@ -159,11 +142,8 @@ impl ViewKernel {
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for transmittance in [EyeTransmittance::Exact, EyeTransmittance::Table, EyeTransmittance::Mean] {
-            for direct in [DirectLight::None, DirectLight::ByVertex, DirectLight::ByFragment] {
-                let combine = [Combine::Added, Combine::Modulated];
-                let combine = if direct == DirectLight::None { &combine[..1] } else { &combine };
-                all.extend(combine.iter().map(|&combine| Self { transmittance, direct, combine }));
-            }
+            let direct = [DirectLight::None, DirectLight::ByVertex, DirectLight::ByFragment];
+            all.extend(direct.map(|direct| Self { transmittance, direct }));
         }
         all
     }
@@ -180,8 +160,7 @@ impl ViewKernel {
             DirectLight::ByVertex => "_by_vertex",
             DirectLight::ByFragment => "_by_fragment",
         };
-        let combine = if self.combine == Combine::Modulated { "_modulated" } else { "" };
-        format!("view_{transmittance}{direct}{combine}")
+        format!("view_{transmittance}{direct}")
     }
 
     /// The program for so many lights by fragment.
@@ -200,11 +179,10 @@ impl ViewKernel {
             text.push_str(&LIGHT_PART.text(lights));
         }
         text.push_str("# the color\n");
-        let direct = if by_fragment { "R6" } else { "f[TEX4]" };
-        text.push_str(&match (self.direct, self.combine) {
-            (DirectLight::None, _) => "MULR o[COLR].xyz, R2, p[0];\n".to_owned(),
-            (_, Combine::Added) => format!("MADR o[COLR].xyz, R2, p[0], {direct};\n"),
-            (_, Combine::Modulated) => format!("MULR R2, R2, p[0];\nMULR o[COLR].xyz, R2, {direct};\n"),
+        text.push_str(match self.direct {
+            DirectLight::None => "MULR o[COLR].xyz, R2, p[0];\n",
+            DirectLight::ByVertex => "MADR o[COLR].xyz, R2, p[0], f[TEX4];\n",
+            DirectLight::ByFragment => "MADR o[COLR].xyz, R2, p[0], R6;\n",
         });
         text.push_str("MOVR o[COLR].w, {1}.x;\nEND\n");
         text

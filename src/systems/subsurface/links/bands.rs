@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::choice::{self, LinkChoice};
+use crate::error::{InputError, ensure, input_error};
 use crate::subsurface::Dipole;
-use crate::subsurface::factor::{BLOCK_LEVEL, BlockReceiver, ClusterId, FactorError, Factors, SurfaceMoments};
+use crate::subsurface::multipole::{BLOCK_LEVEL, BlockReceiver, ClusterId, Factors, SurfaceMoments};
 
 /// The largest number of factors: 1 GiB of them.
 pub const MAX_FACTORS: usize = 1 << 28;
@@ -47,11 +48,12 @@ impl LinkBands {
         tolerance: f64,
         range: Range<usize>,
         done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Self, FactorError> {
+    ) -> Result<Self, InputError> {
         match *dipoles {
             [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice, range, done),
             [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice, range, done),
-            _ => Err(FactorError::Channels { found: dipoles.len() }),
+            // As many dipoles as channels: one, or red, green and blue.
+            _ => Err(input_error!("subsurface::links" => "expected one dipole, or three, found {}", dipoles.len())),
         }
     }
 
@@ -61,7 +63,7 @@ impl LinkBands {
         choice: LinkChoice,
         range: Range<usize>,
         done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Self, FactorError> {
+    ) -> Result<Self, InputError> {
         let side = factors.surface().side();
         let per_texel = check(factors.surface(), choice, N)?;
         let rows = range.len() * Self::rows(side);
@@ -154,21 +156,28 @@ impl PackedCluster {
 }
 
 /// The number of links per texel of a choice.
-pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Result<usize, FactorError> {
+pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Result<usize, InputError> {
     let side = surface.side();
     match choice {
         LinkChoice::Fixed { level } if level >= surface.level_count() => {
-            return Err(FactorError::Level { found: level, levels: surface.level_count() });
+            return Err(level_error(level, surface.level_count()));
         }
-        LinkChoice::Adaptive { count: 0 } => return Err(FactorError::NoLinks),
+        LinkChoice::Adaptive { count: 0 } => {
+            return Err(input_error!("subsurface::links" => "expected at least one link per texel"));
+        }
         LinkChoice::Fixed { .. } | LinkChoice::Adaptive { .. } => {}
     }
     let links = choice.per_texel(side) as usize;
-    let texels = side as usize * side as usize;
-    match texels.checked_mul(links).and_then(|all| all.checked_mul(channels)) {
-        Some(all) if all <= MAX_FACTORS => Ok(links),
-        _ => Err(FactorError::TooMany { side, links, channels, limit: MAX_FACTORS }),
-    }
+    let factors = u128::from(side) * u128::from(side) * links as u128 * channels as u128;
+    ensure!(factors <= MAX_FACTORS as u128, "subsurface::links" =>
+        "{links} links of {channels} channels per texel at {side} x {side} texels are {factors} numbers, \
+         expected at most {MAX_FACTORS}");
+    Ok(links)
+}
+
+/// The error of a level that an atlas does not have.
+pub(super) fn level_error(found: u32, levels: u32) -> InputError {
+    input_error!("subsurface::links" => "expected a level below {levels}, found {found}")
 }
 
 /// The clusters of fixed links, the same for each texel.

@@ -3,7 +3,7 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use super::super::factor::{ClusterId, TexelFactors, to_morton};
+use super::super::multipole::{ClusterId, TexelFactors, to_morton};
 
 /// Which clusters the texels of an atlas have links to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -16,7 +16,7 @@
 
 use refsim::num::{Format, FormatKind, ops, power_of_two};
 
-use super::super::factor::{ClusterId, SurfaceMoments};
+use super::super::multipole::{ClusterId, SurfaceMoments};
 use super::{LinkChoice, Links, MeanWeighting};
 use crate::card::Texels;
 

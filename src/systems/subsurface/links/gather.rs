@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::super::factor::{ClusterId, FactorError, SurfaceMoments};
+use super::super::multipole::{ClusterId, SurfaceMoments, check_values};
 use super::Links;
+use crate::error::InputError;
 
 /// How texels count in the mean irradiance of a cluster.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,17 +28,15 @@ impl IrradianceMeans {
     /// The means of the irradiances of all texels, row by row.
     ///
     /// # Errors
-    /// [`FactorError::Values`] if there is not one per texel.
+    /// [`InputError`] if there is not one per texel.
     pub fn new(
         surface: &SurfaceMoments,
         irradiances: &[[f64; 3]],
         weighting: MeanWeighting,
-    ) -> Result<Self, FactorError> {
+    ) -> Result<Self, InputError> {
         let side = surface.side();
         let texels = side as usize * side as usize;
-        if irradiances.len() != texels {
-            return Err(FactorError::Values { found: irradiances.len(), texels });
-        }
+        check_values(irradiances.len(), texels)?;
         let mut levels = vec![irradiances.to_vec()];
         for level in 1..surface.level_count() {
             let finer = &levels[level as usize - 1];

@@ -2,23 +2,21 @@
 //!
 //! - [`Links`]: fixed or adaptive, with one factor per link or three; [`LinkBands`] are those of some rows of texels;
 //! - [`IrradianceMeans`]: the mean irradiance of every cluster, by area or by number of texels;
-//! - [`EncodedLinks`]: links as texels of textures, and what fp16 loses of them;
-//! - [`Fitness`]: texels compared with the lengths of a medium.
+//! - [`EncodedLinks`]: links as texels of textures, and what fp16 loses of them.
 
 mod bands;
 mod choice;
 mod encode;
-mod fitness;
 mod gather;
 
 use super::Dipole;
-use super::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
-use bands::{PackedCluster, check, fixed_clusters};
+use super::multipole::{ClusterId, Factors, SurfaceMoments, check_values};
+use crate::error::InputError;
+use bands::{PackedCluster, check, fixed_clusters, level_error};
 
 pub use bands::{LinkBands, MAX_FACTORS};
 pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
-pub use fitness::Fitness;
 pub use gather::{IrradianceMeans, MeanWeighting};
 
 /// The channel whose coefficients make scalar factors: green. One dipole's factors, unlike a mean of three.
@@ -43,7 +41,7 @@ impl Links {
     /// number of rows of texels done and of all, in any order and from any thread.
     ///
     /// # Errors
-    /// [`FactorError`] for another number of dipoles, a level that the atlas does not have, a tolerance out of range,
+    /// [`InputError`] for another number of dipoles, a level that the atlas does not have, a tolerance out of range,
     /// no links, or more than [`MAX_FACTORS`] factors.
     pub fn new(
         surface: &SurfaceMoments,
@@ -51,7 +49,7 @@ impl Links {
         choice: LinkChoice,
         tolerance: f64,
         done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Self, FactorError> {
+    ) -> Result<Self, InputError> {
         let all = LinkBands::new(surface, dipoles, choice, tolerance, 0..LinkBands::count(surface.side()), done)?;
         Self::of_bands(surface, dipoles.len(), choice, all)
     }
@@ -64,7 +62,7 @@ impl Links {
         factors: &Factors<'_, N>,
         choice: LinkChoice,
         done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Self, FactorError> {
+    ) -> Result<Self, InputError> {
         let surface = factors.surface();
         let all = LinkBands::with(factors, choice, 0..LinkBands::count(surface.side()), done)?;
         Self::of_bands(surface, N, choice, all)
@@ -73,26 +71,24 @@ impl Links {
     /// The links of all bands, from the first on.
     ///
     /// # Errors
-    /// [`FactorError`] if these are not the bands of this atlas with this choice.
+    /// [`InputError`] if these are not the bands of this atlas with this choice.
     pub fn of_bands(
         surface: &SurfaceMoments,
         channels: usize,
         choice: LinkChoice,
         bands: LinkBands,
-    ) -> Result<Self, FactorError> {
+    ) -> Result<Self, InputError> {
         let (side, per_texel) = (surface.side(), check(surface, choice, channels)?);
         let texels = side as usize * side as usize;
         let LinkBands { mut clusters, factors } = bands;
         let own = if matches!(choice, LinkChoice::Adaptive { .. }) { texels * per_texel } else { 0 };
         let expected = [own, texels * per_texel * channels];
         for (found, texels) in [clusters.len(), factors.len()].into_iter().zip(expected) {
-            if found != texels {
-                return Err(FactorError::Values { found, texels });
-            }
+            check_values(found, texels)?;
         }
         let levels = surface.level_count();
         if let Some(beyond) = clusters.iter().map(|cluster| cluster.id()).find(|id| !id.is_of(side, levels)) {
-            return Err(FactorError::Level { found: beyond.level, levels });
+            return Err(level_error(beyond.level, levels));
         }
         if let LinkChoice::Fixed { level } = choice {
             clusters = fixed_clusters(side, level).map(PackedCluster::new).collect();

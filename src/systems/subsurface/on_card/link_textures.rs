@@ -2,9 +2,9 @@
 
 use super::options::FloatTexels;
 use crate::card::{CardError, Texels};
-use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
 use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting};
+use crate::subsurface::multipole::SurfaceMoments;
 
 /// The links of all texels as textures, not yet rounded.
 #[derive(Clone, Debug)]
@@ -73,11 +73,6 @@ impl LinkTextures {
     /// The program that follows the links in a map of this kind.
     pub(super) fn kernel(&self, map: MapTexture, half: bool) -> GatherKernel {
         GatherKernel { layout: self.layout(), rgb: self.rgb, map, half, continues: false, tiles: 1 }
-    }
-
-    /// The number of textures, each a tile of one on the card or one of its own.
-    pub(super) fn texture_count(&self) -> usize {
-        self.kernel(MapTexture::Leveled, false).link_textures(self.count)
     }
 
     /// Checks that no factor is infinite in a format.

@@ -4,8 +4,6 @@ use super::gather::GatherProgram;
 use super::levels::LeveledMap;
 use super::link_textures::LinkTextures;
 use super::options::{LightStage, SubsurfaceCardOptions};
-use crate::card::CardError;
-use refsim::device::Profile;
 
 /// Bytes of textures and targets by what they are for, without the picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,20 +33,5 @@ impl CardMemory {
     /// All of it.
     pub fn bytes(&self) -> u64 {
         self.parts.iter().map(|part| part.1).sum()
-    }
-
-    pub(super) fn check(&self, profile: &Profile, held: Option<u64>) -> Result<(), CardError> {
-        match held {
-            Some(held) if self.bytes() > held => {
-                let parts: Vec<String> = self.parts.iter().map(|(what, bytes)| format!("{what} {bytes}")).collect();
-                Err(CardError::input(format!(
-                    "expected at most {held} bytes in the memory of device `{}`, the passes need {}: {}",
-                    profile.name,
-                    self.bytes(),
-                    parts.join(", ")
-                )))
-            }
-            _ => Ok(()),
-        }
     }
 }

@@ -10,7 +10,6 @@ mod link_textures;
 mod memory;
 mod model;
 mod options;
-pub mod order;
 mod radiosity_map;
 mod time;
 mod view;
@@ -77,7 +76,6 @@ impl SubsurfaceCard {
         links.check(options.links)?;
         let programs = gather::programs(&profile, links, &options)?;
         let memory = CardMemory::new(links, &options, &programs);
-        memory.check(&profile, options.memory)?;
         let mut machine = executor.into().machine(profile)?;
         let map = LeveledMap::new(&mut machine, options.map, model.side(), links.layout())?;
         let light = LightPass::new(&mut machine, &model, options.light, options.map, eta)?;
@@ -118,11 +116,6 @@ impl SubsurfaceCard {
         &self.gather.programs
     }
 
-    /// Passes that pass 1 takes for so many lights beside skies.
-    pub fn light_passes(&self, lights: usize) -> usize {
-        self.light.passes(lights)
-    }
-
     /// New lights: passes 1 and 2.
     ///
     /// # Errors
@@ -133,24 +126,14 @@ impl SubsurfaceCard {
         self.scatter()
     }
 
-    /// Irradiances of a table (equation 8: what has entered the surface), one per face, in place of pass 1; then pass
-    /// 2. There is no direct light then.
+    /// Irradiances of a table (equation 8: what has entered the surface), one per texel, row by row, in place of pass 1;
+    /// then pass 2. There is no direct light then.
     ///
     /// # Errors
     /// [`CardError::Input`], [`CardError::Draw`].
-    pub fn irradiate(&mut self, by_face: &[[f64; 3]]) -> Result<(), CardError> {
+    pub fn irradiate(&mut self, irradiances: &[[f64; 3]]) -> Result<(), CardError> {
         self.lights = CardLights::default();
-        self.light.fill_from_faces(self.view.machine_mut(), &self.model, by_face, self.map.map)?;
-        self.scatter()
-    }
-
-    /// As [`Self::irradiate`], with a table of texels, row by row.
-    ///
-    /// # Errors
-    /// [`CardError::Input`], [`CardError::Draw`].
-    pub fn irradiate_texels(&mut self, by_texel: &[[f64; 3]]) -> Result<(), CardError> {
-        self.lights = CardLights::default();
-        self.light.fill_from_texels(self.view.machine_mut(), &self.model, by_texel, self.map.map)?;
+        self.light.fill(self.view.machine_mut(), &self.model, irradiances, self.map.map)?;
         self.scatter()
     }
 

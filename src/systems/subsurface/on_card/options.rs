@@ -108,8 +108,6 @@ pub struct SubsurfaceCardOptions {
     pub half: bool,
     /// How many textures of links lie along an edge of one texture that holds them as tiles; `None` for a texture each.
     pub tiles: Option<u32>,
-    /// The card's memory in bytes, if it shall be an error to need more.
-    pub memory: Option<u64>,
 }
 
 impl SubsurfaceCardOptions {

@@ -176,20 +176,8 @@ impl LightPass {
         Ok(())
     }
 
-    /// Fills the map from a table of irradiances (equation 8), one per face.
-    pub(super) fn fill_from_faces(
-        &mut self,
-        machine: &mut Machine,
-        model: &CardModel,
-        irradiances: &[[f64; 3]],
-        map: TextureId,
-    ) -> Result<(), CardError> {
-        CardError::check_size("irradiances, one per face", model.faces(), irradiances.len())?;
-        self.fill(machine, model, irradiances, |face, _| face, map)
-    }
-
     /// Fills the map from a table of irradiances (equation 8), one per texel.
-    pub(super) fn fill_from_texels(
+    pub(super) fn fill(
         &mut self,
         machine: &mut Machine,
         model: &CardModel,
@@ -198,29 +186,16 @@ impl LightPass {
     ) -> Result<(), CardError> {
         let texels = self.side as usize * self.side as usize;
         CardError::check_size("irradiances, one per texel", texels, irradiances.len())?;
-        self.fill(machine, model, irradiances, |_, texel| texel, map)
-    }
-
-    /// Fills the map with the irradiance that `place` tells by face and texel.
-    fn fill(
-        &mut self,
-        machine: &mut Machine,
-        model: &CardModel,
-        irradiances: &[[f64; 3]],
-        place: fn(usize, usize) -> usize,
-        map: TextureId,
-    ) -> Result<(), CardError> {
         if let Some(&found) = irradiances.iter().flatten().find(|value| !(value.is_finite() && **value >= 0.0)) {
             return Err(CardError::figure("finite irradiances of at least 0", found));
         }
         let (scale, largest) = (self.format.scale(), f64::from(self.format.largest()));
         let side = self.side as usize;
         let mut texels = Texels::from_fn([side; 2], |_, _| [0.0; 4]);
-        for (number, face) in model.faces.iter().enumerate() {
+        for face in &model.faces {
             let [x0, y0, x1, y1] = face.bounds.map(|bound| bound as usize);
             for at in (y0..=y1).flat_map(|row| row * side + x0..=row * side + x1) {
-                let irradiance = irradiances[place(number, at)];
-                let [r, g, b] = irradiance.map(|value| (value * f64::from(face.area) * scale).min(largest) as f32);
+                let [r, g, b] = irradiances[at].map(|value| (value * f64::from(face.area) * scale).min(largest) as f32);
                 texels.texels[at] = [r, g, b, 0.0];
             }
         }

@@ -12,7 +12,7 @@ use crate::card::{
     Attribute, BILINEAR, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshPass, MeshView, Texels, new_texture,
 };
 use crate::subsurface::fresnel::{fresnel_transmittance, mean_transmittance};
-use crate::subsurface::kernels::{self, Combine, DirectLight, EyeTransmittance, ViewKernel};
+use crate::subsurface::kernels::{self, DirectLight, EyeTransmittance, ViewKernel};
 
 /// Texels of the table of transmittances.
 const TABLE: u32 = 256;
@@ -158,20 +158,15 @@ struct ViewConstants<'a> {
 }
 
 impl ViewConstants<'_> {
-    /// The factor of direct light: in a product the exposure is in the scattered light already.
-    fn direct_exposure(&self) -> f64 {
-        if self.view.kernel.combine == Combine::Modulated { 1.0 } else { self.view.mesh.exposure }
-    }
-
     /// Sky that is reflected: of a diffuse surface the radiance times reflectance.
     fn ambient(&self) -> [f32; 4] {
-        let [r, g, b, _] = colored(self.lights.sky, |channel| self.view.diffuse[channel] * self.direct_exposure());
+        let [r, g, b, _] = colored(self.lights.sky, |channel| self.view.diffuse[channel] * self.view.mesh.exposure);
         [r, g, b, 1.0]
     }
 
     /// Diffuse and specular light.
     fn colors(&self, light: &CardLight) -> [[f32; 4]; 2] {
-        let exposure = self.direct_exposure();
+        let exposure = self.view.mesh.exposure;
         [
             colored(light.color, |channel| self.view.diffuse[channel] / PI * exposure),
             colored(light.color, |channel| self.view.specular[channel] * exposure),

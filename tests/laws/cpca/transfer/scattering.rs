@@ -5,12 +5,13 @@ use std::f64::consts::PI;
 use crossbar::cpca::transfer::{Bounces, Response, ScatteringOptions, TracedRays, Transfer};
 use crossbar::geom::Mesh;
 use crossbar::sphere::DirectionRule;
-use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance, point_to_polygon, uniform_sphere};
+use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance};
 use crossbar::transfer::brdf::ExitBasis;
 use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::{caster, close, mixed, step, uniform};
+use crate::subsurface::polygon::point_to_polygon;
 
 fn dipole() -> Dipole {
     Dipole::new(Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 }, 1.3).expect("a medium")
@@ -63,7 +64,7 @@ fn a_sheet_scatters_as_the_exact_polygon() {
 #[test]
 fn a_sphere_under_uniform_light_is_what_is_known() {
     let mm = 3.0;
-    let expected = uniform_sphere(&dipole(), mm);
+    let expected = dipole().disc(2.0 * mm);
     let errors = [8, 16, 32].map(|parts| {
         let (vertices, entering) = entering(&super::ball(parts), 1, |_| 1.0);
         let scattered = scattered(&vertices, &entering, mm, 0.01);

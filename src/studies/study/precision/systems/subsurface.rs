@@ -11,9 +11,9 @@ use crate::scene::Camera;
 use crate::study::StudyError;
 use crate::study::subsurface::no_card;
 use crate::subsurface::Dipole;
-use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::{LinkChoice, Links, MeanWeighting, SCALAR_CHANNEL};
 use crate::subsurface::materials;
+use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::{
     CardModel, FloatTexels, Light, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View,
 };

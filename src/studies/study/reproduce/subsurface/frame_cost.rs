@@ -38,8 +38,7 @@ impl FrameCost {
 pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, StudyError> {
     let profile = Profile::named(card)?;
     let atlas = Atlas::new(mesh, side).map_err(|e| failed(card)(&e))?;
-    let kernel =
-        ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex, ..ViewKernel::default() };
+    let kernel = ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex };
     let shown = MeshView { format: TexelFormat::Bgra8, ..camera(mesh).map_err(|e| failed(card)(&e))?.into() };
     let shown = View { kernel, diffuse: [0.1; 3], ..View::scattered(shown) };
     let sun = Light::Directional { towards: [1.0, -2.0, 3.0], irradiance: [1.0; 3] };
@@ -66,7 +65,6 @@ fn model_on(profile: Profile, model: CardModel) -> Result<SubsurfaceCard, Box<dy
         scattered: FloatTexels::Fp16,
         half: false,
         tiles: None,
-        memory: None,
     };
     Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, model, &links, 1.3, options)?)
 }

@@ -150,7 +150,6 @@ fn square(
         scattered: FloatTexels::Fp16,
         half: variant.half,
         tiles: variant.tiles,
-        memory: None,
     };
     Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), &links, 1.3, options)?)
 }

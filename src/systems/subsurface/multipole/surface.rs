@@ -3,11 +3,11 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::error::FactorError;
+use super::check_scale;
 use super::face_map::{FaceMap, Window};
 use super::moments::{BALL, Moments, size_squared};
-use super::{MAX_MM_PER_UNIT, MIN_MM_PER_UNIT};
 use crate::atlas::Atlas;
+use crate::error::InputError;
 
 /// A cluster of an atlas: the texel in column x, row y of a level; level 0 is the finest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -42,11 +42,10 @@ impl SurfaceMoments {
     /// The moments of the clusters of an atlas.
     ///
     /// # Errors
-    /// [`FactorError::Scale`] if the scale is not from [`MIN_MM_PER_UNIT`] to [`MAX_MM_PER_UNIT`].
-    pub fn new(atlas: &Atlas, mm_per_unit: f64) -> Result<Self, FactorError> {
-        if !(MIN_MM_PER_UNIT..=MAX_MM_PER_UNIT).contains(&mm_per_unit) {
-            return Err(FactorError::Scale { found: mm_per_unit });
-        }
+    /// [`InputError`] if the scale is not from [`MIN_MM_PER_UNIT`](super::MIN_MM_PER_UNIT) to
+    /// [`MAX_MM_PER_UNIT`](super::MAX_MM_PER_UNIT).
+    pub fn new(atlas: &Atlas, mm_per_unit: f64) -> Result<Self, InputError> {
+        check_scale(mm_per_unit)?;
         let in_mm = |corner: DVec3| mm_per_unit * corner;
         let faces: Vec<FaceMap> = (0..)
             .zip(atlas.places())

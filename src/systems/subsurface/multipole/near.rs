@@ -16,14 +16,14 @@ const MAX_HALVINGS: u32 = 4;
 /// Texels whose pieces are kept; a power of two.
 const SLOTS: usize = 4096;
 
-/// Means of long pairs that are kept.
-const LONG_PAIRS: usize = 1 << 16;
+/// Means of pairs that are kept.
+const PAIRS: usize = 1 << 16;
 
-/// Pieces of texels that were near lately, and means of long pairs, which both texels ask for.
+/// Pieces of texels that were near lately, and means of pairs of many pieces, which both texels ask for.
 #[derive(Clone, Debug)]
 pub(super) struct PieceCache<const N: usize> {
     slots: Vec<TexelPieces>,
-    long: BTreeMap<[usize; 2], [f64; N]>,
+    means: BTreeMap<[usize; 2], [f64; N]>,
 }
 
 /// The pieces of one texel: 4^k of them after k halvings, those of a piece together.
@@ -38,7 +38,7 @@ const NONE: usize = usize::MAX;
 
 impl<const N: usize> PieceCache<N> {
     pub(super) fn new() -> Self {
-        Self { slots: vec![TexelPieces { texel: NONE, halvings: Vec::new() }; SLOTS], long: BTreeMap::new() }
+        Self { slots: vec![TexelPieces { texel: NONE, halvings: Vec::new() }; SLOTS], means: BTreeMap::new() }
     }
 
     /// Makes sure that the pieces of a texel are there. Returns their slot.
@@ -49,13 +49,6 @@ impl<const N: usize> PieceCache<N> {
             kept.fill(surface, texel, halvings);
         }
         slot
-    }
-
-    fn long_mean(&mut self, surface: &SurfaceMoments, kernel: &DistanceTable<N>, pair: [usize; 2]) -> [f64; N] {
-        if self.long.len() == LONG_PAIRS {
-            self.long.clear();
-        }
-        *self.long.entry(pair).or_insert_with(|| long_mean(surface, kernel, pair))
     }
 }
 
@@ -105,13 +98,33 @@ pub(super) fn texel_mean<const N: usize>(
 ) -> [f64; N] {
     let [from, to] = [one.min(other), one.max(other)];
     let [p, q] = [from, to].map(|texel| &surface.level(0)[texel]);
-    let mut halvings = kernel.halvings(p, q);
-    if halvings > MAX_HALVINGS {
-        if p.area > 0.0 && q.area > 0.0 {
-            return cache.long_mean(surface, kernel, [from, to]);
-        }
-        halvings = MAX_HALVINGS;
+    let halvings = kernel.halvings(p, q);
+    if halvings <= 1 {
+        return quartered_mean(surface, kernel, [from, to], halvings, cache);
     }
+    if let Some(mean) = cache.means.get(&[from, to]) {
+        return *mean;
+    }
+    let mean = if halvings > MAX_HALVINGS && p.area > 0.0 && q.area > 0.0 {
+        long_mean(surface, kernel, [from, to])
+    } else {
+        quartered_mean(surface, kernel, [from, to], halvings.min(MAX_HALVINGS), cache)
+    };
+    if cache.means.len() == PAIRS {
+        cache.means.clear();
+    }
+    cache.means.insert([from, to], mean);
+    mean
+}
+
+/// The same by quarters.
+fn quartered_mean<const N: usize>(
+    surface: &SurfaceMoments,
+    kernel: &DistanceTable<N>,
+    [from, to]: [usize; 2],
+    halvings: u32,
+    cache: &mut PieceCache<N>,
+) -> [f64; N] {
     let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
     let displaced = if slots[0] == slots[1] && from != to {
         // Both have the same slot, which holds the second one's pieces now.

@@ -1,4 +1,4 @@
-//! Factors from a point to flat polygons by contour integrals: a second way to equation 10 for the tests of links.
+//! Factors from a point to flat polygons by contour integrals: a second way to equation 10.
 //!
 //! In the plane of a polygon, with `h` the point's height above it and (rho, phi) polar coordinates around its foot,
 //! R_d has the radial primitive `D(rho) = G(sqrt(rho^2 + h^2)) - G(h)`, so that the integral over the polygon is
@@ -6,12 +6,11 @@
 
 use std::f64::consts::PI;
 
+use crossbar::elementary::{asinh, cosh};
+use crossbar::geom::vector::unit;
+use crossbar::quadrature::integral;
+use crossbar::subsurface::Dipole;
 use glam::DVec3;
-
-use super::dipole::Dipole;
-use crate::elementary::{asinh, cosh};
-use crate::geom::vector::unit;
-use crate::quadrature::integral;
 
 /// The widest interval that gets sixteen points.
 const WIDEST: f64 = 1.0;
@@ -19,7 +18,7 @@ const WIDEST: f64 = 1.0;
 /// The integral of R_d over a flat polygon, from a point: the factor of equation 10 for a vanishing patch at the
 /// point. Corners in mm, in either order; a polygon without area has the factor 0. The polygon may be concave but not
 /// cross itself. To about 1e-13 of the plane's total.
-pub fn point_to_polygon(dipole: &Dipole, point: DVec3, corners: &[DVec3]) -> f64 {
+pub(crate) fn point_to_polygon(dipole: &Dipole, point: DVec3, corners: &[DVec3]) -> f64 {
     let Some(normal) = normal(corners) else { return 0.0 };
     let height = normal.dot(corners[0] - point);
     let foot = point + height * normal;
@@ -56,19 +55,4 @@ fn side(dipole: &Dipole, normal: DVec3, height: f64, a: DVec3, b: DVec3) -> f64 
     let sum: f64 =
         (0..panels as u32).map(|i| integral(from + step * f64::from(i), from + step * f64::from(i + 1), value)).sum();
     away.signum() * sum
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::subsurface::material::Coefficients;
-
-    #[test]
-    fn what_has_no_area_has_no_factor() {
-        let dipole = Dipole::new(Coefficients { sigma_s_prime: 1.0, sigma_a: 0.1 }, 1.3).unwrap();
-        let line = [DVec3::ZERO, DVec3::X, 3.0 * DVec3::X];
-        for corners in [&line[..], &line[..2], &line[..1], &[]] {
-            assert_eq!(point_to_polygon(&dipole, DVec3::new(0.5, 0.2, 0.1), corners), 0.0);
-        }
-    }
 }

@@ -14,15 +14,12 @@ use glam::DVec3;
 use super::expansion::{Expansion, Taylor};
 use super::moments::{BALL, Covariance, Moments};
 use crate::elementary::{cbrt, exp};
-use crate::quadrature::graded_integral;
 use crate::subsurface::Dipole;
 
-/// The largest relative error of the table where light still matters, see [`DistanceTable::interpolation_error`].
+/// The largest relative error of the table where light still matters.
 const MAX_INTERPOLATION_ERROR: f64 = 1e-6;
 /// Beyond this many diffusion lengths the relative error is not asked for: e^-25 is 1e-11.
 const MATTERS: f64 = 25.0;
-/// Intervals of the integral over exit distances: the first ends at 2^-59 of the diameter.
-const PANELS: u32 = 60;
 /// Intervals per octave of 1 + (r / z)^2: 2^5 to 2^9.
 const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
 /// The logarithmic derivative of R_d is at most this over d, plus sigma_tr.
@@ -33,8 +30,7 @@ const FAR: f64 = 0.5;
 /// By how much the squared size of a group of receivers counts more: a receiver at its rim, where terms of third
 /// order do not cancel, is to keep the tolerance too. Measured, see tests/laws/subsurface/links_blocks.rs.
 pub(super) const SPREAD: f64 = 6.0;
-/// By how much the squared sizes of pieces may exceed this that are not divided any more, or of which a pair of texels
-/// has many, whose errors have no common sign. Measured, see tests/laws/subsurface/links_long.rs.
+/// By how much the squared sizes of pieces may exceed this that are not divided any more.
 const LOOSE: f64 = 2.0;
 /// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
 /// total over the plane.
@@ -50,10 +46,11 @@ pub(super) struct DistanceTable<const N: usize> {
     /// Bits of a number to drop for its interval.
     shift: u32,
     intervals: Vec<Interval<N>>,
+    /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
     tolerance: f64,
-    /// Per channel, the mean distance at which light leaves, in mm, within the surface's diameter.
-    exit: [f64; N],
+    /// Hardly any light leaves farther away than this from where it entered, in mm.
+    layer: f64,
 }
 
 /// One interval of v = 1 + r^2 / unit.
@@ -90,7 +87,7 @@ impl<const N: usize> DistanceTable<N> {
             intervals: Vec::new(),
             interpolation_error: f64::INFINITY,
             tolerance,
-            exit: dipoles.map(|dipole| graded_integral(diameter, PANELS, |r| dipole.beyond(r)) / dipole.total()),
+            layer: dipoles.iter().map(|dipole| dipole.radius_of(1.0 - tolerance)).fold(0.0, f64::max),
         };
         let end = 1.0 + diameter * diameter / unit;
         for bits in RESOLUTION {
@@ -101,11 +98,6 @@ impl<const N: usize> DistanceTable<N> {
         }
         kernel.set_reaches(area, tolerance);
         kernel
-    }
-
-    /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
-    pub(super) fn interpolation_error(&self) -> f64 {
-        self.interpolation_error
     }
 
     fn tabulate(&mut self, shift: u32, end: f64) {
@@ -177,13 +169,6 @@ impl<const N: usize> DistanceTable<N> {
         (&self.intervals[interval.min(self.intervals.len() - 1)], v - f64::from_bits(bits << self.shift))
     }
 
-    /// R_d at a squared distance.
-    #[inline]
-    pub(super) fn at(&self, squared: f64) -> [f64; N] {
-        let (interval, t) = self.find(squared);
-        interval.cubic.map(|[c0, c1, c2, c3]| c0 + t * (c1 + t * (c2 + t * c3)))
-    }
-
     /// The mean of R_d over pairs of points of two pieces; `None` if they are too near. To second order: with
     /// g(r^2) = R_d, x the difference of the mean points and C the sum of the covariances,
     /// g + g' trace(C) + 2 g'' x^T C x.
@@ -203,27 +188,17 @@ impl<const N: usize> DistanceTable<N> {
         })
     }
 
-    /// The same for each of the open channels, for pieces of which a pair of texels has many.
-    #[inline]
-    pub(super) fn means(&self, one: &Moments, other: &Moments, open: [bool; N]) -> [Option<f64>; N] {
+    /// The same for pieces that are not divided any more; R_d between mean points if they are much too near.
+    pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> [f64; N] {
         let apart = other.point - one.point;
         let (interval, t) = self.find(apart.length_squared());
         let size_squared = one.size_squared + other.size_squared;
         let [across, along] = self.spread(one, other, apart);
         std::array::from_fn(|channel| {
+            let [value, first, second] = derivatives_at(interval.cubic[channel], t);
             let is_far = size_squared <= LOOSE * interval.reach[channel];
-            (open[channel] && (is_far || size_squared <= interval.negligible[channel])).then(|| {
-                let [value, first, second] = derivatives_at(interval.cubic[channel], t);
-                if is_far { value + first * across + second * along } else { value }
-            })
+            if is_far { value + first * across + second * along } else { value }
         })
-    }
-
-    /// The same for pieces that are not divided any more; R_d between mean points if they are much too near.
-    pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> [f64; N] {
-        let between = self.at(one.point.distance_squared(other.point));
-        let means = self.means(one, other, [true; N]);
-        std::array::from_fn(|channel| means[channel].unwrap_or(between[channel]))
     }
 
     /// What the first and second derivatives by v count with in a mean.
@@ -282,10 +257,9 @@ impl<const N: usize> DistanceTable<N> {
         self.tolerance
     }
 
-    /// Returns `true` if the light that leaves a flat part, of an outline in mm and an area in mm^2, is at most the
-    /// tolerance times the total: to first order, the outline times the mean exit distance over pi times the area.
-    pub(super) fn keeps_light(&self, outline: f64, area: f64) -> bool {
-        self.exit.iter().all(|exit| outline * exit <= self.tolerance * PI * area)
+    /// The radius around an entering photon that all light leaves within, but for the tolerance and in any channel, in mm.
+    pub(super) fn layer(&self) -> f64 {
+        self.layer
     }
 
     /// How many times two pieces are to be halved until their parts are far from each other.
@@ -349,11 +323,17 @@ mod tests {
         Dipole::new(Coefficients { sigma_s_prime, sigma_a }, 1.3).expect("a medium")
     }
 
+    /// R_d at a distance.
+    fn at(kernel: &DistanceTable<1>, r: f64) -> f64 {
+        let (interval, t) = kernel.find(r * r);
+        derivatives_at(interval.cubic[0], t)[0]
+    }
+
     #[test]
     fn the_table_keeps_its_bound_and_is_never_below_r_d() {
         for medium in [dipole(2.21, 0.0012), dipole(0.68, 0.9), dipole(1.0, 0.0), dipole(40.0, 7.0)] {
             let kernel = DistanceTable::new([medium], 300.0, 1e4, 0.01);
-            let bound = kernel.interpolation_error();
+            let bound = kernel.interpolation_error;
             assert!(bound > 0.0 && bound <= MAX_INTERPOLATION_ERROR, "{bound}");
             let mut worst: f64 = 0.0;
             for k in 0..20_000 {
@@ -362,7 +342,7 @@ mod tests {
                 if medium.sigma_tr() * r > MATTERS {
                     break;
                 }
-                let (exact, [found]) = (medium.r_d(r), kernel.at(r * r));
+                let (exact, found) = (medium.r_d(r), at(&kernel, r));
                 let error = (found - exact) / exact;
                 assert!(error <= 1e-12 && error >= -bound - 1e-12, "at {r}: {error} against {bound}");
                 worst = worst.max(-error);
@@ -376,7 +356,7 @@ mod tests {
         for (s, a) in [(1e-30, 0.0), (1e-30, 1e30), (1e30, 0.0), (1e30, 1e30), (1.0, 1e-300)] {
             let kernel = DistanceTable::new([dipole(s, a)], 1e20, 1e40, 0.01);
             for r in [0.0, 1e-20, 1.0, 1e20] {
-                let [value] = kernel.at(r * r);
+                let value = at(&kernel, r);
                 assert!(value.is_finite() && value >= 0.0, "{s} {a} {r}: {value}");
             }
         }

@@ -2,18 +2,17 @@
 
 use std::f64::consts::TAU;
 
+use crossbar::elementary::{ln, sin_cos};
+use crossbar::geom::random::CounterRng;
+use crossbar::subsurface::fresnel_transmittance;
 use glam::DVec3;
-
-use crate::elementary::{ln, sin_cos};
-use crate::geom::random::CounterRng;
-use crate::subsurface::fresnel::fresnel_transmittance;
 
 /// Tries for a direction that passes the boundary.
 const MAX_TRIES: u32 = 1000;
 
 /// How photons enter. All counts are per photon that has passed the boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PhotonEntry {
+pub(crate) enum PhotonEntry {
     /// Equal radiance from all directions outside, refracted.
     Diffuse,
     /// A beam from outside at this cosine of the angle of incidence, refracted, at random around the normal.
@@ -22,45 +21,38 @@ pub enum PhotonEntry {
 
 /// The random numbers of one photon.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PhotonRng {
+pub(crate) struct PhotonRng {
     stream: CounterRng,
     photon: u64,
     event: u64,
 }
 
 impl PhotonRng {
-    pub(super) fn new(seed: u64, photon: u64) -> Self {
+    pub(crate) fn new(seed: u64, photon: u64) -> Self {
         Self { stream: CounterRng::new(seed), photon, event: 0 }
     }
 
     /// Two numbers in (0, 1), odd multiples of 2^-33.
-    pub(super) fn pair(&mut self) -> [f64; 2] {
+    fn pair(&mut self) -> [f64; 2] {
         let bits = self.stream.bits(self.photon, self.event, 0);
         self.event += 1;
         [bits >> 32, bits & 0xffff_ffff].map(|half| (half as f64 + 0.5) / 4_294_967_296.0)
     }
 
     /// A direction, all equally likely.
-    pub(super) fn direction(&mut self) -> DVec3 {
+    pub(crate) fn direction(&mut self) -> DVec3 {
         let [u, v] = self.pair();
         around(DVec3::Z, 1.0 - 2.0 * u, v)
     }
 
     /// Length of a step in mean free paths, and a number in (0, 1) for what happens at its end.
-    pub(super) fn step(&mut self) -> [f64; 2] {
+    pub(crate) fn step(&mut self) -> [f64; 2] {
         let [u, v] = self.pair();
         [-ln(u), v]
     }
 
-    /// A point of the unit triangle, as weights of its three corners.
-    pub(super) fn barycentric(&mut self) -> DVec3 {
-        let [u, v] = self.pair();
-        let root = u.sqrt();
-        DVec3::new(1.0 - root, root * (1.0 - v), root * v)
-    }
-
     /// The direction of a photon that enters, for the unit normal that points inwards.
-    pub(super) fn enter(&mut self, entry: PhotonEntry, eta: f64, inwards: DVec3) -> DVec3 {
+    pub(crate) fn enter(&mut self, entry: PhotonEntry, eta: f64, inwards: DVec3) -> DVec3 {
         let outside: Option<f64> = match entry {
             PhotonEntry::Beam(cosine) => Some(cosine),
             // At least a third of what is tried passes: the limit is for indices that are no numbers.
@@ -77,7 +69,7 @@ impl PhotonRng {
     }
 
     /// Returns `true` if a photon leaves at the boundary, which it meets from inside at this cosine.
-    pub(super) fn leaves(&mut self, eta: f64, cosine: f64) -> bool {
+    pub(crate) fn leaves(&mut self, eta: f64, cosine: f64) -> bool {
         self.pair()[0] < fresnel_transmittance(1.0 / eta, cosine)
     }
 }
@@ -91,6 +83,6 @@ fn around(axis: DVec3, cosine: f64, turn: f64) -> DVec3 {
 }
 
 /// A direction after reflection by a plane with this unit normal.
-pub(super) fn reflected(direction: DVec3, normal: DVec3) -> DVec3 {
+pub(crate) fn reflected(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }

@@ -82,24 +82,3 @@ impl Moments {
         Self { area, point, covariance, size_squared: 0.0 }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn four_squares_make_a_square() {
-        let square = |x: f64, y: f64| Moments {
-            area: 1.0,
-            point: DVec3::new(x, y, 2.0),
-            covariance: Covariance::of([(1.0 / 12.0, DVec3::X), (1.0 / 12.0, DVec3::Y)]),
-            size_squared: 0.5,
-        };
-        let all = Moments::together(&[square(0.0, 0.0), square(1.0, 0.0), square(0.0, 1.0), square(1.0, 1.0)]);
-        assert_eq!((all.area, all.point), (4.0, DVec3::new(0.5, 0.5, 2.0)));
-        assert_relative_eq!(all.covariance.0[0], 4.0 / 12.0, max_relative = 1e-15);
-        assert_relative_eq!(all.covariance.along(DVec3::new(1.0, 1.0, 5.0)), 8.0 / 12.0, max_relative = 1e-15);
-        assert_relative_eq!(all.covariance.trace(), 8.0 / 12.0, max_relative = 1e-15);
-    }
-}

@@ -1,20 +1,16 @@
 //! Factors by descent from a cluster.
 
-use super::error::FactorError;
 use super::kernel::{DistanceTable, add};
 use super::near::{PieceCache, texel_mean};
 use super::surface::{ClusterId, SurfaceMoments, to_morton};
 use super::{MAX_TOLERANCE, MIN_TOLERANCE};
+use crate::error::{InputError, ensure};
 use crate::subsurface::Dipole;
 
 /// Factors of N channels between the texels and clusters of a surface.
 ///
 /// The error of a factor is at most the tolerance times the factor, plus the tolerance times 1e-5 of the plane's total
 /// ([`Dipole::total`]): what is farther away than light of that order comes from is not divided.
-///
-/// Between two texels that keep their light the error is at most the tolerance times the total. A texel keeps its light
-/// if what leaves it, to first order its outline times the mean exit distance over pi times its area, is at most the
-/// tolerance times the total. Texels whose outlines exceed 20,000 mean free paths count as such, too.
 #[derive(Clone, Debug)]
 pub struct Factors<'a, const N: usize> {
     surface: &'a SurfaceMoments,
@@ -25,22 +21,16 @@ impl<'a, const N: usize> Factors<'a, N> {
     /// Factors within a tolerance, for example [`super::TOLERANCE`].
     ///
     /// # Errors
-    /// [`FactorError::Tolerance`] if it is out of range.
-    pub fn new(surface: &'a SurfaceMoments, dipoles: [Dipole; N], tolerance: f64) -> Result<Self, FactorError> {
-        if !(MIN_TOLERANCE..=MAX_TOLERANCE).contains(&tolerance) {
-            return Err(FactorError::Tolerance { found: tolerance });
-        }
+    /// [`InputError`] if it is not from [`MIN_TOLERANCE`] to [`MAX_TOLERANCE`].
+    pub fn new(surface: &'a SurfaceMoments, dipoles: [Dipole; N], tolerance: f64) -> Result<Self, InputError> {
+        ensure!((MIN_TOLERANCE..=MAX_TOLERANCE).contains(&tolerance), "subsurface::links" =>
+            "expected a tolerance of factors from {MIN_TOLERANCE} to {MAX_TOLERANCE}, found {tolerance}");
         Ok(Self { surface, kernel: DistanceTable::new(dipoles, surface.diameter(), surface.area(), tolerance) })
     }
 
     /// The surface.
     pub fn surface(&self) -> &'a SurfaceMoments {
         self.surface
-    }
-
-    /// A proved bound on the relative error of the tabulated R_d, within 25 diffusion lengths.
-    pub fn interpolation_error(&self) -> f64 {
-        self.kernel.interpolation_error()
     }
 
     /// F_iC per channel, of the texel in column `x` and row `y` and a cluster.

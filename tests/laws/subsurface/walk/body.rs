@@ -1,12 +1,10 @@
 //! Walks in bodies whose boundary has a formula.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::boundary::{PhotonRng, reflected};
-use super::settings::PhotonWalk;
+use super::PhotonWalk;
+use super::photon::{PhotonRng, reflected};
 use super::tally::{BATCHES, BatchCounts, WalkTally};
 
 /// A body in mean free paths, entered at its origin along +z.
@@ -58,26 +56,17 @@ impl Body for Sphere {
 
 /// Follows photons that enter a half space at a point. Bins are the rings between ascending `radii` in mm, the first
 /// of which is a disc.
-pub fn half_space(walk: &PhotonWalk, radii: &[f64]) -> WalkTally {
-    let areas = rings(radii);
-    follow(walk, HalfSpace, radii, areas)
+pub(crate) fn half_space(walk: &PhotonWalk, radii: &[f64]) -> WalkTally {
+    follow(walk, HalfSpace, radii)
 }
 
 /// Follows photons that enter a sphere of this radius (mm) at a point. Bins are the rings between ascending chords in
 /// mm from that point.
-pub fn sphere(walk: &PhotonWalk, radius: f64, chords: &[f64]) -> WalkTally {
-    // A ring between two chords has the area of the flat one.
-    let chords: Vec<f64> = chords.iter().map(|chord| chord.min(2.0 * radius)).collect();
-    let areas = rings(&chords);
-    follow(walk, Sphere { radius: radius * walk.coefficients.sigma_t_prime() }, &chords, areas)
+pub(crate) fn sphere(walk: &PhotonWalk, radius: f64, chords: &[f64]) -> WalkTally {
+    follow(walk, Sphere { radius: radius * walk.coefficients.sigma_t_prime() }, chords)
 }
 
-fn rings(radii: &[f64]) -> Vec<f64> {
-    let inner = [0.0].into_iter().chain(radii.iter().copied());
-    inner.zip(radii).map(|(inner, outer)| PI * (outer - inner) * (outer + inner)).collect()
-}
-
-fn follow(walk: &PhotonWalk, body: impl Body, radii: &[f64], areas: Vec<f64>) -> WalkTally {
+fn follow(walk: &PhotonWalk, body: impl Body, radii: &[f64]) -> WalkTally {
     let sigma_t = walk.coefficients.sigma_t_prime();
     let squares: Vec<f64> = radii.iter().map(|radius| (radius * sigma_t) * (radius * sigma_t)).collect();
     let batches = (0..BATCHES).into_par_iter().map(|batch| {
@@ -96,7 +85,7 @@ fn follow(walk: &PhotonWalk, body: impl Body, radii: &[f64], areas: Vec<f64>) ->
         }
         counts
     });
-    WalkTally::new(areas, batches.collect(), 1.0 / sigma_t)
+    WalkTally::new(batches.collect(), 1.0 / sigma_t)
 }
 
 enum Fate {
