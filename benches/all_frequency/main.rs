@@ -2,12 +2,10 @@
 //! terms, sixteen representatives, 3,801 clusters, omega of 61.8 %), all light coefficients, two threads.
 //!
 //! Figure to beat: 13 frames per second, ten times the printed 1.3 without drawing, so 77 ms for steps 2 and 3;
-//! an element is one of their multiplications. For comparison: dense representatives, and equation 13 in plain f64
-//! loops. `density` finds where sparse representatives lose time: one segment, by the share of its nonzero numbers.
-//! Sparse storage is larger above two thirds, where three bytes per nonzero number exceed two per number.
+//! an element is one of their multiplications. For comparison: equation 13 in plain f64 loops.
+//! `density` is the time of one segment by the share of its nonzero numbers.
 //!
-//! Measured once on two quiet cores: 46 ms, versus 458 ms for plain loops on one; representatives take 23 ms sparse and
-//! 61 dense, with 211 and 645 MB; sparse ones lose no time at any density.
+//! Measured once on two quiet cores: 46 ms, versus 458 ms for plain loops on one; representatives take 23 ms and 211 MB.
 //!
 //! The data are random, because compression would take an hour and the frame time does not depend on the values.
 //!
@@ -18,7 +16,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use crossbar::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, SparseRows};
-use crossbar::all_frequency::shade::{Multiplies, Representatives, Shader, plain};
+use crossbar::all_frequency::shade::{Multiplies, Shader, plain};
 use crossbar::geom::random::CounterRng;
 
 const VERTICES: usize = 51_300;
@@ -74,25 +72,21 @@ fn main() {
     let teapot = coded((0..SEGMENTS).map(|at| segment(at, FILLED, CLUSTERS, DENSITY)).collect());
     let mut group = criterion.benchmark_group("teapot");
     group.sample_size(10).warm_up_time(Duration::from_millis(200));
-    for (name, held) in [("sparse", Representatives::Sparse), ("dense", Representatives::Dense)] {
-        let shader = Shader::new(&teapot, held);
-        let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
-        // The size is part of the name, so that it is reported with the time.
-        let label = format!("{name}, {} MB", shader.bytes() / 1_000_000);
-        group.throughput(Throughput::Elements(per_cluster));
-        group.bench_function(BenchmarkId::new("clusters", label), |bench| {
-            bench.iter(|| black_box(shader.per_cluster(&light).expect("products")));
-        });
-        if held == Representatives::Sparse {
-            let products = shader.per_cluster(&light).expect("products");
-            group.throughput(Throughput::Elements(per_vertex));
-            group.bench_function("vertices", |bench| bench.iter(|| black_box(shader.weighted(&products))));
-            group.throughput(Throughput::Elements(per_cluster + per_vertex));
-            group.bench_function("steps 2 and 3", |bench| {
-                bench.iter(|| black_box(shader.transferred(&light).expect("radiance")));
-            });
-        }
-    }
+    let shader = Shader::new(&teapot);
+    let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
+    // The size is part of the name, so that it is reported with the time.
+    let label = format!("{} MB", shader.bytes() / 1_000_000);
+    group.throughput(Throughput::Elements(per_cluster));
+    group.bench_function(BenchmarkId::new("clusters", label), |bench| {
+        bench.iter(|| black_box(shader.per_cluster(&light).expect("products")));
+    });
+    let products = shader.per_cluster(&light).expect("products");
+    group.throughput(Throughput::Elements(per_vertex));
+    group.bench_function("vertices", |bench| bench.iter(|| black_box(shader.weighted(&products))));
+    group.throughput(Throughput::Elements(per_cluster + per_vertex));
+    group.bench_function("steps 2 and 3", |bench| {
+        bench.iter(|| black_box(shader.transferred(&light).expect("radiance")));
+    });
     let exact: Vec<[f64; 3]> = light.iter().map(|rgb| rgb.map(f64::from)).collect();
     group.bench_function("plain loops in f64", |bench| {
         bench.iter(|| black_box(plain::transferred_of_code(&teapot, &exact).expect("radiance")));
@@ -103,13 +97,11 @@ fn main() {
     group.sample_size(10).warm_up_time(Duration::from_millis(100)).measurement_time(Duration::from_secs(1));
     for percent in [5, 20, 40, 60, 80, 100] {
         let one = coded(vec![segment(0, FILLED, CLUSTERS, f64::from(percent) / 100.0)]);
-        for (name, held) in [("sparse", Representatives::Sparse), ("dense", Representatives::Dense)] {
-            let shader = Shader::new(&one, held);
-            group.throughput(Throughput::Elements(shader.multiplies(&light).per_cluster));
-            group.bench_function(BenchmarkId::new(name, percent), |bench| {
-                bench.iter(|| black_box(shader.per_cluster(&light).expect("products")));
-            });
-        }
+        let shader = Shader::new(&one);
+        group.throughput(Throughput::Elements(shader.multiplies(&light).per_cluster));
+        group.bench_function(BenchmarkId::new("clusters", percent), |bench| {
+            bench.iter(|| black_box(shader.per_cluster(&light).expect("products")));
+        });
     }
     group.finish();
     criterion.final_summary();

@@ -145,8 +145,6 @@ mod tests {
     fn what_is_foreign_to_the_subject_is_left_out() {
         let line = "crossbar all-frequency factor --table q.csv --terms 3";
         assert_eq!(resolved(&line.split(' ').collect::<Vec<_>>()), line);
-        let merl = resolved(&["crossbar", "all-frequency", "factor", "--merl", "m.binary"]);
-        assert!(merl.contains("--clamp 3") && !merl.contains("--isotropy"), "{merl}");
     }
 
     /// Resolved options parse to themselves.
@@ -156,7 +154,6 @@ mod tests {
             "crossbar leaky-teapot --brute-force --device r200 --device nv20",
             "crossbar radiosity cornell-room --per-side 3 --picture-after 1,2 --solver card --solver direct --switch rounding=rtz",
             "crossbar all-frequency factor --table q.csv",
-            "crossbar all-frequency factor --merl m.binary --channel red",
             "crossbar all-frequency factor --brdf phong --exponent 9",
             "crossbar render cornell-box",
             "crossbar radiosity room.obj --emit light=1,0,0 --eye -1,0,2",

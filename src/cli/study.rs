@@ -4,7 +4,7 @@
 //! A study's command says what its options are and what they ask for; [`run`] does the rest.
 
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::json;
 
@@ -110,13 +110,6 @@ pub(super) fn written<'a>(found: &mut Findings, files: impl IntoIterator<Item = 
         if let Some(path) = path {
             found.print(format!("written   {}", path.display()));
         }
-    }
-}
-
-/// Adds a line on arrays that were written to a folder.
-pub(super) fn written_arrays(found: &mut Findings, written: Option<&[PathBuf]>, folder: Option<&Path>) {
-    if let (Some(written), Some(folder)) = (written, folder) {
-        found.print(format!("written   {} arrays in {}", written.len(), folder.display()));
     }
 }
 

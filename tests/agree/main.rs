@@ -34,7 +34,6 @@ mod subsurface;
 mod suite;
 mod system;
 mod traces;
-mod visibility;
 
 /// Runs the suite that a test is named after: its path without the crate.
 fn suite(module: &str, test: &str) {

@@ -113,7 +113,7 @@ fn what_no_card_takes_is_refused() {
     let out = place(folder.path(), "out");
     for (file, options, words) in [
         (CODED, "--weights fp16", "unexpected argument '--weights'"),
-        (&coded, "--way colors --partial", "`--partial` is for `--way products` and `sums`, found `--way colors`"),
+        (&coded, "--way colors --partial", "`--partial` is for `--way products`, found `--way colors`"),
         ("docs/examples/step_small.npz", "--way colors", "`crossbar cpca` takes it"),
         (CODED, "--original docs/examples/step_all_small.npz", "expected visibility with the same reflectance"),
         (&coded, "--original docs/examples/step_all.npz", "expected visibility with the same reflectance"),

@@ -6,7 +6,6 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crossbar::all_frequency::factor::parse_merl;
 use crossbar::all_frequency::file::parse_all_frequency;
 use crossbar::bi_scale::file::parse_bi_scale;
 use crossbar::io;
@@ -109,8 +108,6 @@ fn good_files() -> Vec<GoodFile> {
     let picture = Picture::rgb(8, 8, &colors).with("id", ChannelUnit::Id, Samples::Uint(vec![1; 64])).expect("ids");
     let mut array = Vec::new();
     io::write_npy_array(&[2, 3], &[0.5; 6], &mut array).expect("an array");
-    let mut merl = [90_i32, 90, 180].map(i32::to_le_bytes).concat();
-    merl.extend([0; 64]);
     let decoded = |bytes: &[u8], _: &Path| drop(Picture::decode(bytes));
     let file = |name, bytes: Vec<u8>, read| GoodFile { name, bytes, read };
     vec![
@@ -141,7 +138,6 @@ fn good_files() -> Vec<GoodFile> {
         file("l.sources.csv", b"x,y,z,degrees,r,g,b\n0,0,2,1,1,2,3\n".to_vec(), |bytes, name| {
             drop(io::parse_light_sources(bytes, name));
         }),
-        file("b.binary", merl, |bytes, name| drop(parse_merl(bytes, name))),
         file("s.npz", stored("docs/examples/step_small.npz"), |bytes, name| drop(parse_prt(bytes, name))),
         file("a.npz", stored("docs/examples/step_all_small.npz"), |bytes, name| {
             drop(parse_all_frequency(bytes, name));

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use crossbar::io::{NumberTable, parse_npy, write_npy};
+use crossbar::io::{NumberTable, write_npy};
 use crossbar::picture::{Picture, exr};
 use serde_json::Value;
 
@@ -24,39 +24,6 @@ fn the_examples_are_made_by_the_commands() {
         let options = ["--clusters", "8", "--vectors", "3", "--out", &out, "--threads", threads];
         document(&[&["cpca", "compress", transfer][..], &options].concat());
         assert_eq!(fs::read(&out).expect("written"), fs::read(small).expect("an example"), "{threads} threads");
-    }
-}
-
-/// Arrays hold the file's contents: a point is its cluster's mean plus its weights times the vectors.
-#[test]
-fn files_are_written_as_arrays() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [_, transfer, small] = STEP;
-    let read = |arrays: &str, name: &str| {
-        let bytes = fs::read(Path::new(arrays).join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        parse_npy::<f64>(&bytes, Path::new(name)).expect("an array")
-    };
-    let [whole, clusters] = ["whole", "clusters"].map(|name| place(folder.path(), name));
-    document(&["cpca", "show", transfer, "--arrays", &whole]);
-    let found = read(&whole, "transfer.npy");
-    let shown = document(&["cpca", "show", transfer, "--vertex", "12"]);
-    let given = shown["vertex"]["transfer"].as_array().expect("numbers");
-    assert_eq!((found.columns, found.values.len() % 9), (9, 0));
-    for (found, given) in found.values[12 * 9..13 * 9].iter().zip(given) {
-        assert_relative_eq!(*found, number(given), max_relative = 1e-6);
-    }
-    let shown = document(&["cpca", "show", small, "--vertex", "12", "--arrays", &clusters]);
-    let [means, vectors, weights, of_point] =
-        ["means.npy", "vectors.npy", "weights.npy", "clusters.npy"].map(|name| read(&clusters, name));
-    let cluster = of_point.values[12];
-    let mut point: Vec<f64> = means.values[9 * cluster as usize..][..9].to_vec();
-    let own = vectors.values.chunks_exact(10).filter(|row| row[0] == cluster);
-    for (weight, row) in weights.values[12 * weights.columns..].iter().zip(own) {
-        point.iter_mut().zip(&row[1..]).for_each(|(into, value)| *into += weight * value);
-    }
-    let given = shown["vertex"]["clustered"]["approximation"].as_array().expect("numbers");
-    for (found, given) in point.iter().zip(given) {
-        assert_relative_eq!(*found, number(given), max_relative = 1e-4, epsilon = 1e-6);
     }
 }
 

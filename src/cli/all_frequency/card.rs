@@ -34,8 +34,6 @@ enum WayArg {
     Colors,
     /// The product with factors of the view, which are in textures, for each pixel
     Products,
-    /// That, and before it the sums over representatives, vertex by vertex in textures
-    Sums,
 }
 
 /// Draw a model under distant light on an emulated card, from coded transfer
@@ -78,7 +76,7 @@ impl Args {
                 ("--filter", self.filter.is_some()),
                 ("--partial", self.partial),
             ];
-            given::refuse(of_products, "`--way products` and `sums`, found `--way colors`", "leave it out")?;
+            given::refuse(of_products, "`--way products`, found `--way colors`", "leave it out")?;
             return Ok(ProductPlace::Vertices(VertexColors::Bytes));
         }
         let without = [("--partial", self.partial && profile.rules.partial.is_none())];
@@ -111,6 +109,6 @@ impl StudyArgs for Args {
         let place = self.place(&card.profile)?;
         let lit = self.lit.load()?;
         card.values = self.card.values.of(&self.lit.picture.model, &lit.vertices);
-        Ok(AllFrequencyOnCard { lit, place, sums_on_card: self.way == WayArg::Sums, card })
+        Ok(AllFrequencyOnCard { lit, place, card })
     }
 }

@@ -6,8 +6,7 @@ use clap::ArgGroup;
 
 use super::factor_values::{LimitArg, ModelArg, SupersamplesArg};
 use crate::all_frequency::factor::{
-    Denominators, FactorSampling, FresnelForm, Lobe, MAX_MAP_SIDE, MerlChannel, ProductClamp, Shadowing, load_merl,
-    load_product_table,
+    Denominators, FactorSampling, FresnelForm, Lobe, MAX_MAP_SIDE, Shadowing, load_product_table,
 };
 use crate::cli::memory::MemoryNeed;
 use crate::cli::study::{StudyArgs, StudyFiles};
@@ -28,13 +27,11 @@ Examples:
       other forms of its factors, and three roughnesses side by side
   crossbar all-frequency factor --table docs/examples/reflectance.csv --terms 4 --json
       any table of reflectance times cosine: a row per view, a column per light, by texels of square parabolic maps
-  crossbar all-frequency factor --merl gold-metallic-paint.binary --channel green --terms 20
-      a measurement of the MERL database
 
 Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
 docs/papers/all_frequency.md says what the options are.";
 
-/// Options of a model, which a measurement or a table has no use for.
+/// Options of a model, which a table has no use for.
 const OF_MODEL: [&str; 8] =
     ["roughness", "fresnel", "isotropy", "exponent", "albedo", "denominators", "fresnel_form", "shadowing"];
 /// Options of how reflectance is sampled, which a table is already.
@@ -43,19 +40,15 @@ const OF_SAMPLING: [&str; 3] = ["side", "supersamples", "clamp"];
 /// Factor reflectance into functions of view and of light: singular values, errors, tables
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true,
-          group = ArgGroup::new("subject").args(["brdf", "merl", "table"]).required(true))]
+          group = ArgGroup::new("subject").args(["brdf", "table"]).required(true))]
 pub(super) struct Args {
     /// A model of reflectance
-    #[arg(long, value_enum, value_name = "MODEL", conflicts_with = "channel")]
+    #[arg(long, value_enum, value_name = "MODEL")]
     brdf: Option<ModelArg>,
-
-    /// A measurement of the MERL database: a .binary file
-    #[arg(long, value_name = "FILE", conflicts_with_all = OF_MODEL)]
-    merl: Option<PathBuf>,
 
     /// A table of reflectance times the light's cosine, CSV or NumPy's: a row per texel of the view's map, a column per
     /// texel of the light's, both square
-    #[arg(long, value_name = "FILE", conflicts_with = "channel", conflicts_with_all = OF_MODEL.iter().chain(&OF_SAMPLING))]
+    #[arg(long, value_name = "FILE", conflicts_with_all = OF_MODEL.iter().chain(&OF_SAMPLING))]
     table: Option<PathBuf>,
 
     /// Roughness of cook-torrance and schlick [default: the paper's, 0.4 and 0.2]
@@ -90,10 +83,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "S", value_parser = variants::<Shadowing>())]
     shadowing: Option<Shadowing>,
 
-    /// The channel of a measurement
-    #[arg(long, value_name = "C", default_value = "green", value_parser = variants::<MerlChannel>())]
-    channel: MerlChannel,
-
     /// Texels along an edge of the parabolic maps
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=MAX_MAP_SIDE as i64))]
     side: u32,
@@ -121,12 +110,7 @@ pub(super) struct Args {
 
 impl Args {
     fn sampling(&self) -> FactorSampling {
-        FactorSampling {
-            side: self.side as usize,
-            supersamples: self.supersamples.0,
-            clamp: self.clamp.0.map_or(ProductClamp::None, ProductClamp::Means),
-            ..FactorSampling::default()
-        }
+        FactorSampling { side: self.side as usize, supersamples: self.supersamples.0, limit: self.clamp.0 }
     }
 
     fn lobe(&self, lobe: Lobe) -> Result<FactorSubject, Problem> {
@@ -192,15 +176,12 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "fewer `--terms`";
 
     fn files(&self) -> StudyFiles<'_> {
-        let inputs = [&self.merl, &self.table].into_iter().flatten().map(PathBuf::as_path).collect();
-        StudyFiles::new(Some(&self.out), None, inputs)
+        StudyFiles::new(Some(&self.out), None, self.table.iter().map(PathBuf::as_path).collect())
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         /// Of each value of the table: it, its copies, and the rotations of its singular values.
         const PER_VALUE: u64 = 160;
-        /// Of a MERL file: its bytes and its cells.
-        const MERL: u64 = 3 * 35_000_000;
         let texels = u64::from(self.side) * u64::from(self.side);
         let (what, help, values) = match &self.table {
             // A number and its comma take two bytes at least.
@@ -211,15 +192,13 @@ impl StudyArgs for Args {
             None => (format!("maps of {0} x {0} texels", self.side), "ask for a smaller `--side`", texels * texels),
         };
         let most = (MAX_MAP_SIDE as u64).pow(4);
-        let merl = if self.merl.is_some() { MERL } else { 0 };
-        Ok(Some(MemoryNeed { what, bytes: values.min(most).saturating_mul(PER_VALUE).saturating_add(merl), help }))
+        Ok(Some(MemoryNeed { what, bytes: values.min(most).saturating_mul(PER_VALUE), help }))
     }
 
     fn study(&self) -> miette::Result<BrdfFactors> {
-        let (name, subject) = match (&self.merl, &self.table, self.brdf) {
-            (Some(path), ..) => (path.display().to_string(), FactorSubject::Merl(load_merl(path)?, self.channel)),
-            (None, Some(path), _) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),
-            (None, None, model) => {
+        let (name, subject) = match (&self.table, self.brdf) {
+            (Some(path), _) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),
+            (None, model) => {
                 let model = model.unwrap_or(ModelArg::CookTorrance);
                 let name = match model {
                     ModelArg::CookTorrance => "Cook and Torrance's model",

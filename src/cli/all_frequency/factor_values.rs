@@ -20,15 +20,15 @@ pub(super) enum ModelArg {
     Lambert,
 }
 
-/// Where f is cut off.
+/// Where f is cut off; infinity for `none`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LimitArg(pub(super) Option<f64>);
+pub(super) struct LimitArg(pub(super) f64);
 
 impl FromStr for LimitArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if text == "none" { Ok(Self(None)) } else { number::positive(text).map(|limit| Self(Some(limit))) }
+        if text == "none" { Ok(Self(f64::INFINITY)) } else { number::positive(text).map(Self) }
     }
 }
 
@@ -54,10 +54,10 @@ mod tests {
 
     #[test]
     fn limits_and_supersamples_are_read_and_bad_ones_refused() {
-        assert_eq!("none".parse(), Ok(LimitArg(None)));
-        assert_eq!("2.5".parse(), Ok(LimitArg(Some(2.5))));
+        assert_eq!("none".parse(), Ok(LimitArg(f64::INFINITY)));
+        assert_eq!("2.5".parse(), Ok(LimitArg(2.5)));
         assert!("0".parse::<LimitArg>().is_err() && "-1".parse::<LimitArg>().is_err());
-        assert_eq!("16x1".parse(), Ok(SupersamplesArg(Supersamples::VIEW)));
+        assert_eq!("16x1".parse(), Ok(SupersamplesArg(Supersamples { view: 16, light: 1 })));
         assert!(["4", "0x4", "17x1", "4x4x4", "x"].iter().all(|text| text.parse::<SupersamplesArg>().is_err()));
     }
 }

@@ -1,6 +1,5 @@
 //! `crossbar all-frequency`: transfer for light of all frequencies, one file per verb.
 
-mod arrays;
 mod card;
 mod compress;
 mod error;

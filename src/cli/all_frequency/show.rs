@@ -4,12 +4,10 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::arrays;
 use super::file::FileOfModel;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedSegment;
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
-use crate::cli::study::written_arrays;
 use crate::cli::transfer::vertex_choice::VertexChoice;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::view;
@@ -20,8 +18,8 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency show docs/examples/step_all_small.npz
       what is coded, in how many bytes
-  crossbar all-frequency show docs/examples/step_all_small.npz --vertex 12 --arrays arrays
-      and of one vertex: its cluster and weights in each segment; all of it as arrays of NumPy's
+  crossbar all-frequency show docs/examples/step_all_small.npz --vertex 12
+      and of one vertex: its cluster and weights in each segment
   crossbar all-frequency show docs/examples/step_all.npz --at 0.5,0,0 --model docs/examples/step.obj --json
       the vertex nearest to a place of its model, for machines
 
@@ -37,11 +35,6 @@ pub(super) struct Args {
 
     #[command(flatten)]
     vertex: VertexChoice,
-
-    /// Write what the file holds to this folder as arrays of NumPy's: factors, each segment's representatives, weights
-    /// and clusters, and what the vertex sees and its transfer
-    #[arg(long, value_name = "DIR")]
-    arrays: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
@@ -53,19 +46,17 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         }
         None => (load_all_frequency(&args.file, None)?, None),
     };
-    let (file, folder) = (&file, args.arrays.as_deref());
+    let file = &file;
     let vertex = args.vertex.chosen("all-frequency", file.mesh.vertices as usize, of_model.as_ref())?;
     let names = args.vertex.names(of_model.as_ref());
-    let written = folder.map(|folder| arrays::write(file, vertex, folder)).transpose()?;
     let mut found = Findings::new("All-frequency transfer");
     found.fields(header(file));
     let document = vertex.map(|vertex| vertex_document(file, vertex, names.as_ref()));
-    found.fields(json!({ "vertex": document, "arrays": written }));
+    found.fields(json!({ "vertex": document }));
     match vertex {
         None => all(file, &mut found),
         Some(vertex) => one(file, vertex, names.as_ref(), &mut found),
     }
-    written_arrays(&mut found, written.as_deref(), folder);
     Ok(found)
 }
 

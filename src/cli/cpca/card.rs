@@ -67,7 +67,6 @@ impl Args {
         let has = formats.contains(&TexelFormat::Rgba16Snorm);
         PrtCardOptions {
             superclusters: true,
-            vertex_version: None,
             map_side: self.map_side as usize,
             map_format: self.map_format.unwrap_or(if has { TexelFormat::Rgba16Snorm } else { TexelFormat::Rgba8Snorm }),
             weights: self.weights,

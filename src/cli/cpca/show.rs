@@ -5,10 +5,8 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::arrays;
 use super::coherence::count;
 use super::file::model_of;
-use crate::cli::study::written_arrays;
 use crate::cli::transfer::vertex_choice::VertexChoice;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::view;
@@ -25,8 +23,6 @@ Examples:
       one vertex: its cluster, its weights, its transfer
   crossbar cpca show docs/examples/step.npz --at 0.5,0,0 --model docs/examples/step.obj --json
       the vertex nearest to a place of its model, for machines
-  crossbar cpca show docs/examples/step_small.npz --arrays arrays
-      transfer, means, vectors, weights and clusters as arrays of NumPy's
 
 `crossbar cpca render --values csv` writes the radiance of all vertices under a light.";
 
@@ -43,11 +39,6 @@ pub(super) struct Args {
 
     #[command(flatten)]
     vertex: VertexChoice,
-
-    /// Write what the file holds to this folder as arrays of NumPy's: transfer.npy with a row per point, and of
-    /// clusters means.npy, vectors.npy (each with its cluster's number in front), weights.npy and clusters.npy
-    #[arg(long, value_name = "DIR")]
-    arrays: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
@@ -57,11 +48,9 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let vertices = of_model.as_ref().map(|(_, vertices, _)| vertices);
     let vertex = args.vertex.chosen("cpca", file.points(), vertices)?;
     let names = args.vertex.names(vertices);
-    let written = args.arrays.as_deref().map(|folder| arrays::write(&file, folder)).transpose()?;
     let mut found = Findings::new("Low-frequency transfer");
     found.fields(header_document(&file));
     found.fields(json!({
-        "arrays": written,
         "clusters": file.clustering.as_ref().map(clusters_document),
         "superclusters": file.superclusters,
         "made": file.provenance.as_deref().map(made_document),
@@ -71,7 +60,6 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         Some(vertex) => one(&file, vertex, names.as_ref(), &mut found),
         None => all(&file, &mut found),
     }
-    written_arrays(&mut found, written.as_deref(), args.arrays.as_deref());
     Ok(found)
 }
 

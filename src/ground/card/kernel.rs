@@ -124,13 +124,13 @@ pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> 
     Err(KernelError { kernel: what.to_owned(), device: profile.name.clone(), problem })
 }
 
-/// The requested version of vertex programs; by default vs_2_0 where the device has it, else vs_1_1.
+/// The version of vertex programs: vs_2_0 where the device has it, else vs_1_1.
 ///
 /// # Errors
-/// [`KernelError`] if the device does not support it.
-pub fn vertex_version(profile: &Profile, asked: Option<Version>) -> Result<Version, KernelError> {
+/// [`KernelError`] if the device has neither.
+pub fn vertex_version(profile: &Profile) -> Result<Version, KernelError> {
     let has_vs_2_0 = profile.limits.versions.contains(&Version::Vs2_0);
-    let version = asked.unwrap_or(if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 });
+    let version = if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 };
     require_versions(profile, &[version], "the vertex stage")?;
     Ok(version)
 }

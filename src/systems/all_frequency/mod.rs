@@ -1,15 +1,15 @@
 //! System 5: all-frequency transfer for glossy objects (Liu, Sloan, Shum and Snyder 2004).
 //!
+//! - [`mod@reference`]: the paper by plain loops, without compression. Read it first.
 //! - [`factor`]: reflectance as a sum of products of a function of view and a function of light (section 3);
 //! - [`Reflectance`]: these factors, or the exact term of a diffuse surface;
 //! - [`transfer`]: matrices of vertices (section 4), over the light texels of [`grid`](crate::transfer::grid);
 //! - [`compressed`]: each lighting segment's transfer by clusters of linear combinations (section 5);
 //! - [`mod@file`]: compressed transfer in `.npz` files;
-//! - [`code`]: that as integers of a few bits, representatives without their zeros (section 4);
+//! - [`code`]: compressed transfer as integers of a few bits, representatives without their zeros (section 4);
 //! - [`shade`]: transferred radiance from coded transfer and light (section 6);
 //! - [`kernels`], [`on_card`]: transferred radiance drawn by vertex and pixel programs (section 6);
-//! - [`baselines`]: the methods that Figure 1 compares with;
-//! - [`mod@reference`]: all of it by plain loops, without compression.
+//! - [`baselines`]: the methods that Figure 1 compares with.
 
 pub mod baselines;
 pub mod code;

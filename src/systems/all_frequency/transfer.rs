@@ -22,19 +22,13 @@ use crate::transfer::error::out_of_range_error;
 use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation};
 use crate::transfer::haar::Haar;
 use crate::transfer::linear_basis::LinearBasis;
-use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps, check};
+use crate::transfer::visibility::{VisibilityMaps, check};
 use crate::transfer::{Signal, Vertices};
 
 /// Number of light texels, and of coefficients, in a segment.
 const LEN: usize = Segmentation::Quarters.len();
 /// Points per chunk of a sum over all points; it fixes the order of the additions.
 const CHUNK: usize = 1024;
-
-/// Upper bound, in bytes, of the memory for the visibility maps of `vertices` vertices and one segment with `rows`
-/// rows.
-pub const fn transfer_bytes(vertices: u64, rows: u64) -> u64 {
-    vertices * (VISIBILITY_BYTES as u64 + 4 * LEN as u64 * rows + 16)
-}
 
 /// Input of transfer: visibility, and the light's side of the factored BRDF.
 #[derive(Clone, Copy)]

@@ -1,13 +1,13 @@
 //! System 4: precomputed radiance transfer, compressed by clustered principal components.
 //!
-//! - [`transfer`]: a matrix per vertex from light to exit radiance; [`mod@reference`] by plain loops;
+//! - [`mod@reference`]: the paper by plain loops, without compression. Read it first.
+//! - [`transfer`]: a matrix per vertex from light to exit radiance;
 //! - [`coherence`]: clusters that are cheaper to draw;
-//! - [`kernels`], [`on_card`]: compressed transfer drawn by vertex and pixel programs;
-//! - [`baselines`]: the same without compression, to compare with.
+//! - [`kernels`], [`on_card`]: compressed transfer drawn by vertex and pixel programs.
 //!
-//! The compression itself, which system 5 uses as well, is [`crate::transfer::clustering`].
+//! The compression itself, which system 5 uses as well, is [`crate::transfer::clustering`], with a reference of
+//! its own.
 
-pub mod baselines;
 pub mod coherence;
 pub mod kernels;
 pub mod on_card;

@@ -48,11 +48,6 @@ impl LocalFrame {
         [self.tangent(), self.normal()].map(|axis| attribute(axis.to_array(), 0.0))
     }
 
-    /// The global directions of the local axes.
-    pub(super) fn axes(&self) -> [DVec3; 3] {
-        self.axes
-    }
-
     /// A global direction in local coordinates.
     pub fn to_local(&self, direction: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;

@@ -22,8 +22,6 @@ pub const LIGHT_TEXELS: usize = 6 * LIGHT_SIDE * LIGHT_SIDE;
 pub const FINE_DIRECTIONS: usize = 6 * FINE_SIDE * FINE_SIDE;
 /// The light's texels.
 pub const LIGHT_MAP: CubeMap = CubeMap::new(LIGHT_SIDE);
-/// The fine texels, whose centers are the fine directions.
-pub const FINE_MAP: CubeMap = CubeMap::new(FINE_SIDE);
 
 /// The division of the cube into squares, each with its own Haar transform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
@@ -197,6 +195,6 @@ mod tests {
         let fine = FineDirections::get();
         let sum: f64 = fine.solid_angles().iter().sum();
         assert!((sum / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12, "{sum}");
-        assert_eq!(fine.directions()[4 * 16_384 + 64 * 128 + 64], FINE_MAP.direction(4, 64, 64));
+        assert_eq!(fine.directions()[4 * 16_384 + 64 * 128 + 64], CubeMap::new(FINE_SIDE).direction(4, 64, 64));
     }
 }

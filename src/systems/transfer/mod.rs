@@ -25,11 +25,6 @@ pub mod light;
 pub mod linear_basis;
 mod load;
 mod origins;
-#[expect(clippy::needless_range_loop, reason = "arrays in step, lane by lane, become vector instructions")]
-mod packets;
-#[expect(clippy::needless_range_loop, reason = "arrays in step, lane by lane, become vector instructions")]
-mod shadow_leaf;
-mod shadow_tree;
 mod shooter;
 pub mod signal;
 mod skyline;

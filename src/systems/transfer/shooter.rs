@@ -4,14 +4,11 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::origins::RayOrigin;
-use super::packets::PacketedRule;
-use super::shadow_tree::ShadowTree;
-use super::skyline::Occluders;
+use super::skyline::{Occluders, SkyPart};
 use super::vertices::Vertices;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
-use refsim::exec::batch::SimdLevel;
 
 /// The largest length of a ray, 2^126; the range of single precision ends at 2^128.
 const MAX_REACH: f64 = (1_u128 << 126) as f64;
@@ -46,10 +43,11 @@ pub(crate) struct Shooter<'a> {
     pub(crate) vertices: &'a Vertices,
     rule: DirectionRule,
     origins: &'a [RayOrigin],
+    occluders: &'a Occluders,
+    /// The part of the sky that each direction of the rule lies in.
+    parts: Vec<SkyPart>,
     /// Length of rays.
     reach: f64,
-    packets: PacketedRule,
-    tree: ShadowTree,
 }
 
 impl<'a> Shooter<'a> {
@@ -57,45 +55,32 @@ impl<'a> Shooter<'a> {
         vertices: &'a Vertices,
         rule: &DirectionRule,
         origins: &'a [RayOrigin],
-        occluders: &Occluders,
+        occluders: &'a Occluders,
     ) -> Self {
-        let reach = ray_length(vertices);
-        let (packets, tree) = (PacketedRule::new(rule.directions()), ShadowTree::new(occluders));
-        Self { vertices, rule: rule.clone(), origins, reach, packets, tree }
+        let parts = rule.directions().iter().map(|&direction| SkyPart::of(direction)).collect();
+        Self { vertices, rule: rule.clone(), origins, occluders, parts, reach: ray_length(vertices) }
     }
 
     fn ray(&self, vertex: usize, direction: DVec3) -> Option<Ray> {
         Ray::new(self.origins[vertex].at, narrow(self.reach * direction)).ok()
     }
 
-    /// The rays that the caster must trace; sets the `bits` of directions that are certainly blocked.
+    /// The rays that the caster must trace: those that the skyline does not exclude. Sets the `bits` of directions below
+    /// the geometric horizon, which are certainly blocked.
     pub(crate) fn shadow_rays(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> VertexRays {
-        SimdLevel::widest().run(
-            #[inline(always)]
-            || self.shadow_packets(vertex, waiting, bits),
-        )
-    }
-
-    #[inline(always)]
-    fn shadow_packets(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> VertexRays {
         let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
-        let at = self.tree.origin(origin.at);
+        let skyline = self.occluders.skyline(wide(origin.at), frame, waiting);
         let mut asked = VertexRays { directions: Vec::new(), rays: Vec::new(), below_horizon: 0 };
-        let mut blocker = None;
-        for (number, places) in self.packets.places().enumerate() {
-            let packet = self.packets.packet(number, frame, origin);
-            let shadowed = self.tree.trace(at, &packet, &mut blocker, waiting);
-            for (i, &place) in places.iter().enumerate() {
-                let is_below = packet.live[i] == 0;
-                asked.below_horizon += u64::from(is_below);
-                if is_below || shadowed.blocked[i] != 0 {
-                    bits[place as usize / 64] |= 1 << (place % 64);
-                } else if shadowed.unclear[i] != 0
-                    && let Some(ray) = self.ray(vertex, frame.to_global(self.rule.directions()[place as usize]))
-                {
-                    asked.directions.push(place);
-                    asked.rays.push(ray);
-                }
+        for (at, (&local, &part)) in self.rule.directions().iter().zip(&self.parts).enumerate() {
+            let direction = frame.to_global(local);
+            if origin.is_below_horizon(direction) {
+                asked.below_horizon += 1;
+                bits[at / 64] |= 1 << (at % 64);
+            } else if skyline.is_marked(part)
+                && let Some(ray) = self.ray(vertex, direction)
+            {
+                asked.directions.push(at as u32);
+                asked.rays.push(ray);
             }
         }
         asked

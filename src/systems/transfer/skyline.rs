@@ -149,15 +149,13 @@ fn turns(local: DVec3) -> f64 {
 
 /// A bounding box of triangles, with the index of its children or triangles.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BoxNode {
-    pub(super) middle: DVec3,
-    pub(super) half: DVec3,
+struct BoxNode {
+    middle: DVec3,
+    half: DVec3,
     /// Index of the second child, or of the first triangle of a leaf; the first child follows its parent.
-    pub(super) next: u32,
+    next: u32,
     /// Number of triangles of a leaf; 0 for an inner node.
-    pub(super) count: u32,
-    /// The axis along which the children were split: the first has the lower triangles.
-    pub(super) axis: u8,
+    count: u32,
 }
 
 /// The triangles of a mesh in a hierarchy of boxes.
@@ -180,16 +178,6 @@ impl Occluders {
         let part = |i: usize| SkyPart { ring: (i / COLUMNS) as u8, column: (i % COLUMNS) as u8 };
         let middles = (0..RINGS * COLUMNS).map(|i| part(i).middle()).collect();
         Self { nodes, triangles, middles, part_radii: std::array::from_fn(part_radius) }
-    }
-
-    /// The boxes, parents before children.
-    pub(super) fn nodes(&self) -> &[BoxNode] {
-        &self.nodes
-    }
-
-    /// The corners of the triangles, leaf by leaf.
-    pub(super) fn triangles(&self) -> &[[DVec3; 3]] {
-        &self.triangles
     }
 
     /// The skyline of a point, in the local coordinates of a frame.
@@ -327,7 +315,7 @@ fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
     let node = nodes.len();
     let count = triangles.len();
     if count <= LEAF {
-        nodes.push(BoxNode { middle, half, next: first, count: count as u32, axis: 0 });
+        nodes.push(BoxNode { middle, half, next: first, count: count as u32 });
         return;
     }
     let axis = if half.x >= half.y && half.x >= half.z {
@@ -337,7 +325,7 @@ fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
     } else {
         2
     };
-    nodes.push(BoxNode { middle, half, next: 0, count: 0, axis: axis as u8 });
+    nodes.push(BoxNode { middle, half, next: 0, count: 0 });
     let sum = |corners: &[DVec3; 3]| corners[0][axis] + corners[1][axis] + corners[2][axis];
     triangles.select_nth_unstable_by(count / 2, |one, other| sum(one).total_cmp(&sum(other)));
     let (lower, upper) = triangles.split_at_mut(count / 2);

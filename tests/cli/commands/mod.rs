@@ -46,10 +46,6 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("alu mulAdd", "reads what TestFloat writes, which is not part of the repository"),
     ("devices --probe llvmpipe", "needs this adapter; tests/gpu probes the one that there is"),
     ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
-    (
-        "all-frequency factor --merl",
-        "reads a measurement of 35 MB, which is not part of the repository; tests/laws makes one",
-    ),
     ("cpca precompute transfer-bird", "takes minutes; the other examples compute the same of a small model"),
     ("merge", "reads the parts that other commands write; tests/cli/parts.rs merges those of every command"),
     (

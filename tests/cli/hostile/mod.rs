@@ -218,7 +218,7 @@ fn what_is_wrong_is_said() {
         ("cpca precompute white-box --brdf phong:0.1,0.5,9 --out x.npz", "diffuse materials for diffuse transfer"),
         ("cpca precompute white-box --tangents texture --out x.npz", "no texture coordinates to take tangents from"),
         ("cpca precompute white-box --material marble --out x.npz", "--mm-per-unit <MM>"),
-        ("all-frequency factor", "<--brdf <MODEL> --merl <FILE> --table <FILE>>"),
+        ("all-frequency factor", "--table <FILE>>"),
         ("all-frequency factor --brdf phong --table q.csv", "cannot be used with"),
         ("all-frequency factor --brdf cook-torrance --fresnel 1", "expected a number from 0 to below 1"),
         (

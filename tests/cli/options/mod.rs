@@ -27,18 +27,8 @@ use table::{TABLE, Tried};
 
 /// Options whose value here may be refused everywhere: it names something that this test cannot provide, another model
 /// than that of the file, or a precision that the card does not have.
-const NEVER_ACCEPTED: [&str; 10] = [
-    "--adapter",
-    "--emulator",
-    "--partial",
-    "--probe",
-    "--merl",
-    "--model",
-    "--model-up",
-    "--strict",
-    "--crease",
-    "--switch",
-];
+const NEVER_ACCEPTED: [&str; 9] =
+    ["--adapter", "--emulator", "--partial", "--probe", "--model", "--model-up", "--strict", "--crease", "--switch"];
 
 /// An option of the table.
 #[derive(Clone, Debug)]

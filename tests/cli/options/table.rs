@@ -205,7 +205,7 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca show docs/examples/step.npz --at 0,0,0 --model docs/examples/step.obj",
             "cpca show docs/examples/step.npz --at 0,0,0 --model odd.obj",
         ],
-        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --arrays=other@0,1 --model-up=y --strict@2",
+        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --model-up=y --strict@2",
     },
     Tried {
         bases: &[
@@ -238,9 +238,9 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency factor --brdf lambert --side 4 --supersamples 2x2 --terms 1 --out OUT",
             "all-frequency factor --table docs/examples/reflectance.csv --terms 2 --out OUT",
         ],
-        options: "--brdf=phong@0,1,3,4 --merl=nowhere.binary --table=docs/examples/reflectance.csv@0,1,2,3 --roughness=0.3 \
+        options: "--brdf=phong@0,1,3,4 --table=docs/examples/reflectance.csv@0,1,2,3 --roughness=0.3 \
                   --fresnel=0.3 --isotropy=0.5 --exponent=9 --albedo=0.2 --denominators=product \
-                  --fresnel-form=constant --shadowing=none --channel=red --side=5 \
+                  --fresnel-form=constant --shadowing=none --side=5 \
                   --supersamples=3x3 --clamp=0.05 --terms=1@0,1,2,4 --sweep-roughness=0.2,0.5 \
                   --out=other",
     },
@@ -287,7 +287,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency show docs/examples/step_all.npz --at 0,0,0 --model docs/examples/step.obj",
             "all-frequency show docs/examples/step_all.npz --at 0,0,0 --model odd.obj",
         ],
-        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --arrays=other@0,1 --model-up=y --strict@2",
+        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --model-up=y --strict@2",
     },
     Tried {
         bases: &[
@@ -309,7 +309,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency card glossy.npz --model square.obj --way colors --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=sums@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
+            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=colors@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
              --partial@0,2 --out=other@0,2",
             card!("nv35"),
             picture!("1")

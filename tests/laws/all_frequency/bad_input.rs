@@ -10,12 +10,9 @@ use crossbar::tracer::HostTracer;
 use crossbar::transfer::grid::Segmentation;
 use crossbar::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
 use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
-use crossbar::transfer::visibility::drawn::CubeCard;
-use crossbar::transfer::visibility::{VisibilityMaps, VisibilitySampling};
+use crossbar::transfer::visibility::VisibilityMaps;
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
-use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
 use std::path::Path;
 
 use super::{clutter, trace, vertices};
@@ -66,9 +63,6 @@ fn what_is_no_transfer_is_refused() {
     let mut caster = HostTracer::new(&mesh, crossbar::geom::Sides::Both);
     let error = VisibilityMaps::trace(&vertices, &[0, 9], &mut caster, &mut |_, _| ()).expect_err("nine vertices");
     assert_eq!(error.to_string(), "expected one below the number of vertices for a vertex's number, found 9");
-    let profile = |device: &str| Profile::named(device).expect("a device");
-    let card = |device: &str| CubeCard::new(profile(device), ExecutorKind::Scalar, VisibilitySampling::default());
-    assert!(card("r350").expect("a card").draw(&vertices, &[9]).is_err());
     let (maps, hats) = (trace(&mesh, &vertices, &[2, 5]), LinearBasis::new(BasisWidth::OneTexel));
     let other = super::vertices(&clutter(1, 1, 1.0));
     let elsewhere = FactoredTransfer {

@@ -3,7 +3,7 @@
 use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::code::{CodeOptions, CodedTransfer};
 use crossbar::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
-use crossbar::all_frequency::shade::{Representatives, Shader, plain};
+use crossbar::all_frequency::shade::{Shader, plain};
 use crossbar::all_frequency::transfer::{TransferSegment, transfer_of};
 use crossbar::transfer::Vertices;
 use crossbar::transfer::clustering::{CpcaMethod, CpcaStep};
@@ -78,7 +78,7 @@ fn open_diffuse_vertices_under_light_1_give_back_pi() {
     let transfer = compressed(&vertices, &maps, &Reflectance::Diffuse, 3);
     let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
     let light = HaarLight::new(&CubeLight::constant([1.0, 2.0, 0.0]).expect("a light"), Segmentation::Quarters);
-    let radiance = Shader::new(&coded, Representatives::Sparse).transferred(&light.singles()).expect("radiance");
+    let radiance = Shader::new(&coded).transferred(&light.singles()).expect("radiance");
     for vertex in 0..vertices.len() {
         let [red, green, blue] = radiance.of(vertex)[0].map(f64::from);
         // 98,304 directions miss the integral of the cosine by up to a thousandth where the horizon cuts texels.

@@ -1,4 +1,4 @@
-//! Visibility maps: by rays, by the reference's triangles, by an emulated card.
+//! Visibility maps: by rays, by the reference's triangles.
 
 use crossbar::all_frequency::reference::AllFrequencyReference;
 use crossbar::geom::teapot::teapot;
@@ -6,22 +6,15 @@ use crossbar::geom::{Mesh, Sides};
 use crossbar::sphere::CUBE_FACES;
 use crossbar::tracer::HostTracer;
 use crossbar::transfer::Vertices;
-use crossbar::transfer::grid::{FINE_DIRECTIONS, FINE_MAP, FINE_SIDE};
+use crossbar::transfer::grid::{FINE_DIRECTIONS, FINE_SIDE};
 use crossbar::transfer::linear_basis::BasisWidth;
-use crossbar::transfer::visibility::drawn::CubeCard;
 use crossbar::transfer::visibility::{Horizon, VISIBILITY_BYTES, VisibilityMaps, VisibilitySampling};
 use glam::DVec3;
-use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
 
 use super::{all, clutter, in_threads, trace, vertices};
 
 fn face_row_column(fine: usize) -> [usize; 3] {
     [fine / (FINE_SIDE * FINE_SIDE), fine / FINE_SIDE % FINE_SIDE, fine % FINE_SIDE]
-}
-
-fn differing(a: &VisibilityMaps, b: &VisibilityMaps, map: usize) -> Vec<usize> {
-    (0..FINE_DIRECTIONS).filter(|&fine| a.is_visible(map, fine) != b.is_visible(map, fine)).collect()
 }
 
 /// Distance of a fine direction from the nearest edge of a triangle, or from the plane of one that contains the eye, in
@@ -152,43 +145,4 @@ fn rays_see_what_the_reference_sees() {
         }
     }
     assert!(differ < compared / 10_000, "{differ} of {compared}");
-}
-
-/// Snapping error of a corner: half of a sixteenth of a pixel along both axes, plus a margin for single precision.
-const SNAP: f64 = 0.0442 + 0.001;
-
-/// The card snaps corners to sixteenths of a pixel: its bits differ only within that distance of edges, and equal those
-/// of the scalar executor.
-#[test]
-fn the_card_draws_what_rays_see() {
-    for (name, mesh) in meshes() {
-        let vertices = vertices(&mesh);
-        let of: Vec<u32> = some(&vertices).into_iter().step_by(3).collect();
-        let traced = trace(&mesh, &vertices, &of);
-        let draw = |device: &str, executor: ExecutorKind| {
-            let profile = Profile::named(device).expect("a device");
-            CubeCard::new(profile, executor, VisibilitySampling::default())
-                .expect("a card")
-                .draw(&vertices, &of)
-                .expect("maps")
-        };
-        let drawn = draw("r350", ExecutorKind::Batch);
-        assert_eq!(drawn, draw("r350", ExecutorKind::Scalar), "{name}");
-        let (mut differ, mut farthest) = (0, 0.0_f64);
-        for (map, &vertex) in of.iter().enumerate() {
-            let eye = DVec3::from(vertices.positions()[vertex as usize].map(f64::from));
-            for fine in differing(&traced, &drawn, map) {
-                let [face, row, column] = face_row_column(fine);
-                let off = pixels_to_edge(&mesh, eye, fine);
-                assert!(
-                    off < SNAP,
-                    "{name}, vertex {vertex}, {}: {off} pixels off",
-                    FINE_MAP.direction(face, column, row)
-                );
-                (differ, farthest) = (differ + 1, farthest.max(off));
-            }
-        }
-        assert!(differ < of.len() * FINE_DIRECTIONS / 500, "{name}: {differ} of {} maps", of.len());
-        assert_eq!(drawn.counts.above, traced.counts.above);
-    }
 }

@@ -1,6 +1,5 @@
 //! System 4: radiance transfer at vertices, clustered principal components, their coherence, files and cards.
 
-mod baselines;
 mod card;
 mod coherence;
 mod compression;

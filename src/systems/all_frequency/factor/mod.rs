@@ -1,7 +1,7 @@
 //! Factors of reflectance (section 3): f(v, s) = b(v, s) s_z as a sum of products G_k(v) F_k(s).
 //!
 //! - [`ProductFunction`]: f of a reflectance; [`Lobe`] has the forms that the paper leaves open, [`Brdf`] are those of
-//!   `transfer::brdf`, [`MerlBrdf`] measured ones;
+//!   `transfer::brdf`;
 //! - [`FactorSampling`]: f on parabolic maps, a [`ProductTable`]; choices that the paper leaves open are named options;
 //! - [`Factorization`]: its singular values, and [`ProductFactors`] of any number of terms, interpolated between
 //!   texels;
@@ -16,7 +16,6 @@ mod factorization;
 mod factors;
 mod harmonics;
 mod lobe;
-mod merl;
 mod motion;
 mod product;
 mod sampling;
@@ -25,12 +24,11 @@ mod table;
 pub use disc::{DiscSamples, HemisphereSamples, ProductErrors};
 pub use factorization::{Factorization, PAIR_DISTANCE, SplitPair};
 pub use factors::{DiffuseFactor, ProductFactors};
-pub use harmonics::{HarmonicFit, HarmonicSides, harmonic_errors};
+pub use harmonics::harmonic_errors;
 pub use lobe::{Denominators, FacetDistribution, FresnelForm, Lobe, Shadowing, TangentCosine};
-pub use merl::{MERL_CELLS, MerlBrdf, MerlChannel, MerlProduct, load_merl, parse_merl};
 pub use motion::ProductSymmetry;
 pub use product::ProductFunction;
-pub use sampling::{FactorSampling, MAX_SUPERSAMPLES, OutsideDisc, ProductClamp, Supersamples};
+pub use sampling::{FactorSampling, MAX_SUPERSAMPLES, Supersamples};
 pub use table::{MAX_MAP_SIDE, ProductTable, load_product_table};
 
 #[cfg(doc)]

@@ -7,9 +7,7 @@ pub enum ProductSymmetry {
     None,
     /// Mirrors along tangent and bitangent: anisotropic models.
     Mirrors,
-    /// Quarter turns around the normal: isotropic measurements, which need not have a mirror.
-    Turns,
-    /// Both: isotropic models.
+    /// Quarter turns around the normal, and mirrors: isotropic models.
     TurnsAndMirrors,
 }
 
@@ -31,7 +29,6 @@ impl ProductSymmetry {
         match self {
             Self::None => &[SAME],
             Self::Mirrors => &[SAME, MIRROR_X, MIRROR_Y, HALF],
-            Self::Turns => &[SAME, QUARTER, HALF, THREE_QUARTERS],
             Self::TurnsAndMirrors => {
                 &[SAME, QUARTER, HALF, THREE_QUARTERS, MIRROR_X, MIRROR_Y, DIAGONAL, OTHER_DIAGONAL]
             }
@@ -60,8 +57,8 @@ mod tests {
 
     #[test]
     fn motions_are_groups_of_permutations() {
-        use ProductSymmetry::{Mirrors, None, Turns, TurnsAndMirrors};
-        for (symmetry, count) in [(None, 1), (Mirrors, 4), (Turns, 4), (TurnsAndMirrors, 8)] {
+        use ProductSymmetry::{Mirrors, None, TurnsAndMirrors};
+        for (symmetry, count) in [(None, 1), (Mirrors, 4), (TurnsAndMirrors, 8)] {
             let motions = symmetry.motions();
             assert_eq!((motions.len(), motions[0]), (count, SAME));
             for side in [1, 2, 5, 8] {

@@ -7,7 +7,7 @@ use super::motion::{Motion, moved, moved_back};
 use super::product::ProductFunction;
 use super::table::{MAX_MAP_SIDE, ProductTable};
 use crate::all_frequency::factor::error::of_svd;
-use crate::error::{InputError, ensure, input_error};
+use crate::error::{InputError, ensure};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
@@ -18,7 +18,7 @@ pub const MAX_SUPERSAMPLES: usize = 16;
 const BATCH: usize = 16;
 
 /// Numbers of samples along an edge of a texel of each map. "We supersample each pair of view/light samples by a factor
-/// of 16 x 16" may mean [`Self::FOUR_EACH`], [`Self::VIEW`], [`Self::LIGHT`] or [`Self::SIXTEEN_EACH`].
+/// of 16 x 16" may mean [`Self::FOUR_EACH`], 16 x 16 samples of one side, or of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Supersamples {
     /// Along an edge of the view's texel.
@@ -32,38 +32,6 @@ impl Supersamples {
     pub const NONE: Self = Self { view: 1, light: 1 };
     /// 4 x 4 views times 4 x 4 lights: 256 samples per pair.
     pub const FOUR_EACH: Self = Self { view: 4, light: 4 };
-    /// 16 x 16 views.
-    pub const VIEW: Self = Self { view: 16, light: 1 };
-    /// 16 x 16 lights.
-    pub const LIGHT: Self = Self { view: 1, light: 16 };
-    /// 16 x 16 views times 16 x 16 lights: 65,536 samples per pair.
-    pub const SIXTEEN_EACH: Self = Self { view: 16, light: 16 };
-}
-
-/// Values of samples outside the disc of a map, whose directions lie below the horizon: 212 of 1,024 texels of a map of
-/// 32 x 32 have their centers there, and others have some of their samples there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "lowercase")]
-pub enum OutsideDisc {
-    /// 0.
-    #[default]
-    Zero,
-    /// The formula of f continued below the horizon, with its signs; 0 where it is not finite.
-    Continued,
-    /// f at the same azimuth, half a texel inside the rim.
-    Rim,
-}
-
-/// Clamping of f, where it is "bigger than 3" in the paper. Values below the negative limit, which only
-/// [`OutsideDisc::Continued`] causes, are clamped to it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ProductClamp {
-    /// No clamping.
-    None,
-    /// Each sample is clamped, before the mean over a pair of texels.
-    Samples(f64),
-    /// The mean over a pair of texels is clamped.
-    Means(f64),
 }
 
 /// Options of the sampling of f.
@@ -73,31 +41,15 @@ pub struct FactorSampling {
     pub side: usize,
     /// Samples per texel, 1 to [`MAX_SUPERSAMPLES`] along an edge.
     pub supersamples: Supersamples,
-    /// Values of samples outside the disc.
-    pub outside: OutsideDisc,
-    /// Clamping of f.
-    pub clamp: ProductClamp,
+    /// The limit that the mean over a pair of texels is clamped to, where f is "bigger than 3" in the paper; infinity
+    /// for none.
+    pub limit: f64,
 }
 
 /// The paper's parameters; where it is ambiguous, the first reading.
 impl Default for FactorSampling {
     fn default() -> Self {
-        Self {
-            side: 32,
-            supersamples: Supersamples::FOUR_EACH,
-            outside: OutsideDisc::Zero,
-            clamp: ProductClamp::Means(3.0),
-        }
-    }
-}
-
-impl ProductClamp {
-    /// The limit; infinity for [`Self::None`].
-    pub const fn limit(self) -> f64 {
-        match self {
-            Self::None => f64::INFINITY,
-            Self::Samples(limit) | Self::Means(limit) => limit,
-        }
+        Self { side: 32, supersamples: Supersamples::FOUR_EACH, limit: 3.0 }
     }
 }
 
@@ -117,8 +69,7 @@ impl FactorSampling {
             let what = "samples along an edge of a texel";
             of(what, "1 to 16", found as f64, within(MAX_SUPERSAMPLES, found))?;
         }
-        let limit = self.clamp.limit();
-        of("limit of f", "a number above 0", limit, limit > 0.0)
+        of("limit of f", "a number above 0", self.limit, self.limit > 0.0)
     }
 
     /// The table of f: each value is the mean over the samples of a pair of texels, summed view by view, light by
@@ -126,18 +77,13 @@ impl FactorSampling {
     /// threads.
     ///
     /// # Errors
-    /// [`InputError`] for parameters out of range, or a continuation that f does not have.
+    /// [`InputError`] for parameters out of range.
     pub fn table(
         &self,
         product: &dyn ProductFunction,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<ProductTable, InputError> {
         self.check()?;
-        if self.outside == OutsideDisc::Continued && !product.continues() {
-            return Err(input_error!("crossbar::factor::continued" =>
-                    "expected a reflectance with a formula below the horizon, found {}", product.name();
-                    help "take 0 for texels outside the disc, or its rim"));
-        }
         let map = ParabolicMap::new(self.side);
         let [views, lights] = [self.supersamples.view, self.supersamples.light].map(|edge| self.directions(edge));
         let motions = product.symmetry().motions();
@@ -164,51 +110,28 @@ impl FactorSampling {
     fn row(&self, product: &dyn ProductFunction, views: &[DVec3], lights: &[Vec<DVec3>]) -> Vec<f64> {
         let Supersamples { view, light } = self.supersamples;
         let count = (view * view * light * light) as f64;
-        let (sample_limit, mean_limit) = match self.clamp {
-            ProductClamp::None => (f64::INFINITY, f64::INFINITY),
-            ProductClamp::Samples(limit) => (limit, f64::INFINITY),
-            ProductClamp::Means(limit) => (f64::INFINITY, limit),
-        };
         let mean = |lights: &Vec<DVec3>| {
             let mut sum = 0.0;
             for &view in views {
                 for &light in lights {
-                    let value = product.value(view, light);
-                    // The continued formula has poles below the horizon, which count as 0.
-                    sum += if value.is_finite() { value.clamp(-sample_limit, sample_limit) } else { 0.0 };
+                    sum += product.value(view, light);
                 }
             }
-            (sum / count).clamp(-mean_limit, mean_limit)
+            (sum / count).min(self.limit)
         };
         lights.iter().map(mean).collect()
     }
 
-    /// Per texel the directions at which f is sampled; samples left out count as 0.
+    /// Per texel the directions at which f is sampled. Samples outside the disc of the map, whose directions lie below
+    /// the horizon, are left out and count as 0: 212 of 1,024 texels of a map of 32 x 32 have their centers there.
     fn directions(&self, edge: usize) -> Vec<Vec<DVec3>> {
         let (coarse, fine) = (self.side, ParabolicMap::new(self.side * edge));
         let of_texel = |texel: usize| {
             let [column, row] = [texel % coarse * edge, texel / coarse * edge];
             let samples = (0..edge * edge).map(|at| fine.direction(column + at % edge, row + at / edge));
-            samples.filter_map(|direction| self.asked(direction)).collect()
+            samples.filter(|direction| direction.z > 0.0).collect()
         };
         (0..coarse * coarse).map(of_texel).collect()
-    }
-
-    fn asked(&self, direction: DVec3) -> Option<DVec3> {
-        if direction.z > 0.0 {
-            return Some(direction);
-        }
-        match self.outside {
-            OutsideDisc::Zero => None,
-            OutsideDisc::Continued => Some(direction),
-            OutsideDisc::Rim => {
-                let radius = 1.0 - 1.0 / (self.side.max(2) as f64);
-                let [s, t] = [direction.x, direction.y].map(|along| along / (1.0 + direction.z));
-                let scale = radius / (s * s + t * t).sqrt();
-                let square = radius * radius;
-                Some(DVec3::new(2.0 * scale * s, 2.0 * scale * t, 1.0 - square) / (1.0 + square))
-            }
-        }
     }
 }
 
@@ -244,16 +167,8 @@ mod tests {
             self.0.value(view, light)
         }
 
-        fn continues(&self) -> bool {
-            true
-        }
-
         fn symmetry(&self) -> ProductSymmetry {
             ProductSymmetry::None
-        }
-
-        fn name(&self) -> &'static str {
-            "plain"
         }
     }
 
@@ -269,14 +184,11 @@ mod tests {
     #[test]
     fn symmetry_saves_work_and_changes_nothing() {
         for lobe in [Lobe::cook_torrance(0.4, 0.5), Lobe::schlick(0.2, 0.2, 0.8)] {
-            for outside in [OutsideDisc::Zero, OutsideDisc::Continued, OutsideDisc::Rim] {
-                for side in [5, 8] {
-                    let supersamples = Supersamples { view: 2, light: 3 };
-                    let sampling = FactorSampling { side, supersamples, outside, ..FactorSampling::default() };
-                    let difference = largest_difference(&table(sampling, &lobe), &table(sampling, &Plain(lobe)));
-                    // Poles of the continued formulas amplify rounding.
-                    assert!(difference < 1e-11, "{lobe:?} {outside:?} {side}: {difference}");
-                }
+            for side in [5, 8] {
+                let supersamples = Supersamples { view: 2, light: 3 };
+                let sampling = FactorSampling { side, supersamples, ..FactorSampling::default() };
+                let difference = largest_difference(&table(sampling, &lobe), &table(sampling, &Plain(lobe)));
+                assert!(difference < 1e-11, "{lobe:?} {side}: {difference}");
             }
         }
     }
@@ -284,31 +196,17 @@ mod tests {
     #[test]
     fn values_are_means_over_the_samples_of_a_pair() {
         let lobe = Lobe { fresnel: FresnelForm::Constant, ..Lobe::cook_torrance(0.5, 0.6) };
-        let clamp = ProductClamp::Samples(0.1);
         let supersamples = Supersamples { view: 2, light: 2 };
-        let sampling = FactorSampling { side: 4, supersamples, clamp, outside: OutsideDisc::Zero };
+        let sampling = FactorSampling { side: 4, supersamples, limit: f64::INFINITY };
         let found = table(sampling, &lobe);
         let (fine, mut sum) = (ParabolicMap::new(8), 0.0);
         // View texel (1, 2) and light texel (3, 2), part of which lies below the horizon.
         for (a, b, c, d) in (0..16).map(|at| (at & 1, at >> 1 & 1, at >> 2 & 1, at >> 3 & 1)) {
             let [view, light] = [fine.direction(2 + a, 4 + b), fine.direction(6 + c, 4 + d)];
-            sum += if light.z > 0.0 { lobe.value(view, light).min(0.1) } else { 0.0 };
+            sum += if light.z > 0.0 { lobe.value(view, light) } else { 0.0 };
         }
         let value = found.values().row(9)[11];
-        assert!((value - sum / 16.0).abs() < 1e-16 && value > 0.0, "{value} {}", sum / 16.0);
-    }
-
-    #[test]
-    fn what_lies_beyond_the_disc_is_a_choice() {
-        let lambert = Brdf::Lambert { albedo: std::f64::consts::PI };
-        let corner = |outside| {
-            let sampling = FactorSampling { supersamples: Supersamples::NONE, outside, ..FactorSampling::default() };
-            table(sampling, &lambert).values().row(16 * 33)[0]
-        };
-        let z = ParabolicMap::new(32).direction(0, 0).z;
-        assert_eq!([corner(OutsideDisc::Zero), corner(OutsideDisc::Continued)], [0.0, z]);
-        let rim = corner(OutsideDisc::Rim);
-        assert!((rim - (1.0 - 0.96875 * 0.96875) / (1.0 + 0.96875 * 0.96875)).abs() < 1e-15, "{rim}");
+        assert!((value - sum / 16.0).abs() < 1e-15 && value > 0.0, "{value} {}", sum / 16.0);
     }
 
     #[test]
@@ -322,9 +220,8 @@ mod tests {
             message(FactorSampling { side: 0, ..base }),
             "expected 1 to 48 texels for the side of the maps, found 0"
         );
-        assert!(message(FactorSampling { clamp: ProductClamp::Means(f64::NAN), ..base }).contains("limit of f"));
+        assert!(message(FactorSampling { limit: f64::NAN, ..base }).contains("limit of f"));
         let supersamples = Supersamples { view: 17, light: 1 };
         assert!(message(FactorSampling { supersamples, ..base }).contains("1 to 16"));
-        assert!(message(FactorSampling { outside: OutsideDisc::Continued, ..base }).contains("below the horizon"));
     }
 }

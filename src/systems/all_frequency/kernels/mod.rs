@@ -3,7 +3,6 @@
 
 mod layout;
 mod product;
-mod sum;
 mod vertex;
 
 use refsim::isa::Version;
@@ -12,8 +11,7 @@ use crate::card::WrittenKernel;
 
 pub use layout::{SetLayout, ViewNumbers};
 pub use product::{MapFilter, ProductKernel};
-pub use sum::{OF_REPRESENTATIVES, OF_SUM, SUMMED, SumKernel};
-pub use vertex::{LEAST_DENOMINATOR, TransferredVertexKernel};
+pub use vertex::TransferredVertexKernel;
 
 /// Programs for a few numbers of terms, by name.
 pub fn programs() -> Vec<(String, String)> {
@@ -23,9 +21,8 @@ pub fn programs() -> Vec<(String, String)> {
         [(10, 3, two), (4, 3, two), (3, 3, two), (9, 3, three), (10, 1, three), (7, 1, two), (1, 1, three)]
     {
         let layout = SetLayout { terms, channels, view };
-        for (computes_view, version) in [(true, Version::Vs2_0), (true, Version::Vs1_1), (false, Version::Vs1_1)] {
-            let kernel = TransferredVertexKernel { layout, computes_view, version };
-            all.push(kernel.listed());
+        for version in [Version::Vs2_0, Version::Vs1_1] {
+            all.push(TransferredVertexKernel { layout, version }.listed());
         }
         for (terms_per_texel, filter, side) in
             [(4, MapFilter::Sampler, 32), (2, MapFilter::Sampler, 32), (4, MapFilter::Program, 32)]
@@ -36,7 +33,6 @@ pub fn programs() -> Vec<(String, String)> {
             }
         }
     }
-    all.extend([true, false].map(|is_first| SumKernel { is_first }.listed()));
     all
 }
 
@@ -60,17 +56,6 @@ mod tests {
         }
     }
 
-    /// Within two levels of reads, and with room to spare.
-    #[test]
-    fn sums_fit_the_radeon() {
-        for is_first in [true, false] {
-            let program = SumKernel { is_first }.checked(&device("r350")).unwrap_or_else(|e| panic!("{e}"));
-            let slots = program.facts().slots[0];
-            assert_eq!(slots.texture, 21 + u32::from(!is_first));
-            assert!((33..=34).contains(&slots.arithmetic), "{}", slots.arithmetic);
-        }
-    }
-
     /// Slots of ps_2_0 on the Radeon 9800 for the paper's ten terms: texture reads, arithmetic.
     #[test]
     fn ten_terms_fit_one_pass_of_the_radeon() {
@@ -82,13 +67,11 @@ mod tests {
             assert_eq!((slots.texture, slots.arithmetic), (reads, arithmetic), "{filter}");
             assert_eq!(kernel(filter).reads() as u32, reads);
         }
-        for computes_view in [false, true] {
-            for version in [Version::Vs1_1, Version::Vs2_0] {
-                let vertex = TransferredVertexKernel { layout, computes_view, version };
-                let program = vertex.checked(&device("r350")).unwrap_or_else(|e| panic!("{e}"));
-                assert_eq!(program.facts().slots[0].arithmetic as usize, vertex.slots());
-                assert_eq!(program.facts().inputs.count_ones() as usize, vertex.attributes());
-            }
+        for version in [Version::Vs1_1, Version::Vs2_0] {
+            let vertex = TransferredVertexKernel { layout, version };
+            let program = vertex.checked(&device("r350")).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(program.facts().slots[0].arithmetic as usize, vertex.slots());
+            assert_eq!(program.facts().inputs.count_ones() as usize, vertex.attributes());
         }
         let eleven = ProductKernel { layout: SetLayout { terms: 11, ..layout }, ..kernel(MapFilter::Sampler) };
         let report = check(refsim::asm::assemble(&eleven.text()).expect("a program"), &device("r350"));

@@ -1,7 +1,7 @@
 //! The vertex program that section 6 proposes: it passes transferred radiance on and adds the local view.
 //!
-//! - v0: position, w = 1; v1 and up: the numbers of [`SetLayout`], one set each; if the program computes the view, then
-//!   the tangent and the normal follow.
+//! - v0: position, w = 1; v1 and up: the numbers of [`SetLayout`], one set each; then
+//!   the tangent and the normal.
 //! - c0 to c3 rows of the projection; c4 the eye.
 //! - oT0 and up: the sets.
 
@@ -12,16 +12,11 @@ use refsim::isa::Version;
 use super::layout::{SetLayout, ViewNumbers};
 use crate::card::{TO_CLIP, WrittenKernel, local_view};
 
-/// Lower bound of |v| + z, in units of the body's frame, so that views along -z have coordinates.
-pub const LEAST_DENOMINATOR: f64 = 1.0 / 1_048_576.0;
-
 /// A vertex program that passes transferred radiance on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TransferredVertexKernel {
     /// The layout of the numbers.
     pub layout: SetLayout,
-    /// True if the program computes the view; otherwise the host has stored it in its place.
-    pub computes_view: bool,
     /// [`Version::Vs2_0`] or [`Version::Vs1_1`].
     pub version: Version,
 }
@@ -29,7 +24,7 @@ pub struct TransferredVertexKernel {
 impl TransferredVertexKernel {
     /// Number of vertex attributes.
     pub fn attributes(&self) -> usize {
-        1 + self.layout.sets() + if self.computes_view { 2 } else { 0 }
+        1 + self.layout.sets() + 2
     }
 
     /// Number of instruction slots.
@@ -40,7 +35,7 @@ impl TransferredVertexKernel {
     /// Mask of the components of a set that do not hold the view; `None` if there are none.
     fn rest_of(&self, set: usize) -> Option<&'static str> {
         match self.layout.view {
-            _ if !self.computes_view || set != self.layout.view_set() => Some(""),
+            _ if set != self.layout.view_set() => Some(""),
             _ if self.layout.loose() == 0 => None,
             ViewNumbers::Coordinates => Some(".zw"),
             ViewNumbers::Vector => Some(".w"),
@@ -68,23 +63,21 @@ impl TransferredVertexKernel {
 impl WrittenKernel for TransferredVertexKernel {
     fn name(&self) -> String {
         let SetLayout { terms, channels, view } = self.layout;
-        let who = if self.computes_view { "program" } else { "host" };
-        format!("transferred_{terms}x{channels}, {view} by the {who}, {}", self.version)
+        format!("transferred_{terms}x{channels}, {view} by the program, {}", self.version)
     }
 
     fn text(&self) -> String {
         let sets = self.layout.sets();
         let mut text = format!("{}\n; {}\n", self.version, self.name());
-        if self.computes_view && self.layout.view == ViewNumbers::Coordinates {
+        if self.layout.view == ViewNumbers::Coordinates {
+            // 2^-20, the least |v| + z in units of the body's frame: views along -z have coordinates.
             text.push_str("def c5, 0.00000095367431640625, 0.5, 0, 0\n");
         }
         text.push_str("dcl_position v0\n");
         for set in 0..sets {
             let _ = writeln!(text, "dcl_texcoord{set} v{}", 1 + set);
         }
-        if self.computes_view {
-            let _ = writeln!(text, "dcl_tangent v{}\ndcl_normal v{}", 1 + sets, 2 + sets);
-        }
+        let _ = writeln!(text, "dcl_tangent v{}\ndcl_normal v{}", 1 + sets, 2 + sets);
         text.push_str(TO_CLIP);
         for set in 0..sets {
             let _ = match self.rest_of(set) {
@@ -92,9 +85,7 @@ impl WrittenKernel for TransferredVertexKernel {
                 Some(mask) => writeln!(text, "mov oT{set}{mask}, v{}", 1 + set),
             };
         }
-        if self.computes_view {
-            self.push_view(&mut text);
-        }
+        self.push_view(&mut text);
         text
     }
 }

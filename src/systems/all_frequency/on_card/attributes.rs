@@ -2,13 +2,11 @@
 
 use glam::DVec3;
 
-use super::options::{ProductOptions, RadianceFormat, VertexColors, ViewMaker};
+use super::options::{ProductOptions, RadianceFormat, VertexColors};
 use super::subject::TransferredMesh;
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::kernels::{LEAST_DENOMINATOR, ViewNumbers};
 use crate::all_frequency::shade::exit_radiance;
-use crate::card::{Attribute, CardError, MeshView, attribute, by_register, check_finite, through_half};
-use crate::geom::UnitFrame;
+use crate::card::{Attribute, CardError, attribute, by_register, check_finite, through_half};
 use crate::geom::vector::wide;
 
 /// Counts of clamped colors. Truncated factors have negative lobes, which targets and vertex colors in fractions clamp
@@ -67,58 +65,34 @@ pub(super) fn colors(
 /// What attributes must be.
 const HELD: &str = "radiance that its format holds";
 
-/// Transferred radiance for products per pixel.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct RadianceStream<'a> {
-    pub(super) mesh: TransferredMesh<'a>,
-    pub(super) options: &'a ProductOptions,
-    /// Per term the factor of T_p that compensates the scale of G's texels.
-    pub(super) scales: &'a [f64],
-    pub(super) frame: &'a UnitFrame,
-}
-
-impl RadianceStream<'_> {
-    /// The coordinate sets of a pass: T_p times exposure, color and scales, and the view if the host computes it.
-    pub(super) fn sets(&self, view: &MeshView, pass: usize) -> Result<Vec<Attribute>, CardError> {
-        let layout = self.options.layout(self.mesh.terms());
-        let eye = self.frame.of_scene(wide(view.camera.eye()));
-        let rounded = |value: f64| match self.options.radiance {
-            RadianceFormat::Fp32 => value as f32,
-            RadianceFormat::Fp16 => through_half(value as f32),
-        };
-        let of_vertex = |vertex: usize| {
-            let mut numbers = vec![[0_u32; 4]; layout.sets()];
-            let color = self.mesh.color(vertex);
-            for (term, row) in self.mesh.transferred.of(vertex).iter().enumerate() {
-                for channel in 0..layout.channels {
-                    let of = if layout.channels == 1 { pass } else { channel };
-                    let (set, component) = layout.place(term, channel);
-                    let value = f64::from(row[of]) * color[of] * view.exposure * self.scales[term];
-                    numbers[set][component] = rounded(value).to_bits();
-                }
-            }
-            if self.options.view_maker == ViewMaker::Host {
-                for (component, value) in self.view(vertex, eye).into_iter().take(layout.view.count()).enumerate() {
-                    numbers[layout.view_set()][component] = rounded(value).to_bits();
-                }
-            }
-            numbers
-        };
-        let sets = by_register(layout.sets(), self.mesh.vertices.len(), of_vertex);
-        check_finite(HELD, &sets)?;
-        Ok(sets)
-    }
-
-    /// The view of a vertex, by the vertex program's formula in f64.
-    fn view(&self, vertex: usize, eye: DVec3) -> [f64; 3] {
-        let position = self.frame.of_scene(wide(self.mesh.vertices.positions()[vertex]));
-        let local = self.mesh.vertices.frames()[vertex].to_local(eye - position);
-        match self.options.view {
-            ViewNumbers::Vector => local.to_array(),
-            ViewNumbers::Coordinates => {
-                let scale = 0.5 / (local.length() + local.z).max(LEAST_DENOMINATOR);
-                [0.5 + scale * local.x, 0.5 + scale * local.y, 0.0]
+/// The coordinate sets of a pass of products per pixel: T_p times exposure, color and `scales`, which compensate the
+/// scale of G's texels, one per term.
+pub(super) fn radiance_sets(
+    mesh: &TransferredMesh<'_>,
+    options: &ProductOptions,
+    scales: &[f64],
+    exposure: f64,
+    pass: usize,
+) -> Result<Vec<Attribute>, CardError> {
+    let layout = options.layout(mesh.terms());
+    let rounded = |value: f64| match options.radiance {
+        RadianceFormat::Fp32 => value as f32,
+        RadianceFormat::Fp16 => through_half(value as f32),
+    };
+    let of_vertex = |vertex: usize| {
+        let mut numbers = vec![[0_u32; 4]; layout.sets()];
+        let color = mesh.color(vertex);
+        for (term, row) in mesh.transferred.of(vertex).iter().enumerate() {
+            for channel in 0..layout.channels {
+                let of = if layout.channels == 1 { pass } else { channel };
+                let (set, component) = layout.place(term, channel);
+                let value = f64::from(row[of]) * color[of] * exposure * scales[term];
+                numbers[set][component] = rounded(value).to_bits();
             }
         }
-    }
+        numbers
+    };
+    let sets = by_register(layout.sets(), mesh.vertices.len(), of_vertex);
+    check_finite(HELD, &sets)?;
+    Ok(sets)
 }

@@ -8,7 +8,7 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
-use super::attributes::{FactoredCounts, RadianceStream, colors, diffuse_radiance, radiance};
+use super::attributes::{FactoredCounts, colors, diffuse_radiance, radiance, radiance_sets};
 use super::options::{ProductPlace, VertexColors};
 use super::programs::Programs;
 use super::subject::TransferredMesh;
@@ -17,7 +17,6 @@ use super::time;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::shade::Multiplies;
 use crate::card::{Attribute, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, Texels, by_register, slots};
-use crate::geom::UnitFrame;
 
 /// Write masks of the passes of one channel each; alpha marks covered pixels.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
@@ -115,14 +114,13 @@ impl<'a> FactoredCard<'a> {
     }
 
     fn show(&mut self, view: &MeshView, is_logged: bool) -> Result<(Texels, FactoredCounts, Vec<Event>), CardError> {
-        let frame = *self.display.frame();
         let Self { transferred, place, axes, programs, maps, .. } = self;
         let textures = maps.iter().flat_map(|maps| &maps.textures);
         let textures: Vec<_> = textures.map(|&texture| (texture, programs.sampler)).collect();
         let mut counts = FactoredCounts::default();
         let (texels, log) = self.display.show(view, is_logged, |pass| {
             let passes;
-            (passes, counts) = attributes(transferred, place, maps.as_ref(), view, &frame)?;
+            (passes, counts) = attributes(transferred, place, maps.as_ref(), view)?;
             let mut head = pass.head();
             head.truncate(if programs.makes_view { 5 } else { 4 });
             for (number, sets) in passes.iter().enumerate() {
@@ -180,12 +178,11 @@ fn attributes(
     place: &ProductPlace,
     maps: Option<&FactorMaps>,
     view: &MeshView,
-    frame: &UnitFrame,
 ) -> Result<(Vec<Vec<Attribute>>, FactoredCounts), CardError> {
     if let (ProductPlace::Pixels(options), Some(maps)) = (place, maps) {
-        let stream = RadianceStream { mesh: *mesh, options, scales: &maps.scales, frame };
         let passes = if options.is_pass_per_channel { 3 } else { 1 };
-        let passes = (0..passes).map(|pass| stream.sets(view, pass)).collect::<Result<_, _>>()?;
+        let sets = |pass| radiance_sets(mesh, options, &maps.scales, view.exposure, pass);
+        let passes = (0..passes).map(sets).collect::<Result<_, _>>()?;
         return Ok((passes, FactoredCounts::default()));
     }
     let (colors, counts) = match *place {

@@ -1,9 +1,8 @@
 //! All-frequency transfer on an emulated card (section 6 of the paper, "Per-Vertex Computation").
 //!
 //! A [`FactoredCard`] holds a mesh. For each frame the host sends the vertex data that [`ProductPlace`] selects: vertex
-//! colors, as the authors did, or transferred radiance, which the card multiplies with G per pixel, as they proposed. A
-//! [`SumCard`] also takes over step 3 from the host. [`draw`] makes a picture with counts and log; [`mod@reference`] is
-//! step 4 in f64; [`time`] models the time of a frame.
+//! colors, as the authors did, or transferred radiance, which the card multiplies with G per pixel, as they proposed. [`draw`]
+//! makes a picture with counts and log; [`mod@reference`] is step 4 in f64; [`time`] models the time of a frame.
 
 mod attributes;
 mod card;
@@ -11,15 +10,13 @@ mod options;
 mod programs;
 pub mod reference;
 mod subject;
-mod sums;
 mod textures;
 pub mod time;
 
 pub use attributes::FactoredCounts;
 pub use card::{FactoredCard, FactoredDrawing, draw};
-pub use options::{ProductOptions, ProductPlace, RadianceFormat, VertexColors, ViewMaker};
+pub use options::{ProductOptions, ProductPlace, RadianceFormat, VertexColors};
 pub use subject::TransferredMesh;
-pub use sums::{SumCard, SumLog};
 
 #[cfg(test)]
 mod tests;

@@ -29,18 +29,6 @@ pub enum VertexColors {
     Floats,
 }
 
-/// The processor that computes the view at the vertices.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
-#[strum(serialize_all = "lowercase")]
-pub enum ViewMaker {
-    /// The vertex program, from position, tangent and normal.
-    #[default]
-    Program,
-    /// The host, in f64; the numbers are sent with those of transferred radiance.
-    Host,
-}
-
 /// The format of transferred radiance in vertices.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
@@ -49,7 +37,7 @@ pub enum RadianceFormat {
     /// Single precision.
     #[default]
     Fp32,
-    /// Half precision; also for the numbers of the view if the host computes them.
+    /// Half precision.
     Fp16,
 }
 
@@ -68,8 +56,6 @@ impl RadianceFormat {
 pub struct ProductOptions {
     /// The representation of the view that is interpolated.
     pub view: ViewNumbers,
-    /// The processor that computes the view at the vertices.
-    pub view_maker: ViewMaker,
     /// True if a pass draws one channel, with fewer interpolated numbers; otherwise it draws all three.
     pub is_pass_per_channel: bool,
     /// The format of the maps of G. Signed fractions are relative to the largest magnitude of each term; T_p is
@@ -83,22 +69,18 @@ pub struct ProductOptions {
     pub radiance: RadianceFormat,
     /// True if the pixel program requests the device's partial precision.
     pub is_partial: bool,
-    /// The version of the vertex program; `None`: vs_2_0 where the device has it, else vs_1_1.
-    pub vertex_version: Option<Version>,
 }
 
 impl Default for ProductOptions {
     fn default() -> Self {
         Self {
             view: ViewNumbers::default(),
-            view_maker: ViewMaker::default(),
             is_pass_per_channel: false,
             map_format: TexelFormat::Rgba16Snorm,
             filter: MapFilter::default(),
             map_bits: None,
             radiance: RadianceFormat::default(),
             is_partial: false,
-            vertex_version: None,
         }
     }
 }
@@ -165,12 +147,7 @@ impl ProductOptions {
 }
 
 /// Refuses more textures than the device has samplers.
-pub(super) fn check_samplers(
-    profile: &Profile,
-    terms: usize,
-    format: TexelFormat,
-    needed: usize,
-) -> Result<(), CardError> {
+fn check_samplers(profile: &Profile, terms: usize, format: TexelFormat, needed: usize) -> Result<(), CardError> {
     let (device, found) = (&profile.name, profile.limits.samplers.map_or(16, |limit| limit as usize).min(16));
     if needed <= found {
         return Ok(());

@@ -5,7 +5,7 @@ use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::texture::SamplerState;
 
-use super::options::{ProductPlace, VertexColors, ViewMaker};
+use super::options::{ProductPlace, VertexColors};
 use super::subject::TransferredMesh;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::kernels::{MapFilter, ProductKernel, TransferredVertexKernel};
@@ -38,10 +38,9 @@ impl Programs {
             }
         };
         options.check(profile, factors.terms())?;
-        let version = vertex_version(profile, options.vertex_version)?;
+        let version = vertex_version(profile)?;
         let layout = options.layout(factors.terms());
-        let makes_view = options.view_maker == ViewMaker::Program;
-        let vertex = TransferredVertexKernel { layout, computes_view: makes_view, version };
+        let vertex = TransferredVertexKernel { layout, version };
         let pixel = ProductKernel {
             layout,
             terms_per_texel: options.terms_per_texel(),
@@ -51,6 +50,6 @@ impl Programs {
         };
         let (vertex, pixel) = (vertex.checked(profile)?, pixel.checked(profile)?);
         let sampler = if options.filter == MapFilter::Program { SamplerState::NEAREST_CLAMP } else { BILINEAR };
-        Ok(Self { vertex, pixel, makes_view, sampler })
+        Ok(Self { vertex, pixel, makes_view: true, sampler })
     }
 }

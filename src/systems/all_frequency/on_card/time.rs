@@ -4,7 +4,7 @@ use refsim::event::{Event, ResourceId};
 use refsim::isa::Version;
 use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 
-use super::options::{ProductPlace, VertexColors, ViewMaker};
+use super::options::{ProductPlace, VertexColors};
 use super::subject::TransferredMesh;
 use crate::all_frequency::kernels::TransferredVertexKernel;
 use crate::all_frequency::shade::Multiplies;
@@ -65,12 +65,6 @@ impl PrintedModel {
             per_vertex: self.vertex_hundreds * SEGMENTS * self.omega_thousandths * per_row / 10,
         }
     }
-
-    /// Multiplications per second that follow from the printed frame rate without drawing.
-    pub fn multiplies_per_second(&self) -> f64 {
-        let Multiplies { per_cluster, per_vertex } = self.multiplies();
-        (per_cluster + per_vertex) as f64 * self.frames_in_ten_seconds[1] as f64 / 10.0
-    }
 }
 
 /// The host of section 7 (two processors of 3 GHz), calibrated by one figure: the time of one frame of each model of
@@ -99,10 +93,7 @@ pub fn streamed_bytes(place: &ProductPlace, terms: usize) -> usize {
         ProductPlace::Vertices(VertexColors::Bytes) => 4,
         ProductPlace::Vertices(VertexColors::Floats) => 12,
         ProductPlace::Pixels(_) if terms == 1 => 12,
-        ProductPlace::Pixels(options) => {
-            let of_view = if options.view_maker == ViewMaker::Host { options.view.count() } else { 0 };
-            (CHANNELS as usize * terms + of_view) * options.radiance.bytes()
-        }
+        ProductPlace::Pixels(options) => CHANNELS as usize * terms * options.radiance.bytes(),
     }
 }
 
@@ -147,11 +138,7 @@ impl FactoredFrame {
     pub fn log(&self, place: &ProductPlace) -> Vec<Event> {
         let (passes, (slots, attributes)) = match place {
             ProductPlace::Pixels(options) if self.terms > 1 => {
-                let kernel = TransferredVertexKernel {
-                    layout: options.layout(self.terms),
-                    computes_view: options.view_maker == ViewMaker::Program,
-                    version: options.vertex_version.unwrap_or(Version::Vs2_0),
-                };
+                let kernel = TransferredVertexKernel { layout: options.layout(self.terms), version: Version::Vs2_0 };
                 let passes = if options.is_pass_per_channel { 3 } else { 1 };
                 (passes, (kernel.slots() as u64, kernel.attributes() as u64))
             }

@@ -1,8 +1,7 @@
 //! Coded transfer laid out for rendering.
 //!
 //! All sums run in a fixed order in f32: those of a representative over the light's coefficients, those of a vertex
-//! over its segments and their representatives. So the bits depend neither on threads nor on vector instructions, and
-//! sparse representatives give the same bits as dense ones, because the omitted terms would have added 0.
+//! over its segments and their representatives. So the bits depend neither on threads nor on vector instructions.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -14,16 +13,6 @@ use crate::all_frequency::code::{BLOCK_ROWS, CodedSegment, CodedTransfer, Sparse
 const LANES: usize = 8;
 /// Vertices per parallel task.
 const VERTICES: usize = 256;
-
-/// Storage of representatives while rendering.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Representatives {
-    /// Non-zero numbers only, as they are coded.
-    Sparse,
-    /// All numbers, in f32.
-    Dense,
-}
 
 /// Coded transfer laid out for rendering.
 #[derive(Clone, Debug)]
@@ -48,13 +37,12 @@ struct ShaderSegment {
     steps: Vec<f32>,
 }
 
-/// A block of up to 256 representatives.
+/// The non-zero numbers of up to 256 representatives: per column their count, then their rows and values.
 #[derive(Clone, Debug)]
-enum Block {
-    /// Per column the number of non-zeros; then their rows and values.
-    Sparse { counts: Vec<u16>, rows: Vec<u8>, values: Vec<i16> },
-    /// All numbers, column by column.
-    Dense { height: usize, values: Vec<f32> },
+struct Block {
+    counts: Vec<u16>,
+    rows: Vec<u8>,
+    values: Vec<i16>,
 }
 
 /// A segment's part of a vertex.
@@ -69,7 +57,7 @@ struct Entry {
 
 impl Shader {
     /// Lays out coded transfer.
-    pub fn new(transfer: &CodedTransfer, representatives: Representatives) -> Self {
+    pub fn new(transfer: &CodedTransfer) -> Self {
         let mut entries: Vec<Vec<Entry>> = vec![Vec::new(); transfer.vertices];
         let (mut weights, mut total) = (Vec::new(), 0);
         for part in &transfer.segments {
@@ -90,7 +78,7 @@ impl Shader {
             *end += entries.len() as u32;
             Some(*end)
         }));
-        let segments = transfer.segments.par_iter().map(|part| ShaderSegment::new(part, representatives));
+        let segments = transfer.segments.par_iter().map(ShaderSegment::new);
         Self {
             rows: transfer.rows,
             coefficients: transfer.coefficients,
@@ -143,15 +131,6 @@ impl Shader {
         Ok(products)
     }
 
-    /// The products of one representative, by its index over all segments, from those of [`Shader::per_cluster`]: 3 per
-    /// row.
-    ///
-    /// # Panics
-    /// If there is no such representative, or `products` has another size.
-    pub fn product_of<'a>(&self, products: &'a [f32], representative: usize) -> &'a [f32] {
-        &products[representative * self.stride()..][..3 * self.rows]
-    }
-
     /// The weighted sums of the products of [`Shader::per_cluster`]: step 3 of section 6.
     pub fn weighted(&self, products: &[f32]) -> TransferredRadiance {
         let (stride, level) = (self.stride(), SimdLevel::widest());
@@ -184,7 +163,7 @@ impl Shader {
         };
         let of_block = |segment: usize, block: &Block| -> u64 {
             let columns = (0..self.rows * self.coefficients).filter(|&column| lit(segment, column));
-            columns.map(|column| block.column_len(column) as u64).sum()
+            columns.map(|column| u64::from(block.counts[column])).sum()
         };
         let of_segment = |part: &ShaderSegment| part.blocks.iter().map(|b| of_block(part.segment, b)).sum::<u64>();
         Multiplies {
@@ -195,99 +174,46 @@ impl Shader {
 
     /// Bytes of representatives and weights in memory.
     pub fn bytes(&self) -> usize {
-        let of_block = |block: &Block| match block {
-            Block::Sparse { counts, rows, values } => 2 * counts.len() + rows.len() + 2 * values.len(),
-            Block::Dense { values, .. } => 4 * values.len(),
-        };
+        let of_block = |block: &Block| 2 * block.counts.len() + block.rows.len() + 2 * block.values.len();
         self.segments.iter().flat_map(|part| &part.blocks).map(of_block).sum::<usize>() + 2 * self.weights.len()
     }
 }
 
 impl ShaderSegment {
-    fn new(part: &CodedSegment, held: Representatives) -> Self {
-        let mut left = part.representatives.rows();
-        let blocks = part.representatives.blocks().map(|columns| {
-            let height = left.min(BLOCK_ROWS);
-            left -= height;
-            match held {
-                Representatives::Sparse => Block::sparse(columns),
-                Representatives::Dense => Block::dense(columns, height),
-            }
-        });
-        let blocks = blocks.collect();
+    fn new(part: &CodedSegment) -> Self {
         let steps = part.representative_steps.iter().zip(&part.weight_steps).map(|(a, b)| a * b).collect();
-        Self { segment: part.segment, blocks, steps }
+        Self { segment: part.segment, blocks: part.representatives.blocks().map(Block::new).collect(), steps }
     }
 }
 
 impl Block {
-    fn sparse<'a>(columns: impl Iterator<Item = SparseColumn<'a>>) -> Self {
+    fn new<'a>(columns: impl Iterator<Item = SparseColumn<'a>>) -> Self {
         let (mut counts, mut rows, mut values) = (Vec::new(), Vec::new(), Vec::new());
         for column in columns {
             counts.push(column.rows.len() as u16);
             rows.extend_from_slice(column.rows);
             values.extend_from_slice(column.values);
         }
-        Self::Sparse { counts, rows, values }
-    }
-
-    fn dense<'a>(columns: impl Iterator<Item = SparseColumn<'a>>, height: usize) -> Self {
-        let mut values = Vec::new();
-        for column in columns {
-            let begin = values.len();
-            values.resize(begin + height, 0.0);
-            for (&row, &value) in column.rows.iter().zip(column.values) {
-                values[begin + usize::from(row)] = f32::from(value);
-            }
-        }
-        Self::Dense { height, values }
-    }
-
-    /// Numbers of a column that are multiplied.
-    fn column_len(&self, column: usize) -> usize {
-        match self {
-            Self::Sparse { counts, .. } => usize::from(counts[column]),
-            Self::Dense { height, .. } => *height,
-        }
+        Self { counts, rows, values }
     }
 
     /// Adds the products of the rows with light to `into`, `stride` numbers each. Columns with black light are skipped.
     #[inline(always)]
     fn times(&self, light: &[[f32; 3]], stride: usize, steps: &[f32], into: &mut [f32]) {
-        let mut add = |row: usize, value: f32, at: usize, light: [f32; 4]| {
-            // The fourth number is 0, and adds nothing to the first of the next row.
-            let into: &mut [f32] = &mut into[row * stride + at..][..4];
-            (0..4).for_each(|c| into[c] += value * light[c]);
-        };
-        let lights = |column: usize| {
+        let Self { counts, rows, values } = self;
+        let mut begin = 0;
+        for (column, &count) in counts.iter().enumerate() {
+            let range = begin..begin + usize::from(count);
+            begin = range.end;
             let [r, g, b] = light[column % light.len()];
-            ([r, g, b, 0.0], 3 * (column / light.len()))
-        };
-        match self {
-            Self::Sparse { counts, rows, values } => {
-                let mut begin = 0;
-                for (column, &count) in counts.iter().enumerate() {
-                    let range = begin..begin + usize::from(count);
-                    begin = range.end;
-                    let (light, at) = lights(column);
-                    if light == [0.0; 4] {
-                        continue;
-                    }
-                    for (&row, &value) in rows[range.clone()].iter().zip(&values[range]) {
-                        add(usize::from(row), f32::from(value), at, light);
-                    }
-                }
+            if [r, g, b] == [0.0; 3] {
+                continue;
             }
-            Self::Dense { height, values } => {
-                for (column, values) in values.chunks_exact(*height).enumerate() {
-                    let (light, at) = lights(column);
-                    if light == [0.0; 4] {
-                        continue;
-                    }
-                    for (row, &value) in values.iter().enumerate() {
-                        add(row, value, at, light);
-                    }
-                }
+            // The fourth number is 0, and adds nothing to the first of the next row.
+            let (light, at) = ([r, g, b, 0.0], 3 * (column / light.len()));
+            for (&row, &value) in rows[range.clone()].iter().zip(&values[range]) {
+                let into = &mut into[usize::from(row) * stride + at..][..4];
+                (0..4).for_each(|c| into[c] += f32::from(value) * light[c]);
             }
         }
         for (row, step) in into.chunks_exact_mut(stride).zip(steps) {
@@ -325,7 +251,7 @@ mod tests {
             let light = light(coefficients);
             let exact: Vec<[f64; 3]> = light.iter().map(|rgb| rgb.map(f64::from)).collect();
             let expected = plain::transferred(&transfer, &exact).expect("radiance");
-            let found = Shader::new(&coded, Representatives::Sparse).transferred(&light).expect("radiance");
+            let found = Shader::new(&coded).transferred(&light).expect("radiance");
             assert_eq!((found.rows(), found.vertices()), (rows, 40));
             let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
             for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
@@ -345,28 +271,20 @@ mod tests {
     }
 
     #[test]
-    fn sparse_representatives_give_the_bits_of_dense_ones() {
-        let coded =
-            CodedTransfer::new(&sample(10, 16), CodeOptions { representative_bits: 6, ..CodeOptions::default() });
-        let coded = coded.expect("coded");
-        let shaders = [Representatives::Sparse, Representatives::Dense].map(|held| Shader::new(&coded, held));
-        let light = light(16);
-        let [sparse, dense] = shaders.each_ref().map(|shader| shader.transferred(&light).expect("radiance"));
-        assert!(sparse.values.iter().zip(&dense.values).all(|(a, b)| a.to_bits() == b.to_bits()));
-        let (nonzeros, all) = coded.nonzeros();
-        assert!(nonzeros < all);
-        let counts = shaders.each_ref().map(|shader| shader.multiplies(&light));
+    fn multiplications_by_zero_are_not_counted() {
+        let coded = CodedTransfer::new(&sample(10, 16), CodeOptions::default()).expect("coded");
+        let count = Shader::new(&coded).multiplies(&light(16));
+        let (nonzeros, _) = coded.nonzeros();
         // A quarter of the light is black.
-        assert_eq!(counts[1].per_cluster, 3 * 3 * all as u64 / 4);
-        assert!(counts[0].per_cluster < counts[1].per_cluster);
+        assert!(count.per_cluster > 0 && count.per_cluster < 3 * nonzeros as u64);
         let weights: usize = coded.segments.iter().map(|part| part.weights.len()).sum();
-        assert_eq!(counts.map(|count| count.per_vertex), [3 * 10 * weights as u64; 2]);
+        assert_eq!(count.per_vertex, 3 * 10 * weights as u64);
     }
 
     #[test]
     fn bits_do_not_depend_on_threads() {
         let coded = CodedTransfer::new(&sample(10, 16), CodeOptions::default()).expect("coded");
-        let shader = Shader::new(&coded, Representatives::Sparse);
+        let shader = Shader::new(&coded);
         let radiance = [1, 2, 5].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             pool.install(|| shader.transferred(&light(16)).expect("radiance"))
@@ -377,7 +295,7 @@ mod tests {
     #[test]
     fn light_for_fewer_segments_is_refused() {
         let coded = CodedTransfer::new(&sample(1, 4), CodeOptions::default()).expect("coded");
-        let error = Shader::new(&coded, Representatives::Sparse).transferred(&light(4)[1..]).expect_err("refused");
+        let error = Shader::new(&coded).transferred(&light(4)[1..]).expect_err("refused");
         assert_eq!(error.to_string(), "expected at least 20 light coefficients, 4 per segment, found 19");
     }
 }

@@ -73,7 +73,7 @@ impl<'a> PrtCard<'a> {
         let profile = profile.into();
         options.check()?;
         let size = transfer.size()?;
-        let kernel = kernel(&profile, &transfer, options)?;
+        let kernel = kernel(&profile, &transfer)?;
         let (clustering, triangles) = (transfer.clustering, transfer.vertices.triangles());
         let registers = registers(&profile, &kernel);
         let superclusters = match transfer.superclusters {

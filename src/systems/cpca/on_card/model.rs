@@ -36,13 +36,6 @@ impl TransferSize {
         self.clusters * (self.vectors + 1)
     }
 
-    /// Constants per cluster by section 6.2's formula: (n' + 1) N_r / 4 for glossy transfer, n' + 1 for diffuse. It is
-    /// no integer if N_r is no multiple of 4.
-    pub fn registers_per_cluster_formula(&self) -> f64 {
-        let per_vector = if self.rows == 1 { 1.0 } else { self.rows as f64 / 4.0 };
-        (self.vectors + 1) as f64 * per_vector
-    }
-
     /// Constants per cluster as the programs use them, with whole registers per vector.
     pub fn registers_per_cluster(&self) -> usize {
         self.registers(0).needed(self.vectors)
@@ -112,7 +105,6 @@ mod tests {
             assert_eq!(size.registers_per_cluster(), registers, "{size:?}");
             assert_eq!([256, 250].map(|limit| size.clusters_per_batch(limit)), fitting, "{size:?}");
         }
-        assert_eq!(size(49_990, [25, 25], 256, 8).registers_per_cluster_formula(), 56.25);
     }
 
     /// Section 6.2 for the bird: 54 constants, 4 clusters per batch, 64 batches; and Figures 10 and 11.

@@ -1,6 +1,5 @@
 //! Options of drawing compressed transfer.
 
-use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::weights::WeightFormat;
@@ -12,9 +11,6 @@ pub struct PrtCardOptions {
     /// Clusters are drawn together, in the superclusters of the transfer or as far as the constant registers hold;
     /// otherwise each alone.
     pub superclusters: bool,
-    /// The version of the vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the
-    /// device has it.
-    pub vertex_version: Option<Version>,
     /// Texels along an edge of the maps of y; 32 in the paper.
     pub map_side: usize,
     /// The format of the maps.
@@ -26,7 +22,7 @@ pub struct PrtCardOptions {
 impl Default for PrtCardOptions {
     fn default() -> Self {
         let (map_side, map_format) = (32, TexelFormat::Rgba16Snorm);
-        Self { superclusters: true, vertex_version: None, map_side, map_format, weights: WeightFormat::default() }
+        Self { superclusters: true, map_side, map_format, weights: WeightFormat::default() }
     }
 }
 

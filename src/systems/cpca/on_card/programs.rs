@@ -4,7 +4,6 @@ use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
-use super::options::PrtCardOptions;
 use super::transfer::CompressedTransfer;
 use crate::card::kernels::{SHADE, SHADE_COLOR};
 use crate::card::{CardError, DepthPrograms, KernelError, WrittenKernel, require_versions, vertex_version};
@@ -21,11 +20,7 @@ pub(super) struct ShadingPrograms {
 }
 
 /// The vertex program for a transfer on a device.
-pub(super) fn kernel(
-    profile: &Profile,
-    transfer: &CompressedTransfer<'_>,
-    options: &PrtCardOptions,
-) -> Result<VertexKernel, CardError> {
+pub(super) fn kernel(profile: &Profile, transfer: &CompressedTransfer<'_>) -> Result<VertexKernel, CardError> {
     let shading = if transfer.is_glossy() {
         require_versions(profile, &[Version::Ps2_0], "glossy transfer")?;
         let (found, most) = (transfer.basis.len(), 4 * ExitKernel::MAX_REGISTERS);
@@ -40,7 +35,7 @@ pub(super) fn kernel(
     } else {
         VertexShading::DiffuseColor
     };
-    let version = vertex_version(profile, options.vertex_version)?;
+    let version = vertex_version(profile)?;
     let kernel = VertexKernel { shading, vectors: transfer.vectors, version };
     let (found, most) = (transfer.vectors, kernel.most_vectors());
     if found > most {

@@ -3,7 +3,6 @@
 use refsim::device::{MadMode, Rules};
 use refsim::exec::NoObserver;
 use refsim::exec::scalar::VertexProgram;
-use refsim::isa::Version;
 use refsim::machine::ExecutorKind;
 use refsim::num::{Format, ops};
 use refsim::texture::TexelFormat;
@@ -72,15 +71,14 @@ fn vertex_programs_give_the_hosts_sums() {
         let hills = CompressedHills::new(basis, clusters, vectors, CpcaMethod::Iterative);
         let transfer = hills.transfer(vectors);
         let light = HarmonicLight::red_and_blue(4);
-        for (name, superclusters, vertex_version, weights) in [
-            ("r300", true, None, WeightFormat::Fp32),
-            ("r300", false, None, WeightFormat::Unorm8),
-            ("r350", true, Some(Version::Vs1_1), WeightFormat::Fp16),
-            ("nv35", true, None, WeightFormat::Unorm16),
+        for (name, superclusters, weights) in [
+            ("r300", true, WeightFormat::Fp32),
+            ("r300", false, WeightFormat::Unorm8),
+            ("r350", true, WeightFormat::Fp16),
+            ("nv35", true, WeightFormat::Unorm16),
         ] {
             let map_format = if name == "nv35" { TexelFormat::Rgba8Snorm } else { TexelFormat::Rgba16Snorm };
-            let options =
-                PrtCardOptions { superclusters, vertex_version, map_format, weights, ..PrtCardOptions::default() };
+            let options = PrtCardOptions { superclusters, map_format, weights, ..PrtCardOptions::default() };
             let card = card(name, transfer, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
             let products = Products::new(&transfer, &card.weights, &light, 0.7).expect("products");
             let rules = &card.display.machine().profile().rules;
@@ -219,11 +217,8 @@ fn what_does_not_fit_is_refused() {
         card(name, hills.transfer(vectors), options).map(|_| ()).expect_err("refused").to_string()
     };
     let options = PrtCardOptions::default();
-    let in_vs_1_1 = PrtCardOptions { vertex_version: Some(Version::Vs1_1), ..options };
     let twenty = CompressedHills::new(glossy(24), 1, 20, CpcaMethod::Iterative);
     assert!(card("r300", twenty.transfer(20), &options).is_ok());
-    let refused = message("r300", &twenty, 20, &in_vs_1_1);
-    assert!(refused.contains("needs 126 constant registers, expected at most 91"), "{refused}");
     let refused = message("nv25", &twenty, 20, &options);
     assert!(
         refused.contains("`nv25` refuses glossy transfer: it runs no `ps_2_0`") && refused.contains("r300"),

@@ -1,104 +1,114 @@
-//! Points and subspaces projected onto the axes along which most of a signal stands, where a lower bound of a distance
-//! costs a fraction of the distance.
+//! Principal axes of a signal: along them a lower bound of a squared error costs a fraction of the error.
 //!
 //! With orthonormal axes B, no distance grows: |x - x_0 - V c| is at least |B (x - x_0) - B V c| for all weights c, so
-//! the distance of B x from the affine span of B V is at most that of x from the subspace. B V is made orthonormal for
-//! that. A vector of which less than [`NOTHING`] is left beside those before it is dropped: the best weights are no
-//! longer than |x - x_0|, so that moves a distance by less than the estimates' bounds hold.
+//! the distance of B x from the affine span of B V is at most the distance of x from the subspace. Both are taken
+//! relative to a center g. B V is made orthonormal; a vector is dropped if no more than the length [`NOTHING`] of it is
+//! left beside those before it.
+//!
+//! With S = |x - g| + |x_0 - g| and n' vectors, the dropped vectors lower a distance by at most sqrt(n') 2^-36 S, and the
+//! rounding of B x to f32 moves it by at most 2^-24 S, or 2^-146 where f32 is subnormal. The errors that decide are
+//! rounded in f64 by far less, and count as 0 up to 2^-40 S^2. [`SLACK`] (S + [`TINY`])^2 is more than all of them
+//! together.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
-use super::AffineSubspace;
-use super::estimate::ScaledSubspace;
 use super::fit::principal_vectors;
-use super::products::{Packed, ROWS, add_block, add_orthonormal, dots};
+use super::products::{add_orthonormal, dots};
+use super::{AffineSubspace, CpcaForm};
 use crate::linalg::dot;
 use crate::transfer::Signal;
 
-/// Signals of fewer dimensions have no axes: their distances cost little more than bounds.
+/// Signals of fewer dimensions have no axes: their errors cost little more than bounds.
 const LEAST_DIMENSION: usize = 128;
-/// Dimensions per axis, and axes at most.
+/// Dimensions per axis, and the largest number of axes.
 const PER_AXIS: usize = 4;
 const MOST: usize = 96;
 /// Points that the axes are found from.
 const SAMPLE: usize = 512;
-/// Points that are projected side by side.
-const COLUMNS: usize = 8;
-const NOTHING: f64 = 1.0 / (1u64 << 30) as f64;
+const NOTHING: f64 = 1.0 / (1u64 << 36) as f64;
+const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
+const TINY: f64 = 1e-36;
 
-/// Axes of a signal.
+/// A signal along its axes.
 #[derive(Debug)]
 pub(super) struct Axes {
-    dimension: usize,
-    /// Orthonormal, one after another.
+    center: Vec<f64>,
+    /// Orthonormal, concatenated.
     axes: Vec<f64>,
+    /// B (x - g) of each point.
+    points: Signal,
+    /// |x - g| of each point.
+    lengths: Vec<f64>,
+}
+
+/// A subspace along the axes.
+#[derive(Debug)]
+pub(super) struct AlongAxes {
+    subspace: AffineSubspace,
+    /// |x_0 - g|.
+    length: f64,
 }
 
 impl Axes {
-    /// Principal axes of some of the points, and all points along them, relative to a center and scaled, one after
-    /// another; none where they do not pay.
-    pub(super) fn new(signal: &Signal, center: &[f64], scale: f64, level: SimdLevel) -> Option<(Self, Vec<f32>)> {
+    /// The principal axes of some of the points; none where they do not pay, or where f32 cannot hold the points along
+    /// them.
+    pub(super) fn new(signal: &Signal, form: CpcaForm, level: SimdLevel) -> Option<Self> {
         let dimension = signal.dimension();
         if dimension < LEAST_DIMENSION {
             return None;
         }
+        let center: Vec<f64> = match form {
+            CpcaForm::Affine => (0..dimension).into_par_iter().map(|j| component_mean(signal, j)).collect(),
+            // The mean of linear subspaces.
+            CpcaForm::Linear => vec![0.0; dimension],
+        };
         let count = signal.points().min(SAMPLE);
         let sample: Vec<u32> = (0..count).map(|at| (at * signal.points() / count) as u32).collect();
-        // Without principal vectors every distance is estimated in full.
-        let axes = principal_vectors(signal, &sample, center, MOST.min(dimension / PER_AXIS), level).ok()?;
-        let along = axes.len() / dimension;
-        if along == 0 {
-            return None;
-        }
-        let rows = Packed::<f64, ROWS>::new(along, dimension, |at, into| {
-            into.copy_from_slice(&axes[at * dimension..][..dimension]);
-        });
-        let mut points = vec![0.0; signal.points() * along];
-        points.par_chunks_mut(COLUMNS * along).enumerate().for_each(|(at, into)| {
-            let columns = Packed::<f64, COLUMNS>::new(into.len() / along, dimension, |i, into| {
-                let values = signal.point(at * COLUMNS + i).iter().zip(center);
-                into.iter_mut().zip(values).for_each(|(into, (&x, g))| *into = (f64::from(x) - g) * scale);
-            });
-            for (tile, rows) in rows.groups().enumerate() {
-                let mut sums = [[0.0; COLUMNS]; ROWS];
-                level.run(
-                    #[inline(always)]
-                    || columns.groups().for_each(|columns| add_block(rows, columns, &mut sums)),
-                );
-                for (row, sums) in sums.iter().enumerate().take(along - tile * ROWS) {
-                    for (point, &sum) in into.chunks_exact_mut(along).zip(sums) {
-                        point[tile * ROWS + row] = sum as f32;
-                    }
-                }
-            }
-        });
-        Some((Self { dimension, axes }, points))
+        let axes = principal_vectors(signal, &sample, &center, MOST.min(dimension / PER_AXIS), level).ok()?;
+        let of_point = |point: usize| {
+            let values = signal.point(point).iter().zip(&center);
+            let residual: Vec<f64> = values.map(|(&value, g)| f64::from(value) - g).collect();
+            let along = project(&axes, &residual, level).into_iter().map(|value| value as f32);
+            (along.collect::<Vec<_>>(), dot(&residual, &residual).sqrt())
+        };
+        let (points, lengths): (Vec<_>, Vec<_>) = (0..signal.points()).into_par_iter().map(of_point).unzip();
+        let points = Signal::new(axes.len() / dimension, points.concat()).ok()?;
+        Some(Self { center, axes, points, lengths })
     }
 
-    /// Number of axes.
-    pub(super) fn count(&self) -> usize {
-        self.axes.len() / self.dimension
-    }
-
-    /// A subspace along the axes. `offset` is its mean, relative to the center and scaled; empty if it is 0.
-    pub(super) fn project(&self, subspace: &AffineSubspace, offset: &[f64], level: SimdLevel) -> ScaledSubspace {
+    /// A subspace along the axes.
+    pub(super) fn along(&self, subspace: &AffineSubspace, level: SimdLevel) -> AlongAxes {
         let mut vectors = Vec::new();
         for vector in subspace.vectors() {
-            add_orthonormal(&mut vectors, self.along(vector, level), NOTHING);
+            add_orthonormal(&mut vectors, project(&self.axes, vector, level), NOTHING);
         }
-        let projected = if offset.is_empty() { Vec::new() } else { self.along(offset, level) };
-        ScaledSubspace { dimension: self.count(), length: dot(offset, offset).sqrt(), offset: projected, vectors }
+        let offset: Vec<f64> = subspace.mean.iter().zip(&self.center).map(|(mean, g)| mean - g).collect();
+        let mean = project(&self.axes, &offset, level);
+        let eigenvalues = vec![0.0; vectors.len() / mean.len()];
+        AlongAxes { subspace: AffineSubspace { mean, vectors, eigenvalues }, length: dot(&offset, &offset).sqrt() }
     }
 
-    fn along(&self, vector: &[f64], level: SimdLevel) -> Vec<f64> {
-        let mut found = Vec::with_capacity(self.count());
-        level.run(
-            #[inline(always)]
-            || dots(&self.axes, vector, |along| found.push(along)),
-        );
-        found
+    /// A lower bound of a point's squared error.
+    #[inline(always)]
+    pub(super) fn bound(&self, along: &AlongAxes, point: usize, residual: &mut Vec<f64>) -> f64 {
+        let size = self.lengths[point] + along.length + TINY;
+        along.subspace.squared_error(self.points.point(point), residual) - SLACK * size * size
     }
+}
+
+fn project(axes: &[f64], vector: &[f64], level: SimdLevel) -> Vec<f64> {
+    let mut found = Vec::with_capacity(axes.len() / vector.len());
+    level.run(
+        #[inline(always)]
+        || dots(axes, vector, |along| found.push(along)),
+    );
+    found
+}
+
+fn component_mean(signal: &Signal, component: usize) -> f64 {
+    let values = signal.values().iter().skip(component).step_by(signal.dimension());
+    values.map(|&value| f64::from(value)).sum::<f64>() / signal.points() as f64
 }
 
 #[cfg(test)]
@@ -109,19 +119,18 @@ mod tests {
     #[test]
     fn axes_are_orthonormal_and_hold_most_of_the_signal() {
         let signal = torus_signal(700, 200, 4);
-        let (axes, points) = Axes::new(&signal, &[0.0; 200], 0.01, SimdLevel::widest()).expect("axes");
-        assert_eq!((axes.count(), axes.axes.len()), (50, 50 * 200));
-        for (i, a) in axes.axes.chunks(200).enumerate() {
-            for (j, b) in axes.axes.chunks(200).enumerate() {
+        let found = Axes::new(&signal, CpcaForm::Linear, SimdLevel::widest()).expect("axes");
+        assert_eq!((found.points.dimension(), found.axes.len()), (50, 50 * 200));
+        for (i, a) in found.axes.chunks(200).enumerate() {
+            for (j, b) in found.axes.chunks(200).enumerate() {
                 assert!((dot(a, b) - f64::from(u8::from(i == j))).abs() < 1e-13);
             }
         }
-        let held: f64 = points.iter().map(|&value| f64::from(value) * f64::from(value) * 1e4).sum();
-        let all = signal.sum_of_squares();
+        let (held, all) = (found.points.sum_of_squares(), signal.sum_of_squares());
         assert!(held < all && held > 0.9 * all, "{held} of {all}");
-        assert!(Axes::new(&torus_signal(9, 127, 0), &[0.0; 127], 1.0, SimdLevel::Baseline).is_none(), "few dimensions");
-        let dark = Signal::new(200, vec![0.0; 400]).expect("a signal");
-        assert!(Axes::new(&dark, &[0.0; 200], 1.0, SimdLevel::Baseline).is_none(), "no axes of zeros");
+        let none = |signal: &Signal| Axes::new(signal, CpcaForm::Linear, SimdLevel::Baseline).is_none();
+        assert!(none(&torus_signal(9, 127, 0)), "few dimensions");
+        assert!(none(&Signal::new(200, vec![0.0; 400]).expect("a signal")), "no axes of zeros");
     }
 
     #[test]
@@ -129,12 +138,12 @@ mod tests {
         let mut values = vec![0.0; 200 * 200];
         (0..200).for_each(|point| values[200 * point + point % 3] = 1.0);
         let signal = Signal::new(200, values).expect("a signal");
-        let (axes, _) = Axes::new(&signal, &[0.0; 200], 1.0, SimdLevel::widest()).expect("axes");
-        assert_eq!(axes.count(), 3);
+        let axes = Axes::new(&signal, CpcaForm::Linear, SimdLevel::widest()).expect("axes");
+        assert_eq!(axes.points.dimension(), 3);
         let unit = |at: usize| (0..200).map(move |j| f64::from(u8::from(j == at)));
         let vectors: Vec<f64> = unit(150).chain(unit(1)).collect();
         let subspace = AffineSubspace { mean: vec![0.0; 200], vectors, eigenvalues: vec![1.0; 2] };
-        let projected = axes.project(&subspace, &[], SimdLevel::widest());
-        assert_eq!((projected.vectors.len(), projected.length), (3, 0.0));
+        let along = axes.along(&subspace, SimdLevel::widest());
+        assert_eq!((along.subspace.len(), along.length), (1, 0.0));
     }
 }

@@ -4,7 +4,6 @@ use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
 use super::budget::distribute;
-use super::carried::Carried;
 use super::fit::{Fitted, fit};
 use super::gram::KeptProducts;
 use super::members::{Members, fill_empty};
@@ -98,7 +97,6 @@ pub(super) fn grow(
 struct Work<'a, O> {
     signal: &'a Signal,
     points: Points<'a>,
-    carried: Carried,
     form: CpcaForm,
     level: SimdLevel,
     clusters: Vec<Fitted>,
@@ -120,7 +118,6 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(Self {
             signal,
             points: Points::new(signal, options.form, level),
-            carried: Carried::default(),
             form: options.form,
             level,
             clusters: start.iter().map(|point| Fitted::at(at(point))).collect(),
@@ -163,7 +160,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     /// Assigns each point to its best cluster; returns the number of points that changed theirs.
     fn classify(&mut self) -> usize {
         let subspaces: Vec<_> = self.clusters.iter().map(|cluster| &cluster.subspace).collect();
-        let mut nearest = self.points.nearest(&subspaces, &self.of_point, &mut self.carried);
+        let mut nearest = self.points.nearest(&subspaces);
         fill_empty(&mut nearest.cluster, &mut nearest.squared_error, self.clusters.len());
         let before = std::mem::replace(&mut self.of_point, nearest.cluster);
         // Before the first classification the list is empty: then every point counts as moved.

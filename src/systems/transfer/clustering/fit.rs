@@ -192,9 +192,9 @@ impl Residuals<'_> {
     /// C^T u for the first vectors u, concatenated: linear combinations of the points' residuals.
     fn combined(&self, weights: &Matrix, count: usize) -> Vec<f64> {
         let (length, points) = (self.mean.len(), self.points.len());
-        let rows = Packed::<f64, ROWS>::new(count, points, |at, into| into.copy_from_slice(weights.row(at)));
+        let rows = Packed::<ROWS>::new(count, points, |at, into| into.copy_from_slice(weights.row(at)));
         let part = |at: usize, first: usize, into: &mut [f64]| self.part(self.points[at], first, into);
-        let columns = Packed::<f64, COLUMNS>::across(length, points, part);
+        let columns = Packed::<COLUMNS>::across(length, points, part);
         let mut combined = vec![0.0; count * length];
         for (rows, into) in rows.groups().zip(combined.chunks_mut(ROWS * length)) {
             for (group, columns) in columns.groups().enumerate() {

@@ -49,8 +49,8 @@ impl KeptProducts {
                 column.iter().for_each(|&column| *value = from[column]);
             }
         }
-        let rows = Packed::<f64, ROWS>::new(new.len(), length, |at, into| vector(points[new[at]], into));
-        let columns = Packed::<f64, COLUMNS>::new(size, length, |at, into| vector(points[at], into));
+        let rows = Packed::<ROWS>::new(new.len(), length, |at, into| vector(points[new[at]], into));
+        let columns = Packed::<COLUMNS>::new(size, length, |at, into| vector(points[at], into));
         for (rows, new) in rows.groups().zip(new.chunks(ROWS)) {
             for (group, columns) in columns.groups().enumerate() {
                 let mut sums = [[0.0; COLUMNS]; ROWS];
@@ -79,12 +79,7 @@ impl KeptProducts {
 
 /// Adds the products of all pairs of vectors, which are both `rows` and `columns`, to the lower triangle; what stands
 /// above it is not used.
-pub(super) fn add_products(
-    products: &mut Matrix,
-    rows: &Packed<f64, ROWS>,
-    columns: &Packed<f64, COLUMNS>,
-    level: SimdLevel,
-) {
+pub(super) fn add_products(products: &mut Matrix, rows: &Packed<ROWS>, columns: &Packed<COLUMNS>, level: SimdLevel) {
     let size = products.row_count();
     let rows: Vec<_> = rows.groups().collect();
     let length = rows.first().map_or(0, |row| row.len());

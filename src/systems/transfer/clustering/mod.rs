@@ -2,11 +2,11 @@
 //! subspace, a mean and a few orthonormal vectors (sections 3.3 and 4 of the paper), or by vectors alone
 //! ([`CpcaForm::Linear`]).
 //!
+//! - [`mod@reference`]: the paper by plain loops, for tests. Read it first.
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
 //! - [`compress_to_error`]: the same with as few vectors, or clusters, as a given error needs;
-//! - [`refit`]: new principal components after points were moved;
-//! - [`mod@reference`]: the same by plain loops, for tests.
+//! - [`refit`]: new principal components after points were moved.
 //!
 //! Choices that the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error
 //! from a cluster that has others; the component of largest magnitude of each vector is positive; loops end when no
@@ -16,14 +16,10 @@
 
 mod axes;
 mod budget;
-mod carried;
 mod compress;
 mod compressed;
-mod estimate;
 mod fit;
 mod gram;
-mod groups;
-mod least;
 mod members;
 mod nearest;
 mod options;

@@ -1,7 +1,6 @@
 //! Many inner products at once, in blocks that stay in registers: the work of compression.
 
 use std::hint::black_box;
-use std::ops::{Add, Mul};
 
 use crate::linalg::{dot, make_largest_positive};
 
@@ -11,22 +10,22 @@ pub(super) const ROWS: usize = 6;
 /// Vectors side by side, component by component: component j of vector v is `[v / N][j][v % N]`. Missing vectors of
 /// the last group are 0.
 #[derive(Clone, Debug)]
-pub(super) struct Packed<T, const N: usize> {
+pub(super) struct Packed<const N: usize> {
     length: usize,
-    components: Vec<[T; N]>,
+    components: Vec<[f64; N]>,
 }
 
-impl<T: Copy + Default, const N: usize> Packed<T, N> {
+impl<const N: usize> Packed<N> {
     /// `count` vectors of a length; `vector` writes one.
-    pub(super) fn new(count: usize, length: usize, mut vector: impl FnMut(usize, &mut [T])) -> Self {
+    pub(super) fn new(count: usize, length: usize, mut vector: impl FnMut(usize, &mut [f64])) -> Self {
         let mut components = Vec::with_capacity(count.div_ceil(N) * length);
-        let mut group = vec![T::default(); N * length];
+        let mut group = vec![0.0; N * length];
         for first in (0..count).step_by(N) {
             let here = N.min(count - first);
             for (at, into) in group.chunks_exact_mut(length.max(1)).take(here).enumerate() {
                 vector(first + at, into);
             }
-            group[here * length..].fill(T::default());
+            group[here * length..].fill(0.0);
             components.extend((0..length).map(|j| std::array::from_fn(|v| group[v * length + j])));
         }
         Self { length, components }
@@ -34,8 +33,8 @@ impl<T: Copy + Default, const N: usize> Packed<T, N> {
 
     /// The other way round: `count` vectors of which component j is number `at` of vector j of others. `part` writes
     /// numbers of vector j from `at` on, as many as it is given.
-    pub(super) fn across(count: usize, length: usize, mut part: impl FnMut(usize, usize, &mut [T])) -> Self {
-        let mut components = vec![[T::default(); N]; count.div_ceil(N) * length];
+    pub(super) fn across(count: usize, length: usize, mut part: impl FnMut(usize, usize, &mut [f64])) -> Self {
+        let mut components = vec![[0.0; N]; count.div_ceil(N) * length];
         for j in 0..length {
             for first in (0..count).step_by(N) {
                 part(j, first, &mut components[first / N * length + j][..N.min(count - first)]);
@@ -45,40 +44,16 @@ impl<T: Copy + Default, const N: usize> Packed<T, N> {
     }
 
     /// The groups of N vectors.
-    pub(super) fn groups(&self) -> impl ExactSizeIterator<Item = &[[T; N]]> {
+    pub(super) fn groups(&self) -> impl ExactSizeIterator<Item = &[[f64; N]]> {
         self.components.chunks_exact(self.length.max(1))
     }
 }
 
 /// Adds the inner products of ROWS vectors with N others. Each sum runs over the components in order, from 0.
 #[inline(always)]
-pub(super) fn add_block<T, const N: usize>(rows: &[[T; ROWS]], columns: &[[T; N]], into: &mut [[T; N]; ROWS])
-where
-    T: Copy + Default + Add<Output = T> + Mul<Output = T>,
-{
-    add_rows(rows.iter().copied(), columns, into);
-}
-
-/// As [`add_block`], for vectors in separate slices.
-#[inline(always)]
-pub(super) fn add_slices<T, const N: usize>(rows: [&[T]; ROWS], columns: &[[T; N]], into: &mut [[T; N]; ROWS])
-where
-    T: Copy + Default + Add<Output = T> + Mul<Output = T>,
-{
-    let [p, q, r, s, t, u] = rows;
-    let rows = p.iter().zip(q).zip(r).zip(s).zip(t).zip(u);
-    add_rows(rows.map(|(((((&a, &b), &c), &d), &e), &f)| [a, b, c, d, e, f]), columns, into);
-}
-
-// Each row's sums are a variable of their own: the compiler may gather the elements of an array of them one by one,
-// which took 60 times as long.
-#[inline(always)]
-fn add_rows<T, const N: usize>(rows: impl Iterator<Item = [T; ROWS]>, columns: &[[T; N]], into: &mut [[T; N]; ROWS])
-where
-    T: Copy + Default + Add<Output = T> + Mul<Output = T>,
-{
-    let [mut a, mut b, mut c, mut d, mut e, mut f] = [[T::default(); N]; ROWS];
-    for (row, column) in rows.zip(columns) {
+pub(super) fn add_block<const N: usize>(rows: &[[f64; ROWS]], columns: &[[f64; N]], into: &mut [[f64; N]; ROWS]) {
+    let [mut a, mut b, mut c, mut d, mut e, mut f] = [[0.0; N]; ROWS];
+    for (row, column) in rows.iter().zip(columns) {
         a = add_scaled(a, row[0], column);
         b = add_scaled(b, row[1], column);
         c = add_scaled(c, row[2], column);
@@ -94,10 +69,7 @@ where
 }
 
 #[inline(always)]
-fn add_scaled<T, const N: usize>(sums: [T; N], scale: T, others: &[T; N]) -> [T; N]
-where
-    T: Copy + Add<Output = T> + Mul<Output = T>,
-{
+fn add_scaled<const N: usize>(sums: [f64; N], scale: f64, others: &[f64; N]) -> [f64; N] {
     std::array::from_fn(|at| sums[at] + scale * others[at])
 }
 
@@ -131,71 +103,9 @@ pub(super) fn dots(others: &[f64], vector: &[f64], mut into: impl FnMut(f64)) {
     groups.remainder().chunks_exact(length).for_each(|other| into(dot(other, vector)));
 }
 
-/// Vectors whose products with others [`dots_of_many`] makes at once.
-pub(super) const MANY: usize = 4;
-/// The partial sums of an inner product.
-pub(super) type PartialSums = [f64; PARTIAL];
-/// Numbers of vectors that stay in the nearest cache meanwhile: a multiple of [`PARTIAL`].
-const PIECE: usize = 512;
-
-/// Calls `into` with the inner products of some vectors with each of others, as long as they each and one after
-/// another. They have the bits of [`dot`]. `sums` is room.
-#[inline(always)]
-pub(super) fn dots_of_many(
-    others: &[f64],
-    vectors: [&[f64]; MANY],
-    sums: &mut Vec<[PartialSums; MANY]>,
-    mut into: impl FnMut([f64; MANY]),
-) {
-    let length = vectors[0].len().max(1);
-    sums.clear();
-    sums.resize(others.len() / length, [[0.0; PARTIAL]; MANY]);
-    let whole = length / PARTIAL * PARTIAL;
-    for from in (0..whole).step_by(PIECE) {
-        let piece = from..whole.min(from + PIECE);
-        let [p, q, r, s] = vectors.map(|vector| vector[piece.clone()].as_chunks::<PARTIAL>().0);
-        let mut pairs = others.chunks_exact(2 * length);
-        let mut into = sums.chunks_exact_mut(2);
-        for (pair, into) in (&mut pairs).zip(&mut into) {
-            let (one, other) = pair.split_at(length);
-            let [one, other] = [one, other].map(|other| other[piece.clone()].as_chunks::<PARTIAL>().0);
-            let [[mut a, mut b, mut c, mut d], [mut e, mut f, mut g, mut h]] = black_box([into[0], into[1]]);
-            for (((((x, y), p), q), r), s) in one.iter().zip(other).zip(p).zip(q).zip(r).zip(s) {
-                a = add_products(a, x, p);
-                b = add_products(b, x, q);
-                c = add_products(c, x, r);
-                d = add_products(d, x, s);
-                e = add_products(e, y, p);
-                f = add_products(f, y, q);
-                g = add_products(g, y, r);
-                h = add_products(h, y, s);
-            }
-            into.copy_from_slice(&black_box([[a, b, c, d], [e, f, g, h]]));
-        }
-        let other = pairs.remainder();
-        for last in into.into_remainder() {
-            for (sum, vector) in last.iter_mut().zip([p, q, r, s]) {
-                for (x, y) in other[piece.clone()].as_chunks::<PARTIAL>().0.iter().zip(vector) {
-                    *sum = add_products(*sum, x, y);
-                }
-            }
-        }
-    }
-    for (other, sums) in others.chunks_exact(length).zip(sums) {
-        let rest = &other[whole..];
-        let mut at = 0;
-        into(sums.map(|mut sums| {
-            let products = vectors[at][whole..].iter().zip(rest);
-            sums.iter_mut().zip(products).for_each(|(sum, (x, y))| *sum += x * y);
-            at += 1;
-            folded(sums)
-        }));
-    }
-}
-
 /// The sum of partial sums, as [`dot`] folds them.
 #[inline(always)]
-fn folded([s0, s1, s2, s3, s4, s5, s6, s7]: PartialSums) -> f64 {
+fn folded([s0, s1, s2, s3, s4, s5, s6, s7]: [f64; PARTIAL]) -> f64 {
     ((s0 + s4) + (s2 + s6)) + ((s1 + s5) + (s3 + s7))
 }
 
@@ -233,7 +143,7 @@ mod tests {
         let vector = |at: usize, into: &mut [f64]| {
             into.iter_mut().enumerate().for_each(|(j, value)| *value = ((at * 7 + j * 3) % 11) as f64);
         };
-        let (rows, columns) = (Packed::<f64, ROWS>::new(8, 5, vector), Packed::<f64, 4>::new(9, 5, vector));
+        let (rows, columns) = (Packed::<ROWS>::new(8, 5, vector), Packed::<4>::new(9, 5, vector));
         for (i, row) in rows.groups().enumerate() {
             for (j, column) in columns.groups().enumerate() {
                 let mut sums = [[0.0; 4]; ROWS];
@@ -254,10 +164,10 @@ mod tests {
     fn vectors_are_packed_either_way() {
         for (count, length) in [(1, 1), (4, 3), (9, 5), (0, 2), (3, 0)] {
             let value = |vector: usize, j: usize| (vector * 31 + j) as f64;
-            let packed = Packed::<f64, 4>::new(count, length, |vector, into| {
+            let packed = Packed::<4>::new(count, length, |vector, into| {
                 into.iter_mut().enumerate().for_each(|(j, into)| *into = value(vector, j));
             });
-            let across = Packed::<f64, 4>::across(count, length, |j, first, into| {
+            let across = Packed::<4>::across(count, length, |j, first, into| {
                 into.iter_mut().enumerate().for_each(|(at, into)| *into = value(first + at, j));
             });
             assert_eq!(packed.components, across.components);
@@ -280,24 +190,6 @@ mod tests {
                 dots(&others, &vector, |product| found.push(product));
                 let expected: Vec<f64> = others.chunks_exact(length).map(|other| dot(other, &vector)).collect();
                 assert_eq!(found, expected, "{count} of {length}");
-            }
-        }
-    }
-
-    #[test]
-    fn inner_products_of_many_have_the_bits_of_others() {
-        let mut sums = Vec::new();
-        for length in [1, 7, 8, 29, 512, 1300] {
-            for count in 0..6 {
-                let value = |at: usize| (at as f64 * 0.37).fract() - 0.4;
-                let others: Vec<f64> = (0..count * length).map(value).collect();
-                let vectors: [Vec<f64>; MANY] =
-                    std::array::from_fn(|i| (0..length).map(|at| value(at * at + 3 * i)).collect());
-                let vectors = vectors.each_ref().map(Vec::as_slice);
-                let mut found = Vec::new();
-                dots_of_many(&others, vectors, &mut sums, |products| found.push(products));
-                let products = others.chunks_exact(length).map(|other| vectors.map(|vector| dot(other, vector)));
-                assert_eq!(found, products.collect::<Vec<_>>(), "{count} of {length}");
             }
         }
     }

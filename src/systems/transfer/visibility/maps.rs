@@ -70,7 +70,7 @@ pub struct VisibilityCounts {
     pub above: u64,
     /// Of these, directions behind all triangles on which the vertex lies.
     pub below_triangles: u64,
-    /// Directions in which a ray was cast; for all others the result is certain. 0 for drawn maps.
+    /// Directions in which a ray was cast; for all others the result is certain.
     pub traced: u64,
     /// Directions in which the vertex sees the light.
     pub visible: u64,

@@ -1,11 +1,9 @@
 //! Visibility maps: in which of 6 x 128 x 128 directions a vertex sees the light (section 4), a bit each.
 //!
 //! - [`VisibilityMaps::trace`]: by rays;
-//! - [`drawn`]: by an emulated card, a cube drawn from the vertex;
 //! - [`SegmentCensus`]: which of the 24 segments of the light a vertex sees at all.
 
 mod census;
-pub mod drawn;
 mod maps;
 mod sight;
 mod traced;

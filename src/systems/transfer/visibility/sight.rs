@@ -1,4 +1,4 @@
-//! Classification of a vertex's fine directions before rays are cast or faces drawn.
+//! Classification of a vertex's fine directions before rays are cast.
 
 use glam::DVec3;
 

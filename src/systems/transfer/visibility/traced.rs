@@ -143,6 +143,6 @@ pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), InputError> {
 }
 
 /// The vertices whose ray origin is not clear of all triangles on which they lie.
-pub(super) fn unclear(origins: &[RayOrigin], of: &[u32]) -> Vec<u32> {
+fn unclear(origins: &[RayOrigin], of: &[u32]) -> Vec<u32> {
     of.iter().copied().filter(|&vertex| !origins[vertex as usize].is_clear).collect()
 }

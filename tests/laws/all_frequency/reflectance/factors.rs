@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use crossbar::all_frequency::factor::{
-    Denominators, DiffuseFactor, DiscSamples, FactorSampling, Factorization, FresnelForm, Lobe, OutsideDisc,
-    ProductClamp, ProductFunction, ProductSymmetry, ProductTable, Shadowing, Supersamples,
+    Denominators, DiffuseFactor, DiscSamples, FactorSampling, Factorization, FresnelForm, Lobe, ProductFunction,
+    ProductSymmetry, ProductTable, Shadowing, Supersamples,
 };
 use crossbar::geom::random::CounterRng;
 use crossbar::io::NumberTable;
@@ -119,16 +119,14 @@ fn no_neighbour_of_the_factors_is_nearer() {
 }
 
 #[test]
-fn a_diffuse_surface_has_rank_1_whatever_lies_outside_of_the_disc() {
-    for outside in [OutsideDisc::Zero, OutsideDisc::Continued, OutsideDisc::Rim] {
-        for side in [4, 9] {
-            let sampling = FactorSampling { side, outside, ..FactorSampling::default() };
-            let table = sampling.table(&Brdf::Lambert { albedo: 0.7 }, &mut |_, _| ()).expect("a table");
-            assert_eq!(Factorization::new(&table, 1).expect("a term").rank(), 1, "{outside:?} {side}");
-            let refused = Factorization::new(&table, 2);
-            assert_eq!(refused.unwrap_err().to_string(), "expected 1 to 1 terms, the rank of the table, found 2");
-            assert_eq!(Factorization::up_to(&table, 10).expect("a term").terms(), 1);
-        }
+fn a_diffuse_surface_has_rank_1() {
+    for side in [4, 9] {
+        let sampling = FactorSampling { side, ..FactorSampling::default() };
+        let table = sampling.table(&Brdf::Lambert { albedo: 0.7 }, &mut |_, _| ()).expect("a table");
+        assert_eq!(Factorization::new(&table, 1).expect("a term").rank(), 1, "{side}");
+        let refused = Factorization::new(&table, 2);
+        assert_eq!(refused.unwrap_err().to_string(), "expected 1 to 1 terms, the rank of the table, found 2");
+        assert_eq!(Factorization::up_to(&table, 10).expect("a term").terms(), 1);
     }
 }
 
@@ -166,14 +164,8 @@ fn reciprocity_makes_a_symmetric_table() {
         fn value(&self, view: DVec3, light: DVec3) -> f64 {
             self.0.value(view, light) / light.z
         }
-        fn continues(&self) -> bool {
-            false
-        }
         fn symmetry(&self) -> ProductSymmetry {
             self.0.symmetry()
-        }
-        fn name(&self) -> &'static str {
-            "a reflectance"
         }
     }
     for lobe in [COOK_TORRANCE, SCHLICK, Lobe { denominators: Denominators::Product, ..COOK_TORRANCE }] {
@@ -257,23 +249,17 @@ fn split_pairs_are_found() {
 /// Means over finer samples converge; the clamp holds for each texel.
 #[test]
 fn more_samples_agree_and_the_limit_holds() {
-    let table = |edge: usize, clamp: ProductClamp| {
+    let table = |edge: usize, limit: f64| {
         let supersamples = Supersamples { view: edge, light: edge };
-        let sampling = FactorSampling { side: 6, supersamples, clamp, ..FactorSampling::default() };
+        let sampling = FactorSampling { side: 6, supersamples, limit };
         sampling.table(&COOK_TORRANCE, &mut |_, _| ()).expect("a table")
     };
     let distance = |a: &ProductTable, b: &ProductTable| {
         let pairs = a.values().rows().flatten().zip(b.values().rows().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
-    let [one, three, six] = [1, 3, 6].map(|edge| table(edge, ProductClamp::None));
+    let [one, three, six] = [1, 3, 6].map(|edge| table(edge, f64::INFINITY));
     assert!(distance(&three, &six) < 0.5 * distance(&one, &six));
-    for clamp in [ProductClamp::Samples(0.2), ProductClamp::Means(0.2)] {
-        let cut = table(3, clamp);
-        assert!(cut.values().rows().flatten().all(|&value| (0.0..=0.2).contains(&value)), "{clamp:?}");
-    }
-    // The mean of clamped values does not exceed the clamped mean.
-    let [samples, means] = [table(3, ProductClamp::Samples(0.2)), table(3, ProductClamp::Means(0.2))];
-    assert!(samples.values().rows().flatten().zip(means.values().rows().flatten()).all(|(a, b)| *a <= b + 1e-15));
+    assert!(table(3, 0.2).values().rows().flatten().all(|&value| (0.0..=0.2).contains(&value)));
     assert_eq!(ParabolicMap::new(6).texels(), 36);
 }

@@ -1,5 +1,4 @@
 //! Factors of reflectance: what singular values promise, measured files, tables.
 
 mod factors;
-mod merl;
 mod tables;

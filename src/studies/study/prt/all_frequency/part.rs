@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::exact;
 use crate::all_frequency::file::AllFrequencyFile;
-use crate::all_frequency::shade::{Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance};
+use crate::all_frequency::shade::{Multiplies, Shader, TransferredRadiance, exit_radiance};
 use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::scene::Camera;
@@ -43,7 +43,7 @@ pub(super) struct Part<'a> {
 
 impl<'a> Part<'a> {
     pub(super) fn new(vertices: &'a Vertices, colors: &'a [[f64; 3]], file: &'a AllFrequencyFile) -> Self {
-        let shader = file.coded.as_ref().map(|coded| Shader::new(coded, Representatives::Sparse));
+        let shader = file.coded.as_ref().map(Shader::new);
         Self { vertices, colors, file, shader }
     }
 

@@ -3,11 +3,9 @@
 use glam::DVec3;
 use serde_json::json;
 
-use super::subject::{BrdfFactors, FactorSubject};
+use super::subject::BrdfFactors;
 use super::{files, harmonics, sphere, sweep, terms};
-use crate::all_frequency::factor::{
-    DiscSamples, Factorization, HarmonicFit, HarmonicSides, ProductErrors, ProductFactors, ProductTable,
-};
+use crate::all_frequency::factor::{DiscSamples, Factorization, ProductErrors, ProductFactors, ProductTable};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color};
@@ -64,10 +62,7 @@ impl BrdfFactors {
             "{terms} {}: relative squared error {relative}; at texels above the horizon RMS {rms}, largest {max}.",
             self.name
         ));
-        let compared = |row: &&harmonics::HarmonicRow| {
-            row.sides == HarmonicSides::Both && row.fit == HarmonicFit::ZeroHemisphere && row.errors.rms <= errors.rms
-        };
-        if let Some(row) = harmonic.iter().find(compared) {
+        if let Some(row) = harmonic.iter().find(|row| row.errors.rms <= errors.rms) {
             found.conclusion(format!(
                 "Of spherical harmonics by integrals on both sides, {} functions (order {}) are the first as near: RMS {}.",
                 function_count(row.order),
@@ -90,9 +85,6 @@ impl BrdfFactors {
                 percent(errors.negative)
             ));
         }
-        if let FactorSubject::Merl(merl, _) = &self.subject {
-            found.conclusion(format!("Cells below 0, which were not measured and count as 0: {}.", merl.invalid));
-        }
     }
 
     fn fields(&self, found: &mut Findings, all: &Factorization, errors: &ProductErrors) {
@@ -106,14 +98,11 @@ impl BrdfFactors {
         found.field("relative_squared_error", json!(all.relative_squared_error(all.terms())));
         let pair = all.split_pair(all.terms()).map(|pair| json!({ "terms": pair.terms, "values": pair.values }));
         found.field("split_pair", json!(pair));
-        if let FactorSubject::Merl(merl, _) = &self.subject {
-            found.field("invalid_cells", json!(merl.invalid));
-        }
     }
 
     /// A sphere by f, by the table and by the terms.
     fn pictures(&self, found: &mut Findings, table: &ProductTable, factors: &ProductFactors) -> Result<(), StudyError> {
-        let limit = self.sampling.clamp.limit();
+        let limit = self.sampling.limit;
         let of_formula =
             self.subject.with_product(|product| sphere::radiance(&|view, light| product.value(view, light).min(limit)));
         let of_table = sphere::radiance(&|view, light| table.interpolated(view, light));
@@ -145,7 +134,7 @@ impl BrdfFactors {
 
     /// Errors between texels, where f is known there.
     fn between(&self, found: &mut Findings, factors: &ProductFactors) {
-        let limit = self.sampling.clamp.limit();
+        let limit = self.sampling.limit;
         let Some(errors) = self.subject.with_product(|product| ProductErrors::between_texels(product, limit, factors))
         else {
             return;
@@ -170,7 +159,7 @@ impl BrdfFactors {
         let mut rows =
             Table::of("Directional albedo: light of radiance 1 from everywhere", "view_degrees f table terms");
         let rule = DirectionRule::hemisphere(ALBEDO_DEGREE);
-        let limit = self.sampling.clamp.limit();
+        let limit = self.sampling.limit;
         for degrees in [0.0_f64, 30.0, 45.0, 60.0, 75.0] {
             let [z, x] = crate::elementary::on_circle(degrees / 360.0);
             let view = DVec3::new(x, 0.0, z);

@@ -1,8 +1,6 @@
 //! The reflectance to be factored, and the errors of choosing it.
 
-use crate::all_frequency::factor::{
-    FactorSampling, Factorization, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
-};
+use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductFunction, ProductTable};
 use crate::error::InputError;
 use crate::transfer::brdf::Brdf;
 
@@ -13,8 +11,6 @@ pub enum FactorSubject {
     Lobe(Lobe),
     /// A model of `transfer::brdf`.
     Brdf(Brdf),
-    /// A channel of a measurement.
-    Merl(MerlBrdf, MerlChannel),
     /// A table of f by texels.
     Table(ProductTable),
 }
@@ -45,12 +41,11 @@ impl BrdfFactors {
 }
 
 impl FactorSubject {
-    /// Calls with f as a formula or a measurement; `None` for a table.
+    /// Calls with f as a formula; `None` for a table.
     pub(super) fn with_product<T>(&self, of: impl FnOnce(&dyn ProductFunction) -> T) -> Option<T> {
         match self {
             Self::Lobe(lobe) => Some(of(lobe)),
             Self::Brdf(brdf) => Some(of(brdf)),
-            Self::Merl(merl, channel) => Some(of(&merl.channel(*channel))),
             Self::Table(_) => None,
         }
     }

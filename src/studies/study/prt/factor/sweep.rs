@@ -62,7 +62,7 @@ impl BrdfFactors {
         let table = self.sampling.table(lobe, &mut |_, _| ())?;
         let found = self.factorization(&table)?;
         let factors = found.factors(found.terms());
-        let limit = self.sampling.clamp.limit();
+        let limit = self.sampling.limit;
         let [original, drawn] = [
             sphere::radiance(&|view, light| lobe.value(view, light).min(limit)),
             sphere::radiance(&|view, light| factors.product(view, light)),

@@ -2,8 +2,8 @@
 
 use super::{HOST, StudyError, failed};
 use crate::all_frequency::factor::{
-    Denominators, DiscSamples, FacetDistribution, FactorSampling, Factorization, FresnelForm, HarmonicFit,
-    HarmonicSides, HemisphereSamples, Lobe, ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
+    Denominators, DiscSamples, FacetDistribution, FactorSampling, Factorization, FresnelForm, HemisphereSamples, Lobe,
+    ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
 };
 use crate::sphere::MAX_ORDER;
 
@@ -95,16 +95,13 @@ impl FormErrors {
 
     /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are.
     pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, StudyError> {
-        let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().clamp.limit());
+        let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().limit);
         let terms = samples.term_errors(TERMS).map_err(|error| failed(HOST)(&error))?;
         Self::beside(terms, &samples)
     }
 
     fn beside(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, StudyError> {
-        let of = |order: usize| {
-            harmonic_errors(samples, order, HarmonicFit::ZeroHemisphere, HarmonicSides::Both)
-                .map_err(|error| failed(HOST)(&error))
-        };
+        let of = |order: usize| harmonic_errors(samples, order).map_err(|error| failed(HOST)(&error));
         let mut functions = MAX_ORDER * MAX_ORDER;
         for order in 1..=MAX_ORDER {
             if of(order)?.rms <= terms.rms {

@@ -5,7 +5,7 @@ use serde_json::json;
 use super::coding::{coarse_codes, ways_to_code};
 use super::pixels::exact_pixels;
 use super::precision::{factored_precision, ways_of_precision};
-use super::subject::{AllFrequencyOnCard, CardSums, HostSteps, in_double};
+use super::subject::{AllFrequencyOnCard, HostSteps, in_double};
 use crate::all_frequency::on_card::reference::vertex_radiance;
 use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
 use crate::all_frequency::on_card::{
@@ -38,11 +38,8 @@ impl Study for AllFrequencyOnCard {
         progress("card", 1, 2);
         let view = MeshView { camera: lit.view.camera, exposure, format: card.format };
         let (profile, executor) = (card.profile.clone(), card.executor.clone());
-        let mut drawing =
+        let drawing =
             draw(profile, executor, mesh, self.place, &view, steps.multiplies).map_err(no_all_frequency_card)?;
-        if let Some(sums) = &steps.sums {
-            drawing.log = sums.log.events.iter().cloned().chain(drawing.log).collect();
-        }
         let drawn = drawing.texels.colors();
         let is_clamped = card.is_clamped() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
         let compared = ComparedPicture::new(&seen, &drawn, &host, is_clamped);
@@ -108,15 +105,7 @@ impl AllFrequencyOnCard {
         }
         if let Some(coded) = &self.lit.file.coded {
             let exact = in_double(coded, &steps.cut.light)?;
-            push(
-                if self.sums_on_card {
-                    "sums over representatives by the card"
-                } else {
-                    "sums over representatives in single precision"
-                },
-                &ours,
-                &pixels(&self.mesh_of(&exact), &products),
-            );
+            push("sums over representatives in single precision", &ours, &pixels(&self.mesh_of(&exact), &products));
         }
         let compressed = self.lit.original.as_ref().filter(|_| self.lit.file.coded.is_some());
         if let Some(original) = compressed {
@@ -163,15 +152,7 @@ impl AllFrequencyOnCard {
             ("vertices below 0", drawing.counts.vertices_below_zero),
             ("vertices above 1", drawing.counts.vertices_above_one),
         ];
-        let of_sums = |of: fn(&CardSums) -> u64| steps.sums.as_ref().map(of);
-        let of_sums = [
-            ("passes of sums", of_sums(|sums| sums.log.passes as u64)),
-            ("bytes sent for sums", of_sums(|sums| sums.log.sent)),
-            ("bytes read back", of_sums(|sums| sums.log.returned)),
-            ("bytes of textures for sums", of_sums(|sums| sums.texture_bytes)),
-        ];
-        let rows = rows.into_iter().chain(of_sums.into_iter().filter(|_| self.sums_on_card));
-        rows.map(|(what, number)| (what, number.map_or(Cell::Empty, Cell::from))).collect()
+        rows.into_iter().map(|(what, number)| (what, number.map_or(Cell::Empty, Cell::from))).collect()
     }
 
     /// Representatives, weights, G, arithmetic and filters, varied one after the other.

@@ -4,14 +4,13 @@ use glam::DMat3;
 
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::file::AllFrequencyFile;
-use crate::all_frequency::on_card::{ProductPlace, SumCard, SumLog, TransferredMesh};
-use crate::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain};
+use crate::all_frequency::on_card::{ProductPlace, TransferredMesh};
+use crate::all_frequency::shade::{LightSizeError, Multiplies, Shader, TransferredRadiance, plain};
 use crate::error::InputError;
 use crate::study::StudyError;
 use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
 use crate::study::prt::card::CardSetting;
-use crate::study::prt::no_all_frequency_card;
 use crate::transfer::light::{HaarLight, LightTruncation};
 
 /// A lit model with all-frequency transfer, and the card that draws it.
@@ -23,8 +22,6 @@ pub struct AllFrequencyOnCard {
     pub card: CardSetting,
     /// Where products with G are made.
     pub place: ProductPlace,
-    /// True if the card makes the sums over representatives too; transfer must be coded.
-    pub sums_on_card: bool,
 }
 
 /// Steps 1 to 3 of section 6, and what they multiplied.
@@ -32,15 +29,6 @@ pub(super) struct HostSteps {
     pub(super) cut: LightTruncation,
     pub(super) transferred: TransferredRadiance,
     pub(super) multiplies: Multiplies,
-    /// Work of host and card for sums by the card.
-    pub(super) sums: Option<CardSums>,
-}
-
-/// Sums by the card.
-pub(super) struct CardSums {
-    pub(super) log: SumLog,
-    /// Bytes of textures that stay on the card.
-    pub(super) texture_bytes: u64,
 }
 
 impl AllFrequencyOnCard {
@@ -56,19 +44,6 @@ impl AllFrequencyOnCard {
     /// The host's work before a card draws.
     pub(super) fn steps(&self) -> Result<HostSteps, StudyError> {
         let cut = self.cut(self.lit.keep)?;
-        if self.sums_on_card {
-            let not_coded = || {
-                let what = "expected coded transfer, whose representatives a card sums, found visibility alone";
-                let help = "`crossbar all-frequency compress` codes it";
-                StudyError::new("crossbar::prt::card", what).with_help(help)
-            };
-            let coded = self.lit.file.coded.as_ref().ok_or_else(not_coded)?;
-            let mut card = SumCard::new(self.card.profile.clone(), self.card.executor.clone(), coded)
-                .map_err(no_all_frequency_card)?;
-            let (transferred, log) = card.transferred(&cut.light.singles()).map_err(no_all_frequency_card)?;
-            let sums = Some(CardSums { log, texture_bytes: card.texture_bytes() });
-            return Ok(HostSteps { cut, transferred, multiplies: Multiplies::default(), sums });
-        }
         let (transferred, multiplies) = match &self.lit.file.coded {
             Some(coded) => by_shader(coded, &cut.light)?,
             // Every light coefficient that is not 0, in the raw matrix of every vertex.
@@ -77,7 +52,7 @@ impl AllFrequencyOnCard {
                 (self.raw(&self.lit.file, &cut.light)?, Multiplies { per_cluster: 0, per_vertex })
             }
         };
-        Ok(HostSteps { cut, transferred, multiplies, sums: None })
+        Ok(HostSteps { cut, transferred, multiplies })
     }
 
     /// Transferred radiance by raw matrices in f64, one rounding to f32 each.
@@ -98,7 +73,7 @@ pub(super) fn by_shader(
     coded: &CodedTransfer,
     light: &HaarLight,
 ) -> Result<(TransferredRadiance, Multiplies), LightSizeError> {
-    let (shader, light) = (Shader::new(coded, Representatives::Sparse), light.singles());
+    let (shader, light) = (Shader::new(coded), light.singles());
     Ok((shader.transferred(&light)?, shader.multiplies(&light)))
 }
 

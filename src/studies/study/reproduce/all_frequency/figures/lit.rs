@@ -5,7 +5,7 @@ use super::{HOST, Shared, StudyError, failed};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
-use crate::all_frequency::shade::{Representatives, Shader, exit_radiance};
+use crate::all_frequency::shade::{Shader, exit_radiance};
 use crate::study::prt::{CompressionTally, SegmentedCompression};
 use crate::transfer::light::HaarLight;
 use crate::transfer::visibility::VisibilityMaps;
@@ -40,7 +40,7 @@ impl Surface<'_> {
 
     /// Radiance of the maps' vertices towards the scene's eye, from encoded transfer.
     pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
-        let shader = Shader::new(coded, Representatives::Sparse);
+        let shader = Shader::new(coded);
         let transferred = shader.transferred(&light.singles()).map_err(|e| failed(HOST)(&e))?;
         Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
     }
