@@ -12,6 +12,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
+use crossbar::bi_scale::baselines::WideRows;
 use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::matrix::SparseMatrix;
@@ -38,31 +39,19 @@ fn biclusters(matrix: &SparseMatrix) -> Biclustering {
     bicluster(matrix, BiclusterOptions::default(), &mut |_| ()).expect("quarters")
 }
 
-/// Rows of columns and values, four bytes each.
-type Rows = Vec<Vec<(u32, f32)>>;
-
-fn times_rows<const C: usize>(rows: &Rows, light: &[[f32; C]]) -> Vec<[f32; C]> {
-    let add = |sum: [f32; C], &(column, value): &(u32, f32)| {
-        let light = light[column as usize];
-        std::array::from_fn(|channel| sum[channel] + value * light[channel])
-    };
-    rows.iter().map(|row| row.iter().fold([0.0; C], add)).collect()
-}
-
 /// Product with a light of C channels, by biclusters and by rows.
-fn products<const C: usize>(criterion: &mut Criterion, rows: &Rows, gather: &Gather) {
+fn products<const C: usize>(criterion: &mut Criterion, rows: &WideRows, gather: &Gather) {
     let light: Vec<[f32; C]> = (0..6144).map(|texel| [0; C].map(|_: u8| (texel % 97) as f32 / 97.0)).collect();
     let mut group = criterion.benchmark_group(format!("light of {C} channels"));
     group.sample_size(20).measurement_time(Duration::from_secs(3));
-    group.throughput(Throughput::Elements(rows.iter().map(|row| row.len() as u64).sum()));
-    group.bench_function("times rows", |b| b.iter(|| black_box(times_rows(rows, black_box(&light)))));
+    group.throughput(Throughput::Elements(rows.nonzeros() as u64));
+    group.bench_function("times rows", |b| b.iter(|| black_box(rows.multiply_singles(black_box(&light)))));
     group.bench_function("times biclusters", |b| b.iter(|| black_box(gather.multiply(black_box(&light)))));
     group.finish();
 }
 
 fn benches(criterion: &mut Criterion, matrix: &SparseMatrix, found: &Biclustering) {
-    let entries = |row| matrix.row(row).iter().map(|entry| (entry.index, matrix.value(entry.value) as f32)).collect();
-    let (rows, gather): (Rows, _) = ((0..matrix.rows()).map(entries).collect(), Gather::new(found));
+    let (rows, gather) = (WideRows::new(matrix).expect("columns of 32 bits"), Gather::new(found));
     products::<1>(criterion, &rows, &gather);
     products::<3>(criterion, &rows, &gather);
     products::<4>(criterion, &rows, &gather);

@@ -99,6 +99,31 @@ fn the_cheapest_seed_is_kept() {
     assert_eq!(best["seed"], first);
 }
 
+/// Numbers without a unit whose residuals are not rounded: the biclusters' file gives back the matrix.
+#[test]
+fn any_numbers_come_back_from_files() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [matrix, biclusters, dump, back] = ["a.mtx", "b.npz", "b.csv", "c.mtx"].map(|name| place(folder.path(), name));
+    let row = |row: usize, third: &str| {
+        format!("{row} 1 0.1\n{row} 2 -5e-324\n{row} 3 {third}\n{row} 4 0.30000000000000004\n")
+    };
+    let rows = [row(1, "1e300"), row(2, "1e300"), row(3, "5e299"), row(4, "1e300")].concat();
+    let text = format!("%%MatrixMarket matrix coordinate real general\n5 4 17\n{rows}5 1 -0.0\n");
+    fs::write(&matrix, text).expect("written");
+    let found = document(&format!("bi-scale bicluster {matrix} --csv {dump} --out {biclusters}"));
+    let of = |key: &str| found[key].clone();
+    assert_eq!((of("residual"), of("biclusters"), of("distinct_values")), (0.into(), 2.into(), 5.into()));
+    assert_eq!([of("unit_bits"), of("beyond_singles")], [Value::Null, 2.into()]);
+    let dump = fs::read_to_string(&dump).expect("written");
+    assert!(dump.contains("0.1 -5e-324 1e300 0.30000000000000004\n") && dump.contains(",-5e299\n"), "{dump}");
+    let shown = document(&format!("bi-scale show {biclusters} --matrix {back}"));
+    assert_eq!((shown["distinct_values"].clone(), shown["unit_bits"].clone()), (5.into(), Value::Null));
+    let read = |path: &str| crossbar::io::load_matrix_market(path.as_ref()).expect("a matrix");
+    let (mut before, after) = (read(&matrix), read(&back));
+    before.entries.retain(|&(.., value)| value != 0.0);
+    assert_eq!(before, after);
+}
+
 #[test]
 fn what_is_lost_is_told() {
     let exact = document("bi-scale bicluster docs/examples/quarters.mtx");
@@ -114,12 +139,17 @@ fn what_is_lost_is_told() {
 #[test]
 fn what_cannot_be_done_is_said() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let tenth = place(folder.path(), "tenth.mtx");
-    fs::write(&tenth, "%%MatrixMarket matrix coordinate real general\n1 6144 1\n1 1 0.1\n").expect("written");
+    let [large, biclusters] = ["large.mtx", "large.npz"].map(|name| place(folder.path(), name));
+    fs::write(&large, "%%MatrixMarket matrix coordinate real general\n1 6144 1\n1 1 1e300\n").expect("written");
+    document(&format!("bi-scale bicluster {large} --out {biclusters}"));
     for (arguments, said) in [
         ("bi-scale multiply docs/examples/quarters.mtx".to_owned(), "expected a matrix of 6144 columns, found 32"),
         (format!("bi-scale bicluster {BICLUSTERS}"), "expected a matrix, found biclusters alone"),
-        (format!("bi-scale bicluster {tenth}"), "expected values that are multiples of one power of two"),
+        (format!("bi-scale multiply {biclusters}"), "beyond the range of the product's precision"),
+        (
+            format!("bi-scale compare {large} --sample 32"),
+            "expected values within single precision in this layout, found 1e300",
+        ),
         ("bi-scale bicluster docs/examples/step.npz".to_owned(), "`crossbar cpca` takes it"),
         ("bi-scale compare docs/examples/quarters.mtx".to_owned(), "found 32"),
         (format!("bi-scale show {BICLUSTERS} --at 0,0,0 --model cornell-box"), "expected transfer of"),

@@ -20,7 +20,7 @@ use crate::report::{Cell, Findings, Table};
 const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
-      a sparse matrix: how many operations and bytes its product with a vector takes as biclusters
+      any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
   crossbar bi-scale bicluster docs/examples/quarters.mtx --seed 7 --out biclusters.npz
       other start points; what is written is for `crossbar bi-scale multiply`
   crossbar bi-scale bicluster docs/examples/quarters.mtx --seeds 8
@@ -30,10 +30,11 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --drop 0.25
       with loss: what is off by a quarter stays so
 
-The values of the matrix are multiples of a power of two, as shares of visibility are. The sum of the biclusters equals the \
-matrix bit for bit.";
+The sum of the biclusters equals the matrix bit for bit where its values are multiples of a power of two that 32 bits \
+hold; of other values residuals are rounded to double precision. Products in single precision, on host and cards, round \
+values that they do not hold. The summary counts both.";
 
-/// Make biclusters of a sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
+/// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
@@ -91,7 +92,7 @@ impl Args {
         let total = matrix.nonzeros() as u64;
         let bar = ProgressBar::new("non-zeros", total).quicker("fewer `--seeds`");
         let of_seed = |seed: u64| {
-            let options = BiclusterOptions { seed, drop: self.drop };
+            let options = BiclusterOptions { seed, drop: self.drop, ..BiclusterOptions::default() };
             let mut number = 0_u64;
             let mut found = |left: u64| {
                 number += 1;
@@ -116,6 +117,11 @@ fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
     Problem::usage(format!("{}: {error}", path.display()), "name a smaller matrix")
 }
 
+/// Decimal digits that read back to the same number.
+fn digits(value: f64) -> String {
+    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
+}
+
 /// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces.
 fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
     let join = |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<String>>().join(" ");
@@ -126,7 +132,7 @@ fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
             let cost = rows.len() + 2 * columns.len() - 1;
             let rows = join(&mut rows.iter().map(u32::to_string));
             let places = join(&mut columns.iter().map(|entry| entry.index.to_string()));
-            let values = join(&mut columns.iter().map(|entry| biclusters.value(entry.value).to_string()));
+            let values = join(&mut columns.iter().map(|entry| digits(biclusters.value(entry.value))));
             writeln!(out, "{number},{cost},{rows},{places},{values}")?;
         }
         Ok(())
@@ -164,31 +170,46 @@ impl Summary<'_> {
         ]
     }
 
+    /// Columns of biclusters whose value products in single precision round; those beyond its range.
+    fn rounded(&self) -> [usize; 2] {
+        let mut rounded = [0; 2];
+        for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {
+            let value = self.biclusters.value(entry.value);
+            let single = value as f32;
+            rounded[0] += usize::from(single.is_finite() && f64::from(single) != value);
+            rounded[1] += usize::from(!single.is_finite());
+        }
+        rounded
+    }
+
     fn findings(&self) -> Findings {
         let values = value_counts(self.matrix);
+        let rounded = self.rounded();
+        let [singles, beyond_singles] = rounded;
         let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
         let mut found = Findings::new("Biclusters");
-        found.table(self.table());
+        found.table(self.table(rounded));
         found.table(histogram(&values));
         found.fields(json!({
             "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
             "values": values_document(&values), "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
             "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
             "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
-            "unit_bits": self.matrix.unit().fraction_bits(),
+            "unit_bits": self.matrix.values().fraction_bits(), "distinct_values": self.matrix.values().table_len(),
+            "rounded_in_singles": singles, "beyond_singles": beyond_singles,
             "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
             "seed": self.seed, "seconds": self.seconds,
         }));
         found
     }
 
-    fn table(&self) -> Table {
+    fn table(&self, counts: [usize; 2]) -> Table {
         let (before, after) = (self.flops_before(), self.biclusters.cost());
         let mut table = Table::new("Biclusters", &["figure", "value"]);
         table.push(["rows".into(), self.matrix.rows().into()]);
         table.push(["columns".into(), self.matrix.columns().into()]);
         table.push(["values other than 0".into(), self.matrix.nonzeros().into()]);
-        table.push(["values are".into(), self.matrix.unit().to_string().into()]);
+        table.push(["values are".into(), self.matrix.values().to_string().into()]);
         table.push(["biclusters".into(), self.biclusters.len().into()]);
         table.push(["their rows".into(), self.biclusters.row_entries().into()]);
         table.push(["their columns".into(), self.biclusters.column_entries().into()]);
@@ -199,6 +220,10 @@ impl Summary<'_> {
         }
         for (_, what, bytes) in self.bytes() {
             table.push([format!("bytes, {what}").into(), bytes.into()]);
+        }
+        let rounded = ["columns whose value single precision rounds", "columns whose value is beyond single precision"];
+        for (what, count) in rounded.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
+            table.push([what.into(), count.into()]);
         }
         table.push(["places where the sum differs".into(), self.residual.count.into()]);
         if self.residual.count > 0 {

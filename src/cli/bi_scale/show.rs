@@ -9,7 +9,7 @@ use super::file::{histogram, load, value_counts, values_document, vertices_of, w
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::bi_scale::unit::ValueUnit;
+use crate::bi_scale::values::EntryValues;
 use crate::cli::Problem;
 use crate::cli::study::written;
 use crate::cli::transfer::vertex_choice::VertexChoice;
@@ -25,7 +25,7 @@ Examples:
   crossbar bi-scale show docs/examples/step_biclusters.npz --vertex 12
       one vertex: the biclusters of its rows
   crossbar bi-scale show docs/examples/quarters.mtx --json
-      a sparse matrix, for machines
+      any sparse matrix, for machines
   crossbar bi-scale show docs/examples/step_biclusters.npz --matrix step.mtx
       the matrix that the biclusters sum to
 
@@ -138,8 +138,8 @@ fn all(file: &BiScaleFile, rows: usize, local: usize, found: &mut Findings) {
     }
     let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
     found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
-    if let Some(unit) = file.unit() {
-        found.introduce(format!("values    {unit}"));
+    if let Some(values) = file.values() {
+        found.introduce(format!("values    {values}"));
     }
     found.table(histogram(&values(file)));
     if let Some(biclusters) = &file.biclusters {
@@ -167,7 +167,9 @@ fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
             .collect();
         json!({ "count": biclusters.len(), "operations": biclusters.cost(), "sizes": sizes })
     });
-    json!({ "rows": rows, "mesh": mesh, "unit_bits": file.unit().map(ValueUnit::fraction_bits),
+    let stored = file.values();
+    json!({ "rows": rows, "mesh": mesh, "unit_bits": stored.and_then(EntryValues::fraction_bits),
+            "distinct_values": stored.and_then(EntryValues::table_len),
             "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values, "biclusters": biclusters })
 }
 

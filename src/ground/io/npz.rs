@@ -78,6 +78,11 @@ impl<'a> NpzReader<'a> {
         self.arrays.contains_key(field)
     }
 
+    /// True if there is an array of this name, of floats.
+    pub fn has_floats(&self, field: &str) -> bool {
+        self.arrays.get(field).is_some_and(|array| array.descr.contains('f'))
+    }
+
     /// Takes out the bytes of an array of one axis.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::bi_scale::bicluster::{Bicluster, Biclustering};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crate::bi_scale::unit::ValueUnit;
+use crate::bi_scale::values::EntryValues;
 use crate::error::InputError;
 use crate::io::{NpzReader, NpzWriter, WriteError, write_file};
 use crate::transfer::file::kind::{begin_reading, begin_writing, bytes_of, contradiction};
@@ -74,7 +74,11 @@ pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputErr
     for (field, found, expected) in [
         ("rows", shape.rows, 1..=u32::MAX as usize),
         ("columns", shape.columns, 1..=u32::MAX as usize),
-        ("bits behind the point", shape.fraction_bits as usize, 0..=ValueUnit::MOST_FRACTION_BITS as usize),
+        (
+            "bits behind the point",
+            shape.fraction_bits.unwrap_or(0) as usize,
+            0..=EntryValues::MOST_FRACTION_BITS as usize,
+        ),
     ] {
         if !expected.contains(&found) {
             let expected = format!("{} to {}", expected.start(), expected.end());
@@ -95,25 +99,25 @@ pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputErr
 struct Shape {
     rows: usize,
     columns: usize,
-    fraction_bits: u32,
+    fraction_bits: Option<u32>,
 }
 
 impl BiScaleFile {
-    /// The unit of the matrix, else of its biclusters.
-    pub fn unit(&self) -> Option<ValueUnit> {
-        let of_biclusters = || self.biclusters.as_ref().map(Biclustering::unit);
-        self.matrix.as_ref().map(SparseMatrix::unit).or_else(of_biclusters)
+    /// The numbers behind entries of the matrix, else of its biclusters.
+    pub fn values(&self) -> Option<&EntryValues> {
+        let of_biclusters = || self.biclusters.as_ref().map(Biclustering::values);
+        self.matrix.as_ref().map(SparseMatrix::values).or_else(of_biclusters)
     }
 
     fn shapes(&self) -> impl Iterator<Item = Shape> {
         let of_matrix = self.matrix.as_ref().map(|matrix| Shape {
             rows: matrix.rows(),
             columns: matrix.columns(),
-            fraction_bits: matrix.unit().fraction_bits(),
+            fraction_bits: matrix.values().fraction_bits(),
         });
         let of_biclusters = self.biclusters.as_ref().map(|biclusters| {
             let [rows, columns] = biclusters.matrix_size();
-            Shape { rows, columns, fraction_bits: biclusters.unit().fraction_bits() }
+            Shape { rows, columns, fraction_bits: biclusters.values().fraction_bits() }
         });
         [of_matrix, of_biclusters].into_iter().flatten()
     }
@@ -121,7 +125,8 @@ impl BiScaleFile {
     /// The first contradiction between the parts: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, String, String)> {
         let mut shapes = self.shapes();
-        let say = |shape: Shape| format!("{} x {} in 2^-{}", shape.rows, shape.columns, shape.fraction_bits);
+        let unit = |shape: Shape| shape.fraction_bits.map_or("no unit".to_owned(), |bits| format!("2^-{bits}"));
+        let say = |shape: Shape| format!("{} x {} in {}", shape.rows, shape.columns, unit(shape));
         let Some(shape) = shapes.next() else {
             return Some(("contents", "a matrix or biclusters".to_owned(), "neither".to_owned()));
         };
@@ -140,26 +145,38 @@ impl BiScaleFile {
     }
 }
 
-/// The places `indices` with the values `data` of so many entries, in units of the matrix.
+/// The places `indices` with the values `data` of so many entries: integers in units of the matrix, or floats.
 fn entries(
     arrays: &mut NpzReader<'_>,
     [indices, data]: [&str; 2],
     count: usize,
-) -> Result<Vec<MatrixEntry>, InputError> {
+    fraction_bits: Option<u32>,
+) -> Result<(EntryValues, Vec<MatrixEntry>), InputError> {
     let indices: Vec<u32> = arrays.integers(indices, &[count])?;
-    let values: Vec<i32> = arrays.integers(data, &[count])?;
-    Ok(indices.into_iter().zip(values).map(|(index, value)| MatrixEntry { index, value }).collect())
+    let (values, numbers) = match fraction_bits {
+        Some(bits) if !arrays.has_floats(data) => (EntryValues::units(bits), arrays.integers(data, &[count])?),
+        _ => {
+            let numbers = arrays.doubles(data, &[count])?;
+            let values = EntryValues::table(fraction_bits, numbers.iter().copied());
+            let entries = numbers.iter().map(|&number| values.entry(number).unwrap_or(0)).collect();
+            (values, entries)
+        }
+    };
+    let entry = |(index, value)| MatrixEntry { index, value };
+    Ok((values, indices.into_iter().zip(numbers).map(entry).collect()))
 }
 
 fn matrix(arrays: &mut NpzReader<'_>, shape: Shape, count: usize) -> Result<SparseMatrix, InputError> {
     let begins: Vec<u32> = arrays.integers("indptr", &[shape.rows + 1])?;
-    let entries = entries(arrays, ["indices", "data"], count)?;
+    let (values, entries) = entries(arrays, ["indices", "data"], count, shape.fraction_bits)?;
+    if values.table_len().is_some() && shape.fraction_bits.is_some() {
+        return Err(arrays.refuse("data", "integers of the matrix's unit", "floats"));
+    }
     let refused = |reason: String| arrays.refuse("matrix", "rows in order", reason);
     if begins[0] != 0 || begins[shape.rows] as usize != count {
         return Err(refused(format!("rows from {} to {} of {count}", begins[0], begins[shape.rows])));
     }
-    let mut matrix =
-        SparseMatrix::new(shape.columns, shape.fraction_bits).map_err(|reason| refused(reason.to_string()))?;
+    let mut matrix = SparseMatrix::of_values(shape.columns, values).map_err(|reason| refused(reason.to_string()))?;
     for row in begins.windows(2) {
         let row = entries.get(row[0] as usize..row[1] as usize).ok_or_else(|| refused(format!("{row:?}")))?;
         matrix.push_row(row).map_err(|reason| refused(reason.to_string()))?;
@@ -175,7 +192,7 @@ fn read_biclusters(
     let row_counts: Vec<u32> = arrays.integers("r", &[sizes.count])?;
     let column_counts: Vec<u32> = arrays.integers("l", &[sizes.count])?;
     let rows: Vec<u32> = arrays.integers("j", &[sizes.rows])?;
-    let columns = entries(arrays, ["k", "t"], sizes.columns)?;
+    let (values, columns) = entries(arrays, ["k", "t"], sizes.columns, shape.fraction_bits)?;
     let sum = |counts: &[u32]| counts.iter().fold(0_u64, |sum, &count| sum + u64::from(count));
     let sums = [sum(&row_counts), sum(&column_counts)];
     if sums != [rows.len() as u64, columns.len() as u64] {
@@ -183,10 +200,10 @@ fn read_biclusters(
         return Err(arrays.refuse("r and l", expected, format!("{} and {}", sums[0], sums[1])));
     }
     let (mut rows, mut columns) = (&rows[..], &columns[..]);
-    let mut biclusters = Biclustering::empty(shape.rows, shape.columns, ValueUnit::new(shape.fraction_bits));
+    let mut biclusters = Biclustering::empty(shape.rows, shape.columns, values);
     for (r, l) in row_counts.into_iter().zip(column_counts) {
         let bicluster = Bicluster { rows: front(&mut rows, r as usize), columns: front(&mut columns, l as usize) };
-        if !bicluster.fits([shape.rows, shape.columns]) {
+        if !bicluster.fits([shape.rows, shape.columns], biclusters.values()) {
             let expected = "rows and columns of the matrix in increasing order, values other than 0";
             return Err(arrays.refuse("bicluster", expected, format!("others in bicluster {}", biclusters.len())));
         }
@@ -227,7 +244,7 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
             Some(*end)
         });
         arrays.integers("indptr", &[matrix.rows() + 1], std::iter::once(0).chain(ends))?;
-        write_entries(&mut arrays, ["indices", "data"], matrix.nonzeros(), rows().flatten())?;
+        write_entries(&mut arrays, ["indices", "data"], matrix.values(), matrix.nonzeros(), rows().flatten())?;
     }
     if let (Some(found), Some(sizes)) = (&file.biclusters, biclusters) {
         let rows = || (0..found.len()).map(|number| found.rows_of(number));
@@ -235,7 +252,7 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
         arrays.integers("r", &[sizes.count], rows().map(|rows| rows.len() as u32))?;
         arrays.integers("l", &[sizes.count], columns().map(|columns| columns.len() as u32))?;
         arrays.integers("j", &[sizes.rows], rows().flatten().copied())?;
-        write_entries(&mut arrays, ["k", "t"], sizes.columns, columns().flatten())?;
+        write_entries(&mut arrays, ["k", "t"], found.values(), sizes.columns, columns().flatten())?;
     }
     arrays.finish()
 }
@@ -243,9 +260,13 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
 fn write_entries<'a>(
     arrays: &mut NpzWriter<'_>,
     [indices, data]: [&str; 2],
+    values: &EntryValues,
     count: usize,
     entries: impl Iterator<Item = &'a MatrixEntry> + Clone,
 ) -> io::Result<()> {
     arrays.integers(indices, &[count], entries.clone().map(|entry| entry.index))?;
-    arrays.integers(data, &[count], entries.map(|entry| entry.value))
+    match values.table_len() {
+        None => arrays.integers(data, &[count], entries.map(|entry| entry.value)),
+        Some(_) => arrays.doubles(data, &[count], entries.map(|entry| values.value(entry.value))),
+    }
 }

@@ -2,7 +2,7 @@
 //!
 //! - [`directions`]: the local directions to which light is transferred (section VI-A);
 //! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a sparse [`matrix`];
-//! - [`unit`]: the unit of its values, and of those of its biclusters;
+//! - [`values`]: the numbers that its integers stand for, and those of its biclusters;
 //! - [`mod@file`]: transfer and biclusters in `.npz` files;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
@@ -22,4 +22,4 @@ pub mod product;
 pub mod shade;
 pub mod texture;
 pub mod transfer;
-pub mod unit;
+pub mod values;

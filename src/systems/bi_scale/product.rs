@@ -4,6 +4,9 @@
 //! - [`reference()`]: Algorithm 2 in f64;
 //! - [`Gather`]: Algorithm 2 in f32, from lists in the order in which they are read: the sums of the reference's shape.
 //!
+//! Values of biclusters are taken in the format of the product. Residuals that it does not hold are rounded, so that
+//! large ones may leave an error where they cancel, though the biclusters are exact.
+//!
 //! Sums are taken in this order, one addition after the other, beginning with 0: of a bicluster over its columns,
 //! increasing; of a row over its biclusters, in the order in which they were found.
 
@@ -69,7 +72,8 @@ pub struct Gather {
 }
 
 impl Gather {
-    /// The lists of some biclusters. Values of more than 24 bits are rounded.
+    /// The lists of some biclusters. Values beyond the range of f32 are infinite, and so are products with them, or not
+    /// numbers.
     pub fn new(biclusters: &Biclustering) -> Self {
         let [rows, columns] = biclusters.matrix_size();
         // Sums with equal numbers of terms are adjacent, so that loops have equal lengths.

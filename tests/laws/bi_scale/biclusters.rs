@@ -1,11 +1,12 @@
 //! Biclusters: the fast search against a literal Algorithm 1, and properties for any matrix.
 
-use crossbar::bi_scale::bicluster::{BiclusterOptions, bicluster, reference};
+use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster, reference};
 use crossbar::bi_scale::matrix::MatrixEntry;
 use crossbar::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
 use proptest::prelude::*;
+use refsim::num::power_of_two;
 
-use super::{blocks, matrix, quietly};
+use super::{bits, blocks, finite, matrix, numbers_of, quietly, real_blocks, real_matrix};
 
 /// Values of any size and sign, few zeros.
 fn anything() -> impl Strategy<Value = Vec<Vec<i32>>> {
@@ -22,9 +23,10 @@ proptest! {
     fn the_fast_search_decides_as_algorithm_1(
         rows in prop_oneof![3 => blocks(), 1 => anything()],
         seed: u64,
+        deletion: bool,
         drop in prop_oneof![2 => Just(0), 1 => 1..4_u32],
     ) {
-        let options = BiclusterOptions { seed, drop: 0.25 * f64::from(drop) };
+        let options = BiclusterOptions { seed, deletion, drop: 0.25 * f64::from(drop) };
         let matrix = matrix(&rows, 2);
         let expected = reference::bicluster(&matrix, options);
         let found = quietly(&matrix, options);
@@ -35,10 +37,10 @@ proptest! {
     }
 
     #[test]
-    fn biclusters_sum_to_the_matrix(rows in prop_oneof![blocks(), anything()], seed: u64) {
+    fn biclusters_sum_to_the_matrix(rows in prop_oneof![blocks(), anything()], seed: u64, deletion: bool) {
         let matrix = matrix(&rows, 2);
         let mut left = vec![matrix.nonzeros() as u64];
-        let found = bicluster(&matrix, BiclusterOptions { seed, drop: 0.0 }, &mut |now| left.push(now)).unwrap();
+        let found = bicluster(&matrix, BiclusterOptions { seed, deletion, drop: 0.0 }, &mut |now| left.push(now)).unwrap();
         prop_assert_eq!(found.sum(), Ok(matrix.clone()));
         // Each bicluster removes at least half its cost in non-zeros, so the total cost is at most twice the non-zeros.
         for (index, step) in left.windows(2).enumerate() {
@@ -52,7 +54,7 @@ proptest! {
     #[test]
     fn what_is_lost_is_bounded(rows in prop_oneof![3 => blocks(), 1 => anything()], seed: u64, drop in 0..5_u32) {
         let matrix = matrix(&rows, 2);
-        let options = BiclusterOptions { seed, drop: 0.25 * f64::from(drop) };
+        let options = BiclusterOptions { seed, drop: 0.25 * f64::from(drop), ..BiclusterOptions::default() };
         let found = quietly(&matrix, options);
         let sum = found.sum().expect("small values");
         for row in 0..matrix.rows() {
@@ -107,6 +109,35 @@ proptest! {
     }
 }
 
+/// How far rounding may take the sum of biclusters from each number. An element v of n values t has residuals
+/// r_k = r_(k-1) - t_k from r_0 = v, each rounded by at most u |r_k| with u = EPSILON / 2, the last of them 0; their
+/// exact sum is off by these. Sums of the t add as many roundings, and no term exceeds S = |v| + sum |t| but for these:
+/// 2 n u S, and n + 2 in place of n for terms of second order.
+fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut sizes: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(|value| value.abs()).collect()).collect();
+    let mut counts: Vec<Vec<f64>> = rows.iter().map(|row| vec![2.0; row.len()]).collect();
+    for index in 0..found.len() {
+        for (row, entry) in
+            found.rows_of(index).iter().flat_map(|row| found.columns_of(index).iter().map(move |e| (row, e)))
+        {
+            sizes[*row as usize][entry.index as usize] += found.value(entry.value).abs();
+            counts[*row as usize][entry.index as usize] += 1.0;
+        }
+    }
+    let bound = |(size, count): (&f64, &f64)| if *count > 3.0 { size * count * f64::EPSILON } else { 0.0 };
+    sizes.iter().zip(&counts).map(|(sizes, counts)| sizes.iter().zip(counts).map(bound).collect()).collect()
+}
+
+/// A residual beyond the range of f64 is refused.
+#[test]
+fn residuals_beyond_doubles_are_refused() {
+    let mut rows = vec![vec![f64::MAX, 0.1, 0.1, 0.1, 0.1]; 6];
+    rows[0][0] = f64::MIN;
+    let error = bicluster(&real_matrix(&rows), BiclusterOptions::default(), &mut |_| ()).expect_err("refused");
+    let expected = "expected at most 2147483647 distinct residuals, all of them finite, found others";
+    assert_eq!(error.to_string(), expected);
+}
+
 /// The example of section IV-C, whose second row differs by 2 in one column.
 #[test]
 fn a_residual_is_left_for_later() {
@@ -133,11 +164,108 @@ fn a_matrix_of_nothing_has_no_biclusters() {
     assert_eq!(found.sum(), Ok(matrix));
 }
 
-/// A residual of 2^31 units does not fit into 32 bits.
+/// A residual of 2^31 units does not fit into 32 bits: the search goes on with a table, and the matrix comes back in
+/// its own unit.
 #[test]
-fn residuals_beyond_32_bits_are_refused() {
+fn residuals_leave_32_bits() {
     let mut rows = vec![vec![i32::MIN, 1, 1, 1, 1, 1]; 7];
     rows[0][0] = 0;
-    let error = bicluster(&matrix(&rows, 2), BiclusterOptions::default(), &mut |_| ()).expect_err("refused");
-    assert!(error.to_string().starts_with("expected residuals that 32 bits"), "{error}");
+    let matrix = matrix(&rows, 2);
+    let found = quietly(&matrix, BiclusterOptions::default());
+    assert_eq!((found.values().fraction_bits(), found.values().table_len()), (Some(2), Some(3)));
+    assert_eq!(reference::bicluster(&matrix, BiclusterOptions::default()), found);
+    assert_eq!(found.sum(), Ok(matrix));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_numbers_are_decided_as_by_algorithm_1(
+        rows in real_blocks(),
+        seed: u64,
+        deletion: bool,
+        drop in prop_oneof![2 => Just(0.0), 1 => finite().prop_map(f64::abs)],
+    ) {
+        let (matrix, options) = (real_matrix(&rows), BiclusterOptions { seed, deletion, drop });
+        prop_assert_eq!(reference::bicluster(&matrix, options), quietly(&matrix, options));
+    }
+
+    /// Subnormal numbers, 1e-300 beside 1e300, numbers of 53 bits: what is read comes back but for rounding.
+    #[test]
+    fn any_numbers_come_back(rows in real_blocks(), seed: u64, deletion: bool) {
+        let matrix = real_matrix(&rows);
+        prop_assert_eq!(bits(&numbers_of(&matrix)), bits(&rows));
+        let found = quietly(&matrix, BiclusterOptions { seed, deletion, drop: 0.0 });
+        let sum = numbers_of(&found.sum().expect("sums of a matrix"));
+        let bounds = rounding(&found, &rows);
+        for (row, column) in (0..rows.len()).flat_map(|row| (0..rows[0].len()).map(move |column| (row, column))) {
+            let off = (sum[row][column] - rows[row][column]).abs();
+            prop_assert!(off <= bounds[row][column], "{off} in row {row}, column {column}");
+        }
+        prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
+    }
+
+    /// Multiples of a power of two below 2^40 of it are subtracted without rounding, whatever the power.
+    #[test]
+    fn numbers_of_few_bits_come_back_exactly(
+        rows in anything(), factor in 1..1_000_000_i32, power in -1000..900_i32, seed: u64, deletion: bool,
+    ) {
+        let number = |&value: &i32| f64::from(value) * f64::from(factor) * power_of_two(power);
+        let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(number).collect()).collect();
+        let found = quietly(&real_matrix(&rows), BiclusterOptions { seed, deletion, drop: 0.0 });
+        prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
+    }
+
+    /// Rows that are multiples of one row by a few factors are as many biclusters; a row alone is taken apart, which
+    /// costs as much.
+    #[test]
+    fn matrices_of_rank_1_are_few_biclusters(
+        row in prop::collection::vec(0.5..1.0_f64, 6..12),
+        powers in prop::collection::vec(-500..500_i32, 12),
+        factors in prop::sample::subsequence(vec![0.1, -1.3, 1e-150, 3.0, 7e150], 1..5),
+        choice in prop::collection::vec(any::<prop::sample::Index>(), 10..30),
+        seed: u64,
+    ) {
+        let column = |(at, value): (usize, &f64)| value * power_of_two(powers[at]);
+        let row: Vec<f64> = row.iter().enumerate().map(column).collect();
+        let of_row: Vec<usize> = choice.iter().map(|choice| choice.index(factors.len())).collect();
+        let rows: Vec<Vec<f64>> =
+            of_row.iter().map(|&factor| row.iter().map(|value| factors[factor] * value).collect()).collect();
+        let found = quietly(&real_matrix(&rows), BiclusterOptions { seed, ..BiclusterOptions::default() });
+        let rows_of = |factor: usize| of_row.iter().filter(|&&other| other == factor).count();
+        let biclusters = (0..factors.len()).map(|factor| match rows_of(factor) {
+            0 => 0,
+            1 => row.len(),
+            _ => 1,
+        });
+        prop_assert_eq!(found.len(), biclusters.sum::<usize>());
+        prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
+    }
+
+    /// Numbers in a table are searched as the same numbers in units are: 2^-40 of a quarter has no unit.
+    #[test]
+    fn the_scale_of_numbers_decides_nothing(rows in blocks(), seed: u64, deletion: bool) {
+        let options = BiclusterOptions { seed, deletion, drop: 0.0 };
+        let small = |value: &i32| f64::from(*value) * power_of_two(-42);
+        let tabled: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(small).collect()).collect();
+        let (in_units, in_table) = (quietly(&matrix(&rows, 2), options), quietly(&real_matrix(&tabled), options));
+        prop_assert_eq!(in_units.len(), in_table.len());
+        for number in 0..in_units.len() {
+            prop_assert_eq!(in_units.rows_of(number), in_table.rows_of(number));
+            let columns = in_units.columns_of(number).iter().map(|at| (at.index, in_units.value(at.value)));
+            let tabled = in_table.columns_of(number).iter().map(|at| (at.index, in_table.value(at.value)));
+            prop_assert!(columns.eq(tabled.map(|(index, value)| (index, value * power_of_two(40)))));
+        }
+    }
+
+    #[test]
+    fn what_is_lost_of_any_numbers_is_bounded(rows in real_blocks(), seed: u64, drop in 0.0..1.0_f64) {
+        let matrix = real_matrix(&rows);
+        let found = quietly(&matrix, BiclusterOptions { seed, drop, ..BiclusterOptions::default() });
+        let residual = found.residual(&matrix);
+        let bounds = rounding(&found, &rows).into_iter().flatten().fold(0.0, f64::max);
+        prop_assert!(residual.largest <= drop + bounds, "{:?}", residual);
+        prop_assert_eq!(residual.count == 0, found.sum() == Ok(matrix));
+    }
 }

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use crate::bi_scale::baselines::columns_error;
 use crate::bi_scale::baselines::{
-    CoefficientPriority, CompressedRows, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer,
-    ReshuffledVisibility, RowClusterOptions, RowClusters, StoredSize, StoredTransfer,
+    CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer, NarrowRows,
+    ReshuffledVisibility, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
 };
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::matrix::SparseMatrix;
@@ -72,10 +72,11 @@ impl StoredComparison<'_> {
         let mut ways = StorageMethods { lights, exact, found: Vec::new(), visit };
         let (rows, budget) = (self.matrix.rows(), self.biclusters.sizes()[0].bytes);
         ways.push("biclusters", self.biclusters, 0.0);
-        if let Some(narrow) = CompressedRows::narrow(self.matrix) {
-            ways.push("rows of 3 bytes an entry", &narrow, 0.0);
+        let start = Instant::now();
+        if let Ok(narrow) = NarrowRows::new(self.matrix) {
+            ways.push("rows of 3 bytes an entry", &narrow, start.elapsed().as_secs_f64());
         }
-        ways.push("rows of 8 bytes an entry", &CompressedRows::wide(self.matrix), 0.0);
+        ways.make("rows of 8 bytes an entry", || WideRows::new(self.matrix))?;
         for (clusters, what) in self.cluster_settings(budget) {
             let steps = clusters.rounds as u64 + 1;
             let name = format!(

@@ -25,7 +25,7 @@ mod reshuffled;
 mod stored;
 
 pub use clusters::{RowClusterOptions, RowClusters};
-pub use compressed_rows::CompressedRows;
+pub use compressed_rows::{CompressedRows, NarrowRows, RowColumn, RowValue, WideRows};
 pub use error::columns_error;
 pub use haar_rows::{CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows};
 pub use harmonic_rows::{HarmonicRows, HarmonicSides};

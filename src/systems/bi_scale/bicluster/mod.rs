@@ -3,7 +3,7 @@
 //! - [`Bicluster`], [`Biclustering`]: rows, columns, and a value for each column (equations 4 to 8);
 //! - [`mod@reference`]: Algorithm 1 on a dense matrix, every operation tried by equation 9;
 //! - [`bicluster`]: the same decisions by influence values in queues (section V, Precomputation Optimization), on
-//!   values in units of the matrix.
+//!   integers that are equal where numbers are: multiples of the matrix's unit, else numbers by their first appearance.
 //!
 //! Choices that the paper leaves open, the same for both:
 //! - The remaining non-zeros are numbered row by row; the n-th bicluster starts at one chosen uniformly by a seeded
@@ -16,6 +16,7 @@
 
 mod draw;
 mod lines;
+mod numbers;
 mod options;
 mod queue;
 pub mod reference;

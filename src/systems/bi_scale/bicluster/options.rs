@@ -5,6 +5,8 @@
 pub struct BiclusterOptions {
     /// Random seed for the non-zeros at which biclusters start.
     pub seed: u64,
+    /// True if rows and columns may also be deleted again (section IV-C: operations are insertions and deletions).
+    pub deletion: bool,
     /// Residuals of at most this magnitude are dropped, once per matrix element; 0 is lossless, and so is what is
     /// negative or not a number. The sum of the biclusters then differs from the matrix by at most this in each element
     /// (the paper's future work, section VII).
@@ -13,6 +15,6 @@ pub struct BiclusterOptions {
 
 impl Default for BiclusterOptions {
     fn default() -> Self {
-        Self { seed: 1, drop: 0.0 }
+        Self { seed: 1, deletion: true, drop: 0.0 }
     }
 }

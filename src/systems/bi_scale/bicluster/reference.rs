@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use super::draw::start;
 use super::{Bicluster, BiclusterOptions, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crate::bi_scale::unit::ValueUnit;
 
 /// A submatrix T_b: its rows, and its columns with the values t of the bicluster.
 #[derive(Clone, Debug)]
@@ -59,13 +58,14 @@ impl Submatrix {
         values().max_by(|&a, &b| count(a).cmp(&count(b)).then(b.total_cmp(&a)))
     }
 
-    /// The bicluster.
-    fn bicluster(mut self, unit: ValueUnit) -> Bicluster {
+    /// The bicluster; values are appended to `numbers`, and named by their index there.
+    fn bicluster(mut self, numbers: &mut Vec<f64>) -> Bicluster {
         self.rows.sort_unstable();
         self.columns.sort_unstable_by_key(|&(column, _)| column);
-        let entry = |(column, t): (usize, f64)| MatrixEntry {
-            index: column as u32,
-            value: unit.entry(t).expect("residuals of 32 bits"),
+        let entry = |(column, t): (usize, f64)| {
+            let value = i32::try_from(numbers.len()).expect("fewer numbers than 2^31");
+            numbers.push(t);
+            MatrixEntry { index: column as u32, value }
         };
         Bicluster {
             rows: self.rows.iter().map(|&row| row as u32).collect(),
@@ -77,18 +77,18 @@ impl Submatrix {
 /// Algorithm 1. A row or column costs a look at all of the matrix, so this is for small ones.
 ///
 /// # Panics
-/// If the largest residual to drop is negative or not finite, or 32 bits do not hold a residual.
+/// If the largest residual to drop is negative or not finite.
 pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     let mut left = dense(matrix);
     assert!(options.drop >= 0.0, "a size");
-    let mut dropped = BTreeSet::new();
-    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.unit());
+    let (mut dropped, mut numbers) = (BTreeSet::new(), Vec::new());
+    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
     // Line 2: until no element is left.
     while let Some((row, column)) = choose(&left, options.seed, found.len()) {
         // Lines 5 and 6.
         let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column])] };
         // Lines 7 to 20.
-        while let Some(better) = best_operation(&submatrix, &left) {
+        while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
             submatrix = better;
         }
         // Lines 15 and 16: what is taken away is the bicluster, so that the residual stays.
@@ -100,9 +100,9 @@ pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclusteri
                 left[row][*column] = if goes { 0.0 } else { value };
             }
         }
-        found.push(&submatrix.bicluster(matrix.unit()));
+        found.push(&submatrix.bicluster(&mut numbers));
     }
-    found
+    found.with_numbers(matrix.values().fraction_bits(), |index| numbers[index as usize])
 }
 
 fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
@@ -126,9 +126,12 @@ fn choose(left: &[Vec<f64>], seed: u64, number: usize) -> Option<(usize, usize)>
 }
 
 /// The submatrix after the operation that reduces the cost most; `None` if none reduces it.
-fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>]) -> Option<Submatrix> {
-    let after_rows = (0..left.len()).filter_map(|row| submatrix.with_row_changed(row));
-    let after_columns = (0..left[0].len()).filter_map(|column| submatrix.with_column_changed(column, left));
+fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>], deletion: bool) -> Option<Submatrix> {
+    let rows = (0..left.len()).filter(|row| deletion || !submatrix.rows.contains(row));
+    let is_inside = |column: usize| submatrix.columns.iter().any(|(inside, _)| *inside == column);
+    let columns = (0..left[0].len()).filter(|&column| deletion || !is_inside(column));
+    let after_rows = rows.filter_map(|row| submatrix.with_row_changed(row));
+    let after_columns = columns.filter_map(|column| submatrix.with_column_changed(column, left));
     let mut best = None;
     let mut most = submatrix.reduction(left);
     for after in after_rows.chain(after_columns) {

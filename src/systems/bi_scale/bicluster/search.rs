@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 
 use super::draw::{Counts, start};
 use super::lines::Lines;
+use super::numbers::{KnownNumbers, SearchNumbers, UnitNumbers};
 use super::queue::BucketQueue;
 use super::tally::ColumnTally;
 use super::{Bicluster, BiclusterOptions, Biclustering};
@@ -18,7 +19,9 @@ use crate::error::{InputError, ensure, input_error};
 /// Biclusters of a matrix, identical to those of [`reference::bicluster`](super::reference::bicluster). `found` is
 /// called after each with the number of remaining non-zeros.
 ///
-/// Memory is 16 bytes per non-zero and some 50 per row and column, besides the biclusters.
+/// Memory is 16 bytes per non-zero and some 50 per row and column, besides the biclusters. Where there is no unit in
+/// which 32 bits hold the values and all residuals, some 100 bytes per distinct number more. If a residual is the first
+/// that 32 bits do not hold, the search begins again, and `found` counts down from all non-zeros once more.
 ///
 /// # Errors
 /// [`InputError`].
@@ -29,11 +32,24 @@ pub fn bicluster(
 ) -> Result<Biclustering, InputError> {
     let nonzeros = matrix.nonzeros() as u64;
     ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
-    let biclustering = Search::new(matrix, options).run(matrix, found);
-    biclustering.ok_or_else(|| {
-        input_error!("expected residuals that 32 bits of the matrix's unit hold, found larger ones";
-            help "scale the matrix by a power of two")
-    })
+    let values = matrix.values();
+    if let (Some(bits), None) = (values.fraction_bits(), values.table_len()) {
+        let (entries, begins) = matrix.to_rows();
+        let lines = (Lines::new(entries, begins), matrix.columns());
+        let mut search = Search::new(lines, UnitNumbers::new(options.drop, bits), options);
+        if let Some(biclustering) = search.run(matrix, found) {
+            return Ok(biclustering);
+        }
+    }
+    let known = KnownNumbers::new(matrix, options.drop);
+    let (numbers, entries, begins) = known.ok_or_else(residuals_error)?;
+    let mut search = Search::new((Lines::new(entries, begins), matrix.columns()), numbers, options);
+    let biclustering = search.run(matrix, found).ok_or_else(residuals_error)?;
+    Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.number(integer)))
+}
+
+fn residuals_error() -> InputError {
+    input_error!("expected at most {} distinct residuals, all of them finite, found others", i32::MAX)
 }
 
 /// State of the lines of one direction: rows or columns.
@@ -130,14 +146,14 @@ impl SearchSide {
     }
 
     /// The best operation on a line of this direction, where a key of `cost / 2` gains nothing.
-    fn best(&mut self, cost: i64) -> Option<Operation> {
+    fn best(&mut self, cost: i64, deletion: bool) -> Option<Operation> {
         let (keys, places) = (&self.keys, &self.places);
         let is_outside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] == OUTSIDE;
         let is_inside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] != OUTSIDE;
         let gain = |key: u32| 2 * i64::from(key) - cost;
         let insertion = self.insertions.highest(is_outside).map(|(key, line)| Operation { gain: gain(key), line });
         // The last line stays, because a bicluster has at least one row and one column.
-        if self.inside.len() == 1 {
+        if !deletion || self.inside.len() == 1 {
             return insertion;
         }
         let deletion = self.deletions.lowest(is_inside).map(|(key, line)| Operation { gain: -gain(key), line });
@@ -145,15 +161,15 @@ impl SearchSide {
     }
 
     /// Subtracts the bicluster's entries from a line inside: `all` entries of the line; `places` are the crossing
-    /// lines' indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if 32
-    /// bits do not hold a residual. Residuals for which `goes` is true are dropped.
-    fn subtract(
+    /// lines' indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if
+    /// there is no integer for a residual. Residuals for which `goes` is true are dropped.
+    fn subtract<N: SearchNumbers>(
         &mut self,
         line: u32,
         all: impl ExactSizeIterator<Item = MatrixEntry>,
-        places: &[u32],
+        (places, numbers): (&[u32], &mut N),
         t: impl Fn(u32) -> i32,
-        mut goes: impl FnMut(u32, i32) -> bool,
+        mut goes: impl FnMut(&N, u32, i32) -> bool,
     ) -> Option<i64> {
         let before = self.lines.get(line as usize).len().cast_signed() as i64;
         self.met.clear();
@@ -165,10 +181,10 @@ impl SearchSide {
                 return Some(entry);
             }
             met[place as usize] = true;
-            let residual = entry.value.checked_sub(t(entry.index));
+            let residual = numbers.difference(entry.value, t(entry.index));
             has_all &= residual.is_some();
             let value = residual.unwrap_or(0);
-            (value != 0 && !goes(entry.index, value)).then_some(MatrixEntry { value, ..entry })
+            (value != 0 && !goes(numbers, entry.index, value)).then_some(MatrixEntry { value, ..entry })
         };
         self.lines.change(line as usize, subtract);
         if !has_all {
@@ -178,8 +194,8 @@ impl SearchSide {
         let is_new = |entry: &MatrixEntry| !self.met[places[entry.index as usize] as usize];
         self.more.clear();
         for entry in all.filter(is_new) {
-            let value = entry.value.checked_neg()?;
-            if !goes(entry.index, value) {
+            let value = numbers.difference(0, entry.value)?;
+            if !goes(numbers, entry.index, value) {
                 self.more.push(MatrixEntry { value, ..entry });
             }
         }
@@ -199,10 +215,9 @@ impl SearchSide {
 }
 
 #[derive(Debug)]
-struct Search {
-    seed: u64,
-    /// The largest residual that is dropped, in units.
-    drop: u32,
+struct Search<N> {
+    options: BiclusterOptions,
+    numbers: N,
     rows: SearchSide,
     columns: SearchSide,
     /// Per column the counts of its values in the rows inside.
@@ -215,16 +230,13 @@ struct Search {
     dropped: BTreeSet<(u32, u32)>,
 }
 
-impl Search {
-    fn new(matrix: &SparseMatrix, options: BiclusterOptions) -> Self {
-        let ((entries, begins), width) = (matrix.to_rows(), matrix.columns());
-        let rows = Lines::new(entries, begins);
+impl<N: SearchNumbers> Search<N> {
+    fn new((rows, width): (Lines, usize), numbers: N, options: BiclusterOptions) -> Self {
         let columns = rows.transposed(width);
         let left = Counts::new((0..rows.len()).map(|row| rows.get(row).len() as u64));
         Self {
-            seed: options.seed,
-            // Saturates, and takes what is not a number for 0.
-            drop: (options.drop / matrix.unit().value(1)) as u32,
+            options,
+            numbers,
             rows: SearchSide::new(rows),
             columns: SearchSide::new(columns),
             tallies: vec![ColumnTally::default(); width],
@@ -234,11 +246,11 @@ impl Search {
         }
     }
 
-    /// Lines 2 to 21; `None` if 32 bits do not hold a residual.
+    /// Lines 2 to 21, with the numbers of the search as values; `None` if a residual has no integer.
     fn run(&mut self, matrix: &SparseMatrix, found: &mut dyn FnMut(u64)) -> Option<Biclustering> {
-        let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.unit());
+        let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
         while self.left.total() > 0 {
-            self.begin(start(self.seed, biclustering.len() as u64, self.left.total()));
+            self.begin(start(self.options.seed, biclustering.len() as u64, self.left.total()));
             while self.step() {}
             biclustering.push(&self.end()?);
             found(self.left.total());
@@ -263,8 +275,8 @@ impl Search {
     /// Lines 7 to 20: applies the best operation; false if none gains.
     fn step(&mut self) -> bool {
         let (r, l) = (self.rows.inside.len().cast_signed() as i64, self.columns.inside.len().cast_signed() as i64);
-        let row = self.rows.best(2 * l + 1).filter(|operation| operation.gain > 0);
-        let column = self.columns.best(2 * r + 2).filter(|operation| operation.gain > 0);
+        let row = self.rows.best(2 * l + 1, self.options.deletion).filter(|operation| operation.gain > 0);
+        let column = self.columns.best(2 * r + 2, self.options.deletion).filter(|operation| operation.gain > 0);
         let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
         match (row, column) {
             // Gains of rows are odd and those of columns even, so that two operations never tie.
@@ -310,7 +322,8 @@ impl Search {
     }
 
     fn insert_column(&mut self, column: u32) {
-        self.values[column as usize] = self.tallies[column as usize].most_frequent();
+        let order = |a: i32, b: i32| self.numbers.order(a, b);
+        self.values[column as usize] = self.tallies[column as usize].most_frequent(order);
         self.columns.insert(column);
         self.cross_rows(column, u32::wrapping_add);
     }
@@ -334,22 +347,22 @@ impl Search {
         }
     }
 
-    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix; `None` if 32 bits do not hold a
-    /// residual.
+    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix; `None` if a residual has no
+    /// integer.
     fn end(&mut self) -> Option<Bicluster> {
         let bicluster = self.bicluster();
-        let (most, dropped) = (self.drop, &mut self.dropped);
+        let (numbers, dropped) = (&mut self.numbers, &mut self.dropped);
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
             // Columns come first and only look residuals up; the rows below drop the same ones and record them.
-            let goes = |row, value: i32| value.unsigned_abs() <= most && !dropped.contains(&(row, column));
-            self.columns.subtract(column, all, &self.rows.places, |_| t, goes)?;
+            let goes = |numbers: &N, row, value: i32| numbers.is_dropped(value) && !dropped.contains(&(row, column));
+            self.columns.subtract(column, all, (&self.rows.places, numbers), |_| t, goes)?;
         }
         for &row in &bicluster.rows {
             let (places, values) = (&self.columns.places[..], &self.values);
             let all = bicluster.columns.iter().copied();
-            let goes = |column, value: i32| value.unsigned_abs() <= most && dropped.insert((row, column));
-            let more = self.rows.subtract(row, all, places, |column| values[column as usize], goes)?;
+            let goes = |numbers: &N, column, value: i32| numbers.is_dropped(value) && dropped.insert((row, column));
+            let more = self.rows.subtract(row, all, (places, numbers), |column| values[column as usize], goes)?;
             self.left.add(row as usize, more);
         }
         self.columns.touched.iter().for_each(|&column| self.tallies[column as usize].clear());

@@ -1,7 +1,8 @@
-//! Sums of biclusters, and what they leave of a matrix.
+//! Sums of biclusters, and what they leave of a matrix: exact in units of the matrix, else in f64.
 
 use super::Biclustering;
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::bi_scale::values::EntryValues;
 use crate::error::{InputError, ensure};
 use crate::io::CoordinateMatrix;
 
@@ -25,28 +26,34 @@ impl BiclusterResidual {
 }
 
 impl Biclustering {
-    /// The sum of the biclusters: exactly the original matrix unless residuals were dropped.
+    /// The sum of the biclusters: in units of the matrix exactly the original matrix, else the same but for the
+    /// rounding of residuals and of the sum.
     ///
     /// # Errors
     /// [`InputError`] if a sum can be no value of a matrix, which happens for biclusters from elsewhere and
     /// where residuals were dropped.
     pub fn sum(&self) -> Result<SparseMatrix, InputError> {
-        let ([rows, columns], unit) = (self.matrix_size(), self.unit());
+        let ([rows, columns], bits) = (self.matrix_size(), self.values().fraction_bits());
+        let units = bits.map(EntryValues::units);
         let mut entries = Vec::new();
         self.sums(None, |row, column, sum| {
+            let holds = if units.is_some() { "32 bits of units" } else { "double precision" };
+            let is_value = units.as_ref().map_or(sum.is_finite(), |units| units.entry(sum).is_some());
             entries.push((row, column, sum));
             ensure!(
-                unit.entry(sum).is_some(),
-                "expected a sum that 32 bits of units hold in row {row}, column {column} (counted from 0), found \
-                 another: the biclusters are of no matrix"
+                is_value,
+                "expected a sum that {holds} holds in row {row}, column {column} (counted from 0), found another: the \
+                 biclusters are of no matrix"
             );
             Ok(())
         })?;
         let sum = CoordinateMatrix { rows, columns, entries };
-        Ok(SparseMatrix::in_unit(&sum, unit).expect("a matrix of this size"))
+        let sum = bits.map_or_else(|| SparseMatrix::from_coordinates(&sum), |bits| SparseMatrix::in_units(&sum, bits));
+        Ok(sum.expect("finite numbers in a matrix of this size"))
     }
 
-    /// How the sum differs from a matrix of the same size: not at all if nothing was dropped.
+    /// How the sum differs from a matrix of the same size: not at all if the matrix is in units and nothing was
+    /// dropped.
     ///
     /// # Panics
     /// If the sizes differ.

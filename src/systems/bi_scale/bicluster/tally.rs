@@ -1,5 +1,7 @@
 //! Counts of the values of each column within the rows of a submatrix.
 
+use std::cmp::Ordering;
+
 /// The non-zero values of one column in the rows of a submatrix, each with its count.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ColumnTally {
@@ -44,13 +46,13 @@ impl ColumnTally {
         self.values.iter().find(|(known, _)| *known == value).map_or(0, |(_, count)| *count) + self.nonzeros
     }
 
-    /// The most frequent value; among equally frequent ones the lowest.
+    /// The most frequent value; among equally frequent ones the lowest by `order`.
     ///
     /// # Panics
     /// If there is none.
-    pub(super) fn most_frequent(&self) -> i32 {
+    pub(super) fn most_frequent(&self, order: impl Fn(i32, i32) -> Ordering) -> i32 {
         let frequent = self.values.iter().filter(|(_, count)| *count == self.most && *count > 0);
-        frequent.map(|(value, _)| *value).min().expect("a column with a value")
+        frequent.map(|(value, _)| *value).min_by(|&a, &b| order(a, b)).expect("a column with a value")
     }
 
     pub(super) fn clear(&mut self) {
@@ -66,10 +68,11 @@ mod tests {
     #[test]
     fn the_lowest_of_the_most_frequent_values() {
         let mut tally = ColumnTally::default();
+        let order = |a: i32, b: i32| a.cmp(&b);
         [3, -1, 3, -1, 2].into_iter().for_each(|value| tally.add(value));
-        assert_eq!((tally.most_frequent(), tally.most_and_nonzeros()), (-1, 7));
+        assert_eq!((tally.most_frequent(order), tally.most_and_nonzeros()), (-1, 7));
         tally.remove(-1);
-        assert_eq!((tally.most_frequent(), tally.most_and_nonzeros()), (3, 6));
+        assert_eq!((tally.most_frequent(order), tally.most_and_nonzeros()), (3, 6));
         assert_eq!(tally.matches_and_nonzeros(2), 5);
         assert_eq!(tally.matches_and_nonzeros(9), 4);
         tally.clear();

@@ -1,14 +1,14 @@
 //! Biclusters.
 
 use crate::bi_scale::matrix::MatrixEntry;
-use crate::bi_scale::unit::ValueUnit;
+use crate::bi_scale::values::EntryValues;
 
 /// A constant-column bicluster: within each of its columns, all of its rows have the same value (equation 4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bicluster {
     /// Its rows j_1 ... j_r, increasing.
     pub rows: Vec<u32>,
-    /// Its columns k_1 ... k_l, increasing, each with its value t, other than 0, in units of the matrix.
+    /// Its columns k_1 ... k_l, increasing, each with its value t, other than 0, as [`Biclustering::values`] has it.
     pub columns: Vec<MatrixEntry>,
 }
 
@@ -18,12 +18,13 @@ impl Bicluster {
         self.rows.len() as u64 + 2 * self.columns.len() as u64 - 1
     }
 
-    /// True if it fits a matrix of this size: rows and columns in range and increasing, values other than 0.
-    pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2]) -> bool {
+    /// True if it fits a matrix of this size: rows and columns in range and increasing, values other than 0 that there
+    /// are.
+    pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2], values: &EntryValues) -> bool {
         let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
         let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
         let column_fits = self.columns.last().is_some_and(|last| (last.index as usize) < matrix_columns);
-        increase && row_fits && column_fits && self.columns.iter().all(|entry| entry.value != 0)
+        increase && row_fits && column_fits && self.columns.iter().all(|entry| values.has(entry.value))
     }
 }
 
@@ -32,7 +33,7 @@ impl Bicluster {
 pub struct Biclustering {
     matrix_rows: usize,
     matrix_columns: usize,
-    unit: ValueUnit,
+    values: EntryValues,
     row_begins: Vec<usize>,
     rows: Vec<u32>,
     column_begins: Vec<usize>,
@@ -41,10 +42,10 @@ pub struct Biclustering {
 
 impl Biclustering {
     /// No biclusters, for a zero matrix of this size.
-    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, unit: ValueUnit) -> Self {
+    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, values: EntryValues) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
-        Self { matrix_rows, matrix_columns, unit, row_begins, rows, column_begins, columns }
+        Self { matrix_rows, matrix_columns, values, row_begins, rows, column_begins, columns }
     }
 
     pub(crate) fn push(&mut self, bicluster: &Bicluster) {
@@ -69,15 +70,28 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// The unit of the values of columns.
-    pub fn unit(&self) -> ValueUnit {
-        self.unit
+    /// The same with other integers for values, by the number of each: in units of 2^-`fraction_bits` where there are
+    /// such and 32 bits hold all, else in a table.
+    pub(super) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
+        self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
+        for entry in &mut self.columns {
+            entry.value = self.values.entry(number(entry.value)).expect("one of the numbers");
+        }
+        self
+    }
+
+    /// The numbers that the values of columns stand for.
+    pub fn values(&self) -> &EntryValues {
+        &self.values
     }
 
     /// The number that a value of a column stands for.
+    ///
+    /// # Panics
+    /// If there can be no such value.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
-        self.unit.value(entry)
+        self.values.value(entry)
     }
 
     /// The rows of a bicluster, increasing.

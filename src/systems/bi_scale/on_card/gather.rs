@@ -4,7 +4,7 @@
 //! The sums are those of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), with additions in the same
 //! order, so that a card with single precision gives its bits unless one of them is subnormal, which `gt200` flushes.
 //! Lists have about the paper's size: four bytes for a row of a bicluster, eight for a column. Values of biclusters are
-//! rounded to single precision, which is exact for shares of visibility.
+//! rounded to single precision, which is exact for shares of visibility; those beyond its range are refused.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -83,7 +83,8 @@ impl GatherCard {
     /// Uploads the lists of biclusters.
     ///
     /// # Errors
-    /// [`CardError`] if the device lacks the shader version, texture format or texture size.
+    /// [`CardError`] if the device lacks the shader version, texture format or texture size, or a value is
+    /// beyond single precision.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -97,6 +98,7 @@ impl GatherCard {
         let side = sides.fold(SIDE, |side, limit| side.min(limit as usize));
         let [rows, columns] = biclusters.matrix_size();
         check_places("columns", columns)?;
+        require_singles(biclusters)?;
         let instructions = limits.instructions.map_or(INSTRUCTIONS, |limit| limit as usize).min(INSTRUCTIONS);
         let of = |is_weighted| {
             let texels = ListSumKernel::most_texels(is_weighted, instructions);
@@ -251,6 +253,20 @@ impl Stage {
         })?;
         Ok(())
     }
+}
+
+/// Refuses biclusters with values beyond single precision.
+fn require_singles(biclusters: &Biclustering) -> Result<(), CardError> {
+    for bicluster in 0..biclusters.len() {
+        let values = biclusters.columns_of(bicluster).iter().map(|entry| biclusters.value(entry.value));
+        if let Some(found) = values.into_iter().find(|value| !(*value as f32).is_finite()) {
+            return Err(CardError::input(format!(
+                "expected values of biclusters within single precision, found {found:e} in bicluster {bicluster}: \
+                 scale the matrix"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// The lists of the bicluster buffer: columns, increasing, with their values. The texel after the last column is 0.

@@ -15,6 +15,7 @@ use crate::bi_scale::product::Gather;
 use crate::bi_scale::texture::BidirectionalTexture;
 use crate::card::{BILINEAR, MeshView, Texels, seen_pixels};
 use crate::geom::random::CounterRng;
+use crate::io::CoordinateMatrix;
 use crate::scene::Camera;
 use crate::transfer::synthetic::hills;
 use crate::transfer::{Tangents, Vertices};
@@ -53,6 +54,24 @@ fn light(columns: usize, seed: u64) -> Vec<[f32; 3]> {
 
 fn bits(numbers: &[[f32; 3]]) -> Vec<[u32; 3]> {
     numbers.iter().map(|rgb| rgb.map(f32::to_bits)).collect()
+}
+
+/// Values that single precision rounds are taken rounded, as the host's are; those beyond it are refused.
+#[test]
+fn values_beyond_single_precision_are_refused() {
+    let of = |value: f64| {
+        let matrix = CoordinateMatrix { rows: 1, columns: 2, entries: vec![(0, 1, value)] };
+        biclusters(&SparseMatrix::from_coordinates(&matrix).expect("a matrix"))
+    };
+    let card = |found: &Biclustering| GatherCard::new(device("gt200"), ExecutorKind::Batch, found, LightFormat::Fp32);
+    let tenth = of(0.1);
+    let local = card(&tenth).expect("a card").multiply(&[[0.0; 3], [1.0, 2.0, 4.0]]).expect("a product");
+    assert_eq!(local, [[0.1_f32, 0.2, 0.4]]);
+    let error = card(&of(-1e300)).expect_err("refused").to_string();
+    assert_eq!(
+        error,
+        "expected values of biclusters within single precision, found -1e300 in bicluster 0: scale the matrix"
+    );
 }
 
 /// Small programs and textures make many passes and sheets of the same sums.

@@ -21,7 +21,7 @@ pub use field::HeightField;
 pub use file::{load_bidirectional_texture, write_bidirectional_texture};
 pub use kinds::PatchKind;
 pub use material::MesoMaterial;
-pub use patch::{MesoPatch, MesoTexel, SeenPoint};
+pub use patch::{MesoDetail, MesoPatch, MesoTexel, SeenPoint};
 pub use ray::REACH;
 pub use response::{BidirectionalTexture, ViewSamples};
 pub use sampled::TextureSampling;

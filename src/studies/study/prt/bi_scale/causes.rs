@@ -36,8 +36,9 @@ pub(super) struct Causes<'a> {
 
 impl<'a> Causes<'a> {
     pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
-        let unit = rendering.file.unit().ok_or_else(no_mesh_transfer)?;
-        let log2_samples = (unit.fraction_bits() / 2).min(2);
+        let values = rendering.file.values().ok_or_else(no_mesh_transfer)?;
+        // Values without a unit are means of any number of samples.
+        let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
         let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
         let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
         Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine(&DMat3::IDENTITY)? })
