@@ -88,7 +88,7 @@ impl<'a> BiScaleCard<'a> {
             )));
         }
         let layout = LocalLayout { sets };
-        let kernel = LocalVertexKernel { layout, version: vertex_version(&profile, None)? };
+        let kernel = LocalVertexKernel { layout, version: vertex_version(&profile)? };
         let (vertex, vertex_counts) = (kernel.checked(&profile)?, [kernel.slots(), kernel.attributes()]);
         let depth = DepthPrograms::new(&profile)?;
         let mut machine = executor.into().machine(profile.clone())?;
