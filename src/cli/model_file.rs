@@ -1,27 +1,26 @@
-//! Model files, for all commands that read them: the options that say how, the reading, and what is told of a model.
+//! Model files, for all commands that read them: the option that says how, the reading, and what is told of a model.
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::Path;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use clap::{Arg, ArgAction, ArgMatches, Command};
+use clap::{Arg, ArgMatches, Command};
 
-use super::{Problem, given, outputs, view};
+use super::{Problem, given, outputs};
 use crate::geom::Mesh;
-use crate::io::{ModelNote, ModelOptions, UpAxis, VertexNumbers, load_mesh_with, load_vertex_numbers, scene_file};
+use crate::io::{ModelNote, ModelOptions, UpAxis, load_mesh_with, scene_file};
 use crate::report::visible::visible_line;
 use crate::scene::Scene;
 
 /// The arguments that name a model, the first of a command that counts.
 const NAMED_BY: [&str; 3] = ["mesh", "scene", "model"];
 const UP: &str = "model_up";
-const STRICT: &str = "strict";
 
 /// How this run reads models.
 static OPTIONS: OnceLock<ModelOptions> = OnceLock::new();
 
-/// The program with the options of models at every command that takes one.
+/// The program with the option of models at every command that takes one.
 pub(super) fn with_options(program: Command) -> Command {
     let names: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
     let program = names.into_iter().fold(program, |program, name| program.mut_subcommand(name, with_options));
@@ -33,13 +32,7 @@ pub(super) fn with_options(program: Command) -> Command {
         .requires(named_by)
         .help("The axis that points up in the model's file; z does in what is read [default: y of glTF, else z]")
         .help_heading("Model");
-    let strict = Arg::new(STRICT)
-        .long("strict")
-        .action(ArgAction::SetTrue)
-        .requires(named_by)
-        .help("Take the model's file as it is: refuse what would be repaired, turn no triangle round")
-        .help_heading("Model");
-    program.arg(up).arg(strict)
+    program.arg(up)
 }
 
 /// The argument that names the command's model, if it takes one.
@@ -47,7 +40,7 @@ fn named_by(command: &Command) -> Option<&'static str> {
     NAMED_BY.into_iter().find(|name| command.get_arguments().any(|arg| arg.get_id() == *name))
 }
 
-/// Takes the options from a command line.
+/// Takes the option from a command line.
 ///
 /// # Errors
 /// [`Problem::Usage`] if no model is named. The parser does not see that where a model excludes what was named instead.
@@ -56,13 +49,11 @@ pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Prob
     // Matches cannot be asked which arguments exist: clap keeps the list with debug assertions only.
     let Some(named_by) = named_by(command) else { return Ok(()) };
     let up = matches.get_one::<String>(UP).map(|axis| if axis == "y" { UpAxis::Y } else { UpAxis::Z });
-    let strict = matches.get_flag(STRICT);
     if !matches.contains_id(named_by) {
-        let options = [("--model-up", up.is_some()), ("--strict", strict)];
-        given::refuse(options, "a model's file, found none", "name a model, or leave it out")?;
+        given::refuse([("--model-up", up.is_some())], "a model's file, found none", "name a model, or leave it out")?;
     }
     // Set once: one command reads models, that of the line or that whose parts are merged.
-    OPTIONS.set(ModelOptions { up, strict }).ok();
+    OPTIONS.set(ModelOptions { up, strict: false }).ok();
     Ok(())
 }
 
@@ -70,25 +61,22 @@ fn options() -> ModelOptions {
     OPTIONS.get().copied().unwrap_or_default()
 }
 
-/// Refuses the options for what is no file.
+/// Refuses the option for what is no file.
 ///
 /// # Errors
-/// [`Problem`] if any was given.
+/// [`Problem`] if it was given.
 pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
-    let ModelOptions { up, strict } = options();
-    let asked = if up.is_some() { "`--model-up`" } else { "`--strict`" };
-    if up.is_none() && !strict {
+    if options().up.is_none() {
         return Ok(());
     }
     Err(Problem::usage(
-        format!("{asked} says how a file is read, and `{name}` is built by the program"),
+        format!("`--model-up` says how a file is read, and `{name}` is built by the program"),
         "leave it out, or name a file",
     ))
 }
 
 /// A mesh from an OBJ, PLY, STL or glTF file.
 pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
-    view::require_mesh(path)?;
     let (mesh, notes) = load_mesh_with(path, options())?;
     tell(path, &notes);
     Ok(mesh)
@@ -96,16 +84,9 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
 
 /// A scene from one of these, or from a scene file that names one.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
-    view::require_mesh(path)?;
     let (scene, notes) = scene_file::load_with(path, options())?;
     tell(path, &notes);
     Ok(scene)
-}
-
-/// The numbers that a model's or a scene's file gives its vertices; `None` for what is no file, or none with numbers.
-pub(super) fn vertex_numbers(path: &Path) -> Option<VertexNumbers> {
-    let model = path.is_file().then(|| scene_file::model_path(path))??;
-    load_vertex_numbers(&model, options()).ok()?
 }
 
 /// Says on standard error what was changed in a model and what is odd about it, once for each.

@@ -41,10 +41,6 @@ fn what_it_says_and_writes() {
         "8bit",
         "--map",
         "fp32",
-        "--frames",
-        "2",
-        "--probe",
-        "0.5,0.5,0",
         "--light",
         "directional:1,1,1:2,2,1",
         "--light",
@@ -55,7 +51,7 @@ fn what_it_says_and_writes() {
     insta::assert_snapshot!("subsurface_tables", ran.stdout);
     insta::assert_snapshot!("subsurface_files", files(&folder).join("\n"));
     let page = std::fs::read_to_string(folder.path().join("out/subsurface/index.html")).expect("a page");
-    assert_eq!(page.matches("<img").count(), 3 + 2 + 8 + 8 + 2, "lead, maps, ways, their errors, frames");
+    assert_eq!(page.matches("<img").count(), 3 + 2 + 8 + 8, "lead, maps, ways, their errors");
     let faces = std::fs::read_to_string(folder.path().join("out/subsurface/faces.csv")).expect("a table");
     assert_eq!(faces.lines().filter(|line| !line.starts_with('#')).count(), 5, "a heading and four faces: {faces}");
 }
@@ -95,16 +91,6 @@ fn the_same_bytes_for_every_executor_and_thread_count() {
     }
 }
 
-#[test]
-fn a_table_of_another_model_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    std::fs::write(folder.path().join("m.obj"), MODEL).expect("written");
-    std::fs::write(folder.path().join("e.csv"), "r,g,b\n1,1,1\n").expect("written");
-    let ran = crossbar_in(folder.path(), &[&SMALL[..], &["--irradiance", "e.csv"]].concat(), "");
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("expected an irradiance for each of 4 faces, found 1"), "{}", ran.stderr);
-}
-
 /// A table of the study, by heading, without its comments.
 fn table(folder: &tempfile::TempDir, name: &str) -> Vec<BTreeMap<String, String>> {
     let text = std::fs::read_to_string(folder.path().join("out/subsurface").join(name)).expect("a table");
@@ -115,12 +101,6 @@ fn table(folder: &tempfile::TempDir, name: &str) -> Vec<BTreeMap<String, String>
 
 fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: expected a number, found `{}`", row[column]))
-}
-
-fn done(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
-    let (ran, folder) = subsurface(more);
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{more:?}");
-    (ran, folder)
 }
 
 fn refused(more: &[&str], expected: &str) {
@@ -267,7 +247,7 @@ fn flat_tetrahedron() -> String {
 }
 
 /// A map of the same radiance everywhere is a sky, for a convex body; one with half of the sphere dark is not. Beside
-/// other lights, or with options of lights, a map is refused.
+/// other lights a map is refused.
 #[test]
 fn environment_maps_shine() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -288,44 +268,7 @@ fn environment_maps_shine() {
     assert!(disk[0][0] > 0.05 && disk[1][0] < 0.1 * disk[0][0] && disk[3][0] == 0.0, "from below: {disk:?}");
     assert!(disk[3][1] > 0.0, "light comes through from behind");
     refused(&["--light", "constant", "--light", "ambient:1,1,1"], "expected one environment map alone");
-    for option in [["--frames", "2"], ["--diffuse", "0.2"]] {
-        let told = format!("`{}` changes nothing without lights of pass 1", option[0]);
-        refused(&[&["--light", "red-and-blue"], &option[..]].concat(), &told);
-    }
     refused(&["--light", "nowhere.exr"], "nowhere.exr");
-}
-
-/// The links of a probe's texel: each choice once, whatever the formats; all clusters of a level, or of several.
-#[test]
-fn links_are_listed() {
-    let more = ["--choice", "fixed", "--choice", "adaptive", "--links", "4,16", "--map", "fp16", "--map", "fp32"];
-    let list = ["--link-table", "--probe", "0.5,0.5,0", "--all-pairs", "no"];
-    let (_, folder) = done(&[&more[..], &list].concat());
-    let rows = table(&folder, "links.csv");
-    let of = |name: &str| rows.iter().filter(|row| row["links"] == name).collect::<Vec<_>>();
-    assert_eq!(
-        ["fixed-4-rgb", "fixed-16-rgb", "adaptive-4-rgb", "adaptive-16-rgb"].map(|n| of(n).len()),
-        [4, 16, 4, 16]
-    );
-    assert_eq!(rows.len(), 40);
-    assert!(of("fixed-16-rgb").iter().all(|row| row["level"] == "2"), "4 x 4 of 16 x 16 texels");
-    let levels: std::collections::BTreeSet<&str> =
-        of("adaptive-16-rgb").iter().map(|row| row["level"].as_str()).collect();
-    assert!(levels.len() > 1, "{levels:?}");
-    let sum = |name: &str| of(name).iter().map(|row| number(row, "factor_g")).sum::<f64>();
-    let [one, all] = ["fixed-4-rgb", "adaptive-16-rgb"].map(sum);
-    assert!((one / all - 1.0).abs() < 0.02, "the same surface, divided otherwise: {one} {all}");
-    let near = |row: &&&BTreeMap<String, String>| number(row, "distance_mm");
-    let (links, brightest) = (of("adaptive-16-rgb"), of("adaptive-16-rgb"));
-    let nearest = links.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("a link");
-    let farthest = brightest.iter().max_by(|a, b| near(a).total_cmp(&near(b))).expect("a link");
-    assert!(number(nearest, "distance_mm") < 2.0 && number(farthest, "distance_mm") > 3.0, "mm of a body of 10");
-    let (_, folder) = done(&["--link-table", "--links", "4", "--all-pairs", "no"]);
-    assert_eq!(table(&folder, "links.csv").len(), 4 * 16 * 16, "without probes all texels");
-    refused(
-        &["--link-table", "--choice", "adaptive", "--links", "4096"],
-        "expected at most 262144 links to list, found 1048576",
-    );
 }
 
 /// Help, page and program agree on the atlases up to which all pairs are gathered unasked.

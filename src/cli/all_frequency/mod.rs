@@ -1,11 +1,9 @@
 //! `crossbar all-frequency`: transfer for light of all frequencies, one file per verb.
 
-mod arrays;
 mod card;
 mod compress;
 mod error;
 mod factor;
-mod factor_values;
 mod file;
 mod lighting;
 mod precompute;

@@ -1,6 +1,5 @@
 //! `crossbar cpca`: low-frequency transfer and its clusters, one file per verb.
 
-mod arrays;
 mod card;
 mod coherence;
 mod compress;

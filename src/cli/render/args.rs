@@ -5,13 +5,11 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use crate::cli::caster::CasterArg;
-use crate::cli::executor::{Decider, GpuArgs};
+use crate::cli::executor::Decider;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::{Problem, given};
-use crate::geom::exact::Sides;
+use crate::options::Size;
 use crate::options::number;
-use crate::options::{Size, sides};
-use crate::renderer::Lens;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -45,10 +43,6 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// Which faces can be hit
-    #[arg(long, default_value = "both", value_parser = sides())]
-    pub(super) sides: Sides,
-
     /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
@@ -56,9 +50,6 @@ pub(in crate::cli) struct Args {
     /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
     #[arg(long, value_enum)]
     pub(super) executor: Option<Decider>,
-
-    #[command(flatten)]
-    pub(super) gpu: GpuArgs,
 
     /// Folder for picture.png, layers.exr and index.html
     #[arg(long, value_name = "DIR", default_value = "out/render")]
@@ -68,9 +59,6 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) light: LightArgs,
 }
-
-/// Help for a picture that is too large.
-pub(super) const SMALLER: &str = "ask for a smaller `--size`";
 
 /// How light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -111,14 +99,6 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
-    /// The most surfaces that light meets between lamp and eye, but for eye rays [default: 8]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1024))]
-    pub(super) depth: Option<u32>,
-
-    /// Random seed [default: 1]
-    #[arg(long, value_name = "N")]
-    pub(super) seed: Option<u64>,
-
     /// A view of the scene, by its name [default: its first]
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
@@ -127,30 +107,9 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
 
-    /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo; 0 leaves shadows black
-    /// [default: 0.08]
-    #[arg(long, value_name = "X", value_parser = number::not_negative_single)]
-    pub(super) ambient: Option<f64>,
-
-    /// A lens: its radius, and the distance at which all is sharp
-    #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
-    pub(super) lens: Option<Lens>,
-
-    /// Photons for each map of photon mapping [default: 100000]
-    #[arg(long, value_name = "N")]
-    pub(super) photons: Option<u32>,
-
-    /// Gather rays of each hit of photon mapping; 0 shows the map itself [default: 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
-    pub(super) gather: Option<u32>,
-
     /// Caster of rays, which finds first hits [default: host]
     #[arg(long, value_enum, value_name = "C")]
     pub(super) caster: Option<CasterArg>,
-
-    /// Say on standard error how long it took, and how many rays per second that is
-    #[arg(long)]
-    pub(super) time: bool,
 }
 
 impl LightArgs {
@@ -159,32 +118,9 @@ impl LightArgs {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
     }
 
-    /// Refuses what a renderer has no use for; `None` is a mesh that is shaded without light.
-    pub(super) fn refuse_others(&self, renderer: Option<Renderer>) -> Result<(), Problem> {
-        let is_photon = renderer == Some(Renderer::Photon);
-        let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];
-        let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
-        given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
-        let ambient = [("--ambient", self.ambient.is_some() && renderer != Some(Renderer::Whitted))];
-        given::refuse(ambient, "Whitted's model", "add `--renderer whitted`, or leave it out")?;
-        let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
-        let depth = [("--depth", self.depth.is_some() && is_eye)];
-        given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
-        let of_light = [
-            ("--seed", self.seed.is_some()),
-            ("--exposure", self.exposure.is_some()),
-            ("--lens", self.lens.is_some()),
-            ("--time", self.time),
-        ];
-        let of_light = of_light.map(|(option, given)| (option, given && renderer.is_none()));
-        given::refuse(of_light, "scenes with light", "add a `--renderer`, or leave it out")
+    /// Refuses what a mesh that is shaded without light has no use for.
+    pub(super) fn refuse_for_mesh(&self) -> Result<(), Problem> {
+        let exposure = [("--exposure", self.exposure.is_some())];
+        given::refuse(exposure, "scenes with light", "add a `--renderer`, or leave it out")
     }
-}
-
-fn parse_lens(text: &str) -> Result<Lens, String> {
-    let (radius, focus) =
-        text.split_once(',').ok_or_else(|| format!("expected RADIUS,FOCUS as in 0.02,1.5; found `{text}`"))?;
-    let radius = number::not_negative(radius).map_err(|what| format!("radius: {what}"))?;
-    let focus = number::positive(focus).map_err(|what| format!("focus: {what}"))?;
-    Ok(Lens { radius, focus })
 }

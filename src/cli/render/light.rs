@@ -1,17 +1,17 @@
 //! `crossbar render` with a host renderer.
 
-use std::io::Write as _;
 use std::time::Instant;
 
 use miette::IntoDiagnostic as _;
 use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
-use super::args::{Args, Renderer, SMALLER};
+use super::args::{Args, Renderer};
 use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::{CommandLine, MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
+use crate::cli::{CommandLine, Out, Problem, ProgressBar, scene_name, study, view};
+use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
@@ -21,22 +21,20 @@ use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
-/// The random seed where none is given.
+/// The random seed.
 const SEED: u64 = 1;
 
 pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
-    args.light.refuse_others(Some(renderer))?;
     check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
     let device =
         (caster == CasterArg::Engine).then(|| args.device.clone().unwrap_or_else(|| view::DEFAULT_DEVICE.to_owned()));
-    let caster = caster.choose(args.device.as_deref(), args.executor, &args.gpu)?;
+    let caster = caster.choose(args.device.as_deref(), args.executor)?;
     let camera = camera(args, &asked.scene)?;
-    require_memory(args, renderer, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut caster = caster.build(asked.scene.mesh(), args.sides)?;
+    let mut caster = caster.build(asked.scene.mesh(), Sides::Both)?;
     let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
     let engine = caster.counts();
     let numbers = layers(&picture, &asked.scene, &camera)?;
@@ -45,7 +43,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
     findings.table(FoundTable::from(rays(&picture)).unprinted());
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
-    provenance.seed = Some(args.light.seed.unwrap_or(SEED));
+    provenance.seed = Some(SEED);
     provenance.profiles.extend(device);
     report(args, &picture, engine.as_ref(), &mut findings);
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
@@ -59,23 +57,6 @@ fn rays(picture: &RenderedPicture) -> Table {
         table.push([kind.into(), count.into()]);
     }
     table
-}
-
-/// Checks the memory of the picture, its files and the photons.
-fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), MemoryError> {
-    const PER_PIXEL: u64 = 400;
-    const PER_PHOTON: u64 = 450;
-    let photons = match renderer {
-        Renderer::Photon => {
-            let usual = Photons::for_scene(scene);
-            let [global, caustic] = [usual.global, usual.caustic].map(|n| u64::from(args.light.photons.unwrap_or(n)));
-            (global + caustic) * PER_PHOTON
-        }
-        _ => 0,
-    };
-    let need = memory::of_pixels(args.size.width, args.size.height, PER_PIXEL, photons);
-    let help = if photons > 0 { "ask for a smaller `--size` or fewer `--photons`" } else { SMALLER };
-    memory::require(format_args!("a lit picture of {} pixels", args.size), need, help)
 }
 
 /// Half a step of single precision, the host's.
@@ -117,25 +98,14 @@ fn trace(
     rounding: f64,
     caster: &mut dyn Caster,
 ) -> miette::Result<RenderedPicture> {
-    let light = &args.light;
     let usual = match renderer {
         Renderer::Eye => 1,
         Renderer::Whitted => 4,
         _ => 16,
     };
-    let settings = Settings {
-        samples: light.samples.unwrap_or(usual),
-        depth: light.depth.unwrap_or(8),
-        seed: light.seed.unwrap_or(SEED),
-        rounding,
-        lens: light.lens,
-        ambient: [light.ambient.unwrap_or(0.08) as f32; 3],
-        ..Settings::default()
-    };
-    let mut photons = Photons::for_scene(scene);
-    photons.global = light.photons.unwrap_or(photons.global);
-    photons.caustic = light.photons.unwrap_or(photons.caustic);
-    photons.gather = light.gather.unwrap_or(photons.gather);
+    let settings =
+        Settings { samples: args.light.samples.unwrap_or(usual), seed: SEED, rounding, ..Settings::default() };
+    let photons = Photons::for_scene(scene);
     let (start, bar) =
         (Instant::now(), ProgressBar::new("rendering", 1).quicker("fewer `--samples` or a smaller `--size`"));
     let mut watch = |progress: crate::renderer::RenderProgress| {
@@ -150,14 +120,7 @@ fn trace(
         Renderer::Path => path::render(scene, camera, &settings, path::Direct::Both, caster, watch),
         Renderer::Photon => photon::render(scene, camera, &settings, &photons, caster, watch),
     };
-    let picture = picture.into_diagnostic()?;
-    if light.time {
-        let seconds = start.elapsed().as_secs_f64();
-        let rate = picture.counts.rays() as f64 / seconds.max(1e-9) / 1e6;
-        // Nothing is to be done if nobody reads this.
-        writeln!(std::io::stderr().lock(), "time: {seconds:.2} s, {rate:.3} M rays/s").ok();
-    }
-    Ok(picture)
+    picture.into_diagnostic()
 }
 
 fn report(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, found: &mut Findings) {

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use super::card::CardArgs;
 use super::materials::published;
-use super::memory::{self, MemoryNeed};
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
 use super::study::{StudyArgs, StudyFiles};
@@ -25,16 +24,14 @@ Examples:
       both choices of links, and how the error falls with their number
   crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
       the coefficients of the paper's Figure 7, in every format of map and links
-  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2 --frames 8
-      a lamp and a sky, and the lamp carried round the model
+  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2
+      a lamp and a sky
   crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20 --walk 20000
       an environment map with shadows, marble behind another boundary, and photons that walk beside the dipole
-  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice adaptive --link-table --probe 0,-1,0
-      where one texel gathers from: clusters, factors and distances
 
 Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of every vertex of the model, in every \
-way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), with --walk walk.csv, with --link-table links.csv, \
-with --probe probes.csv, timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
+way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), with --walk walk.csv, \
+timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
 
 /// The index of refraction where coefficients come without one.
 const ETA: f64 = 1.3;
@@ -74,10 +71,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Vec<LightArg>,
 
-    /// In place of lights, what has entered each face: a table with the header r,g,b and a line per face
-    #[arg(long, value_name = "FACES.csv", conflicts_with = "light")]
-    irradiance: Option<PathBuf>,
-
     #[command(flatten)]
     card: CardArgs,
 
@@ -105,39 +98,13 @@ impl StudyArgs for Args {
             LightArg::Environment(light) => light.file(),
             LightArg::OfPass(_) => None,
         });
-        let inputs =
-            model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).chain(lights).collect();
+        let inputs = model_name::named_file(&self.model).into_iter().chain(lights).collect();
         StudyFiles::new(Some(&self.out), Some(self.part), inputs)
-    }
-
-    /// Memory of the atlas, its links, the card's textures and the pictures of every way.
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        let SubsurfaceOptions { side, ref links, frames, link_table, .. } = self.options;
-        // Before memory, which what cannot be has no need of.
-        require_side(side).map_err(no_atlas)?;
-        const PER_TEXEL: u64 = 1000;
-        const PER_LINK: u64 = 80;
-        const PER_PIXEL_AND_PICTURE: u64 = 100;
-        let texels = u64::from(side) * u64::from(side);
-        let most = u64::from(links.iter().copied().max().unwrap_or(0));
-        let ways = self.options.way_count();
-        let pictures = 3 * ways + u64::from(frames);
-        // Rows of the table of links, of which there are at most 2^18 per study.
-        let table = if link_table { 128 << 20 } else { 0 };
-        let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways).saturating_add(table);
-        Ok(Some(MemoryNeed {
-            what: format!(
-                "{side} x {side} texels with {most} links each, and {pictures} pictures of {} pixels",
-                self.size
-            ),
-            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, maps),
-            help: "ask for a smaller `--atlas`, fewer `--links` or a smaller `--size`",
-        }))
     }
 
     fn study(&self) -> miette::Result<Parameters> {
         self.options.check()?;
-        self.require_lights()?;
+        require_side(self.options.side).map_err(no_atlas)?;
         let material = self.material()?;
         let ways = self.options.ways(&material)?;
         let profile = self.card.profile("nv35")?;
@@ -145,7 +112,7 @@ impl StudyArgs for Args {
         let camera = self.eye.framing(&mesh, self.size)?;
         Ok(Parameters {
             model: self.model.display().to_string(),
-            lighting: lighting(&self.light, self.irradiance.as_deref(), &camera)?,
+            lighting: lighting(&self.light, &camera)?,
             switches: self.card.switches(),
             executor: self.card.executor()?,
             options: self.options.clone(),
@@ -179,19 +146,6 @@ impl Args {
                 let help = "add `--material NAME` (see `crossbar materials`), or `--sigma-s` and `--sigma-a` per mm";
                 Err(Problem::usage("expected a medium", help).into())
             }
-        }
-    }
-
-    /// Refuses options of lights where the light is a table of faces or an environment map.
-    fn require_lights(&self) -> Result<(), Problem> {
-        let has_map = self.light.iter().any(|light| matches!(light, LightArg::Environment(_)));
-        let of_lights = [("--diffuse", self.options.diffuse.is_some()), ("--frames", self.options.frames > 0)];
-        match of_lights.iter().find(|(_, is_given)| *is_given) {
-            Some((option, _)) if has_map || self.irradiance.is_some() => {
-                let help = "it is for `--light` of the kinds ambient, directional and point; what enters is known here";
-                Err(Problem::usage(format!("`{option}` changes nothing without lights of pass 1"), help))
-            }
-            _ => Ok(()),
         }
     }
 }

@@ -28,7 +28,6 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("leaky-teapot", "--rays-per-edge", "0", true),
     ("render", "--size", "8x8", true),
     ("render", "--samples", "1", false),
-    ("render", "--photons", "1000", false),
     ("radiosity", "--size", "8x8", true),
     ("radiosity", "--patches", "60", true),
     ("radiosity", "--iterations", "4", true),
@@ -38,7 +37,6 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("subsurface", "--size", "8x8", true),
     ("subsurface", "--links", "4", false),
     ("subsurface", "--tolerance", "0.1", true),
-    ("subsurface", "--frames", "2", false),
     ("subsurface", "--walk", "64", false),
     ("timeline", "--eye-rays", "8x8", false),
 ];

@@ -18,8 +18,6 @@ mod parts;
 mod precompute;
 mod render;
 mod stored_ways;
-mod turned_frames;
-mod vertex_values;
 
 use crate::all_frequency::shade::LightSizeError;
 use crate::card::CardError;
@@ -51,8 +49,6 @@ pub use precompute::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 pub use render::Rendering;
 pub(super) use render::cluster_color;
 pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
-pub use turned_frames::{TurnedFrames, Turning};
-pub use vertex_values::{ValuesFormat, VertexValues};
 
 library_errors! {
     CardError => "crossbar::prt::card";

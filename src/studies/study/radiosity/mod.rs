@@ -39,7 +39,7 @@ pub use change::{Change, Relit};
 pub use difference::SolutionError;
 pub(in crate::study) use error::no_card;
 pub use method::{CardMethod, SolveMethod, StopReason};
-pub use options::{FactorLaw, Factors, RadiosityOptions};
+pub use options::{Factors, RadiosityOptions};
 pub use outcome::{MethodRow, RadiosityOutcome};
 pub use parameters::Parameters;
 pub use pictures::{IterationPicture, Pictures};
@@ -109,7 +109,7 @@ fn run(
         Computed::Part(written) => return Ok(Computed::Part(written)),
     };
     let room = match &known {
-        Some(known) => room::complete(known.form_factor_rows(&patches, parameters, progress)?, &patches, parameters)?,
+        Some(known) => room::complete(known.form_factor_rows(&patches, parameters, progress)?, &patches)?,
         None => room::find(&patches, parameters, progress)?,
     };
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
@@ -125,10 +125,8 @@ fn run(
     }
     let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
     let reference = direct.map(|s| s.radiosity.clone());
-    let exposure = parameters.options.exposure.unwrap_or_else(|| {
-        let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
-        direct.or(solved.first()).map_or(1.0, brightness)
-    });
+    let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
+    let exposure = direct.or(solved.first()).map_or(1.0, brightness);
     let in_atlas = atlas.as_ref().zip(direct.or(solved.first())).map(|(atlas, shown)| {
         let label = shown.method.label(&parameters.profile);
         atlas::show((&patches, atlas), (&label, &shown.radiosity), &parameters.camera, exposure)

@@ -23,19 +23,11 @@ pub struct RadiosityOptions {
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub patches: u32,
 
-    /// Cut each side of each face into so many parts instead.
-    #[arg(long, value_name = "N", conflicts_with = "patches", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    pub per_side: Option<u32>,
-
     /// Where form factors come from: unoccluded (as if nothing stood between any two patches), rays or rays:N (closed
     /// forms and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default), or hemicube or
     /// hemicube:N (pictures of the scene from each patch, drawn by the emulated card, N pixels wide, 64 by default).
     #[arg(long, value_name = "HOW", default_value = "rays")]
     pub factors: Factors,
-
-    /// Enforce reciprocity or closure of form factors; `closure` enforces both.
-    #[arg(long, value_name = "LAW", value_enum)]
-    pub enforce: Option<FactorLaw>,
 
     /// card, jacobi, gauss-seidel, sor:FACTOR, shooting or direct; may be repeated [default: card, gauss-seidel and
     /// direct]
@@ -82,20 +74,6 @@ pub struct RadiosityOptions {
     #[arg(long = "sweep-patches", value_name = "N,N", value_delimiter = ',',
           value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub sweep: Vec<u32>,
-
-    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, surfaces that
-    /// do not emit at 18 % grey on average]
-    #[arg(long, value_name = "X", value_parser = number::positive)]
-    pub exposure: Option<f64>,
-}
-
-/// Law that form factors must obey.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum FactorLaw {
-    /// Area times form factor is the same from both sides
-    Reciprocity,
-    /// Form factors of a patch sum to 1
-    Closure,
 }
 
 /// Source of form factors.
@@ -192,7 +170,7 @@ fn color_of(text: &str) -> Result<MaterialColor, String> {
 impl RadiosityOptions {
     /// Fineness of the subdivision.
     pub fn subdivision(&self) -> Subdivision {
-        self.per_side.map_or(Subdivision::AtMost(self.patches as usize), Subdivision::PerSide)
+        Subdivision::AtMost(self.patches as usize)
     }
 
     /// Stopping criteria.

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::{FactorLaw, Factors, Parameters, ProgressFn};
+use super::{Factors, Parameters, ProgressFn};
 use crate::geom::exact::Sides;
 use crate::radiosity::form_factor::{FormFactorRows, Hemicube, RowSums};
 use crate::radiosity::{FormFactors, Patches};
 use crate::study::StudyError;
 use crate::tracer::HostTracer;
 
-/// Form factors, with their errors before anything was enforced.
+/// Form factors, with their errors.
 pub(super) struct Room {
     pub(super) factors: FormFactors,
     pub(super) found_sums: RowSums,
@@ -37,15 +37,10 @@ pub(super) fn rows(
     })
 }
 
-/// Completes the rows of all patches, and enforces what is asked for.
-pub(super) fn complete(rows: FormFactorRows, patches: &Patches, parameters: &Parameters) -> Result<Room, StudyError> {
-    let mut factors = rows.complete(patches)?;
+/// Completes the rows of all patches.
+pub(super) fn complete(rows: FormFactorRows, patches: &Patches) -> Result<Room, StudyError> {
+    let factors = rows.complete(patches)?;
     let (found_sums, reciprocity_error) = (factors.summary(), factors.reciprocity_error());
-    match parameters.options.enforce {
-        Some(FactorLaw::Closure) => factors.enforce_closure()?,
-        Some(FactorLaw::Reciprocity) => factors.enforce_reciprocity(),
-        None => {}
-    }
     Ok(Room { factors, found_sums, reciprocity_error })
 }
 
@@ -55,5 +50,5 @@ pub(super) fn find(
     parameters: &Parameters,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Room, StudyError> {
-    complete(rows(patches, parameters, &|_| true, progress)?, patches, parameters)
+    complete(rows(patches, parameters, &|_| true, progress)?, patches)
 }

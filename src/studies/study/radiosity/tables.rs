@@ -1,6 +1,6 @@
 //! Tables of the study.
 
-use super::{FactorLaw, MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
+use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
 /// Tables of the study.
@@ -33,13 +33,8 @@ pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tab
 
 fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns = "patches form_factors least_row_sum largest_row_sum light_escaping partly_covered blind_patches \
-         reciprocity_error enforced";
-    let mut table = Table::of("The room; sums and errors as found, before anything was enforced", columns);
-    let enforced = match parameters.options.enforce {
-        Some(FactorLaw::Closure) => "closure, reciprocity",
-        Some(FactorLaw::Reciprocity) => "reciprocity",
-        None => "nothing",
-    };
+         reciprocity_error";
+    let mut table = Table::of("The room; sums and errors of its form factors", columns);
     let sums = &outcome.found_sums;
     table.push([
         outcome.patches.list().len().into(),
@@ -50,7 +45,6 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
         outcome.patches.covered()[0].into(),
         sums.blind.into(),
         Cell::error(outcome.reciprocity_error),
-        enforced.into(),
     ]);
     table
 }

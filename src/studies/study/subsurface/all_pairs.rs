@@ -16,8 +16,6 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 pub struct AllPairs {
     /// Per texel, row by row.
     pub texels: Vec<[f64; 3]>,
-    /// Per probe.
-    pub probes: Vec<[f64; 3]>,
 }
 
 /// How far radiosities are from others, as shares of the others; infinite if some are not finite and the others are, or
@@ -72,23 +70,16 @@ impl AllPairSums<'_> {
         Ok(found)
     }
 
-    /// Radiosities of all texels out of those of all rows, and of the probes.
-    pub(super) fn of_rows(self, rows: [Vec<f64>; 3]) -> Result<AllPairs, StudyError> {
-        let texels = vec![[0.0; 3]; self.irradiance.len()];
-        let mut found = AllPairs { texels, probes: vec![[0.0; 3]; self.parameters.options.probes.len()] };
+    /// Radiosities of all texels out of those of all rows.
+    pub(super) fn of_rows(self, rows: [Vec<f64>; 3]) -> AllPairs {
+        let mut texels = vec![[0.0; 3]; self.irradiance.len()];
         for (channel, radiosity) in rows.into_iter().enumerate() {
-            if let Some(other) = self.like(channel) {
-                found.texels.iter_mut().chain(&mut found.probes).for_each(|b| b[channel] = b[other]);
-                continue;
-            }
-            found.texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
-            let (reference, values) = (self.reference(channel)?, self.values(channel));
-            for (into, &probe) in found.probes.iter_mut().zip(&self.parameters.options.probes) {
-                let point = glam::DVec3::from(probe) * self.parameters.options.mm_per_unit;
-                into[channel] = reference.radiosity_at(point, &values)?;
+            match self.like(channel) {
+                Some(other) => texels.iter_mut().for_each(|b| b[channel] = b[other]),
+                None => texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b),
             }
         }
-        Ok(found)
+        AllPairs { texels }
     }
 
     /// The first channel before this one with the same medium and light.

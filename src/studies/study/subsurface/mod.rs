@@ -8,7 +8,6 @@ mod conclusion;
 mod environment;
 mod error;
 mod gather_way;
-mod link_table;
 mod model;
 mod options;
 mod outcome;
@@ -36,7 +35,6 @@ pub use angles::{AngleBin, BinError};
 pub use error::no_atlas;
 pub(in crate::study) use error::no_card;
 pub use gather_way::{GatherWay, MapBits};
-pub use link_table::LinkRow;
 pub use model::ModelLengths;
 pub use options::{ALL_PAIRS_SIDE, MAX_ALL_PAIRS_SIDE, SubsurfaceOptions};
 pub use outcome::SubsurfaceOutcome;
@@ -75,7 +73,6 @@ fn run(
     split: &SplitRun,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Computed<SubsurfaceOutcome>, StudyError> {
-    link_table::require_rows(parameters)?;
     let eta = parameters.material.eta;
     let [red, green, blue] = parameters.material.channels;
     let dipoles = [Dipole::new(red, eta)?, Dipole::new(green, eta)?, Dipole::new(blue, eta)?];
@@ -83,20 +80,12 @@ fn run(
     let atlas = Atlas::new(&parameters.mesh, parameters.options.side).map_err(no_atlas)?;
     let surface = SurfaceMoments::new(&atlas, parameters.options.mm_per_unit)?;
     let lengths = ModelLengths::of(&atlas, &surface, parameters, &dipoles);
-    let probe_texels = model::probe_texels(&atlas, parameters, lengths.diagonal)?;
     let irradiance = match &parameters.lighting {
         Lighting::Lights(lights) => irradiance(&atlas, lights, eta),
         Lighting::Environment(light) => {
             progress("light of the environment", 0, 1);
             environment::irradiance(&atlas, parameters, light)?
         }
-        Lighting::ByFace(values) if values.len() != parameters.mesh.len() => {
-            let [expected, found] = [parameters.mesh.len(), values.len()];
-            let what = format!("expected an irradiance for each of {expected} faces, found {found}");
-            let help = "a line `r,g,b` per face of the model, in its order";
-            return Err(StudyError::new("subsurface::irradiance", what).with_help(help));
-        }
-        Lighting::ByFace(values) => model::by_texel(&atlas, values),
     };
     if irradiance.iter().flatten().all(|&e| e == 0.0) {
         let help = "add a `--light`, or move one to where the model's front faces see it";
@@ -122,7 +111,7 @@ fn run(
             Some(known) => std::mem::take(&mut known.all_pairs),
             None => scene.all_pairs().rows(&(0..parameters.options.side as usize), progress)?,
         };
-        Some(scene.all_pairs().of_rows(rows)?)
+        Some(scene.all_pairs().of_rows(rows))
     } else {
         None
     };
@@ -131,7 +120,7 @@ fn run(
         None => None,
     };
     let scene = way::Scene { truth: truth.as_ref(), ..scene };
-    let (mut rows, mut roundings, mut listed) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut rows, mut roundings) = (Vec::new(), Vec::new());
     // Ways that differ in formats alone follow each other and share their links.
     let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
@@ -142,9 +131,6 @@ fn run(
                 None => way::links(&scene, way, progress)?,
             },
         };
-        if parameters.options.link_table && parameters.has_new_links(at) {
-            listed.extend(link_table::rows(&atlas, (parameters, way), &links, &probe_texels));
-        }
         let row = way::run(&scene, way, (&links, at == 0), progress)?;
         if parameters.options.roundings {
             roundings.extend(roundings::roundings(&scene, way, (&links, &row.radiosity), progress)?);
@@ -152,16 +138,5 @@ fn run(
         rows.push(row);
         last = Some((way, links));
     }
-    Ok(Computed::Whole(SubsurfaceOutcome {
-        lengths,
-        truth,
-        walked,
-        probe_texels,
-        rows,
-        roundings,
-        links: listed,
-        atlas,
-        dipoles,
-        irradiance,
-    }))
+    Ok(Computed::Whole(SubsurfaceOutcome { lengths, truth, walked, rows, roundings, atlas, dipoles, irradiance }))
 }

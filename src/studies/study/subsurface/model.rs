@@ -1,10 +1,9 @@
-//! The model as an atlas: faces, probes, and how its lengths compare with the medium's.
+//! The model as an atlas: its faces, and how its lengths compare with the medium's.
 
 use glam::DVec3;
 
 use super::Parameters;
 use crate::atlas::Atlas;
-use crate::study::StudyError;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::Fitness;
 use crate::subsurface::{Dipole, median_thickness};
@@ -59,26 +58,4 @@ pub(super) fn by_face(atlas: &Atlas, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
         (sum / f64::from(place.texels())).to_array()
     };
     atlas.places().iter().map(mean).collect()
-}
-
-/// The value of each face at all of its texels.
-pub(super) fn by_texel(atlas: &Atlas, faces: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    atlas.texels().iter().map(|texel| faces[texel.face as usize]).collect()
-}
-
-/// The texel whose mean point is nearest to each probe.
-pub(super) fn probe_texels(atlas: &Atlas, parameters: &Parameters, diagonal: f64) -> Result<Vec<usize>, StudyError> {
-    let nearest = |&[x, y, z]: &[f64; 3]| {
-        let probe = DVec3::new(x, y, z);
-        let distance = |texel: usize| atlas.texels()[texel].point.distance_squared(probe);
-        let nearest = (0..atlas.texels().len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-        let near = |&texel: &usize| distance(texel).sqrt() * parameters.options.mm_per_unit <= diagonal;
-        let far = || {
-            let what = format!("the probe {x},{y},{z} is farther from the model than its size");
-            let help = "a probe is a point of the surface, in the model's units";
-            StudyError::new("subsurface::probe", what).with_help(help)
-        };
-        nearest.filter(near).ok_or_else(far)
-    };
-    parameters.options.probes.iter().map(nearest).collect()
 }

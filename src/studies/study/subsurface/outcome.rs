@@ -1,7 +1,6 @@
 //! Results of the study.
 
 use super::all_pairs::AllPairs;
-use super::link_table::LinkRow;
 use super::model::ModelLengths;
 use super::roundings::RoundingRow;
 use super::walk::WalkedChannel;
@@ -24,14 +23,10 @@ pub struct SubsurfaceOutcome {
     pub truth: Option<AllPairs>,
     /// Photons that walked, per channel, if asked for; `None` for a channel without light.
     pub walked: Option<[Option<WalkedChannel>; 3]>,
-    /// For each probe its texel.
-    pub probe_texels: Vec<usize>,
     /// A row per way.
     pub rows: Vec<WayRow>,
     /// Other values of the card's rounding switches, if asked for.
     pub roundings: Vec<RoundingRow>,
-    /// Links of texels, if asked for.
-    pub links: Vec<LinkRow>,
 }
 
 impl SubsurfaceOutcome {

@@ -1,6 +1,6 @@
 //! Pictures: the model, and the maps of the passes (Figures 5 to 7).
 
-use super::{Parameters, SubsurfaceOutcome, WayRow};
+use super::{SubsurfaceOutcome, WayRow};
 use crate::picture::display::encode;
 use crate::picture::metrics::value_error;
 use crate::picture::{Picture, RgbImage, rgb8};
@@ -12,10 +12,7 @@ use crate::study::StudyError;
 const MIDDLE_GREY: f64 = 0.18;
 
 /// Auto-exposure: the model at 18 % grey on average; pixels that show nothing do not count.
-pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
-    if let Some(exposure) = parameters.options.exposure {
-        return Ok(exposure);
-    }
+pub(super) fn exposure(outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
     let Some(first) = outcome.rows.first() else { return Ok(1.0) };
     let shown = first.picture.linear()?;
     let lit: Vec<f64> =
@@ -49,17 +46,6 @@ pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, 
         Ok(NamedPicture::new(format!("{}-scattered", row.label), image, format!("{}: scattered light", row.label)))
     };
     rows.iter().map(picture).collect()
-}
-
-/// Frames of turned lights.
-pub(super) fn frames(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
-    let frames = rows.first().map_or(&[][..], |row| &row.frames);
-    let picture = |(at, frame): (usize, &Picture)| {
-        let turn = 360.0 * at as f64 / frames.len() as f64;
-        let caption = format!("lights turned by {} degrees", shown(turn, Quantity::Measured));
-        Ok(NamedPicture::new(format!("frame-{at}"), frame.display(exposure)?, caption))
-    };
-    frames.iter().enumerate().map(picture).collect()
 }
 
 /// The atlas after passes 1 and 2 (Figure 6), each map with its brightest channel at white.

@@ -1,7 +1,7 @@
 //! The study's page, tables, charts, pictures and trace.
 
 use super::conclusion::conclude;
-use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, link_table, pictures, tables, vertices};
+use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, pictures, tables, vertices};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table};
 use crate::study::{StudyError, timeline_trace};
@@ -11,10 +11,6 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
     let has_rows = |table: &Table| !table.rows().is_empty();
     found.keep_table(FoundTable::from(tables::faces(parameters, outcome)).csv("faces").field("faces"));
     found.keep_table(FoundTable::from(vertices::table(parameters, outcome)).csv("vertices"));
-    let links = link_table::table(&outcome.links);
-    if has_rows(&links) {
-        found.keep_table(FoundTable::from(links).csv("links"));
-    }
     if let Some(row) = outcome.rows.first() {
         let what = format!("{}: light, levels, gather, view", row.label);
         if let Some(bytes) = timeline_trace::file(&parameters.profile, &row.log, &what)? {
@@ -23,7 +19,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
         found.keep_layers("whole", row.picture.clone());
     }
     conclude(&mut found, parameters, outcome);
-    let exposure = pictures::exposure(parameters, outcome)?;
+    let exposure = pictures::exposure(outcome)?;
     if let Some(row) = outcome.rows.first() {
         found.pictures(pictures::lead(row, exposure)?);
     }
@@ -61,16 +57,6 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
         found.heading("Roundings");
     }
     found.explained_table(FoundTable::from(roundings).csv("roundings").field("roundings"), ROUNDINGS);
-    let frames = pictures::frames(&outcome.rows, exposure)?;
-    if !frames.is_empty() {
-        found.heading("Lights turned round");
-        found.pictures(frames);
-    }
-    let probes = tables::probes(parameters, outcome);
-    if has_rows(&probes) {
-        found.heading("Probes");
-    }
-    found.table(FoundTable::from(probes).csv("probes").field("probes"));
     Ok(found)
 }
 

@@ -159,22 +159,6 @@ pub(super) fn roundings(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// B at each probe.
-pub(super) fn probes(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
-    let mut table = Table::of("B at the probes", "probe x y z way r g b");
-    for (at, (&place, &texel)) in parameters.options.probes.iter().zip(&outcome.probe_texels).enumerate() {
-        let mut add = |way: &str, value: [f64; 3]| {
-            let head: [Cell; 5] = [at.into(), place[0].into(), place[1].into(), place[2].into(), way.into()];
-            table.push(head.into_iter().chain(value.map(Cell::measured)));
-        };
-        if let Some(truth) = &outcome.truth {
-            add("all pairs", truth.probes[at]);
-        }
-        outcome.rows.iter().for_each(|row| add(&row.label, row.radiosity[texel]));
-    }
-    table
-}
-
 /// Photons beside the dipole, a row per channel; none unless asked for. The dipole is that over all pairs of texels if
 /// there, else that of the first way.
 pub(super) fn walked(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use glam::{DQuat, DVec3};
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::num::Format;
@@ -22,11 +21,11 @@ use crate::subsurface::links::{
     EncodedLinks, IrradianceMeans, LinkBands, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
 };
 use crate::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, PassTime, SubsurfaceCard,
-    SubsurfaceCardOptions, View, pass_times,
+    CardModel, FloatTexels, LightStage, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,
+    pass_times,
 };
 
-/// Diffuse reflectance for direct light, unless asked for.
+/// Diffuse reflectance for direct light.
 const DIFFUSE: f64 = 0.1;
 /// Pass 3.
 const VIEW: ViewKernel =
@@ -89,8 +88,6 @@ pub struct WayRow {
     pub picture: Picture,
     /// Scattered light alone.
     pub scattered: Picture,
-    /// Of the first way, the lights turned.
-    pub frames: Vec<Picture>,
     pub(super) log: Vec<Event>,
 }
 
@@ -121,7 +118,7 @@ fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
     if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }
 
-/// Runs one way with its links; frames of turned lights if it is the first.
+/// Runs one way with its links; the map of irradiance too if it is the first.
 pub(super) fn run(
     scene: &Scene<'_>,
     way: GatherWay,
@@ -169,7 +166,6 @@ pub(super) fn run(
         picture,
         scattered,
         log: events.into_iter().map(|event| event.event).collect(),
-        frames: if first { frames(scene, &mut card, progress).map_err(no_card)? } else { Vec::new() },
         radiosity,
         way,
         label,
@@ -207,7 +203,6 @@ pub(super) fn lit_card(
     card.record(record);
     match &parameters.lighting {
         Lighting::Lights(lights) => card.light(lights)?,
-        Lighting::ByFace(values) => card.irradiate(values)?,
         Lighting::Environment(_) => card.irradiate_texels(scene.irradiance)?,
     }
     Ok(card)
@@ -241,7 +236,7 @@ fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
 
 fn view(parameters: &Parameters, direct: DirectLight) -> View {
     let kernel = ViewKernel { direct, ..VIEW };
-    View { kernel, diffuse: [parameters.options.diffuse.unwrap_or(DIFFUSE); 3], ..View::scattered(parameters.camera) }
+    View { kernel, diffuse: [DIFFUSE; 3], ..View::scattered(parameters.camera) }
 }
 
 /// E of every texel as the map has it; 0 where a texel has no area.
@@ -253,44 +248,4 @@ fn entered(scene: &Scene<'_>, card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, Ca
         [r, g, b].map(|value| f64::from(value) * factor)
     };
     Ok(map.texels.iter().zip(scene.atlas.texels()).map(texel).collect())
-}
-
-/// The lights turned about the camera's up direction through the middle of the model: a new light is all three passes.
-fn frames(
-    scene: &Scene<'_>,
-    card: &mut SubsurfaceCard,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Vec<Picture>, CardError> {
-    let parameters = scene.parameters;
-    let (count, Lighting::Lights(lights)) = (parameters.options.frames, &parameters.lighting) else {
-        return Ok(Vec::new());
-    };
-    let middle = parameters
-        .mesh
-        .bounds()
-        .map_or(DVec3::ZERO, |[low, high]| (DVec3::from(low.map(f64::from)) + DVec3::from(high.map(f64::from))) / 2.0);
-    let axis = parameters.camera.up().normalize_or(DVec3::Z);
-    let mut frames = Vec::new();
-    for frame in 0..count {
-        progress("frames", frame.into(), count.into());
-        let [cos, sin] = crate::elementary::on_circle(f64::from(frame) / f64::from(count) / 2.0);
-        let turn = DQuat::from_vec4((axis * sin).extend(cos));
-        let lights: Vec<Light> = lights.iter().map(|light| turned(*light, turn, middle)).collect();
-        card.light(&lights)?;
-        frames.push(card.view(&view(parameters, VIEW.direct))?);
-    }
-    Ok(frames)
-}
-
-fn turned(light: Light, turn: DQuat, middle: DVec3) -> Light {
-    match light {
-        Light::Directional { towards, irradiance } => {
-            Light::Directional { towards: (turn * DVec3::from(towards)).to_array(), irradiance }
-        }
-        Light::Point { position, intensity, attenuation } => {
-            let position = (middle + turn * (DVec3::from(position) - middle)).to_array();
-            Light::Point { position, intensity, attenuation }
-        }
-        sky @ Light::Sky { .. } => sky,
-    }
 }

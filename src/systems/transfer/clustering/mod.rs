@@ -4,8 +4,6 @@
 //!
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
-//! - [`compress_to_error`]: the same with as few vectors, or clusters, as a given error needs;
-//! - [`refit`]: new principal components after points were moved;
 //! - [`mod@reference`]: the same by plain loops, for tests.
 //!
 //! Choices that the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error
@@ -29,13 +27,9 @@ mod nearest;
 mod options;
 mod products;
 pub mod reference;
-mod refit;
 mod subspace;
-mod to_error;
 
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
 pub use compressed::Clustering;
 pub use options::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
-pub use refit::refit;
 pub use subspace::AffineSubspace;
-pub use to_error::{Grown, compress_to_error};

@@ -12,7 +12,7 @@ use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::scene::built::flat_models::MaterialMesh;
 use crate::study::framing::framed;
-use crate::study::prt::{BiScaleRendering, LitView, SurfaceTexture, TexturedSurface, TurnedFrames};
+use crate::study::prt::{BiScaleRendering, LitView, SurfaceTexture, TexturedSurface};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::DistantLight;
@@ -95,9 +95,7 @@ impl TexturedModel {
             file,
             textures: self.textures(side, size)?,
             light: DistantLight::Sky(HARD_SUN),
-            frames: TurnedFrames::default(),
             reference: true,
-            values: None,
         })
     }
 
