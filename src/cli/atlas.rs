@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use super::memory::{self, MemoryNeed};
 use super::model_name;
 use super::scene_name::EyeArgs;
 use super::study::{StudyArgs, StudyFiles};
 use crate::atlas::{MAX_SIDE, require_side};
 use crate::options::Size;
-use crate::study::atlas::{AtlasStudy, MAX_PICTURE, no_atlas};
+use crate::study::atlas::{AtlasStudy, no_atlas};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -52,43 +51,13 @@ impl StudyArgs for Args {
         StudyFiles::new(self.out.as_deref(), None, model_name::named_file(&self.model))
     }
 
-    /// Texels, clusters, and pictures of both.
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        // Before memory, which what cannot be has no need of.
-        require_side(self.side).map_err(no_atlas)?;
-        /// A texel with its clusters of all levels, and what finds them.
-        const PER_TEXEL: u64 = 170;
-        /// A texel of each picture of the atlas, as a file and on the page.
-        const PER_SHOWN_TEXEL: u64 = 80;
-        /// A ray, its hit, and a pixel of each picture of the mesh.
-        const PER_PIXEL: u64 = 250;
-        let square = |side: u32| u64::from(side) * u64::from(side);
-        let [shown, pictures] = if self.out.is_some() { [PER_SHOWN_TEXEL, PER_PIXEL] } else { [0; 2] };
-        let texels = square(self.side) * PER_TEXEL + square(self.side.min(MAX_PICTURE)) * shown;
-        Ok(Some(MemoryNeed {
-            what: format!("an atlas of {0} x {0} texels", self.side),
-            bytes: memory::of_pixels(self.size.width, self.size.height, pictures, texels),
-            help: "ask for a smaller `--side`",
-        }))
-    }
-
     fn study(&self) -> miette::Result<AtlasStudy> {
+        require_side(self.side).map_err(no_atlas)?;
         let mesh = model_name::mesh(&self.model)?;
-        require_faces(mesh.len(), self.out.is_some())?;
         let camera = match self.out {
             Some(_) if !mesh.is_empty() => Some(EyeArgs::default().framing(&mesh, self.size)?),
             _ => None,
         };
         Ok(AtlasStudy { name: self.model.display().to_string(), mesh, side: self.side, camera })
     }
-}
-
-/// Refuses a mesh whose tree would take more memory than there is.
-fn require_faces(faces: usize, written: bool) -> miette::Result<()> {
-    const PER_FACE: u64 = 700;
-    /// Its lines of the files.
-    const PER_WRITTEN_FACE: u64 = 500;
-    let per_face = PER_FACE + if written { PER_WRITTEN_FACE } else { 0 };
-    let what = format_args!("clustering {faces} faces");
-    Ok(memory::require(what, faces as u64 * per_face, "name a smaller mesh")?)
 }

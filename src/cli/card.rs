@@ -1,10 +1,10 @@
-//! `--device`, `--switch`, `--executor`, `--adapter`: the card of a study, and who draws for it.
+//! `--device`, `--switch`, `--executor`: the card of a study, and who draws for it.
 
 use refsim::device::{DeviceError, Profile};
 use refsim::machine::Executor;
 
-use super::executor::{DeviceExecutor, GpuArgs};
-use super::switch;
+use super::executor::DeviceExecutor;
+use super::{Problem, switch};
 
 /// The card of a study.
 #[derive(Debug, clap::Args)]
@@ -20,9 +20,6 @@ pub(super) struct CardArgs {
     /// Which executor computes; the bits are the same
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
-
-    #[command(flatten)]
-    gpu: GpuArgs,
 }
 
 impl CardArgs {
@@ -42,7 +39,7 @@ impl CardArgs {
     }
 
     /// The executor, ready to work.
-    pub(super) fn executor(&self) -> miette::Result<Executor> {
-        self.executor.open(&self.gpu)
+    pub(super) fn executor(&self) -> Result<Executor, Problem> {
+        self.executor.open()
     }
 }

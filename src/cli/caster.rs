@@ -6,7 +6,7 @@ use refsim::machine::Executor;
 use refsim::num::Format;
 use serde_json::json;
 
-use super::executor::{Decider, DeviceExecutor, GpuArgs};
+use super::executor::Decider;
 use super::{Problem, view};
 use crate::case::device_named;
 use crate::geom::Mesh;
@@ -40,22 +40,16 @@ pub(super) enum OpenCaster<'a> {
 
 impl CasterArg {
     /// Checks that the options fit the caster, and looks up device and executor.
-    pub(super) fn choose(
-        self,
-        device: Option<&str>,
-        executor: Option<Decider>,
-        gpu: &GpuArgs,
-    ) -> miette::Result<CasterChoice> {
+    pub(super) fn choose(self, device: Option<&str>, executor: Option<Decider>) -> miette::Result<CasterChoice> {
         if self == Self::Host {
             if device.is_some() || executor.is_some() {
                 let help = "add `--caster engine`, or leave them out";
                 return Err(Problem::usage("`--device` and `--executor` are for the Ray Engine here", help).into());
             }
-            // Batch refuses options for GPUs.
-            return DeviceExecutor::Batch.open(gpu).map(|_| CasterChoice::Host);
+            return Ok(CasterChoice::Host);
         }
         let profile = Box::new(device_named(device.unwrap_or(view::DEFAULT_DEVICE))?);
-        let Some(executor) = executor.unwrap_or(Decider::Batch).open(gpu)? else {
+        let Some(executor) = executor.unwrap_or(Decider::Batch).open()? else {
             let help = "name `--executor scalar`, `batch` or `wgpu`";
             return Err(Problem::usage("the Ray Engine does not run in exact arithmetic", help).into());
         };

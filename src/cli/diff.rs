@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::memory::{self, MemoryNeed};
 use super::study::{self, StudyArgs, StudyFiles};
-use super::{CommandLine, Out, Problem, view};
-use crate::io::PictureFile;
+use super::{CommandLine, Out, view};
 use crate::report::Verdict;
 use crate::study::picture_difference::{DifferenceOptions, PictureDifference, PictureInput};
 
@@ -58,32 +56,11 @@ impl StudyArgs for Args {
         StudyFiles::new(self.out.as_deref(), None, vec![&self.first, &self.second])
     }
 
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        // Their sizes stand in the files.
-        Ok(None)
-    }
-
     fn study(&self) -> miette::Result<PictureDifference> {
-        let files = [PictureFile::open(&self.first)?, PictureFile::open(&self.second)?];
-        require_memory(&files)?;
-        let read = |path: &Path, file: &PictureFile| -> miette::Result<PictureInput> {
-            Ok(PictureInput { name: path.display().to_string(), picture: file.decode()? })
+        let read = |path: &Path| -> miette::Result<PictureInput> {
+            Ok(PictureInput { name: path.display().to_string(), picture: view::picture(path)? })
         };
-        let pictures = [read(&self.first, &files[0])?, read(&self.second, &files[1])?];
+        let pictures = [read(&self.first)?, read(&self.second)?];
         Ok(PictureDifference { pictures, options: self.options.clone(), maps: self.out.is_some() })
     }
-}
-
-/// Checks the memory of the pictures and of comparing them, by their headers.
-fn require_memory(files: &[PictureFile; 2]) -> Result<(), Problem> {
-    /// Colors, what the eye makes of them, and the maps.
-    const PER_PIXEL: u64 = 400;
-    const PER_SAMPLE: u64 = 16;
-    let size = files[0].size();
-    let (width, height) = (size.width, size.height);
-    let per_pixel = PER_PIXEL + PER_SAMPLE * size.channels as u64;
-    let pictures = files.iter().map(view::decoded_bytes).sum();
-    let need = memory::of_pixels(width, height, per_pixel, pictures);
-    let what = format_args!("comparing pictures of {width}x{height} pixels");
-    Ok(memory::require(what, need, "compare smaller pictures")?)
 }

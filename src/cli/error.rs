@@ -11,7 +11,6 @@ use miette::{
 use refsim::device::DeviceError;
 use textwrap::WordSplitter::NoHyphenation;
 
-use super::memory::MemoryError;
 use super::shown::{MAX_SHOWN, ShownError};
 use crate::case::{CaseError, meant};
 use crate::io::atomic::WriteError;
@@ -35,10 +34,6 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(code(crossbar::unwritable))]
     Unwritable(#[from] WriteError),
-    /// Work that needs more memory than there is.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Memory(#[from] MemoryError),
     /// A part of the work that cannot be written, or parts that do not fit.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -110,42 +105,42 @@ fn handler(terminal: bool) -> Box<dyn ReportHandler> {
     }
 }
 
-/// A diagnostic as text for a terminal or a log: of each list of errors the first few, or all.
-fn render(diagnostic: &dyn Diagnostic, terminal: bool, all: bool) -> String {
+/// A diagnostic as text for a terminal or a log: of each list of errors the first few.
+fn render(diagnostic: &dyn Diagnostic, terminal: bool) -> String {
     struct Rendered(ShownError, Box<dyn ReportHandler>);
     impl fmt::Display for Rendered {
         fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             self.1.debug(&self.0, f)
         }
     }
-    let shown = ShownError::new(diagnostic, if all { usize::MAX } else { MAX_SHOWN });
+    let shown = ShownError::new(diagnostic, MAX_SHOWN);
     let more = shown.left_out();
     let mut text = Rendered(shown, handler(terminal)).to_string().trim_end().to_owned();
     if more > 0 {
-        text.push_str(&format!("\n\n... and {more} more: `--all-errors` shows every one"));
+        text.push_str(&format!("\n\n... and {more} more: `--json` has every one"));
     }
     text
 }
 
 /// A finding of the checker, as text for standard output.
-pub(super) fn render_finding(finding: &dyn Diagnostic, all: bool) -> String {
-    render(finding, io::stdout().is_terminal(), all)
+pub(super) fn render_finding(finding: &dyn Diagnostic) -> String {
+    render(finding, io::stdout().is_terminal())
 }
 
 /// Writes the error to standard error.
-pub(super) fn print(report: Report, json: bool, all: bool) {
-    write_report("Error", &suggested(report), json, all);
+pub(super) fn print(report: Report, json: bool) {
+    write_report("Error", &suggested(report), json);
 }
 
 /// Writes a report to standard error: there is nowhere to complain if that fails.
-fn write_report(severity: &str, report: &Report, json: bool, all: bool) {
+fn write_report(severity: &str, report: &Report, json: bool) {
     let text = if json {
         let mut text = String::new();
         // Writing to a string cannot fail.
         JSONReportHandler::new().render_report(&mut text, report.as_ref()).ok();
         visible_json(&text).into_owned()
     } else {
-        format!("{severity}: {}", render(report.as_ref(), io::stderr().is_terminal(), all))
+        format!("{severity}: {}", render(report.as_ref(), io::stderr().is_terminal()))
     };
     writeln!(io::stderr().lock(), "{}", text.trim_end()).ok();
 }
@@ -153,7 +148,7 @@ fn write_report(severity: &str, report: &Report, json: bool, all: bool) {
 /// Writes warnings to standard error, each once.
 pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warnings: &[W], json: bool) {
     for warning in warnings {
-        write_report("Warning", &Report::new(warning.clone()), json, false);
+        write_report("Warning", &Report::new(warning.clone()), json);
     }
 }
 
@@ -175,7 +170,7 @@ pub(super) fn print_usage(
     let safe: Vec<String> =
         arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();
     if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
-        return print(usage_problem(error).into(), true, false);
+        return print(usage_problem(error).into(), true);
     }
     // A closed pipe is no reason to complain.
     if safe.iter().zip(arguments).all(|(safe, argument)| argument.to_str() == Some(safe)) {

@@ -1,4 +1,4 @@
-//! `--executor`, `--adapter`: how the card's programs are run.
+//! `--executor`: how the card's programs are run.
 
 use clap::ValueEnum;
 use refsim::machine::{Executor, ExecutorKind};
@@ -18,48 +18,30 @@ pub(super) enum DeviceExecutor {
     Wgpu,
 }
 
-/// Which GPU.
-#[derive(Clone, Debug, Default, clap::Args)]
-pub(super) struct GpuArgs {
-    /// For wgpu: the adapter, by its name or a part of it; see `crossbar devices --adapters` [default: the best]
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
+/// The GPU of the environment variable `CROSSBAR_ADAPTER`, or the best one.
+#[cfg(feature = "wgpu")]
+fn open_gpu() -> Result<Executor, Problem> {
+    use refsim::exec::gpu::Gpu;
+    let refused = |e: refsim::exec::gpu::GpuError| {
+        Problem::usage(e.to_string(), "`crossbar devices --adapters` lists the adapters")
+    };
+    let gpu = Gpu::open(std::env::var("CROSSBAR_ADAPTER").ok().as_deref()).map_err(refused)?;
+    let gpu = gpu.observed(Box::new(|| Box::new(ProgressBar::unending("compiling a shader for the GPU"))));
+    Ok(Executor::Gpu { gpu: std::sync::Arc::new(gpu) })
 }
 
-impl GpuArgs {
-    /// Returns `true` if any is given.
-    pub(super) fn is_given(&self) -> bool {
-        self.adapter.is_some()
-    }
-
-    #[cfg(feature = "wgpu")]
-    fn open(&self) -> Result<Executor, Problem> {
-        use refsim::exec::gpu::Gpu;
-        let refused = |e: refsim::exec::gpu::GpuError| {
-            Problem::usage(e.to_string(), "`crossbar devices --adapters` lists the adapters")
-        };
-        let gpu = Gpu::open(self.adapter.as_deref()).map_err(refused)?;
-        let gpu = gpu.observed(Box::new(|| Box::new(ProgressBar::unending("compiling a shader for the GPU"))));
-        Ok(Executor::Gpu { gpu: std::sync::Arc::new(gpu) })
-    }
-
-    #[cfg(not(feature = "wgpu"))]
-    fn open(&self) -> Result<Executor, Problem> {
-        Err(super::devices::no_adapters())
-    }
+#[cfg(not(feature = "wgpu"))]
+fn open_gpu() -> Result<Executor, Problem> {
+    Err(super::devices::no_adapters())
 }
 
 impl DeviceExecutor {
     /// The executor, ready to work.
-    pub(super) fn open(self, gpu: &GpuArgs) -> miette::Result<Executor> {
-        if self != Self::Wgpu && gpu.is_given() {
-            let help = "add `--executor wgpu`, or leave it out";
-            return Err(Problem::usage("`--adapter` is for the wgpu executor", help).into());
-        }
+    pub(super) fn open(self) -> Result<Executor, Problem> {
         Ok(match self {
             Self::Scalar => ExecutorKind::Scalar.into(),
             Self::Batch => ExecutorKind::Batch.into(),
-            Self::Wgpu => gpu.open()?,
+            Self::Wgpu => open_gpu()?,
         })
     }
 }
@@ -84,14 +66,13 @@ impl Decider {
     }
 
     /// The executor of the card, or `None` for exact arithmetic.
-    pub(super) fn open(self, gpu: &GpuArgs) -> miette::Result<Option<Executor>> {
+    pub(super) fn open(self) -> Result<Option<Executor>, Problem> {
         let executor = match self {
-            // Batch refuses the same options.
-            Self::Exact => return DeviceExecutor::Batch.open(gpu).map(|_| None),
+            Self::Exact => return Ok(None),
             Self::Scalar => DeviceExecutor::Scalar,
             Self::Batch => DeviceExecutor::Batch,
             Self::Wgpu => DeviceExecutor::Wgpu,
         };
-        executor.open(gpu).map(Some)
+        executor.open().map(Some)
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn clean_up_on_signals(json: bool) {
 fn say_what_is_lost(json: bool) {
     let (said, heard) = std::sync::mpsc::channel();
     let say = move || {
-        error::print(Problem::Interrupted.into(), json, false);
+        error::print(Problem::Interrupted.into(), json);
         said.send(()).ok();
     };
     if std::thread::Builder::new().name("last words".to_owned()).spawn(say).is_ok() {

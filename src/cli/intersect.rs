@@ -10,7 +10,7 @@ use refsim::machine::Executor;
 use serde_json::json;
 
 use super::caster::{self, CasterArg, CasterChoice};
-use super::executor::{Decider, GpuArgs};
+use super::executor::Decider;
 use super::words::counted;
 use super::{Out, Problem, Verdict, model_file, study, view};
 use crate::case::device_named;
@@ -70,9 +70,6 @@ pub(super) struct Args {
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
-    #[command(flatten)]
-    gpu: GpuArgs,
-
     /// Caster of rays, which finds first hits [default: exact arithmetic, or `--device` alone without an octree]
     #[arg(long, value_enum, value_name = "C")]
     caster: Option<CasterArg>,
@@ -107,7 +104,6 @@ struct Answer {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let way = choose(args)?;
     let mesh = model_file::mesh(&args.mesh)?;
-    view::require_file(&args.rays, view::RAYS_PER_BYTE, "share the rays out to several files")?;
     let rays = load_rays(&args.rays)?;
     let answer = way.answer(&mesh, &rays, args.sides)?;
     write_file(&args.out, |out| write_hits(&answer.hits, out)).map_err(Problem::from)?;
@@ -118,10 +114,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 fn choose(args: &Args) -> miette::Result<HitSource> {
     let device = args.device.as_deref();
     if let Some(caster) = args.caster {
-        return caster.choose(device, args.executor, &args.gpu).map(HitSource::Caster);
+        return caster.choose(device, args.executor).map(HitSource::Caster);
     }
     let profile = Box::new(device_named(device.unwrap_or(view::DEFAULT_DEVICE))?);
-    let executor = Decider::choose(args.executor, device).open(&args.gpu)?;
+    let executor = Decider::choose(args.executor, device).open()?;
     Ok(executor.map_or(HitSource::Exact, |executor| HitSource::Card(profile, executor)))
 }
 

@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use miette::IntoDiagnostic as _;
 use refsim::num::Format;
 
-use super::executor::{DeviceExecutor, GpuArgs};
-use super::memory::MemoryNeed;
+use super::executor::DeviceExecutor;
 use super::model_name;
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
@@ -50,7 +49,7 @@ pub(super) struct Args {
 
     /// Rays in place of a camera's: a CSV file, as `crossbar intersect` takes it
     #[arg(long, value_name = "R.csv", requires = "mesh",
-          conflicts_with_all = ["size", "eye", "target", "up", "tan_half_height"])]
+          conflicts_with_all = ["size", "eye", "target", "tan_half_height"])]
     rays: Option<PathBuf>,
 
     /// Pixels of the pictures
@@ -85,9 +84,6 @@ pub(super) struct Args {
     /// Which executor computes; the bits are the same
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
-
-    #[command(flatten)]
-    gpu: GpuArgs,
 }
 
 impl StudyArgs for Args {
@@ -99,13 +95,6 @@ impl StudyArgs for Args {
         StudyFiles::new(Some(&self.out), Some(self.part), model.into_iter().chain(self.rays.as_deref()).collect())
     }
 
-    /// Of the teapot; what models and lists take is known when they are read.
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        let pixels = u64::from(self.size.width) * u64::from(self.size.height);
-        let triangles = if self.mesh.is_some() { 0 } else { 64 * u64::from(self.tessellation).pow(2) };
-        self.need(if self.rays.is_some() { 0 } else { pixels }, triangles).map(Some)
-    }
-
     fn study(&self) -> miette::Result<Parameters> {
         let Size { width, height } = self.size;
         let mesh = match &self.mesh {
@@ -114,7 +103,6 @@ impl StudyArgs for Args {
         };
         let (view, listed) = match &self.rays {
             Some(path) => {
-                view::require_file(path, view::RAYS_PER_BYTE, "share the rays out to several files")?;
                 let (view, count) = Parameters::of_list(&load_rays(path)?);
                 (view, Some(count))
             }
@@ -126,39 +114,14 @@ impl StudyArgs for Args {
                 (RayBatch::new(width, height, camera.rays()).into_diagnostic()?, None)
             }
         };
-        self.need(view.rays().len() as u64, mesh.len() as u64)?.require()?;
         Ok(Parameters {
             model: self.mesh.as_ref().map(|path| path.display().to_string()),
             mesh,
             view,
             listed,
             configurations: configurations(self)?,
-            executor: self.executor.open(&self.gpu)?,
+            executor: self.executor.open()?,
             options: self.options,
-        })
-    }
-}
-
-impl Args {
-    /// Memory of the rays, their exact hits and the files of every row.
-    fn need(&self, rays: u64, triangles: u64) -> miette::Result<MemoryNeed> {
-        const PER_PIXEL: u64 = 350;
-        const PER_PIXEL_AND_ROW: u64 = 50;
-        const PER_TRIANGLE: u64 = 450;
-        const PER_AIMED_RAY: u64 = 350;
-        let rows = configurations(self)?.len() as u64;
-        // Two triangles share an edge, and as many rays as three edges have go to corners at most.
-        let aimed = (triangles * 3 / 2).saturating_mul(u64::from(self.options.rays_per_edge) + 1) * PER_AIMED_RAY;
-        let what = match self.rays {
-            Some(_) => format!("a study of {rays} rays in {rows} rows"),
-            None => format!("a study of {} pixels in {rows} rows", self.size),
-        };
-        Ok(MemoryNeed {
-            what,
-            bytes: rays
-                .saturating_mul(PER_PIXEL + rows * PER_PIXEL_AND_ROW)
-                .saturating_add(triangles * PER_TRIANGLE + aimed),
-            help: "ask for a smaller `--size` or `--tessellation`, fewer `--rays-per-edge` or fewer rows",
         })
     }
 }

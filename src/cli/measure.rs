@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use super::memory::MemoryNeed;
 use super::study::{StudyArgs, StudyFiles};
 use super::switch;
 use crate::study::measure::{Measure, load_measurement};
@@ -43,11 +42,6 @@ impl StudyArgs for Args {
 
     fn files(&self) -> StudyFiles<'_> {
         StudyFiles::new(None, None, vec![&self.file])
-    }
-
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        // Cases are small, and drawn one after the other.
-        Ok(None)
     }
 
     fn study(&self) -> miette::Result<Measure> {

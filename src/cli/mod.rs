@@ -26,7 +26,6 @@ mod leaky_teapot;
 mod man;
 mod materials;
 mod measure;
-mod memory;
 mod merge;
 mod model_file;
 mod model_name;
@@ -56,7 +55,6 @@ mod words;
 
 use std::{io::Write as _, process::ExitCode};
 
-use bytesize::ByteSize;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::report::Verdict;
@@ -65,7 +63,6 @@ use crate::split::PartSet;
 use resolved::CommandLine;
 
 pub use error::{OutputError, Problem};
-pub use memory::{LimitSource, MemoryError};
 pub use out::Out;
 pub use progress::ProgressBar;
 
@@ -109,15 +106,6 @@ struct Cli {
     /// Show no progress
     #[arg(short, long, global = true, display_order = 902)]
     quiet: bool,
-
-    /// Show every error of a text, not just the first 20
-    #[arg(long, global = true, display_order = 903)]
-    all_errors: bool,
-
-    /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or
-    /// `ulimit -v` leaves]
-    #[arg(long, global = true, value_name = "BYTES", display_order = 904, value_parser = memory::byte_size)]
-    memory_limit: Option<ByteSize>,
 }
 
 const EXAMPLES: &str = "\
@@ -193,24 +181,18 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
         }
     };
-    memory::limit_to(cli.memory_limit);
     if cli.json || cli.quiet {
         progress::silence();
     }
-    match memory::threads_to_start(cli.threads) {
-        // Fails only if a pool is there already, and none is this early.
-        Ok(threads) => drop(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()),
-        Err(problem) => {
-            error::print(problem.into(), cli.json, false);
-            return ExitCode::from(BAD_INPUT);
-        }
-    }
+    // 0 threads are as many as there are cores. A pool could only be there already, and none is this early.
+    let threads = cli.threads.map_or(0, usize::from);
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().ok();
     if let Err(problem) = fits {
-        error::print(problem.into(), cli.json, false);
+        error::print(problem.into(), cli.json);
         return ExitCode::from(BAD_INPUT);
     }
     interrupt::clean_up_on_signals(cli.json);
-    let mut out = Out::new(cli.json, cli.all_errors);
+    let mut out = Out::new(cli.json);
     let result = obey(cli.command, &command_line, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;
         Ok(verdict)
@@ -222,7 +204,7 @@ pub fn main() -> ExitCode {
         Err(report) => {
             // What was found before the error comes first.
             out.flush().ok();
-            error::print(report, cli.json, cli.all_errors);
+            error::print(report, cli.json);
             ExitCode::from(BAD_INPUT)
         }
     }

@@ -7,9 +7,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
-use super::{Problem, given, outputs, view};
+use super::{Problem, given, outputs};
 use crate::geom::Mesh;
-use crate::io::{ModelNote, ModelOptions, UpAxis, VertexNumbers, load_mesh_with, load_vertex_numbers, scene_file};
+use crate::io::{ModelNote, ModelOptions, UpAxis, load_mesh_with, scene_file};
 use crate::report::visible::visible_line;
 use crate::scene::Scene;
 
@@ -88,7 +88,6 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
 
 /// A mesh from an OBJ, PLY, STL or glTF file.
 pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
-    view::require_mesh(path)?;
     let (mesh, notes) = load_mesh_with(path, options())?;
     tell(path, &notes);
     Ok(mesh)
@@ -96,16 +95,9 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
 
 /// A scene from one of these, or from a scene file that names one.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
-    view::require_mesh(path)?;
     let (scene, notes) = scene_file::load_with(path, options())?;
     tell(path, &notes);
     Ok(scene)
-}
-
-/// The numbers that a model's or a scene's file gives its vertices; `None` for what is no file, or none with numbers.
-pub(super) fn vertex_numbers(path: &Path) -> Option<VertexNumbers> {
-    let model = path.is_file().then(|| scene_file::model_path(path))??;
-    load_vertex_numbers(&model, options()).ok()?
 }
 
 /// Says on standard error what was changed in a model and what is odd about it, once for each.

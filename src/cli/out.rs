@@ -15,17 +15,16 @@ use crate::report::visible::{visible, visible_json, visible_line};
 pub struct Out {
     stdout: BufWriter<Stdout>,
     json: bool,
-    all_errors: bool,
     /// The reader is gone, but the command goes on for its exit code.
     deaf: bool,
     outlive_reader: bool,
 }
 
 impl Out {
-    /// Standard output; `json` is what `--json` said, `all_errors` what `--all-errors`.
-    pub(super) fn new(json: bool, all_errors: bool) -> Self {
+    /// Standard output; `json` is what `--json` said.
+    pub(super) fn new(json: bool) -> Self {
         let stdout = BufWriter::with_capacity(1 << 16, io::stdout());
-        Self { stdout, json, all_errors, deaf: false, outlive_reader: false }
+        Self { stdout, json, deaf: false, outlive_reader: false }
     }
 
     /// Returns `true` if the output is for machines.
@@ -85,7 +84,7 @@ impl Out {
     /// # Errors
     /// If standard output cannot be written.
     pub fn finding(&mut self, finding: &dyn Diagnostic) -> Result<(), OutputError> {
-        let text = error::render_finding(finding, self.all_errors);
+        let text = error::render_finding(finding);
         Ok(writeln!(self, "{text}")?)
     }
 

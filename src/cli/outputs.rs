@@ -8,7 +8,7 @@ use clap::{ArgMatches, Command};
 use super::Problem;
 
 /// The options whose value is the path of a file or folder that is written.
-const OUTPUTS: [&str; 7] = ["out", "csv", "matrix", "sheet", "arrays", "perfetto", "coefficients"];
+const OUTPUTS: [&str; 5] = ["out", "csv", "matrix", "sheet", "perfetto"];
 
 /// Refuses two outputs with one path: one would overwrite the other.
 ///

@@ -31,11 +31,6 @@ impl PartArgs {
             (None, Some(part)) => Ok(SplitRun::Part { part, command: command(line)?, path: out.into() }),
         }
     }
-
-    /// Of so many items those that are computed, for counts of memory.
-    pub(super) fn share(self, items: u64) -> u64 {
-        self.part.map_or(items, |part| items.div_ceil(u64::from(part.of())))
-    }
 }
 
 /// The command whose results are kept in files.

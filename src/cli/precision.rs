@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::memory::MemoryNeed;
 use super::part::PartArgs;
 use super::study::{StudyArgs, StudyFiles};
-use super::{given, run, switch};
+use super::{given, switch};
 use crate::case::{Overrides, Setup};
 use crate::options::one_of::{OneOf, one_of};
 use crate::study::precision::{
@@ -98,11 +97,6 @@ impl StudyArgs for Args {
         StudyFiles::new(Some(&self.out), Some(self.part), inputs)
     }
 
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        // What a case takes is known when it is read.
-        Ok(None)
-    }
-
     fn study(&self) -> miette::Result<Precision> {
         let costs = self.costs.as_deref().map(FormatCosts::load).transpose()?.unwrap_or_default();
         if let Some(system) = self.system() {
@@ -136,7 +130,6 @@ impl Args {
         let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
         let overrides = Overrides { device, switches: self.switch.clone(), ..Overrides::default() };
         let setup = Setup::read_with(path, &overrides)?;
-        run::setup_memory(&setup)?;
         Ok((setup, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
     }
 

@@ -4,12 +4,10 @@ use std::path::PathBuf;
 
 use super::card::CardArgs;
 use super::given;
-use super::memory::{self, MemoryNeed};
 use super::part::PartArgs;
 use super::scene_name::{self, EyeArgs, Viewpoint};
 use super::study::{StudyArgs, StudyFiles};
 use crate::options::Size;
-use crate::radiosity::Patches;
 use crate::study::radiosity::{Parameters, RadiosityOptions, SolveMethod};
 
 const EXAMPLES: &str = "\
@@ -72,18 +70,6 @@ impl StudyArgs for Args {
         StudyFiles::new(Some(&self.out), Some(self.part), scene_name::named_file(&self.scene))
     }
 
-    /// By the number of patches that is asked for; faces and parts of sides may make more.
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        let RadiosityOptions { patches, per_side, .. } = self.options;
-        self.need(per_side.map_or(patches as usize, |_| 0)).map(Some)
-    }
-
-    fn memory_of(&self, study: &Parameters) -> Option<MemoryNeed> {
-        // What is wrong with the patches, the study says itself.
-        let patches = Patches::count(&study.scene, study.options.subdivision()).ok()?;
-        self.need(patches).ok()
-    }
-
     fn study(&self) -> miette::Result<Parameters> {
         let scene = scene_name::scene(&self.scene)?;
         let viewpoint = Viewpoint { size: self.size, view: self.view.as_deref(), eye: self.eye };
@@ -100,22 +86,6 @@ impl StudyArgs for Args {
             executor: self.card.executor()?,
             camera,
             options: self.options.clone(),
-        })
-    }
-}
-
-impl Args {
-    /// Memory of the matrices of that many patches, and of the pictures of every method.
-    fn need(&self, patches: usize) -> miette::Result<MemoryNeed> {
-        // Measured: 83 with the matrices on a card, whose batch executor keeps decoded texels.
-        const PER_PAIR: u64 = 96;
-        const PER_PIXEL_AND_PICTURE: u64 = 100;
-        let pictures = (self.options.methods()?.len() + self.options.frames.len()) as u64;
-        let matrices = (patches as u64).saturating_mul(patches as u64 * PER_PAIR);
-        Ok(MemoryNeed {
-            what: format!("radiosity of {patches} patches with {pictures} pictures of {} pixels", self.size),
-            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, matrices),
-            help: "ask for fewer `--patches`, name a scene of fewer faces, or ask for a smaller `--size`",
         })
     }
 }

@@ -6,7 +6,6 @@ use std::rc::Rc;
 use std::sync::LazyLock;
 use std::time::Instant;
 
-use super::memory::MemoryNeed;
 use super::study::{self, StudyArgs, StudyFiles};
 use super::version::{self, COMMIT};
 use super::{CommandLine, Out, Problem, ProgressBar};
@@ -86,10 +85,6 @@ impl StudyArgs for Args {
 
     fn files(&self) -> StudyFiles<'_> {
         StudyFiles::new(Some(&self.out), None, Vec::new())
-    }
-
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(None)
     }
 
     fn study(&self) -> miette::Result<Parameters> {

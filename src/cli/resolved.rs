@@ -9,8 +9,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use crate::split::PartSet;
 
 /// Options that change no result: where it goes, who computes the same bits and which of them, what is told on the way.
-const WITHOUT_EFFECT: [&str; 10] =
-    ["out", "executor", "adapter", "json", "threads", "all_errors", "memory_limit", "help", "part", "resume"];
+const WITHOUT_EFFECT: [&str; 7] = ["out", "executor", "json", "threads", "help", "part", "resume"];
 
 /// A command line as it was obeyed.
 #[derive(Debug)]

@@ -52,10 +52,6 @@ pub(super) struct EyeArgs {
     #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) target: Option<[f32; 3]>,
 
-    /// The direction that points up in the picture [default: 0,0,1]
-    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
-    pub(super) up: Option<[f32; 3]>,
-
     /// Tangent of half the vertical field of view, where no view of the scene says it [default: 0.375]
     #[arg(long, value_name = "TAN", value_parser = number::single)]
     pub(super) tan_half_height: Option<f32>,
@@ -64,26 +60,24 @@ pub(super) struct EyeArgs {
 impl EyeArgs {
     /// Returns `true` without options.
     pub(super) fn is_default(&self) -> bool {
-        let Self { eye, target, up, tan_half_height } = *self;
-        eye.is_none() && target.is_none() && up.is_none() && tan_half_height.is_none()
+        let Self { eye, target, tan_half_height } = *self;
+        eye.is_none() && target.is_none() && tan_half_height.is_none()
     }
 
-    /// A camera there; without an eye, one that sees all of the mesh.
+    /// A camera there; without an eye, one that sees all of the mesh. Up is z, or y for an eye straight above or below.
     pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
-        let up = self.up.unwrap_or([0.0, 0.0, 1.0]);
+        let is_upright = self.eye.zip(self.target).is_some_and(|(eye, target)| eye[..2] == target[..2]);
+        let up = if is_upright { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
         view::framing(mesh, size, self.tan_half_height.unwrap_or(0.375), (self.eye, self.target, up))
     }
 
     /// Refuses what a view of the scene says.
     fn require_no_lens(&self, view: &str) -> Result<(), Problem> {
-        let given = [("--up", self.up.is_some()), ("--tan-half-height", self.tan_half_height.is_some())];
-        match given.into_iter().find(|(_, given)| *given) {
-            Some((option, _)) => {
-                let what = format!("`{option}` is for an eye of your own, found view `{view}` of the scene");
-                Err(Problem::usage(what, "add `--eye` or `--target`, or leave it out"))
-            }
-            None => Ok(()),
+        if self.tan_half_height.is_none() {
+            return Ok(());
         }
+        let what = format!("`--tan-half-height` is for an eye of your own, found view `{view}` of the scene");
+        Err(Problem::usage(what, "add `--eye` or `--target`, or leave it out"))
     }
 }
 

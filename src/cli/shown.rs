@@ -7,7 +7,7 @@ use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
 use crate::report::Excerpt;
 use crate::report::visible::visible;
 
-/// Most errors of one list that are shown unless all are asked for.
+/// Most errors of one list that are shown.
 pub(super) const MAX_SHOWN: usize = 20;
 
 /// A copy of a diagnostic that any renderer may write to a terminal as it is.

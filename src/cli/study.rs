@@ -1,4 +1,4 @@
-//! The one runner of studies: memory, progress, an output folder that appears at once, tables on standard output, the
+//! The one runner of studies: progress, an output folder that appears at once, tables on standard output, the
 //! exit code. Commands that write no page [`show`] what they found in the same form.
 //!
 //! A study's command says what its options are and what they ask for; [`run`] does the rest.
@@ -8,7 +8,6 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::memory::MemoryNeed;
 use super::part::{self, PartArgs};
 use super::{CommandLine, Out, Problem, ProgressBar, view};
 use crate::io::atomic::FileSet;
@@ -27,16 +26,8 @@ pub(super) trait StudyArgs {
     /// The files that it writes and reads.
     fn files(&self) -> StudyFiles<'_>;
 
-    /// The memory that it takes at most, by the options alone; `None` if that is little.
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>>;
-
     /// The study, with everything looked up and read.
     fn study(&self) -> miette::Result<Self::Study>;
-
-    /// The memory that the study takes at most, where the options alone do not say it.
-    fn memory_of(&self, _: &Self::Study) -> Option<MemoryNeed> {
-        None
-    }
 }
 
 /// Files of a study's command.
@@ -58,13 +49,7 @@ impl<'a> StudyFiles<'a> {
 
 /// Runs a study; `command_line` is what its findings come from.
 pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
-    if let Some(need) = args.memory()? {
-        need.require()?;
-    }
     let study = args.study()?;
-    if let Some(need) = args.memory_of(&study) {
-        need.require()?;
-    }
     let StudyFiles { folder: out_folder, part, inputs } = args.files();
     let split = match (part, out_folder) {
         (Some(part), Some(out)) => part.split(command_line, out)?,

@@ -6,7 +6,7 @@ use glam::DVec3;
 use miette::IntoDiagnostic as _;
 use refsim::num::FormatError;
 
-use super::{MemoryError, Problem, memory};
+use super::Problem;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::io::PictureFile;
@@ -17,9 +17,6 @@ use crate::scene::Camera;
 
 /// The card where none is named.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
-
-/// Memory that rays and their hits take at most, per byte of the rays' file: 90 bytes for a line of at least 12.
-pub(super) const RAYS_PER_BYTE: u64 = 8;
 
 /// For `map_err` on parsing a number format.
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
@@ -88,7 +85,6 @@ fn filling(
     let right = exact(up).cross(toward).try_normalize()?;
     // Along the picture's right, along its up, and towards the eye.
     let axes = [right, toward.cross(right), toward];
-    // Computed again for each extreme: a list would be memory that nobody counted.
     let points = || mesh.iter_corners().flatten().map(|v| axes.map(|axis| axis.dot(exact(v))));
     let extreme = |of: &dyn Fn([f64; 3]) -> f64| points().map(of).fold(f64::NEG_INFINITY, f64::max);
     let mut eye = [0.0, 0.0, extreme(&|at| at[2]) + 0.1 * radius];
@@ -121,47 +117,12 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Refuses a mesh, a Wavefront OBJ, PLY, STL or glTF file, whose text would take more memory than there is.
-pub(super) fn require_mesh(path: &Path) -> Result<(), MemoryError> {
-    require_file(path, 12, "name a smaller mesh")
-}
-
-/// Refuses a file whose contents take more memory than there is: `per_byte` bytes per byte of its text.
+/// Reads a picture.
 ///
 /// # Errors
-/// [`MemoryError`].
-pub(super) fn require_file(path: &Path, per_byte: u64, help: &str) -> Result<(), MemoryError> {
-    // What is no file takes what it takes: it cannot be asked for its size.
-    let length = std::fs::metadata(path).map_or(0, |file| file.len());
-    memory::require(format_args!("reading `{}`", path.display()), length.saturating_mul(per_byte), help)
-}
-
-/// Memory for decoding a picture, in bytes: codes of 16 bits or floats, then the samples of each channel.
-pub(super) fn decoded_bytes(file: &PictureFile) -> u64 {
-    const PER_PIXEL: u64 = 24;
-    const PER_SAMPLE: u64 = 8;
-    let size = file.size();
-    memory::of_pixels(size.width, size.height, PER_PIXEL, PER_SAMPLE * size.samples())
-}
-
-/// Reads a picture, unless decoding it takes more memory than there is.
-///
-/// # Errors
-/// [`MemoryError`] before a pixel is decoded; what is wrong with the file.
+/// What is wrong with the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
-    let file = PictureFile::open(path)?;
-    require_picture(path, &file)?;
-    Ok(file.decode()?)
-}
-
-/// Refuses a picture that takes more memory than there is.
-///
-/// # Errors
-/// [`MemoryError`].
-pub(super) fn require_picture(path: &Path, file: &PictureFile) -> Result<(), MemoryError> {
-    let (size, bytes) = (file.size(), decoded_bytes(file));
-    let what = format_args!("the picture `{}` of {}x{} pixels", path.display(), size.width, size.height);
-    memory::require(what, bytes, "name a smaller picture")
+    Ok(PictureFile::open(path)?.decode()?)
 }
 
 /// Writes all files of a result together, and says where they are.

@@ -62,78 +62,27 @@ fn light_takes_every_way() {
     }
 }
 
-/// Every line of the table is a bicluster, and their costs are what the summary says.
-#[test]
-fn biclusters_are_dumped() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let dump = place(folder.path(), "b.csv");
-    for seed in [1, 3] {
-        let found = document(&format!("bi-scale bicluster docs/examples/quarters.mtx --seed {seed} --csv {dump}"));
-        let text = fs::read_to_string(&dump).expect("written");
-        let mut lines = text.lines();
-        assert_eq!(lines.next(), Some("bicluster,cost,rows,columns,values"));
-        let mut costs = 0.0;
-        for (number, line) in lines.enumerate() {
-            let fields: Vec<&str> = line.split(',').collect();
-            let [rows, columns, values] = [2, 3, 4].map(|at| fields[at].split(' ').count());
-            assert_eq!((fields[0], values), (number.to_string().as_str(), columns));
-            let cost: usize = fields[1].parse().expect("a number");
-            assert_eq!(cost, rows + 2 * columns - 1);
-            costs += cost as f64;
-        }
-        assert_eq!(costs, number(&found["flops_after"]));
-        assert!(costs < number(&found["flops_before"]));
-    }
-}
-
-/// The best of several seeds is what that seed gives alone, and no seed is better.
-#[test]
-fn the_cheapest_seed_is_kept() {
-    let bicluster = |options: &str| document(&format!("bi-scale bicluster docs/examples/quarters.mtx {options}"));
-    let cost = |found: &Value| number(&found["flops_after"]);
-    let best = bicluster("--seed 3 --seeds 6");
-    let alone: Vec<f64> = (3..9).map(|seed| cost(&bicluster(&format!("--seed {seed}")))).collect();
-    assert!(alone.iter().all(|other| *other >= cost(&best)), "{alone:?}");
-    assert!(alone.iter().any(|other| *other > cost(&best)), "seeds differ: {alone:?}");
-    let first = 3 + alone.iter().position(|other| *other == cost(&best)).expect("one of them");
-    assert_eq!(best["seed"], first);
-}
-
 /// Numbers without a unit whose residuals are not rounded: the biclusters' file gives back the matrix.
 #[test]
 fn any_numbers_come_back_from_files() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let [matrix, biclusters, dump, back] = ["a.mtx", "b.npz", "b.csv", "c.mtx"].map(|name| place(folder.path(), name));
+    let [matrix, biclusters, back] = ["a.mtx", "b.npz", "c.mtx"].map(|name| place(folder.path(), name));
     let row = |row: usize, third: &str| {
         format!("{row} 1 0.1\n{row} 2 -5e-324\n{row} 3 {third}\n{row} 4 0.30000000000000004\n")
     };
     let rows = [row(1, "1e300"), row(2, "1e300"), row(3, "5e299"), row(4, "1e300")].concat();
     let text = format!("%%MatrixMarket matrix coordinate real general\n5 4 17\n{rows}5 1 -0.0\n");
     fs::write(&matrix, text).expect("written");
-    let found = document(&format!("bi-scale bicluster {matrix} --csv {dump} --out {biclusters}"));
+    let found = document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
     let of = |key: &str| found[key].clone();
     assert_eq!((of("residual"), of("biclusters"), of("distinct_values")), (0.into(), 2.into(), 5.into()));
     assert_eq!([of("unit_bits"), of("beyond_singles")], [Value::Null, 2.into()]);
-    let dump = fs::read_to_string(&dump).expect("written");
-    assert!(dump.contains("0.1 -5e-324 1e300 0.30000000000000004\n") && dump.contains(",-5e299\n"), "{dump}");
     let shown = document(&format!("bi-scale show {biclusters} --matrix {back}"));
     assert_eq!((shown["distinct_values"].clone(), shown["unit_bits"].clone()), (5.into(), Value::Null));
     let read = |path: &str| crossbar::io::load_matrix_market(path.as_ref()).expect("a matrix");
     let (mut before, after) = (read(&matrix), read(&back));
     before.entries.retain(|&(.., value)| value != 0.0);
     assert_eq!(before, after);
-}
-
-#[test]
-fn what_is_lost_is_told() {
-    let exact = document("bi-scale bicluster docs/examples/quarters.mtx");
-    assert_eq!((&exact["residual"], &exact["largest_residual"]), (&Value::from(0), &Value::from(0.0)));
-    let [quarter, half] =
-        ["0.25", "0.5"].map(|drop| document(&format!("bi-scale bicluster docs/examples/quarters.mtx --drop {drop}")));
-    assert_eq!(([&quarter, &half].map(|found| number(&found["largest_residual"]))), [0.25, 0.5]);
-    let cost = |found: &Value| number(&found["flops_after"]);
-    assert!(cost(&half) < cost(&quarter) && cost(&quarter) < cost(&exact));
-    assert!(number(&quarter["squared_residual"]) < number(&half["squared_residual"]));
 }
 
 #[test]
@@ -152,8 +101,6 @@ fn what_cannot_be_done_is_said() {
         ),
         ("bi-scale bicluster docs/examples/step.npz".to_owned(), "`crossbar cpca` takes it"),
         ("bi-scale compare docs/examples/quarters.mtx".to_owned(), "found 32"),
-        (format!("bi-scale show {BICLUSTERS} --at 0,0,0 --model cornell-box"), "expected transfer of"),
-        ("bi-scale texture plain --relief 2 --out x.npy".to_owned(), "`--relief` is for patches with heights"),
         (format!("bi-scale compare {BICLUSTERS} --model cornell-box"), "expected transfer of"),
         (
             "bi-scale compare docs/examples/quarters.mtx --model cornell-box".to_owned(),
@@ -163,7 +110,6 @@ fn what_cannot_be_done_is_said() {
             format!("bi-scale compare {BICLUSTERS} --sample 3"),
             "expected at least 32 rows to find 32 clusters from, found 3",
         ),
-        (format!("bi-scale compare {BICLUSTERS} --memory-limit 1MB"), "of memory"),
         ("bi-scale multiply docs/examples/step_all.npz".to_owned(), "`crossbar all-frequency` takes it"),
     ] {
         let words = refused_line(&arguments);
@@ -241,9 +187,6 @@ fn textures_take_every_way() {
     let both = picture(&out, "picture");
     let changed = both.iter().zip(&of_file).filter(|(a, b)| a != b).count();
     assert!((20..200).contains(&changed), "{changed}");
-    let found = drawn(&format!("--texture {file} --repeat 2 --frames 2 --turn camera"), &out);
-    assert_eq!(found["exit"], Value::Null);
-    assert!(std::path::Path::new(&format!("{out}/frame-1.png")).exists());
 }
 
 /// Under light from everywhere its texels and the numbers' precision cost nothing; more views and texels of a texture
@@ -320,8 +263,6 @@ fn textures_that_do_not_fit_are_refused() {
             "found that of 70 vertices",
         ),
         ("bi-scale texture mails --out x.npy".to_owned(), "did you mean `mail`"),
-        ("bi-scale texture mail --color 1,0,0 --out x.npy".to_owned(), "are for `plain`"),
-        ("bi-scale texture mail --relief 1e6 --out x.npy".to_owned(), "expected a patch at most 16 edges deep"),
         ("bi-scale texture docs/examples/rays.csv --out x.npy".to_owned(), "expected as many rows as columns"),
     ] {
         let words = refused_line(&arguments);
@@ -343,18 +284,18 @@ fn the_card_draws_what_the_host_draws() {
         document(&format!("bi-scale card {biclusters} {fixed} {options} --out {out}"))
     };
     let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
-    let fine = on_card("--device ideal-fp32 --target-format rgba32f --texture-format rgba32f");
-    assert!(rms(&fine) < 0.3 && fine["time"].is_null(), "{}", rms(&fine));
+    let fine = on_card("--device ideal-fp32");
+    assert!(rms(&fine) < 1.0 && fine["time"].is_null(), "{}", rms(&fine));
     let with_one = picture(&out, "card");
     // The floor has a texture of its own, of which the host's picture knows too.
-    let both = on_card("--texture floor=mail --device ideal-fp32 --target-format rgba32f --texture-format rgba32f");
-    assert!(rms(&both) < 0.3, "{}", rms(&both));
+    let both = on_card("--texture floor=mail --device ideal-fp32");
+    assert!(rms(&both) < 1.0, "{}", rms(&both));
     assert!(number(&both["sizes"][4]["number"]) == 2.0, "{}", both["sizes"]);
     let changed = with_one.iter().zip(picture(&out, "card")).filter(|(a, b)| *a != b).count();
     let lit = with_one.iter().filter(|color| color.iter().any(|&value| value > 0.0)).count();
     assert!((50..lit - 50).contains(&changed), "{changed} of {lit}");
     let bytes = on_card("--sweep");
-    assert!(rms(&bytes) > rms(&fine) && rms(&bytes) < 2.0, "{}", rms(&bytes));
+    assert!(rms(&bytes) >= rms(&fine) && rms(&bytes) < 2.0, "{}", rms(&bytes));
     assert!(bytes["time"].as_array().is_some_and(|times| times.len() == 5));
     let rows = bytes["precision"].as_array().expect("ways");
     assert_eq!(rows.len(), 10, "one fine, two coarse ones of four things, seams");
@@ -388,23 +329,4 @@ fn creases_keep_vertices_apart() {
     let render = format!("bi-scale render {file} --model {COURT} {options} --out {out}");
     document(&format!("{render} --crease 30"));
     refused_line(&render);
-}
-
-/// A table of heights makes a patch: one of a step is darker than a plain one, by as much as its shadow.
-#[test]
-fn heights_come_from_files() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [heights, out] = ["h.csv", "b.npy"].map(|name| place(folder.path(), name));
-    fs::write(&heights, "0,0,0,0\n0,0,0,0\n1,1,1,1\n1,1,1,1\n").expect("written");
-    let mean = |patch: &str| {
-        let sizes = "--texels 8 --directions 8 --views 2 --color 1,0.5,0";
-        let made = document(&format!("bi-scale texture {patch} {sizes} --out {out}"));
-        [0, 1, 2].map(|channel: usize| number(&made["mean_reflectance"][channel]))
-    };
-    let [plain, flat, steep] =
-        ["plain", &format!("{heights} --relief 0"), &format!("{heights} --relief 0.5")].map(mean);
-    assert_eq!(plain, flat);
-    assert_relative_eq!(plain[0], 1.0 + 2.0 / 64.0, max_relative = 1e-6);
-    assert_relative_eq!(plain[1], plain[0] / 2.0, max_relative = 1e-6);
-    assert!(steep[0] > 0.2 && steep[0] < 0.8 && steep[2] == 0.0, "{steep:?}");
 }

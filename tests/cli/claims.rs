@@ -131,7 +131,6 @@ fn good_files() -> Vec<GoodFile> {
             drop(io::parse_gltf(bytes, name, &mut none));
         }),
         file("r.csv", stored("docs/examples/rays.csv"), |bytes, name| drop(io::parse_rays(bytes, name))),
-        file("e.csv", b"r,g,b\n1,2,3\n".to_vec(), |bytes, name| drop(io::parse_irradiances(bytes, name))),
         file("l.csv", b"face,row,column,r,g,b\n0,0,0,1,1,1\n".to_vec(), |bytes, name| {
             drop(io::parse_cube_table(bytes, name, 4));
         }),

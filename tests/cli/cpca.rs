@@ -65,10 +65,8 @@ fn a_card_draws_what_the_host_draws() {
         document(&[&fixed[..], options].concat())
     };
     let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
-    let ideal =
-        card(&["--device", "ideal-fp32", "--target-format", "rgba32f", "--map-format", "rgba32f", "--map-side", "256"]);
-    let radeon = card(&[]);
-    assert!(ideal["time"].is_null() && rms(&ideal) < 0.1 * rms(&radeon), "{} {}", rms(&ideal), rms(&radeon));
+    let (ideal, radeon) = (card(&["--device", "ideal-fp32"]), card(&[]));
+    assert!(ideal["time"].is_null() && rms(&ideal) < rms(&radeon), "{} {}", rms(&ideal), rms(&radeon));
     let time = radeon["time"].as_array().expect("times");
     assert_eq!(time.len(), 6);
     let sweep = card(&["--sweep"]);
@@ -84,29 +82,6 @@ fn a_card_draws_what_the_host_draws() {
     assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
 }
 
-/// Half precision has no number for this light. Pixels that are not finite are counted as the file has them, shown in
-/// black, and seen.
-#[test]
-fn pixels_that_are_not_finite_are_not_right() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [model, _, small] = STEP;
-    let out = place(folder.path(), "out");
-    let options =
-        "--size 24x18 --device ideal-fp16 --target-format rgba32f --exposure 1 --light disk:1,0,2:40:1e6,1e6,1e6";
-    let fixed = ["cpca", "card", small, "--model", model, "--out", &out];
-    let found = document(&fixed.into_iter().chain(options.split(' ')).collect::<Vec<_>>());
-    let drawn = Picture::decode(&fs::read(folder.path().join("out/card.exr")).expect("written")).expect("a picture");
-    let drawn = drawn.linear().expect("color");
-    let lost = drawn.iter().filter(|color| color.iter().any(|value| !value.is_finite())).count();
-    let difference = &found["difference"];
-    assert!(lost > 0 && lost < drawn.len());
-    assert_eq!((&difference["not_finite"], &difference["rms_255ths"]), (&lost.into(), &"inf".into()));
-    let shown = image::open(folder.path().join("out/difference.png")).expect("a picture").into_rgb8();
-    assert_eq!(shown.pixels().filter(|pixel| pixel.0 == [0; 3]).count(), lost);
-    let pixels = drawn.iter().filter(|color| color.iter().any(|value| *value != 0.0)).count() as f64;
-    assert!(number(&difference["visible_share"]) >= lost as f64 / pixels, "{difference}");
-}
-
 /// Files and formats that a card does not support are refused with advice, and nothing is written.
 #[test]
 fn cards_refuse_what_they_have_no_programs_for() {
@@ -118,13 +93,8 @@ fn cards_refuse_what_they_have_no_programs_for() {
         assert!(!folder.path().join("out").exists(), "{arguments:?}");
         said
     };
-    let adaptive = place(folder.path(), "adaptive.npz");
-    let options = ["--method", "adaptive", "--clusters", "8", "--vectors", "3", "--out", &adaptive];
-    document(&[&["cpca", "compress", whole][..], &options].concat());
     assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer alone"));
     assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
-    let floats = refused(&[small, "--model", model, "--target-format", "rgba32f"]);
-    assert!(floats.contains("rgba32f") && floats.contains("r300"), "{floats}");
 }
 
 #[test]
@@ -168,7 +138,7 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
         let options = ["--kind", "glossy", "--rows", "16", "--brdf", "ward:0.1,0.4,0.1,0.4", "--order", "4"];
         let command = ["cpca", "precompute", &model, "--tangents", tangents, "--out", &out];
         document(&[&command[..], &options].concat());
-        let shown = document(&["cpca", "show", &out, "--at", "1,1,0", "--model", &model]);
+        let shown = document(&["cpca", "show", &out, "--vertex", "2"]);
         assert_eq!(shown["mesh"]["tangents"], tangents);
         (out, shown["vertex"]["transfer"].as_array().expect("numbers").clone())
     };
@@ -212,25 +182,6 @@ fn arrays_of_numpy_are_compressed() {
     assert!(said.to_lowercase().contains("fortran"), "{said}");
 }
 
-/// Vector quantisation has its own number of iterations; after it those of each number of vectors.
-#[test]
-fn iterations_of_quantisation_are_counted_apart() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let ([_, transfer, _], out) = (STEP, place(folder.path(), "out.npz"));
-    let fits = |options: &[&str]| {
-        let fixed = ["cpca", "compress", transfer, "--clusters", "8", "--vectors", "1", "--out", &out];
-        let made = document(&[&fixed[..], options].concat());
-        let steps = made["steps"].as_array().expect("steps").clone();
-        [0, 1].map(|vectors| {
-            let of = steps.iter().filter(|step| step["vectors"] == vectors);
-            of.filter(|step| step["step"] == "classified").count()
-        })
-    };
-    assert_eq!(fits(&["--iterations", "2", "--vq-iterations", "1"]), [1, 2]);
-    assert_eq!(fits(&["--iterations", "1", "--vq-iterations", "3"]), [3, 1]);
-    assert_eq!(fits(&["--iterations", "2"]), [2, 2]);
-}
-
 /// Reclassification draws fewer triangles within its budget; superclusters cost no error; the file says both, and the
 /// card draws what it says.
 #[test]
@@ -251,8 +202,6 @@ fn clusters_are_made_coherent_on_their_mesh() {
     assert!(after <= 1.1 * before);
     let added = number(&moved["coherence"]["added_squared_error"]);
     assert_relative_eq!(after, before + added, max_relative = 1e-9);
-    let refitted = compress(&["--model", model, "--reclassify", "0.1", "--refit"]);
-    assert!(number(&refitted["squared_error"]) < after);
     let grouped = compress(&["--model", model, "--reclassify", "0.1", "--supercluster-size", "3"]);
     assert_eq!(grouped["squared_error"], moved["squared_error"]);
     assert!(drawn(&grouped, "superclusters") < drawn(&moved, "reclassified"), "{}", grouped["coherence"]);
@@ -279,16 +228,10 @@ fn idle_options_of_compression_are_refused() {
     let signal = "docs/examples/signal.csv";
     for (from, options, words) in [
         (transfer, "--vectors 0 --method static", "`--method` is for clusters with vectors"),
-        (transfer, "--vectors 0 --linear", "`--linear` is for clusters with vectors"),
-        (transfer, "--method static --iterations 3 --vq-iterations 3", "`--iterations` is for methods that iterate"),
         (transfer, "--model M", "`--model` is for `--reclassify` and `--supercluster-size`"),
         (transfer, "--clusters 1 --model M --reclassify 0.1", "`--reclassify` is for several clusters"),
-        (transfer, "--method adaptive --max-error 0.1", "choose another `--method`"),
-        (transfer, "--grow clusters", "--max-error"),
         (transfer, "--reclassify 0.1", "--model"),
-        (transfer, "--model M --refit", "--reclassify"),
         (transfer, "--model M --reclassify -1", "not below 0"),
-        (transfer, "--max-error 1", "above 0 and below 1"),
         (transfer, "--model white-box --reclassify 0.1 --clusters 4", "expected transfer of a mesh with"),
         (signal, "--model M --reclassify 0.1 --clusters 4", "found that of no mesh"),
     ] {

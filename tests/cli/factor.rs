@@ -5,7 +5,6 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::answers::number;
 use crate::{crossbar, crossbar_in};
 
 const TABLE: &str = "docs/examples/reflectance.csv";
@@ -51,22 +50,6 @@ fn the_tables_are_these() {
     insta::assert_snapshot!("factor_tables", ran.stdout);
 }
 
-/// Roughness as an option of the study: a row and two pictures each.
-#[test]
-fn roughness_is_swept() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let out = folder.path().join("out");
-    let base = ["--brdf", "cook-torrance", "--denominators", "product", "--side", "12", "--supersamples", "2x2"];
-    let options = ["--sweep-roughness", "0.2,0.4", "--out", out.to_str().expect("UTF-8")];
-    let found = document(&[&base[..], &options].concat());
-    let rows = found["roughness"].as_array().expect("rows");
-    let error = |row: usize| number(&rows[row]["relative_squared_error"]);
-    assert!(rows.len() == 2 && error(0) > error(1), "{rows:?}");
-    for name in ["roughness-0.2-f.png", "roughness-0.4-terms.png", "roughness.csv"] {
-        assert!(out.join(name).is_file(), "{name}");
-    }
-}
-
 /// Bad input: what is said, word for word, and nothing is written.
 #[test]
 fn bad_input_is_refused() {
@@ -99,10 +82,8 @@ fn bad_input_is_refused() {
 /// Options that the subject has no use for are refused before its file is looked for.
 #[test]
 fn options_of_another_subject_are_refused() {
-    let of_model = "--roughness=0.3 --fresnel=0.5 --isotropy=0.3 --exponent=9 --albedo=0.1 --denominators=product \
-                    --fresnel-form=constant --shadowing=none";
-    let of_sampling = "--side=8 --supersamples=2x2 --clamp=2";
-    for option in format!("{of_model} {of_sampling}").split_whitespace() {
+    let of_model = "--roughness=0.3 --fresnel=0.5 --denominators=product --fresnel-form=constant --shadowing=none";
+    for option in format!("{of_model} --side=8").split_whitespace() {
         let ran = crossbar(&["all-frequency", "factor", "--table=nowhere.csv", option], "");
         let name = option.split('=').next().expect("a name");
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{option}");

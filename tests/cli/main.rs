@@ -26,7 +26,6 @@ mod help;
 mod hostile;
 mod interrupted;
 mod materials;
-mod memory;
 mod models;
 mod options;
 mod page;
@@ -46,6 +45,5 @@ mod timeline;
 mod trace_format;
 mod tracing;
 mod tree;
-mod vertex_names;
 
 use program::{ProgramOutput, crossbar, crossbar_in, start};

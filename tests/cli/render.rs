@@ -22,10 +22,7 @@ const BROKEN: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\
 #[test]
 fn every_renderer_makes_the_same_picture_twice() {
     for renderer in ["eye", "whitted", "distributed", "path", "photon"] {
-        let mut arguments = vec!["cornell-box", "--renderer", renderer, "--size", "8x8", "--samples", "2"];
-        if renderer == "photon" {
-            arguments.extend(["--photons", "200"]);
-        }
+        let arguments = ["cornell-box", "--renderer", renderer, "--size", "8x8", "--samples", "2"];
         let (first, one) = render(&arguments);
         assert_eq!((first.code, first.stderr.as_str()), (Some(0), ""), "{renderer}");
         let mut again = arguments.to_vec();
@@ -55,14 +52,12 @@ fn what_it_says() {
 
 #[test]
 fn bad_input() {
-    let cases: [(&str, &[&str]); 16] = [
+    let cases: [(&str, &[&str]); 14] = [
         ("unknown_scene", &["teapot-rooms"]),
         ("unknown_view", &["cornell-box", "--view", "behind"]),
         ("view_and_eye", &["cornell-box", "--view", "front", "--eye", "0,0,0"]),
-        ("up_of_the_first_view", &["cornell-box", "--up", "0,0,0"]),
         ("field_of_the_first_view", &["cornell-box", "--tan-half-height", "-1"]),
         ("no_samples", &["cornell-box", "--samples", "0"]),
-        ("bad_lens", &["cornell-box", "--lens", "0.1"]),
         ("bad_exposure", &["cornell-box", "--exposure", "-1"]),
         ("device_of_the_host", &["cornell-box", "--device", "r300"]),
         ("engine_in_exact_arithmetic", &["cornell-box", "--caster", "engine", "--executor", "exact"]),

@@ -56,12 +56,12 @@ fn findings_without_a_page_are_text_or_fields() {
     type Fields<'a> = &'a [(&'a str, Option<&'a str>)];
     let quarters = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/quarters.mtx").display().to_string();
     let light: &[&str] = &["all-frequency", "lighting", "--keep", "40", "--out", "light.csv"];
-    let lists: &[&str] = &["bi-scale", "bicluster", &quarters, "--out", "lists.npz", "--csv", "lists.csv"];
+    let lists: &[&str] = &["bi-scale", "bicluster", &quarters, "--out", "lists.npz"];
     let patch: &[&str] =
         &["bi-scale", "texture", "bumps", "--texels", "4", "--directions", "2", "--views", "2", "--out", "bumps.npy"];
     let cases: [(_, _, Fields<'_>); 3] = [
-        (light, "a clear sky with a sun in 24 segments\n|", &[("out", Some("light.csv")), ("coefficients", None)]),
-        (lists, "Biclusters\n|", &[("out", Some("lists.npz")), ("csv", Some("lists.csv"))]),
+        (light, "a clear sky with a sun in 24 segments\n|", &[("out", Some("light.csv"))]),
+        (lists, "Biclusters\n|", &[("out", Some("lists.npz"))]),
         (patch, "patch     4 x 4 texels", &[("out", Some("bumps.npy")), ("sheet", None)]),
     ];
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -57,10 +57,9 @@ fn casting_is_timed_apart_from_building() {
 fn casters_refuse_what_is_not_for_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
-    let cases: [(&str, &[&str]); 6] = [
+    let cases: [(&str, &[&str]); 5] = [
         ("device_of_the_host", &["--caster", "host", "--device", "r300"]),
         ("executor_of_the_host", &["--caster", "host", "--executor", "batch"]),
-        ("adapter_of_the_host", &["--caster", "host", "--adapter", "x"]),
         ("engine_in_exact_arithmetic", &["--caster", "engine", "--executor", "exact"]),
         ("engine_without_programs", &["--caster", "engine", "--device", "nv25"]),
         ("unknown_caster", &["--caster", "card"]),

@@ -3,7 +3,7 @@
 use clap::{Arg, ArgAction};
 
 /// Options that every command has.
-pub(crate) const GLOBAL: &[&str] = &["--json", "--threads", "--quiet", "--all-errors", "--memory-limit"];
+pub(crate) const GLOBAL: &[&str] = &["--json", "--threads", "--quiet"];
 
 /// Commands without verbs and the verbs of the others, by what is typed for them: `check`, `cpca render`.
 pub(crate) fn commands() -> Vec<(String, clap::Command)> {

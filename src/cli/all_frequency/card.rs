@@ -7,13 +7,9 @@ use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 
 use super::file::LitArgs;
-use crate::all_frequency::kernels::MapFilter;
 use crate::all_frequency::on_card::{ProductOptions, ProductPlace, VertexColors};
-use crate::cli::memory::MemoryNeed;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::on_card::OnCardArgs;
-use crate::cli::{Problem, given};
-use crate::options::one_of::variants;
 use crate::study::prt::AllFrequencyOnCard;
 
 const EXAMPLES: &str = "\
@@ -23,8 +19,7 @@ Examples:
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --sweep --size 64x48
       bits of representatives, weights and maps, arithmetic; what of it shows, and what compression costs
 
-Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv, with --values the radiance of \
-vertices as the host computes it from the numbers that the card draws. \
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/all_frequency.md explains all of it.";
 
 /// The part of the work that the card does.
@@ -47,19 +42,6 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "WAY", default_value = "products")]
     way: WayArg,
 
-    /// Format of the maps of reflectance factors, for products [default: rgba16s or rg16s where the card has them, else
-    /// rgba8s]
-    #[arg(long, value_name = "F")]
-    map_format: Option<TexelFormat>,
-
-    /// Filter between their texels, for products [default: sampler]
-    #[arg(long, value_name = "WHO", value_parser = variants::<MapFilter>())]
-    filter: Option<MapFilter>,
-
-    /// Ask for the card's partial precision, for products
-    #[arg(long)]
-    partial: bool,
-
     #[command(flatten)]
     card: OnCardArgs,
 
@@ -69,26 +51,15 @@ pub(super) struct Args {
 }
 
 impl Args {
-    fn place(&self, profile: &Profile) -> Result<ProductPlace, Problem> {
+    /// Where products are computed: maps of signed 16 bits where the card has them, else of 8.
+    fn place(&self, profile: &Profile) -> ProductPlace {
         if self.way == WayArg::Colors {
-            let of_products = [
-                ("--map-format", self.map_format.is_some()),
-                ("--filter", self.filter.is_some()),
-                ("--partial", self.partial),
-            ];
-            given::refuse(of_products, "`--way products`, found `--way colors`", "leave it out")?;
-            return Ok(ProductPlace::Vertices(VertexColors::Bytes));
+            return ProductPlace::Vertices(VertexColors::Bytes);
         }
-        let without = [("--partial", self.partial && profile.rules.partial.is_none())];
-        given::refuse(without, "cards with a partial precision", "choose one with `--device`, or leave it out")?;
         let has = |format: &TexelFormat| profile.limits.texture_formats.contains(format);
         let fractions = [TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm].into_iter().find(has);
-        Ok(ProductPlace::Pixels(ProductOptions {
-            map_format: self.map_format.or(fractions).unwrap_or(TexelFormat::Rgba8Snorm),
-            filter: self.filter.unwrap_or_default(),
-            is_partial: self.partial,
-            ..ProductOptions::default()
-        }))
+        let map_format = fractions.unwrap_or(TexelFormat::Rgba8Snorm);
+        ProductPlace::Pixels(ProductOptions { map_format, ..ProductOptions::default() })
     }
 }
 
@@ -100,15 +71,9 @@ impl StudyArgs for Args {
         StudyFiles::new(Some(&self.out), None, self.lit.inputs())
     }
 
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.lit.picture.memory_on_card()))
-    }
-
     fn study(&self) -> miette::Result<AllFrequencyOnCard> {
-        let mut card = self.card.setting("r350")?;
-        let place = self.place(&card.profile)?;
-        let lit = self.lit.load()?;
-        card.values = self.card.values.of(&self.lit.picture.model, &lit.vertices);
-        Ok(AllFrequencyOnCard { lit, place, card })
+        let card = self.card.setting("r350")?;
+        let place = self.place(&card.profile);
+        Ok(AllFrequencyOnCard { lit: self.lit.load()?, place, card })
     }
 }

@@ -11,8 +11,7 @@ use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
 use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{CommandLine, Problem, ProgressBar, memory, view};
-use crate::options::one_of::variants;
+use crate::cli::{CommandLine, Problem, ProgressBar};
 use crate::report::{Cell, Findings, Table};
 use crate::split::{Computed, KeptResults, SpentTime};
 use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
@@ -24,7 +23,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
       segment by segment, linear, coded in 16 bits
-  crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --weight-bits 8 --json --out small.npz
+  crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --json --out small.npz
       in fewer bits; every segment's error for machines
 
 Transfer is nowhere stored whole: that of a segment is computed, compressed and coded before the next.";
@@ -50,25 +49,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..))]
     vectors: u32,
 
-    /// By which measure points are shared out to clusters
-    #[arg(long, value_name = "HOW", default_value = "doubling", value_parser = variants::<CpcaMethod>())]
-    method: CpcaMethod,
-
-    /// Iterations at most for each number of vectors, and rounds of redistribution
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    iterations: u32,
-
-    /// Draws the start points
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-
-    /// Bits of the numbers of representatives
+    /// Bits of the numbers of representatives, and of weights
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u8).range(2..=16))]
     bits: u8,
-
-    /// Bits of weights
-    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u8).range(2..=16))]
-    weight_bits: u8,
 
     /// Keep finished segments in this folder, and take those that it has; one with other work is refused
     #[arg(long, value_name = "FOLDER", conflicts_with = "part")]
@@ -83,7 +66,6 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
-    view::require_file(&args.signal, 3, "name a smaller file")?;
     let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.signal, &args.model)?;
     let Some(maps) = &file.visibility else {
         let what = format!("{}: expected visibility, found coded transfer alone", args.signal.display());
@@ -96,11 +78,13 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
             Problem::usage(what, "a vertex has no more numbers in a segment: more approximate nothing better").into()
         );
     }
-    // A segment of all vertices, its clusters, the vertices along axes, and inner products of clusters' vertices.
-    let bytes = maps.len() as u64 * (numbers * 3 / 2 + 6500) + (128 << 20);
-    let what = format_args!("a segment of the transfer of {} vertices, {numbers} bytes each", maps.len());
-    memory::require(what, bytes, "name a model of fewer vertices, or factors of fewer terms")?;
-    let (options, code) = (options(args), code(args));
+    let options = SegmentOptions {
+        points_per_cluster: args.points_per_cluster as usize,
+        vectors: args.vectors as usize,
+        method: CpcaMethod::Doubling,
+        ..SegmentOptions::default()
+    };
+    let code = CodeOptions { representative_bits: args.bits, weight_bits: args.bits, ..CodeOptions::default() };
     let kept = |folder: &PathBuf| {
         let kept = KeptResults::new(folder.clone(), part::command(command_line)?, SpentTime::default)?;
         kept.require_no_other_work().map(|()| kept)
@@ -115,7 +99,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         code,
         kept: kept.as_ref().map(|kept| (kept, "")),
     };
-    let bar = ProgressBar::new("", 1).quicker("more `--points-per-cluster` or fewer `--iterations`");
+    let bar = ProgressBar::new("", 1).quicker("more `--points-per-cluster`");
     let split = args.part.split(command_line, &args.out)?;
     let (coded, tally) =
         match compression.run_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
@@ -130,21 +114,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let coded = small.coded.as_ref();
     let taken = kept.as_ref().map_or(0, KeptResults::taken);
     Ok(coded.map(|coded| findings(args, (coded, taken), &tally, &census, raw)).unwrap_or_default())
-}
-
-fn options(args: &Args) -> SegmentOptions {
-    let iterations = args.iterations as usize;
-    SegmentOptions {
-        points_per_cluster: args.points_per_cluster as usize,
-        vectors: args.vectors as usize,
-        iterations,
-        method: args.method.with_rounds(iterations),
-        seed: args.seed,
-    }
-}
-
-fn code(args: &Args) -> CodeOptions {
-    CodeOptions { representative_bits: args.bits, weight_bits: args.weight_bits, ..CodeOptions::default() }
 }
 
 /// Bytes of weights and representatives in single precision.

@@ -1,18 +1,14 @@
 //! `crossbar all-frequency error`: the raw matrices again, beside what was coded.
 
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use serde_json::json;
 
 use super::file::FileOfModel;
 use crate::all_frequency::file::load_all_frequency;
-use crate::cli::study::written;
 use crate::cli::transfer::model::refused;
-use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Problem, ProgressBar, view};
-use crate::io::write_file;
+use crate::cli::{Problem, ProgressBar};
 use crate::report::Findings;
 use crate::study::prt::coded_errors;
 
@@ -20,8 +16,8 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj
       squared error of all vertices, and the largest
-  crossbar all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj --csv errors.csv --json
-      and a line per vertex: its squared error, its squares, its number in the model's file, its place";
+  crossbar all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj --json
+      the same for machines";
 
 /// Compare coded transfer with the original, which is computed again: error of each vertex, and the largest
 #[derive(Debug, clap::Args)]
@@ -38,16 +34,9 @@ pub(super) struct Args {
     /// The model of both
     #[arg(long, value_name = "MODEL")]
     model: PathBuf,
-
-    /// Write a line per vertex to this file
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    for path in [&args.signal, &args.compressed] {
-        view::require_file(path, 3, "name a smaller file")?;
-    }
     let FileOfModel { file, vertices, digest, .. } = FileOfModel::load(&args.signal, &args.model)?;
     let other = load_all_frequency(&args.compressed, Some(&digest))?;
     let (Some(maps), Some(coded)) = (&file.visibility, &other.coded) else {
@@ -68,30 +57,16 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let largest =
         (0..errors.squared_errors.len()).max_by(|&a, &b| errors.squared_errors[a].total_cmp(&errors.squared_errors[b]));
     let largest = largest.unwrap_or(0);
-    let names = VertexNames::new(&args.model, &vertices);
-    if let Some(path) = &args.csv {
-        write_file(path, |file| {
-            let mut file = std::io::BufWriter::new(file);
-            writeln!(file, "vertex,squared_error,squares,{}", VertexNames::COLUMNS)?;
-            for (vertex, (error, squares)) in errors.squared_errors.iter().zip(&errors.squares).enumerate() {
-                writeln!(file, "{vertex},{error:e},{squares:e},{}", names.fields(vertex))?;
-            }
-            file.flush()
-        })
-        .map_err(Problem::from)?;
-    }
     let mut found = Findings::new("Error of coded transfer");
     found.fields(json!({
         "vertices": vertices.len(), "squared_error": squared, "squared_transfer": squares,
         "relative_error": squared / squares,
-        "largest": { "vertex": largest, "squared_error": errors.squared_errors[largest],
-                     "of_model": names.document(largest) },
+        "largest": { "vertex": largest, "squared_error": errors.squared_errors[largest] },
     }));
     found.introduce(format!("vertices       {}", counted(vertices.len())));
     let [error, relative] = [squared, squared / squares].map(measured);
     found.introduce(format!("squared error  {error}, {relative} of the transfer's squares"));
-    let (squared, name) = (measured(errors.squared_errors[largest]), names.phrase(largest));
-    found.introduce(format!("largest        {squared} at vertex {largest} ({name})"));
-    written(&mut found, [("csv", args.csv.as_deref())]);
+    let squared = measured(errors.squared_errors[largest]);
+    found.introduce(format!("largest        {squared} at vertex {largest}"));
     Ok(found)
 }

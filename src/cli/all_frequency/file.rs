@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
+use crate::cli::Problem;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::model::{load, vertices};
 use crate::cli::transfer::picture::PictureArgs;
-use crate::cli::{Problem, view};
 use crate::scene::{Material, Surface};
 use crate::study::prt::LitModel;
 use crate::transfer::Vertices;
@@ -35,7 +35,6 @@ impl FileOfModel {
 
 /// A file with visibility, of the same mesh and reflectance as another.
 fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miette::Result<AllFrequencyFile> {
-    view::require_file(path, 3, "name a smaller file")?;
     let original = load_all_frequency(path, Some(mesh))?;
     if original.visibility.is_none() || original.reflectance != file.reflectance || original.hats != file.hats {
         let what = format!("{}: expected visibility with the same reflectance, found other", path.display());
@@ -71,7 +70,7 @@ pub(super) struct LitArgs {
     keep: Option<u32>,
 
     #[command(flatten)]
-    pub(super) picture: PictureArgs,
+    picture: PictureArgs,
 }
 
 impl LitArgs {
@@ -83,7 +82,6 @@ impl LitArgs {
 
     /// The model under its light.
     pub(super) fn load(&self) -> miette::Result<LitModel> {
-        view::require_file(&self.file, 3, "name a smaller file")?;
         let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.file, &self.picture.model)?;
         let original = self.original.as_deref().map(|path| original_of(&file, &digest, path)).transpose()?;
         Ok(LitModel {

@@ -4,7 +4,6 @@ mod card;
 mod compress;
 mod error;
 mod factor;
-mod factor_values;
 mod file;
 mod lighting;
 mod precompute;

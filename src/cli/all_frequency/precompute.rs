@@ -13,7 +13,7 @@ use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{CommandLine, Problem, ProgressBar, memory};
+use crate::cli::{CommandLine, Problem, ProgressBar};
 use crate::geom::Mesh;
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
 use crate::report::Findings;
@@ -22,13 +22,10 @@ use crate::sphere::ParabolicMap;
 use crate::split::Computed;
 use crate::study::prt::{FoundSight, SightOfModel};
 use crate::transfer::linear_basis::BasisWidth;
-use crate::transfer::visibility::VISIBILITY_BYTES;
 use crate::transfer::{Tangents, Vertices};
 
 /// Longest array of factors, in bytes.
 const MAX_FACTORS: u64 = 256 << 20;
-/// Memory of rays that wait to be cast, and of the tree, in bytes.
-const RAYS: u64 = 128 << 20;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -76,11 +73,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         args.reflectance.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
     let model = load(&args.model, tangents)?;
     let vertices = vertices(&model, tangents)?;
-    let below = u64::from(args.ground.unwrap_or(0)).pow(2);
-    let count = args.part.share(vertices.len() as u64 + below);
-    let what = format_args!("visibility of {count} vertices, {VISIBILITY_BYTES} bytes each");
-    let help = "name a model of fewer vertices, or a smaller ground";
-    memory::require(what, (VISIBILITY_BYTES + 200) as u64 * count + RAYS + 100 * model.mesh.len() as u64, help)?;
     let ground = args.ground.map(|side| Ground::new(&model.mesh, side)).transpose()?;
     let bar = ProgressBar::new("", 1).quicker("a model of fewer vertices");
     let sight = SightOfModel {

@@ -3,11 +3,8 @@
 use std::path::PathBuf;
 
 use super::file::{FileOfModel, LitArgs, color};
-use crate::cli::memory::MemoryNeed;
 use crate::cli::study::{StudyArgs, StudyFiles};
-use crate::cli::transfer::picture::ValuesArgs;
-use crate::cli::view;
-use crate::study::prt::{AllFrequencyRendering, RenderedGround, TurnedFrames};
+use crate::study::prt::{AllFrequencyRendering, RenderedGround};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,19 +24,10 @@ pub(super) struct Args {
     #[command(flatten)]
     lit: LitArgs,
 
-    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not
+    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not, beside its model
+    /// (`ground.obj`)
     #[arg(long, value_name = "G.npz")]
     ground: Option<PathBuf>,
-
-    /// Its model [default: G.obj]
-    #[arg(long, value_name = "MODEL", requires = "ground")]
-    ground_model: Option<PathBuf>,
-
-    #[command(flatten)]
-    frames: TurnedFrames,
-
-    #[command(flatten)]
-    values: ValuesArgs,
 
     /// Where to write pictures and the page
     #[arg(long, value_name = "DIR", default_value = "out/all-frequency")]
@@ -51,26 +39,17 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn files(&self) -> StudyFiles<'_> {
-        let ground = [&self.ground, &self.ground_model].into_iter().flatten().map(PathBuf::as_path);
-        StudyFiles::new(Some(&self.out), None, self.lit.inputs().into_iter().chain(ground).collect())
-    }
-
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.lit.picture.memory(self.frames)))
+        StudyFiles::new(Some(&self.out), None, self.lit.inputs().into_iter().chain(self.ground.as_deref()).collect())
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
         let lit = self.lit.load()?;
         let ground = self.ground.as_ref().map(|path| {
-            let beside = path.with_extension("obj");
-            view::require_file(path, 3, "name a smaller file")?;
-            let FileOfModel { file, model, vertices, .. } =
-                FileOfModel::load(path, self.ground_model.as_ref().unwrap_or(&beside))?;
+            let FileOfModel { file, model, vertices, .. } = FileOfModel::load(path, &path.with_extension("obj"))?;
             let colors = model.materials.iter().map(color).collect();
             Ok::<_, miette::Report>(RenderedGround { mesh: model.mesh, vertices, colors, file })
         });
         let ground = ground.transpose()?;
-        let values = self.values.of(&self.lit.picture.model, &lit.vertices);
-        Ok(AllFrequencyRendering { lit, ground, frames: self.frames, values })
+        Ok(AllFrequencyRendering { lit, ground })
     }
 }

@@ -4,13 +4,10 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::file::FileOfModel;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedSegment;
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
-use crate::cli::transfer::vertex_choice::VertexChoice;
-use crate::cli::transfer::vertex_names::VertexNames;
-use crate::cli::view;
+use crate::cli::transfer::model::chosen_vertex;
 use crate::cli::words::{counted, measured};
 use crate::report::{Cell, Findings, Table};
 
@@ -19,11 +16,11 @@ Examples:
   crossbar all-frequency show docs/examples/step_all_small.npz
       what is coded, in how many bytes
   crossbar all-frequency show docs/examples/step_all_small.npz --vertex 12
-      and of one vertex: its cluster and weights in each segment
-  crossbar all-frequency show docs/examples/step_all.npz --at 0.5,0,0 --model docs/examples/step.obj --json
-      the vertex nearest to a place of its model, for machines
+      of one vertex: its cluster and weights in each segment
+  crossbar all-frequency show docs/examples/step_all.npz --vertex 12 --json
+      what the vertex sees, for machines
 
-`crossbar all-frequency render --values csv` writes the radiance of all vertices under a light.";
+The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
 /// Show what a .npz file holds: visibility, coded segments, the code of a vertex
 #[derive(Debug, clap::Args)]
@@ -33,29 +30,20 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
-    #[command(flatten)]
-    vertex: VertexChoice,
+    /// A vertex, counted from 0
+    #[arg(long, value_name = "N")]
+    vertex: Option<u32>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    view::require_file(&args.file, 3, "name a smaller file")?;
-    let (file, of_model) = match args.vertex.model() {
-        Some(model) => {
-            let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.file, model)?;
-            (file, Some(vertices))
-        }
-        None => (load_all_frequency(&args.file, None)?, None),
-    };
-    let file = &file;
-    let vertex = args.vertex.chosen("all-frequency", file.mesh.vertices as usize, of_model.as_ref())?;
-    let names = args.vertex.names(of_model.as_ref());
+    let file = &load_all_frequency(&args.file, None)?;
+    let vertex = chosen_vertex("all-frequency", args.vertex, file.mesh.vertices as usize)?;
     let mut found = Findings::new("All-frequency transfer");
     found.fields(header(file));
-    let document = vertex.map(|vertex| vertex_document(file, vertex, names.as_ref()));
-    found.fields(json!({ "vertex": document }));
+    found.field("vertex", json!(vertex.map(|vertex| vertex_document(file, vertex))));
     match vertex {
         None => all(file, &mut found),
-        Some(vertex) => one(file, vertex, names.as_ref(), &mut found),
+        Some(vertex) => one(file, vertex, &mut found),
     }
     Ok(found)
 }
@@ -139,18 +127,14 @@ fn visible(file: &AllFrequencyFile, vertex: usize) -> Option<u32> {
     Some(maps.bits(vertex).iter().map(|word| word.count_ones()).sum())
 }
 
-fn vertex_document(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>) -> Value {
+fn vertex_document(file: &AllFrequencyFile, vertex: usize) -> Value {
     let segment = |part: CodedVertex| json!({ "segment": part.segment, "cluster": part.cluster, "weights": part.weights, "norm": part.norm });
     let coded = coded_vertex(file, vertex).map(|parts| parts.into_iter().map(segment).collect::<Vec<_>>());
-    let of_model = names.map(|names| names.document(vertex));
-    json!({ "number": vertex, "of_model": of_model, "directions_visible": visible(file, vertex), "segments": coded })
+    json!({ "number": vertex, "directions_visible": visible(file, vertex), "segments": coded })
 }
 
-fn one(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>, found: &mut Findings) {
+fn one(file: &AllFrequencyFile, vertex: usize, found: &mut Findings) {
     found.introduce(format!("vertex    {vertex}"));
-    if let Some(names) = names {
-        found.introduce(format!("is        {}", names.phrase(vertex)));
-    }
     if let Some(visible) = visible(file, vertex) {
         found.introduce(format!("sees      {} of 98,304 directions", counted(visible as usize)));
     }

@@ -1,6 +1,5 @@
 //! `crossbar alu`: one operation of a number format on bit patterns.
 
-mod digest;
 mod line;
 mod operation;
 mod row;
@@ -23,8 +22,6 @@ Examples:
       five times five saturates: prints 7FFF 05
   testfloat_gen f32_mulAdd | crossbar alu mulAdd --format fp32 --verify --flags
       Berkeley TestFloat's own vectors against this arithmetic
-  crossbar alu mul --format s3.4 --exhaustive
-      one digest over the products of all 65536 pairs
   echo 3F800000 42C00000 | crossbar alu quantize --format fp32 --block mxfp4
       1 and 96 with a shared scale: prints 83 0 7, which are 2^4, 0 and 6
   echo 6800 3C00 3C00 3C00 3C00 3C00 | crossbar alu dot --format fp16 --accumulator fp32
@@ -39,14 +36,9 @@ without infinity, as e4m3fn and e2m1fn), e8m0 (powers of two), or ps14 fx12 fp16
 :rne :rna :rtz :rdn :rup :rod :rst, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv.
 
 Stochastic rounding (:rst) takes the word of the line, counted from 0: the upper half of that output of SplitMix64 from the \
-state --seed. With --exhaustive it is that of the pair, counted in the digest's order.
+state --seed.";
 
-The digest: for each first operand a in rising order h = 0xcbf29ce484222325, then for each second operand b in rising \
-order h = (h xor result) * 0x100000001b3 mod 2^64; the h of all a are folded into the total by the same rule. An \
-operation of one operand makes one row: h over the results of all operands in rising order, and the total is that one h \
-folded.";
-
-/// Apply an operation to bit patterns from standard input, or check given results, or digest all of them
+/// Apply an operation to bit patterns from standard input, or check given results
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
@@ -81,31 +73,13 @@ pub(super) struct Args {
     #[arg(long)]
     verify: bool,
 
-    /// Apply the operation to all operands, for formats of at most 16 bits, and print a digest of the results
-    #[arg(long, conflicts_with_all = ["verify", "flags"])]
-    exhaustive: bool,
-
     /// Write the exception flags behind each result, or compare them
     #[arg(long)]
     flags: bool,
 
-    /// When a result counts as tiny, which decides the underflow flag
-    #[arg(long, default_value = "after", requires = "flags", value_parser = tininess())]
-    tininess: Tininess,
-
     /// The seed of stochastic rounding, `:rst` [default: 0]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-
-    /// Let roundToInt raise inexact where it changes the value
-    #[arg(long, requires = "flags")]
-    exact: bool,
-}
-
-/// The detection of tininess, for `--tininess`.
-fn tininess() -> OneOf<Tininess> {
-    let after = ("after", "After rounding, as testfloat_gen has it by default", Tininess::After);
-    one_of([("before", "Before rounding", Tininess::Before), after])
 }
 
 /// The orders of a sum, for `--summation`.
@@ -129,10 +103,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         return Ok(Verdict::Done);
     }
     let unit = unit(args)?;
-    if args.exhaustive {
-        digest::run(&unit, out)?;
-        return Ok(Verdict::Done);
-    }
     let input = io::stdin().lock();
     if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
 }
@@ -144,9 +114,6 @@ fn by_chance(format: &Format) -> bool {
 
 /// Refuses options that do not go with the operation or the formats.
 fn refuse_others(args: &Args) -> Result<(), Problem> {
-    if args.exact && args.op != AluOperation::RoundToInt {
-        return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
-    }
     let needs_seed = by_chance(&args.format) || args.to.as_ref().is_some_and(by_chance);
     let seed = [("--seed", args.seed.is_some() && !needs_seed)];
     given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")
@@ -184,9 +151,9 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
             return Ok(None);
         }
     };
-    if args.verify || args.exhaustive || args.to.is_some() {
+    if args.verify || args.to.is_some() {
         return Err(Problem::usage(
-            "operations on lines of many numbers take neither `--verify` nor `--exhaustive` nor `--to`",
+            "operations on lines of many numbers take neither `--verify` nor `--to`",
             "leave the option out; `--format` is the format of the plain numbers",
         ));
     }
@@ -197,7 +164,7 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
             "take another rounding, or round each number on a line of its own",
         ));
     }
-    Ok(Some(RowUnit { operation, env: args.format.tininess(args.tininess) }))
+    Ok(Some(RowUnit { operation, env: args.format.tininess(Tininess::After) }))
 }
 
 /// The unit that the options make, once they go together.
@@ -220,5 +187,5 @@ fn unit(args: &Args) -> Result<Unit, Problem> {
         }
     };
     let seed = args.seed.unwrap_or_default();
-    Ok(Unit { op: args.op, env: args.format.tininess(args.tininess), to, exact: args.exact, seed })
+    Ok(Unit { op: args.op, env: args.format.tininess(Tininess::After), to, seed })
 }

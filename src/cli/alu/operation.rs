@@ -77,8 +77,6 @@ pub(super) struct Unit {
     pub(super) env: Env,
     /// The format of the result (that of the operands, but for `convert`).
     pub(super) to: Format,
-    /// True if `roundToInt` raises inexact.
-    pub(super) exact: bool,
     /// The seed of stochastic rounding.
     pub(super) seed: u64,
 }
@@ -112,7 +110,6 @@ impl Unit {
             AluOperation::Table(operation) => {
                 operation.evaluate(env, operands).expect("the table defines what the command names")
             }
-            AluOperation::RoundToInt if self.exact => ops::round_to_int_exact(env, a),
             AluOperation::RoundToInt => ops::round_to_int(env, a),
             AluOperation::Dot | AluOperation::Quantize | AluOperation::Dequantize => {
                 unreachable!("`super::row` has the operations on lines of many numbers")

@@ -13,22 +13,16 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
 use crate::cli::{Problem, ProgressBar};
 use crate::error::InputError;
-use crate::io::write_file;
-use crate::options::number;
 use crate::report::{Cell, Findings, Table};
 
 const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
-  crossbar bi-scale bicluster docs/examples/quarters.mtx --seed 7 --out biclusters.npz
-      other start points; what is written is for `crossbar bi-scale multiply`
-  crossbar bi-scale bicluster docs/examples/quarters.mtx --seeds 8
-      the cheapest of eight: seeds differ by up to a fifth
-  crossbar bi-scale bicluster docs/examples/quarters.mtx --csv biclusters.csv --json
-      every bicluster as a line; figures for machines
-  crossbar bi-scale bicluster docs/examples/quarters.mtx --drop 0.25
-      with loss: what is off by a quarter stays so
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --out biclusters.npz
+      what is written is for `crossbar bi-scale multiply`
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --json
+      figures for machines
 
 The sum of the biclusters equals the matrix bit for bit where its values are multiples of a power of two that 32 bits \
 hold; of other values residuals are rounded to double precision. Products in single precision, on host and cards, round \
@@ -42,22 +36,6 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    /// Draws the elements that biclusters start at
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-
-    /// Try so many seeds, from --seed on, and keep the biclusters of the fewest operations
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    seeds: u32,
-
-    /// Leave out residuals of at most this size: what is left of the matrix is off by no more, place by place
-    #[arg(long, value_name = "ERROR", default_value_t = 0.0, value_parser = number::not_negative)]
-    drop: f64,
-
-    /// Write the biclusters as a table: cost, rows, columns and values of each
-    #[arg(long, value_name = "B.csv")]
-    csv: Option<PathBuf>,
-
     /// Write the biclusters to a .npz file
     #[arg(long, value_name = "X.npz")]
     out: Option<PathBuf>,
@@ -70,81 +48,40 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         Problem::usage(what, "name the file that they were made from")
     })?;
     let start = Instant::now();
-    let (seed, biclusters) = args.best(&matrix).map_err(|error| refused(&args.file, &error))?;
+    let biclusters = made(&matrix).map_err(|error| refused(&args.file, &error))?;
     let seconds = start.elapsed().as_secs_f64();
     let residual = biclusters.residual(&matrix);
-    let summary = Summary { matrix: &matrix, biclusters: &biclusters, seed, residual, seconds };
-    if let Some(path) = &args.csv {
-        dump(&biclusters, path)?;
-    }
+    let summary = Summary { matrix: &matrix, biclusters: &biclusters, residual, seconds };
     let mut found = summary.findings();
     if let Some(path) = &args.out {
         let file = BiScaleFile { meaning, matrix: None, biclusters: Some(biclusters) };
         save_bi_scale(&file, path).map_err(Problem::from)?;
     }
-    written(&mut found, [("csv", args.csv.as_deref()), ("out", args.out.as_deref())]);
+    written(&mut found, [("out", args.out.as_deref())]);
     Ok(found)
 }
 
-impl Args {
-    /// The biclusters of the fewest operations, of equals those of the lowest seed, with their seed.
-    fn best(&self, matrix: &SparseMatrix) -> Result<(u64, Biclustering), InputError> {
-        let total = matrix.nonzeros() as u64;
-        let bar = ProgressBar::new("non-zeros", total).quicker("fewer `--seeds`");
-        let of_seed = |seed: u64| {
-            let options = BiclusterOptions { seed, drop: self.drop, ..BiclusterOptions::default() };
-            let mut number = 0_u64;
-            let mut found = |left: u64| {
-                number += 1;
-                if number.is_multiple_of(64) {
-                    bar.show(format!("non-zeros, seed {seed}"), total.saturating_sub(left), total);
-                }
-            };
-            bicluster(matrix, options, &mut found)
-        };
-        let mut best = (self.seed, of_seed(self.seed)?);
-        for seed in (1..u64::from(self.seeds)).map(|more| self.seed.wrapping_add(more)) {
-            let biclusters = of_seed(seed)?;
-            if biclusters.cost() < best.1.cost() {
-                best = (seed, biclusters);
-            }
+/// The biclusters of a matrix, with progress on its entries.
+fn made(matrix: &SparseMatrix) -> Result<Biclustering, InputError> {
+    let total = matrix.nonzeros() as u64;
+    let bar = ProgressBar::new("non-zeros", total);
+    let mut number = 0_u64;
+    let mut found = |left: u64| {
+        number += 1;
+        if number.is_multiple_of(64) {
+            bar.show("non-zeros".to_owned(), total.saturating_sub(left), total);
         }
-        Ok(best)
-    }
+    };
+    bicluster(matrix, BiclusterOptions::default(), &mut found)
 }
 
 fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
     Problem::usage(format!("{}: {error}", path.display()), "name a smaller matrix")
 }
 
-/// Decimal digits that read back to the same number.
-fn digits(value: f64) -> String {
-    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
-}
-
-/// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces.
-fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
-    let join = |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<String>>().join(" ");
-    write_file(path, |out| {
-        writeln!(out, "bicluster,cost,rows,columns,values")?;
-        for number in 0..biclusters.len() {
-            let (rows, columns) = (biclusters.rows_of(number), biclusters.columns_of(number));
-            let cost = rows.len() + 2 * columns.len() - 1;
-            let rows = join(&mut rows.iter().map(u32::to_string));
-            let places = join(&mut columns.iter().map(|entry| entry.index.to_string()));
-            let values = join(&mut columns.iter().map(|entry| digits(biclusters.value(entry.value))));
-            writeln!(out, "{number},{cost},{rows},{places},{values}")?;
-        }
-        Ok(())
-    })
-    .map_err(Problem::from)
-}
-
 struct Summary<'a> {
     matrix: &'a SparseMatrix,
     biclusters: &'a Biclustering,
-    /// The seed that they are of.
-    seed: u64,
     residual: BiclusterResidual,
     seconds: f64,
 }
@@ -198,7 +135,7 @@ impl Summary<'_> {
             "unit_bits": self.matrix.values().fraction_bits(), "distinct_values": self.matrix.values().table_len(),
             "rounded_in_singles": singles, "beyond_singles": beyond_singles,
             "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
-            "seed": self.seed, "seconds": self.seconds,
+            "seconds": self.seconds,
         }));
         found
     }
@@ -229,7 +166,6 @@ impl Summary<'_> {
         if self.residual.count > 0 {
             table.push(["largest difference".into(), Cell::measured(self.residual.largest)]);
         }
-        table.push(["seed".into(), self.seed.into()]);
         table.push(["seconds".into(), Cell::measured(self.seconds)]);
         table
     }

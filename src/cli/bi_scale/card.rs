@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use refsim::texture::TexelFormat;
-
 use super::texture_args::TextureArgs;
 use super::textures::TransferOfModel;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, corner_coordinates};
 use crate::cli::Problem;
-use crate::cli::memory::MemoryNeed;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::on_card::OnCardArgs;
@@ -22,8 +19,7 @@ Examples:
   crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --sweep --size 64x48
       light, local light, textures and targets made coarse one after the other: what shows
 
-Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv, with --values the radiance of \
-vertices as the host computes it from the numbers that the card draws. \
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/bi_scale.md explains all of it.";
 
 /// Draw a model under distant light on an emulated card, from biclusters and bidirectional textures
@@ -36,10 +32,6 @@ pub(super) struct Args {
 
     #[command(flatten)]
     textures: TextureArgs,
-
-    /// Format of the volumes that hold textures: rgba8, of the largest sample, rgba16f or rgba32f
-    #[arg(long, value_name = "F", default_value = "rgba8")]
-    texture_format: TexelFormat,
 
     #[command(flatten)]
     light: LightArgs,
@@ -63,10 +55,6 @@ impl StudyArgs for Args {
         StudyFiles::new(Some(&self.out), None, self.textures.inputs(&self.file, &self.picture, &self.light))
     }
 
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.textures.memory(self.picture.memory_on_card())))
-    }
-
     fn study(&self) -> miette::Result<BiScaleOnCard> {
         let (textures, name) = (&self.textures, &self.picture.model);
         let (TransferOfModel { file, model, vertices, light: directions }, texture_of) =
@@ -79,8 +67,7 @@ impl StudyArgs for Args {
         let coordinates = corner_coordinates(&model.mesh, [repeat; 2]).map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;
-        let mut card = self.card.setting("gt200")?;
-        card.values = self.card.values.of(name, &vertices);
+        let card = self.card.setting("gt200")?;
         Ok(BiScaleOnCard {
             view: self.picture.view(&model.mesh, self.light.name())?,
             vertices,
@@ -91,7 +78,7 @@ impl StudyArgs for Args {
             light: self.light.distant()?,
             card,
             light_format: LightFormat::default(),
-            options: DisplayOptions { texture: self.texture_format, ..DisplayOptions::default() },
+            options: DisplayOptions::default(),
         })
     }
 }

@@ -5,25 +5,17 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::file::{cube_of, load, vertices_of};
-use super::vertex_errors::VertexErrors;
 use crate::bi_scale::baselines::columns_error;
-use crate::bi_scale::baselines::{
-    CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer,
-};
+use crate::bi_scale::baselines::{HaarRowOptions, LocalTransfer, RowClusterOptions};
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::BiScaleFile;
-use crate::bi_scale::product::by_rows;
 use crate::bi_scale::transfer::light_vectors;
-use crate::cli::study::written;
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
-use crate::cli::{Problem, ProgressBar, memory};
-use crate::options::one_of::variants;
+use crate::cli::{Problem, ProgressBar};
 use crate::report::Findings;
 use crate::study::prt::{StoredComparison, StoredWay, stored_ways_table};
-use crate::transfer::clustering::CpcaForm;
 use crate::transfer::grid::LIGHT_TEXELS;
 
 const EXAMPLES: &str = "\
@@ -32,8 +24,6 @@ Examples:
       bytes and errors of compressed rows, clusters of rows, wavelets and harmonics beside biclusters
   crossbar bi-scale compare docs/examples/step_biclusters.npz --model docs/examples/step.obj --light disk:1,0,2:5 --clusters 4 --sample 300 --json
       what is rotated into frames of vertices too; figures for machines
-  crossbar bi-scale compare docs/examples/step_biclusters.npz --model docs/examples/step.obj --clusters 4 --sample 300 --csv errors.csv
-      and a line per way and vertex: its squared error, its number in the model's file, its place
 
 Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
 docs/papers/bi_scale.md says how each way is made.";
@@ -49,8 +39,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    /// The model that the file was made from: compares also harmonics on both sides, and reshuffled visibility; tables
-    /// name its vertices
+    /// The model that the file was made from: compares also harmonics on both sides, and reshuffled visibility
     #[arg(long, value_name = "MODEL")]
     model: Option<PathBuf>,
 
@@ -65,29 +54,13 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=6144))]
     vectors: u32,
 
-    /// Clusters without means: vectors alone
-    #[arg(long)]
-    linear: bool,
-
     /// Rows that the first clusters are found from
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     sample: u32,
 
-    /// Draws the sample and the first representatives, and the elements that biclusters start at
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-
     /// Wavelet coefficients of a row
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=6144))]
     wavelets: u32,
-
-    /// By what they are chosen
-    #[arg(long, value_name = "BY", default_value = "area", value_parser = variants::<CoefficientPriority>())]
-    priority: CoefficientPriority,
-
-    /// Write the squared error of each vertex under each way to this table
-    #[arg(long, value_name = "E.csv")]
-    csv: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
@@ -108,25 +81,14 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     if matrix.columns() != LIGHT_TEXELS {
         return Err(refused(&columns_error(matrix.columns())).into());
     }
-    // A sample in f32, and of its largest cluster, which may be all of it, two copies and their products in f64.
-    let sample = u64::from(args.sample).min(matrix.rows() as u64);
-    let bytes = sample * (20 * matrix.columns() as u64 + 8 * sample) + 40 * matrix.nonzeros() as u64;
-    let what = format_args!("comparing with clusters of {} rows", matrix.rows());
-    memory::require(what, bytes, "ask for a smaller `--sample`, or name a smaller matrix")?;
     let bar = ProgressBar::new("biclusters", 1);
     let biclusters = match biclusters {
         Some(biclusters) => biclusters,
-        None => {
-            let options = BiclusterOptions { seed: args.seed, ..BiclusterOptions::default() };
-            bicluster(&matrix, options, &mut |_| ()).map_err(|error| refused(&error))?
-        }
+        None => bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| refused(&error))?,
     };
     let cube = cube_of(&args.light, "compare")?;
     let channels = light_vectors(&cube);
     let side = meaning.map_or(1, |meaning| meaning.side as usize);
-    let local = side * side;
-    let exact = channels.each_ref().map(|channel| by_rows(&matrix, channel));
-    let mut of_vertices = VertexErrors::new(local, &exact);
     let directions = LocalDirections::new(side).map_err(|error| refused(&error))?;
     let transfer = vertices.as_ref().map(|vertices| LocalTransfer::new(&matrix, vertices.frames(), &directions));
     let comparison = StoredComparison {
@@ -138,23 +100,13 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         order: HARMONICS_ORDER,
     };
     let mut show = |what: &str, done: u64, of: u64| bar.show(what.to_owned(), done, of);
-    let mut visit = |way: &str, stored: &dyn StoredTransfer| {
-        of_vertices.push(way, &channels.each_ref().map(|channel| stored.multiply(channel)), &exact);
-    };
-    let ways = comparison.ways(&[channels.to_vec()], &mut show, &mut visit).map_err(|error| refused(&error))?;
+    let ways = comparison.ways(&[channels.to_vec()], &mut show, &mut |_, _| ()).map_err(|error| refused(&error))?;
     drop(bar);
-    let names = args.model.as_ref().zip(vertices.as_ref());
-    let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
-    let noun = if meaning.is_some() { "vertex" } else { "row" };
-    if let Some(path) = &args.csv {
-        of_vertices.write(path, noun, names.as_ref())?;
-    }
     let mut found = Findings::new("Ways to store transfer");
     found.table(stored_ways_table("Ways to store transfer", &ways, &["light"]));
-    found.table(of_vertices.table(noun, names.as_ref()));
     found.fields(json!({
         "rows": matrix.rows(), "columns": matrix.columns(), "nonzeros": matrix.nonzeros(), "flux": cube.flux(),
-        "ways": ways.iter().zip(of_vertices.largest(noun, names.as_ref())).map(document).collect::<Vec<Value>>(),
+        "ways": ways.iter().map(document).collect::<Vec<Value>>(),
     }));
     found.introduce(format!(
         "{} x {}, {} values other than 0, under {}",
@@ -163,7 +115,6 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         counted(matrix.nonzeros()),
         args.light.name()
     ));
-    written(&mut found, [("csv", args.csv.as_deref())]);
     Ok(found)
 }
 
@@ -172,25 +123,23 @@ impl Args {
         RowClusterOptions {
             clusters: self.clusters as usize,
             vectors: self.vectors as usize,
-            form: if self.linear { CpcaForm::Linear } else { CpcaForm::Affine },
             sample: self.sample as usize,
-            seed: self.seed,
             ..RowClusterOptions::default()
         }
     }
 
     fn wavelets(&self) -> HaarRowOptions {
-        HaarRowOptions { keep: self.wavelets as usize, priority: self.priority, storage: CoefficientStorage::default() }
+        HaarRowOptions { keep: self.wavelets as usize, ..HaarRowOptions::default() }
     }
 }
 
-fn document((way, most): (&StoredWay, Value)) -> Value {
+fn document(way: &StoredWay) -> Value {
     let bytes: Vec<Value> =
         way.sizes.iter().map(|size| json!({ "layout": size.layout, "bytes": size.bytes })).collect();
     let error = way.errors.first();
     json!({
         "way": way.name, "bytes": bytes, "rms": error.map(|error| error.root_mean_square),
         "largest": error.map(|error| error.largest), "relative": error.map(|error| error.relative),
-        "seconds": way.seconds, "most": most,
+        "seconds": way.seconds,
     })
 }

@@ -9,11 +9,11 @@ use serde_json::{Value, json};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, load_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::cli::Problem;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::model::{load as load_model, vertices};
 use crate::cli::words::counted;
-use crate::cli::{MemoryError, Problem, memory, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::options::number;
 use crate::report::{Cell, Table};
@@ -60,13 +60,9 @@ fn is_text(path: &Path) -> bool {
 
 /// A Matrix Market file, or a `.npz` file of bi-scale transfer, by the ending of its name.
 pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
-    let is_text = is_text(path);
-    // Per byte of a file 1.3 bytes of entries, which are sorted into rows, twice as much.
-    view::require_file(path, if is_text { 4 } else { 6 }, "name a smaller matrix")?;
-    if !is_text {
+    if !is_text(path) {
         let file = load_bi_scale(path)?;
-        let size = file.biclusters.as_ref().map_or([0; 2], Biclustering::matrix_size);
-        require_size(path, size)?;
+        require_size(path, file.biclusters.as_ref().map_or([0; 2], Biclustering::matrix_size))?;
         return Ok(file);
     }
     let coordinates = load_matrix_market(path)?;
@@ -75,13 +71,15 @@ pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
         .map_err(|reason| Problem::usage(format!("{}: {reason}", path.display()), "name another matrix"))?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
 }
-
-/// Refuses a matrix of more rows and columns than there is memory for, however few of them have entries.
-fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), MemoryError> {
-    // Where a row begins, its sum, and those of its residuals.
-    const PER_LINE: u64 = 32;
-    let what = format_args!("a matrix of {rows} x {columns} (`{}`)", path.display()).to_string();
-    memory::require(what, PER_LINE.saturating_mul(rows as u64 + columns as u64), "name a smaller matrix")
+/// Refuses a matrix that claims more rows and columns than any model has, however few of them have entries.
+fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem> {
+    /// A row or a column takes some 32 bytes.
+    const MOST: usize = 1 << 28;
+    if rows.saturating_add(columns) <= MOST {
+        return Ok(());
+    }
+    let what = format!("{}: expected at most {MOST} rows and columns, found {rows} x {columns}", path.display());
+    Err(Problem::usage(what, "name a smaller matrix"))
 }
 
 /// The light of a verb.

@@ -12,7 +12,6 @@ mod show;
 mod texture;
 mod texture_args;
 mod textures;
-mod vertex_errors;
 
 use super::{CommandLine, Out, Verdict, study};
 

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::file::{cube_of, load, vertices_of};
+use super::file::{cube_of, load};
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::study::written;
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::io::write_file;
 use crate::report::{Cell, Findings, Table};
@@ -42,23 +41,15 @@ pub(super) struct Args {
     /// Write red, green and blue of every row to this table
     #[arg(long, value_name = "Y.csv")]
     csv: Option<PathBuf>,
-
-    /// The model that the transfer was made from: the table of --csv names its vertices, too
-    #[arg(long, value_name = "MODEL", requires = "csv")]
-    model: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
     let cube = cube_of(&args.light, "multiply")?;
-    let vertices = |model| vertices_of(model, &args.file, file.meaning.as_ref());
-    let of_model = args.model.as_deref().map(vertices).transpose()?;
     let product = multiply(&args.file, &file, &cube)?;
     if let Some(path) = &args.csv {
         let local = file.meaning.map(|meaning| meaning.side.pow(2) as usize);
-        let names = args.model.as_ref().zip(of_model.as_ref());
-        let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
-        write_values(&product.rows, local, names.as_ref(), path)?;
+        write_values(&product.rows, local, path)?;
     }
     let sums = [0, 1, 2].map(|channel| product.rows.iter().map(|row| row[channel]).sum::<f64>());
     let mut table = Table::new("Light that arrives", &["figure", "red", "green", "blue"]);
@@ -91,23 +82,13 @@ fn multiply(path: &Path, file: &BiScaleFile, light: &CubeLight) -> Result<LocalL
     Ok(product)
 }
 
-/// A line per row; with the vertex and its local direction where these are known, and the vertex's name in the model.
-fn write_values(
-    local: &[[f64; 3]],
-    directions: Option<usize>,
-    names: Option<&VertexNames<'_>>,
-    path: &Path,
-) -> Result<(), Problem> {
+/// A line per row; with the vertex and its local direction where these are known.
+fn write_values(local: &[[f64; 3]], directions: Option<usize>, path: &Path) -> Result<(), Problem> {
     write_file(path, |out| {
-        let columns = names.map_or_else(String::new, |_| format!(",{}", VertexNames::COLUMNS));
-        writeln!(out, "{},r,g,b{columns}", if directions.is_some() { "vertex,direction" } else { "row" })?;
+        writeln!(out, "{},r,g,b", if directions.is_some() { "vertex,direction" } else { "row" })?;
         for (row, [r, g, b]) in local.iter().enumerate() {
             match directions {
-                Some(count) => {
-                    let (vertex, direction) = (row / count, row % count);
-                    let name = names.map_or_else(String::new, |names| format!(",{}", names.fields(vertex)));
-                    writeln!(out, "{vertex},{direction},{r},{g},{b}{name}")?;
-                }
+                Some(count) => writeln!(out, "{},{},{r},{g},{b}", row / count, row % count)?,
                 None => writeln!(out, "{row},{r},{g},{b}")?,
             }
         }

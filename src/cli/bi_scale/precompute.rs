@@ -14,9 +14,8 @@ use crate::cli::study::written;
 use crate::cli::transfer::model::{note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{CommandLine, Problem, ProgressBar, memory};
+use crate::cli::{CommandLine, Problem, ProgressBar};
 use crate::geom::Sides;
-use crate::options::one_of::{OneOf, one_of, variants};
 use crate::report::Findings;
 use crate::split::Computed;
 use crate::tracer::HostTracer;
@@ -24,11 +23,8 @@ use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 
-/// The logarithm of the samples along an edge of a light texel, for `--samples`.
-fn log2_samples() -> OneOf<u32> {
-    let four = ("4", "2 x 2: five values of visibility", 1);
-    one_of([("1", "Its center", 0), four, ("16", "4 x 4: 17 values", 2)])
-}
+/// The logarithm of the samples along an edge of a light texel: 2 x 2, for five values of visibility.
+const LOG2_SAMPLES: u32 = 1;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -48,14 +44,6 @@ pub(super) struct Args {
     /// Local directions along an edge of the square that is mapped to the hemisphere
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
     directions: u8,
-
-    /// Horizon of a vertex
-    #[arg(long, value_name = "WHAT", default_value = "geometry", value_parser = variants::<Horizon>())]
-    horizon: Horizon,
-
-    /// Directions in a light texel in which visibility is looked for
-    #[arg(long, value_name = "N", default_value = "4", value_parser = log2_samples())]
-    samples: u32,
 
     /// Take normals anew from the triangles, smooth over edges up to this angle in degrees; `crossbar bi-scale render`
     /// needs the same [default: the model's own normals]
@@ -79,24 +67,14 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-impl Args {
-    fn sampling(&self) -> VisibilitySampling {
-        VisibilitySampling { log2_samples: self.samples, horizon: self.horizon }
-    }
-}
-
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
     let model = load_creased(&args.model, tangents, args.crease)?;
     let vertices = vertices(&model, tangents)?;
-    let sampling = args.sampling();
-    // Entries of rows, at most one per texel of a hemisphere and some below it; the maps; what is written.
-    let bytes = (8 * LIGHT_TEXELS / 2 + sampling.directions().directions().len() / 8 + 400) as u64;
-    let what = format_args!("transfer of {} vertices, about {bytes} bytes each", vertices.len());
-    memory::require(what, bytes * args.part.share(vertices.len() as u64), "name a model of fewer vertices")?;
-    let bar = ProgressBar::new("visibility", 1).quicker("fewer `--samples` or `--directions`");
+    let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon: Horizon::Geometry };
+    let bar = ProgressBar::new("visibility", 1).quicker("fewer `--directions`");
     let maps = args.part.split(command_line, path)?.compute("vertices", vertices.len(), |range| {
         let range: Vec<u32> = range.map(|vertex| vertex as u32).collect();
         let mut caster = HostTracer::new(&model.mesh, Sides::Both);

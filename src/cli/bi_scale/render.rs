@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use super::texture_args::TextureArgs;
 use super::textures::TransferOfModel;
 use crate::cli::Problem;
-use crate::cli::memory::MemoryNeed;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::transfer::picture::{PictureArgs, ValuesArgs};
-use crate::study::prt::{BiScaleRendering, TexturedSurface, TurnedFrames};
+use crate::cli::transfer::picture::PictureArgs;
+use crate::study::prt::{BiScaleRendering, TexturedSurface};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,12 +39,6 @@ pub(super) struct Args {
     light: LightArgs,
 
     #[command(flatten)]
-    frames: TurnedFrames,
-
-    #[command(flatten)]
-    values: ValuesArgs,
-
-    #[command(flatten)]
     picture: PictureArgs,
 
     /// Where to write pictures and the page
@@ -61,14 +54,9 @@ impl StudyArgs for Args {
         StudyFiles::new(Some(&self.out), None, self.textures.inputs(&self.file, &self.picture, &self.light))
     }
 
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.textures.memory(self.picture.memory(self.frames))))
-    }
-
     fn study(&self) -> miette::Result<BiScaleRendering> {
         let (textures, name) = (&self.textures, &self.picture.model);
         let (TransferOfModel { file, model, vertices, light }, texture_of) = textures.transfer(&self.file, name)?;
-        let values = self.values.of(name, &vertices);
         let surface = TexturedSurface::new(model.mesh.clone(), vertices, texture_of, textures.patches.repeat());
         let surface = surface.map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
@@ -79,9 +67,7 @@ impl StudyArgs for Args {
             surface,
             file,
             light: self.light.distant()?,
-            frames: self.frames,
             reference: self.reference,
-            values,
         })
     }
 }

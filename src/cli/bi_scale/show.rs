@@ -5,15 +5,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::file::{histogram, load, value_counts, values_document, vertices_of, write_matrix};
+use super::file::{histogram, load, value_counts, values_document, write_matrix};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::values::EntryValues;
 use crate::cli::Problem;
 use crate::cli::study::written;
-use crate::cli::transfer::vertex_choice::VertexChoice;
-use crate::cli::transfer::vertex_names::VertexNames;
+use crate::cli::transfer::model::chosen_vertex;
 use crate::cli::words::counted;
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::grid::{LIGHT_SIDE, face_row_column};
@@ -29,19 +28,19 @@ Examples:
   crossbar bi-scale show docs/examples/step_biclusters.npz --matrix step.mtx
       the matrix that the biclusters sum to
 
-`crossbar bi-scale multiply --csv` writes the light that reaches all local directions, `render --values csv` the \
-radiance of all vertices with their textures.";
+`crossbar bi-scale multiply --csv` writes the light that reaches all local directions.";
 
 /// Show what a matrix or a .npz file of biclusters holds: values, sizes of biclusters, rows of a vertex
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true, mut_arg("vertex", |a| a.help("A vertex, or a row of a matrix of something else, counted from 0")))]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A Matrix Market file (.mtx), or what `crossbar bi-scale precompute` or `bicluster` wrote
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    #[command(flatten)]
-    vertex: VertexChoice,
+    /// A vertex, or a row of a matrix of something else, counted from 0
+    #[arg(long, value_name = "N")]
+    vertex: Option<u32>,
 
     /// Write the matrix, or the sum of the biclusters, which is the same, to this Matrix Market file
     #[arg(long, value_name = "X.mtx")]
@@ -52,22 +51,15 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
     let rows = rows(&file);
     let local = file.meaning.map_or(1, |meaning| meaning.side.pow(2) as usize);
-    let vertices = |model| vertices_of(model, &args.file, file.meaning.as_ref());
-    let of_model = args.vertex.model().map(vertices).transpose()?;
-    let vertex = args.vertex.chosen("bi-scale", rows / local, of_model.as_ref())?;
-    let names = args.vertex.names(of_model.as_ref());
+    let vertex = chosen_vertex("bi-scale", args.vertex, rows / local)?;
     if let Some(path) = &args.matrix {
         write_text(&file, &args.file, path)?;
     }
     let mut found = Findings::new("Bi-scale transfer");
     found.fields(document(&file, rows, local));
-    let mut of_vertex = json!(vertex.map(|vertex| vertex_document(&file, vertex, local)));
-    if let (Some(vertex), Some(names)) = (vertex, &names) {
-        of_vertex["of_model"] = names.document(vertex);
-    }
-    found.field("vertex", of_vertex);
+    found.field("vertex", json!(vertex.map(|vertex| vertex_document(&file, vertex, local))));
     match vertex {
-        Some(vertex) => one(&file, (vertex, local), names.as_ref(), &mut found),
+        Some(vertex) => one(&file, (vertex, local), &mut found),
         None => all(&file, rows, local, &mut found),
     }
     written(&mut found, [("matrix", args.matrix.as_deref())]);
@@ -202,11 +194,8 @@ fn rows_of(file: &BiScaleFile, vertex: usize, local: usize) -> Vec<RowOfVertex> 
     (0..local).map(of).collect()
 }
 
-fn one(file: &BiScaleFile, (vertex, local): (usize, usize), names: Option<&VertexNames<'_>>, found: &mut Findings) {
+fn one(file: &BiScaleFile, (vertex, local): (usize, usize), found: &mut Findings) {
     found.introduce(format!("{} {vertex}", if file.meaning.is_some() { "vertex   " } else { "row      " }));
-    if let Some(names) = names {
-        found.introduce(format!("is        {}", names.phrase(vertex)));
-    }
     let mut table = Table::new(
         "Local directions",
         &["direction", "light texels", "sum of values", "first texel (face, row, column)", "biclusters"],

@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use super::patch::PatchArgs;
+use super::patch::patch_of;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::texture::{BidirectionalTexture, TextureSampling, write_bidirectional_texture};
 use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Problem, ProgressBar, memory};
+use crate::cli::{Problem, ProgressBar};
 use crate::io::write_file;
 use crate::picture::{RgbImage, display, png, rgb8};
 use crate::report::Findings;
@@ -19,8 +19,6 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale texture mail --texels 16 --directions 4 --views 4 --out mail.npy --sheet mail.png
       rings of wire, seen from 16 views and lit from 16 directions; a picture of those lit from each
-  crossbar bi-scale texture plain --brdf ward:0.1,0.3,0.1,0.4 --texels 1 --directions 8 --views 12 --out brushed.npy
-      a reflectance that is the same everywhere in place of a texture
   crossbar bi-scale texture bumps --texels 16 --directions 4 --views 4 --out bumps.npy --json
       figures for machines
 
@@ -36,9 +34,6 @@ pub(super) struct Args {
     #[arg(value_name = "PATCH")]
     source: PathBuf,
 
-    #[command(flatten)]
-    patch: PatchArgs,
-
     /// Texels along an edge; the paper has 32 and 64
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1024))]
     texels: u32,
@@ -50,10 +45,6 @@ pub(super) struct Args {
     /// Directions of the view along an edge of such a square
     #[arg(long, value_name = "K", default_value_t = 12, value_parser = clap::value_parser!(u8).range(1..=64))]
     views: u8,
-
-    /// Points per texel, N x N, of which the mean is taken
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=16))]
-    samples: u8,
 
     /// The file to write
     #[arg(long, value_name = "B.npy")]
@@ -71,17 +62,12 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     };
     let (view, light) = (directions(args.views)?, directions(args.directions)?);
     let (views, lights) = (view.directions().len(), light.directions().len());
-    let (size, samples) = (args.texels as usize, usize::from(args.samples));
+    let size = args.texels as usize;
     let nearest = view.nearest(glam::DVec3::Z);
-    let bytes = (views * lights * size * size) as u64 * 12;
-    // The samples; points of one view; the picture.
-    let points = (size * size * samples * samples) as u64 * 200;
-    let what = format!("{views} x {lights} patches of {size} x {size} texels");
-    memory::require(what, bytes + points, "ask for fewer texels or directions")?;
-    let patch = args.patch.patch(&args.source)?;
-    let bar = ProgressBar::new("views", 1).quicker("fewer `--samples`, `--views` or fewer `--texels`");
+    let patch = patch_of(&args.source)?;
+    let bar = ProgressBar::new("views", 1).quicker("fewer `--views` or `--texels`");
     let start = Instant::now();
-    let sampling = TextureSampling { size, view, light, samples };
+    let sampling = TextureSampling { size, view, light, samples: 1 };
     let texture = patch
         .texture(&sampling, &mut |done, of| bar.show("views".to_owned(), done as u64, of as u64))
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale texture --help`"))?;
@@ -94,11 +80,10 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     }
     let (mean, largest) =
         (mean_reflectance(&texture), texture.samples().iter().flatten().fold(0.0_f32, |a, b| a.max(*b)));
-    let (depth, bytes) = (patch.heights().depth(), bytes as usize);
+    let (depth, bytes) = (patch.heights().depth(), views * lights * size * size * 12);
     let mut found = Findings::new("Bidirectional texture");
     found.fields(json!({
-        "views": views, "lights": lights, "size": size, "samples_per_texel": samples * samples, "depth": depth,
-        "bytes": bytes, "bytes_of_8_bits": bytes / 4, "mean_reflectance": mean, "largest": largest,
+        "views": views, "lights": lights, "size": size, "depth": depth, "bytes": bytes, "bytes_of_8_bits": bytes / 4, "mean_reflectance": mean, "largest": largest,
         "seconds": seconds,
     }));
     found.print(format!("patch     {size} x {size} texels, {depth:.3} of its edge deep"));

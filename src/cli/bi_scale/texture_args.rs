@@ -6,7 +6,6 @@ use std::str::FromStr;
 use super::textures::{PatchArgs, TransferOfModel, patch_kind};
 use crate::bi_scale::directions::LocalDirections;
 use crate::cli::Problem;
-use crate::cli::memory::MemoryNeed;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::model::materials_of;
 use crate::cli::transfer::picture::PictureArgs;
@@ -71,13 +70,6 @@ impl TextureArgs {
         let files = self.texture.iter().map(|texture| texture.source.as_path());
         let files = files.filter(|source| patch_kind(source).is_none());
         [transfer].into_iter().chain(picture.inputs()).chain(light.file()).chain(files).collect()
-    }
-
-    /// Memory of pictures and of the samples of patches.
-    pub(super) fn memory(&self, pictures: MemoryNeed) -> MemoryNeed {
-        let patches = self.texture.iter().filter(|texture| patch_kind(&texture.source).is_some()).count() as u64;
-        let bytes = pictures.bytes.saturating_add(patches.saturating_mul(self.patches.bytes()));
-        MemoryNeed { bytes, help: "ask for a smaller `--size` or `--texture-size`", ..pictures }
     }
 
     /// The texture of each material, by its number among those given.

@@ -9,7 +9,7 @@ use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
 use crate::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
 use crate::cli::model_name::Model;
 use crate::cli::transfer::model::vertices;
-use crate::cli::{Problem, given, view};
+use crate::cli::{Problem, given};
 use crate::names::did_you_mean;
 use crate::options::number;
 use crate::study::prt::SurfaceTexture;
@@ -64,11 +64,6 @@ impl PatchArgs {
         self.texture_size.unwrap_or(64)
     }
 
-    /// Bytes of the samples of a patch, and the same laid out for shading, with up to 16 x 16 directions of light.
-    pub(super) fn bytes(&self) -> u64 {
-        2 * 12 * 256 * u64::from(self.views()).pow(2) * u64::from(self.size()).pow(2)
-    }
-
     /// A texture by its file, or that of a patch by its name, sampled in a transfer's local directions.
     pub(super) fn texture(&self, source: &Path, light: &LocalDirections) -> miette::Result<SurfaceTexture> {
         let name = source.display().to_string();
@@ -79,7 +74,6 @@ impl PatchArgs {
                 let help = format!("{meant}there are {}; a file needs its ending", names.join(", "));
                 return Err(Problem::usage(format!("there is no patch `{name}`"), help).into());
             }
-            view::require_file(source, 5, "name a smaller texture")?;
             return Ok(SurfaceTexture { name, samples: load_bidirectional_texture(source)?, patch: None });
         };
         let refused = |error: String| Problem::usage(error, "see `--help`");
@@ -107,7 +101,6 @@ pub(super) struct TransferOfModel {
 
 impl TransferOfModel {
     pub(super) fn load(path: &Path, name: &Path, crease: Option<f64>) -> miette::Result<Self> {
-        view::require_file(path, 6, "name a smaller file")?;
         let file = load_bi_scale(path)?;
         let Some(meaning) = file.meaning else {
             let what = format!("{}: expected transfer of a mesh, found a matrix of something else", path.display());

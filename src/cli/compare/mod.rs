@@ -7,13 +7,7 @@ use std::path::PathBuf;
 use miette::WrapErr as _;
 use refsim::{machine::Executor, num::Format};
 
-use super::{
-    Out, Problem, Verdict,
-    executor::{DeviceExecutor, GpuArgs},
-    pixel,
-    run::setup_memory,
-    view::bad_format,
-};
+use super::{Out, Problem, Verdict, executor::DeviceExecutor, pixel, view::bad_format};
 use crate::case::{self, ComparedSides, Overrides, Scope, Setup, Side, device_named};
 
 const EXAMPLES: &str = "\
@@ -45,9 +39,6 @@ pub(in crate::cli) struct Args {
     /// Executor on the right [default: batch, or as on the left where the sides differ in something else]
     #[arg(long, value_enum, value_name = "EXECUTOR")]
     right: Option<DeviceExecutor>,
-
-    #[command(flatten)]
-    gpu: GpuArgs,
 
     /// Device on the left, in place of what the case says
     #[arg(long, value_name = "D")]
@@ -108,20 +99,10 @@ impl Args {
                         `--right-switch rounding=rtz` for example";
             return Err(Problem::usage("both sides are the same", help).into());
         }
-        // The options for GPUs hold for the sides that run on one.
-        let on_gpu = |executor| executor == DeviceExecutor::Wgpu;
-        if self.gpu.is_given() && !on_gpu(left_executor) && !on_gpu(right_executor) {
-            let help = "add `--left wgpu` or `--right wgpu`, or leave it out";
-            return Err(Problem::usage("`--adapter` is for the wgpu executor", help).into());
-        }
-        let open = |executor| match on_gpu(left_executor) || on_gpu(right_executor) {
-            true if !on_gpu(executor) => executor.open(&GpuArgs::default()),
-            _ => executor.open(&self.gpu),
-        };
         let budget = self.step_budget;
         Ok([
-            request("left", left, budget, open(left_executor)?)?,
-            request("right", right, budget, open(right_executor)?)?,
+            request("left", left, budget, left_executor.open()?)?,
+            request("right", right, budget, right_executor.open()?)?,
         ])
     }
 
@@ -166,9 +147,6 @@ pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict>
             .wrap_err_with(|| format!("the case cannot be set up on the {} side", request.name))
     };
     let setups = [read(&left)?, read(&right)?];
-    for setup in &setups {
-        setup_memory(setup)?;
-    }
     let sides = [
         Side { setup: &setups[0], executor: left.executor.clone() },
         Side { setup: &setups[1], executor: right.executor.clone() },

@@ -10,7 +10,7 @@ use crate::cli::{Problem, given};
 use crate::cpca::coherence::{Superclusters, overdraw, reclassify};
 use crate::options::number;
 use crate::report::Findings;
-use crate::transfer::clustering::{Clustering, refit};
+use crate::transfer::clustering::Clustering;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::{Signal, Vertices};
 
@@ -26,10 +26,6 @@ pub(super) struct CoherenceArgs {
     /// this share of the squared error in addition: 0 or more, 0.05 to 0.1 in the paper
     #[arg(long, value_name = "SHARE", value_parser = number::not_negative, requires = "model")]
     reclassify: Option<f64>,
-
-    /// Find means and vectors again for the points that clusters have after --reclassify
-    #[arg(long, requires = "reclassify")]
-    refit: bool,
 
     /// Decide which clusters are drawn as one, at most so many, for all cards: 2 or more [default: `card` draws as many
     /// as its registers hold]
@@ -67,12 +63,11 @@ impl CoherenceArgs {
     /// The options that were given, for the file.
     pub(super) fn provenance(&self) -> Vec<String> {
         let reclassify = self.reclassify.map(|share| format!("reclassify={share}"));
-        let refit = self.refit.then(|| "refit=yes".to_owned());
         let size = self.supercluster_size.map(|size| format!("supercluster-size={size}"));
-        [reclassify, refit, size].into_iter().flatten().collect()
+        [reclassify, size].into_iter().flatten().collect()
     }
 
-    /// Reclassifies vertices, refits clusters and groups them, as far as asked.
+    /// Reclassifies vertices and groups clusters, as far as asked.
     pub(super) fn apply(
         &self,
         signal: &Signal,
@@ -88,9 +83,6 @@ impl CoherenceArgs {
             clustering = found.clustering;
             moved = Some((found.moved, found.added_error));
             drawn = [before, found.drawn[1], found.drawn[1]];
-        }
-        if self.refit {
-            clustering = refit(signal, &clustering).map_err(|e| failed(e.to_string()))?;
         }
         let superclusters = match self.supercluster_size {
             None => None,

@@ -8,14 +8,12 @@ use super::coherence::{Coherence, CoherenceArgs};
 use super::compress_report::{most_vectors, steps_document, table};
 use crate::cli::study::written;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Problem, ProgressBar, given, memory, view};
-use crate::options::number;
+use crate::cli::{Problem, ProgressBar, given};
 use crate::options::one_of::{name, variants};
 use crate::report::Findings;
 use crate::study::prt::CompressionError;
 use crate::transfer::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Grown, StartPoints, compress,
-    compress_to_error,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, StartPoints, compress,
 };
 use crate::transfer::file::{PrtFile, save_prt};
 use crate::transfer::{Signal, load_signal_and_meaning};
@@ -24,16 +22,19 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
       each vertex as the mean of its cluster and three weighted vectors
-  crossbar cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --method adaptive --iterations 20 --json --out small.npz
+  crossbar cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --method adaptive --json --out small.npz
       vectors redistributed among the clusters; every step's error for machines
   crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.npz
       a signal of one's own, a line of numbers per point
-  crossbar cpca compress docs/examples/step.npz --clusters 8 --max-error 0.001 --out small.npz
-      as few vectors as leave a thousandth of the signal's squares
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.npz
       fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
 
 CSV and NumPy arrays hold a row per point. The file that is written holds the clusters and how they were made.";
+
+/// Iterations at most for each number of vectors, and rounds of redistribution.
+const ITERATIONS: usize = 10;
+/// Draws the start points.
+const SEED: u64 = 1;
 
 /// Compress transfer, or any signal, by clustered principal components
 #[derive(Debug, clap::Args)]
@@ -43,7 +44,7 @@ pub(super) struct Args {
     #[arg(value_name = "SIGNAL")]
     signal: PathBuf,
 
-    /// Clusters: 1 to as many as there are points [default: 256; if they grow, at most one per point]
+    /// Clusters: 1 to as many as there are points [default: 256]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     clusters: Option<u32>,
 
@@ -51,35 +52,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "N")]
     vectors: Option<u32>,
 
-    /// Stop growing where the squared error is at most this share of the signal's sum of squares: above 0, below 1.
-    /// --vectors, or --clusters with --grow clusters, is a limit then, which it is an error not to meet
-    #[arg(long, value_name = "SHARE", value_parser = number::share)]
-    max_error: Option<f64>,
-
-    /// The number that grows until --max-error is met [default: vectors]
-    #[arg(long, value_name = "WHAT", requires = "max_error", value_parser = variants::<Grown>())]
-    grow: Option<Grown>,
-
     /// By which measure points are shared out to clusters [default: iterative]
     #[arg(long, value_name = "HOW", value_parser = variants::<CpcaMethod>())]
     method: Option<CpcaMethod>,
-
-    /// Without the clusters' means: vectors alone, the components of the points themselves
-    #[arg(long)]
-    linear: bool,
-
-    /// Iterations at most for each number of vectors, and rounds of redistribution: 1 to 1,000,000 [default: 10]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    iterations: Option<u32>,
-
-    /// Iterations at most of vector quantisation (LBG), before there are vectors: 1 to 1,000,000 [default: as
-    /// --iterations]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    vq_iterations: Option<u32>,
-
-    /// Draws the start points
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
 
     /// The file to write
     #[arg(long, value_name = "Y.npz")]
@@ -89,25 +64,14 @@ pub(super) struct Args {
     coherence: CoherenceArgs,
 }
 
-/// How to ask for less memory.
-const HELP: &str = "name a smaller signal";
-/// Bytes of a point beside its numbers and weights.
-const POINT_BYTES: u64 = 64;
-
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     args.refuse_idle()?;
-    // The bytes, and numbers of four bytes while their list grows: a number takes two bytes of a table at least.
-    view::require_file(&args.signal, 8, HELP)?;
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
     let vertices = args.coherence.vertices(&args.signal, mesh)?;
     let options = args.options(&signal)?;
-    let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters` or `--iterations`");
+    let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters`");
     let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, options.vectors as u64 + 1);
-    let Compression { clustering, steps } = match args.max_error {
-        None => compress(&signal, &options, observe),
-        Some(share) => compress_to_error(&signal, &options, share, args.grown(), observe),
-    }
-    .map_err(|error| refused(&error))?;
+    let Compression { clustering, steps } = compress(&signal, &options, observe).map_err(|error| refused(&error))?;
     drop(bar);
     let provenance = args.provenance(&options, &clustering, &steps);
     let coherence =
@@ -130,17 +94,11 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
 impl Args {
     /// Refuses options that others make useless.
     fn refuse_idle(&self) -> Result<(), Problem> {
-        let has_none = self.vectors == Some(0);
+        let no_vectors = [("--method", self.vectors == Some(0) && self.method.is_some())];
         given::refuse(
-            [("--method", has_none && self.method.is_some()), ("--linear", has_none && self.linear)],
+            no_vectors,
             "clusters with vectors, and `--vectors` is 0",
             "choose more `--vectors`, or leave it out",
-        )?;
-        let is_lbg_alone = has_none || self.method == Some(CpcaMethod::Static);
-        given::refuse(
-            [("--iterations", is_lbg_alone && self.iterations.is_some() && self.vq_iterations.is_some())],
-            "methods that iterate once there are vectors",
-            "`--vq-iterations` says all; leave it out",
         )?;
         let has_one = self.clusters == Some(1);
         let [reclassify, size] = self.coherence.given();
@@ -151,37 +109,27 @@ impl Args {
         )
     }
 
-    fn grown(&self) -> Grown {
-        self.grow.unwrap_or_default()
-    }
-
     fn method(&self) -> CpcaMethod {
         self.method.unwrap_or(CpcaMethod::Iterative)
     }
 
-    /// How a signal is compressed; checks that there is memory for it.
+    /// How a signal is compressed.
     fn options(&self, signal: &Signal) -> miette::Result<CpcaOptions> {
         let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
-        let points = u32::try_from(signal.points()).unwrap_or(u32::MAX);
-        let all = if self.grown() == Grown::Clusters { points } else { 256 };
-        let (clusters, vectors) = (self.clusters.unwrap_or(all), self.vectors.unwrap_or(most.min(8)));
+        let (clusters, vectors) = (self.clusters.unwrap_or(256), self.vectors.unwrap_or(most.min(8)));
         if vectors > most {
             let what =
                 format!("expected at most {most} `--vectors`, the lesser of points and their numbers, found {vectors}");
             return Err(Problem::usage(what, "more vectors than that approximate nothing better").into());
         }
-        let need = memory_need(signal, u64::from(clusters), u64::from(vectors));
-        let size = format_args!("compressing {} points", counted(signal.points())).to_string();
-        memory::require(size, need, HELP)?;
-        let iterations = self.iterations.unwrap_or(10) as usize;
         Ok(CpcaOptions {
             clusters: clusters as usize,
             vectors: vectors as usize,
-            vq_iterations: self.vq_iterations.map_or(iterations, |most| most as usize),
-            iterations,
-            method: self.method().with_rounds(iterations),
-            form: if self.linear { CpcaForm::Linear } else { CpcaForm::Affine },
-            start: StartPoints::Seed(self.seed),
+            vq_iterations: ITERATIONS,
+            iterations: ITERATIONS,
+            method: self.method().with_rounds(ITERATIONS),
+            form: CpcaForm::Affine,
+            start: StartPoints::Seed(SEED),
         })
     }
 
@@ -192,36 +140,20 @@ impl Args {
             format!("clusters={}", clustering.subspaces().len()),
             format!("vectors={vectors}"),
             format!("method={}", name(&self.method())),
-            format!("form={}", if self.linear { "linear" } else { "affine" }),
+            "form=affine".to_owned(),
             format!("vq-iterations={}", options.vq_iterations),
             format!("iterations={}", options.iterations),
-            format!("seed={}", self.seed),
+            format!("seed={SEED}"),
         ];
-        if let Some(share) = self.max_error {
-            parts.extend([format!("max-error={share}"), format!("grow={}", name(&self.grown()))]);
-        }
         parts.extend(self.coherence.provenance());
         parts.join(" ")
     }
 }
 
-/// Bytes while a signal is compressed: its numbers, and in f64 those of a cluster, which may be all; per point
-/// its weights, where they begin, its cluster, its error and bounds of that; per cluster its vectors, the last and the
-/// next ones.
-fn memory_need(signal: &Signal, clusters: u64, vectors: u64) -> u64 {
-    let [values, points, dimension] = [signal.values().len(), signal.points(), signal.dimension()].map(|n| n as u64);
-    let of_points = points.saturating_mul(8 * vectors + POINT_BYTES);
-    let of_clusters = clusters.min(points).saturating_mul(vectors + 1).saturating_mul(24 * dimension);
-    (12 * values).saturating_add(of_points).saturating_add(of_clusters)
-}
-
 fn refused(error: &CpcaError) -> Problem {
     let help = match error {
         CpcaError::Clusters { .. } => "choose fewer `--clusters`, or name a larger signal",
-        CpcaError::NothingLinear => "choose more `--vectors`, or leave `--linear` out",
         CpcaError::Vectors { .. } => "choose fewer `--vectors`",
-        CpcaError::AdaptiveGoesOn => "choose another `--method`, or `--grow clusters`",
-        CpcaError::NotMet { .. } => "allow more `--vectors` or `--clusters`, or a larger `--max-error`",
         _ => "see `crossbar cpca compress --help`",
     };
     Problem::usage(error.to_string(), help)
@@ -252,9 +184,6 @@ fn findings(
     found.table(table(steps, error.energy));
     let [points, of] = [signal.points(), signal.dimension()].map(counted);
     found.print(format!("signal    {points} points of {of} numbers"));
-    if args.max_error.is_some() {
-        found.print(format!("needed    {} clusters of {} vectors", counted(clusters), counted(vectors)));
-    }
     let share = 100.0 * stored as f64 / numbers as f64;
     found.print(format!("stored    {} numbers in place of {}: {share:.1} %", counted(stored), counted(numbers)));
     if let Some(coherence) = coherence {

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use crate::cli::Problem;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::model::{load, vertices};
-use crate::cli::{Problem, view};
 use crate::transfer::Vertices;
 use crate::transfer::clustering::Clustering;
 use crate::transfer::file::other_mesh_error;
@@ -56,7 +56,6 @@ pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
 
 /// A `.npz` file that has clusters, and these.
 pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
-    view::require_file(path, 2, "name a smaller file")?;
     let mut file = load_prt(path, None)?;
     let clustering = clusters_of(&mut file, path)?;
     Ok((file, clustering))

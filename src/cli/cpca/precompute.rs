@@ -12,7 +12,7 @@ use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
 use crate::cli::words::{counted, measured};
-use crate::cli::{CommandLine, Problem, ProgressBar, given, memory};
+use crate::cli::{CommandLine, Problem, ProgressBar, given};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
 use crate::error::InputError;
 use crate::options::number;
@@ -126,7 +126,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         bounces: Bounces::Count(args.bounces),
         scatterer,
     };
-    require_memory(args, &precomputation)?;
     let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");
     let split = args.part.split(command_line, &args.out)?;
     let found = match precomputation.run_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
@@ -171,23 +170,6 @@ fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Probl
         brdfs.map(|brdfs| (channel, brdfs))
     };
     args.channels.iter().map(|&channel| of(channel)).collect()
-}
-
-fn require_memory(args: &Args, precomputation: &Precomputation<'_>) -> Result<(), Problem> {
-    let rows = match &precomputation.exit {
-        ExitRadiance::Diffuse => 1,
-        ExitRadiance::Glossy { basis, .. } => basis.len(),
-    };
-    let (points, channels) =
-        (args.part.share(precomputation.vertices.len() as u64), precomputation.channels.len() as u64);
-    let matrix = 4 * rows as u64 * u64::from(args.order).pow(2);
-    let directions = (u64::from(args.degree) / 2 + 1) * (u64::from(args.degree) + 2);
-    // Matrices of all channels, and once more together; of a bounce those before and after; blocked rays at 16 bytes.
-    let copies = if channels == 1 { 1 } else { 2 * channels } + if args.bounces > 0 { 3 } else { 0 };
-    let hits = if args.bounces > 0 { 16 * directions } else { directions / 8 };
-    let bytes = points * (copies * matrix + hits + 200) + (8 << 20) + 100 * precomputation.mesh.len() as u64;
-    let what = format_args!("transfer of {points} vertices, {rows} x {0} numbers each", u64::from(args.order).pow(2));
-    Ok(memory::require(what, bytes, "ask for fewer `--rows`, a lower `--order` or `--degree`, or no `--bounces`")?)
 }
 
 fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {

@@ -4,11 +4,10 @@ use std::path::PathBuf;
 
 use super::file::{FileOfModel, light_order};
 use crate::cli::Problem;
-use crate::cli::memory::MemoryNeed;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::HarmonicLightArgs;
-use crate::cli::transfer::picture::{PictureArgs, ValuesArgs};
-use crate::study::prt::{Rendering, TurnedFrames};
+use crate::cli::transfer::picture::PictureArgs;
+use crate::study::prt::Rendering;
 use crate::transfer::file::{PrtFile, load_prt};
 
 const EXAMPLES: &str = "\
@@ -17,8 +16,8 @@ Examples:
       under a clear sky with a sun: picture, clusters, a page
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --original docs/examples/step.npz --light disk:1,0,2:20 --size 64x48
       beside the uncompressed transfer: differences, and the error of every vertex
-  crossbar cpca render docs/examples/step.npz --model docs/examples/step.obj --light red-and-blue --frames 8 --size 64x48
-      uncompressed, the light turned around z in eight steps
+  crossbar cpca render docs/examples/step.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
+      uncompressed
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";
 
@@ -38,12 +37,6 @@ pub(super) struct Args {
     light: HarmonicLightArgs,
 
     #[command(flatten)]
-    frames: TurnedFrames,
-
-    #[command(flatten)]
-    values: ValuesArgs,
-
-    #[command(flatten)]
     picture: PictureArgs,
 
     /// Where to write pictures and the page
@@ -58,10 +51,6 @@ impl StudyArgs for Args {
     fn files(&self) -> StudyFiles<'_> {
         let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
         StudyFiles::new(Some(&self.out), None, files.into_iter().flatten().chain(self.picture.inputs()).collect())
-    }
-
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        Ok(Some(self.picture.memory(self.frames)))
     }
 
     fn study(&self) -> miette::Result<Rendering> {
@@ -82,8 +71,6 @@ impl StudyArgs for Args {
         Ok(Rendering {
             view: self.picture.view(&model.mesh, self.light.name())?,
             light: self.light.of_order(light_order)?,
-            frames: self.frames,
-            values: self.values.of(&self.picture.model, &vertices),
             mesh: model.mesh,
             vertices,
             file,

@@ -6,10 +6,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::coherence::count;
-use super::file::model_of;
-use crate::cli::transfer::vertex_choice::VertexChoice;
-use crate::cli::transfer::vertex_names::VertexNames;
-use crate::cli::view;
+use crate::cli::transfer::model::chosen_vertex;
 use crate::cli::words::{counted, measured};
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::clustering::Clustering;
@@ -21,43 +18,40 @@ Examples:
       the header, and the clusters with their spectra
   crossbar cpca show docs/examples/step_small.npz --vertex 12
       one vertex: its cluster, its weights, its transfer
-  crossbar cpca show docs/examples/step.npz --at 0.5,0,0 --model docs/examples/step.obj --json
-      the vertex nearest to a place of its model, for machines
+  crossbar cpca show docs/examples/step.npz --vertex 12 --json
+      the same of uncompressed transfer, for machines
 
-`crossbar cpca render --values csv` writes the radiance of all vertices under a light.";
+The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;
 
 /// Show what a .npz file holds: header, clusters with spectra, transfer and weights of a vertex
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true, mut_arg("vertex", |a| a.help("A vertex, or another point, counted from 0")))]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The file
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
-    #[command(flatten)]
-    vertex: VertexChoice,
+    /// A vertex, or another point, counted from 0
+    #[arg(long, value_name = "N")]
+    vertex: Option<u32>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    view::require_file(&args.file, 3, "name a smaller file")?;
     let file = load_prt(&args.file, None)?;
-    let of_model = args.vertex.model().map(|model| model_of(&args.file, file.mesh, model)).transpose()?;
-    let vertices = of_model.as_ref().map(|(_, vertices, _)| vertices);
-    let vertex = args.vertex.chosen("cpca", file.points(), vertices)?;
-    let names = args.vertex.names(vertices);
+    let vertex = chosen_vertex("cpca", args.vertex, file.points())?;
     let mut found = Findings::new("Low-frequency transfer");
     found.fields(header_document(&file));
     found.fields(json!({
         "clusters": file.clustering.as_ref().map(clusters_document),
         "superclusters": file.superclusters,
         "made": file.provenance.as_deref().map(made_document),
-        "vertex": vertex.map(|vertex| vertex_document(&file, vertex, names.as_ref())),
+        "vertex": vertex.map(|vertex| vertex_document(&file, vertex)),
     }));
     match vertex {
-        Some(vertex) => one(&file, vertex, names.as_ref(), &mut found),
+        Some(vertex) => one(&file, vertex, &mut found),
         None => all(&file, &mut found),
     }
     Ok(found)
@@ -119,11 +113,8 @@ fn sizes(clustering: &Clustering) -> Vec<usize> {
     sizes
 }
 
-fn one(file: &PrtFile, vertex: usize, names: Option<&VertexNames<'_>>, found: &mut Findings) {
+fn one(file: &PrtFile, vertex: usize, found: &mut Findings) {
     found.introduce(format!("point     {vertex}"));
-    if let Some(names) = names {
-        found.introduce(format!("is        {}", names.phrase(vertex)));
-    }
     let approximation = file.clustering.as_ref().map(|clustering| approximation(clustering, vertex));
     if let Some(clustering) = &file.clustering {
         let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| measured(*weight)).collect();
@@ -194,12 +185,11 @@ fn clusters_document(clustering: &Clustering) -> Value {
     json!({ "stored_numbers": clustering.stored_numbers(), "clusters": clusters })
 }
 
-fn vertex_document(file: &PrtFile, vertex: usize, names: Option<&VertexNames<'_>>) -> Value {
+fn vertex_document(file: &PrtFile, vertex: usize) -> Value {
     let clustered = file.clustering.as_ref().map(|clustering| {
         json!({ "cluster": clustering.of_point()[vertex], "weights": clustering.weights(vertex),
                 "approximation": approximation(clustering, vertex) })
     });
     let transfer = file.transfer.as_ref().map(|signal| signal.point(vertex));
-    let of_model = names.map(|names| names.document(vertex));
-    json!({ "number": vertex, "of_model": of_model, "transfer": transfer, "clustered": clustered })
+    json!({ "number": vertex, "transfer": transfer, "clustered": clustered })
 }

@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use crate::cli::caster::CasterArg;
-use crate::cli::executor::{Decider, GpuArgs};
+use crate::cli::executor::Decider;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::{Problem, given};
-use crate::geom::exact::Sides;
+use crate::options::Size;
 use crate::options::number;
-use crate::options::{Size, sides};
 use crate::renderer::Lens;
 
 const EXAMPLES: &str = "\
@@ -45,10 +44,6 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// Which faces can be hit
-    #[arg(long, default_value = "both", value_parser = sides())]
-    pub(super) sides: Sides,
-
     /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
@@ -56,9 +51,6 @@ pub(in crate::cli) struct Args {
     /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
     #[arg(long, value_enum)]
     pub(super) executor: Option<Decider>,
-
-    #[command(flatten)]
-    pub(super) gpu: GpuArgs,
 
     /// Folder for picture.png, layers.exr and index.html
     #[arg(long, value_name = "DIR", default_value = "out/render")]
@@ -68,9 +60,6 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) light: LightArgs,
 }
-
-/// Help for a picture that is too large.
-pub(super) const SMALLER: &str = "ask for a smaller `--size`";
 
 /// How light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -127,11 +116,6 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
 
-    /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo; 0 leaves shadows black
-    /// [default: 0.08]
-    #[arg(long, value_name = "X", value_parser = number::not_negative_single)]
-    pub(super) ambient: Option<f64>,
-
     /// A lens: its radius, and the distance at which all is sharp
     #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
     pub(super) lens: Option<Lens>,
@@ -147,10 +131,6 @@ pub(super) struct LightArgs {
     /// Caster of rays, which finds first hits [default: host]
     #[arg(long, value_enum, value_name = "C")]
     pub(super) caster: Option<CasterArg>,
-
-    /// Say on standard error how long it took, and how many rays per second that is
-    #[arg(long)]
-    pub(super) time: bool,
 }
 
 impl LightArgs {
@@ -165,8 +145,6 @@ impl LightArgs {
         let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];
         let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
         given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
-        let ambient = [("--ambient", self.ambient.is_some() && renderer != Some(Renderer::Whitted))];
-        given::refuse(ambient, "Whitted's model", "add `--renderer whitted`, or leave it out")?;
         let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
         let depth = [("--depth", self.depth.is_some() && is_eye)];
         given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
@@ -174,7 +152,6 @@ impl LightArgs {
             ("--seed", self.seed.is_some()),
             ("--exposure", self.exposure.is_some()),
             ("--lens", self.lens.is_some()),
-            ("--time", self.time),
         ];
         let of_light = of_light.map(|(option, given)| (option, given && renderer.is_none()));
         given::refuse(of_light, "scenes with light", "add a `--renderer`, or leave it out")

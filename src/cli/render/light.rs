@@ -1,17 +1,17 @@
 //! `crossbar render` with a host renderer.
 
-use std::io::Write as _;
 use std::time::Instant;
 
 use miette::IntoDiagnostic as _;
 use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
-use super::args::{Args, Renderer, SMALLER};
+use super::args::{Args, Renderer};
 use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::{CommandLine, MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
+use crate::cli::{CommandLine, Out, Problem, ProgressBar, scene_name, study, view};
+use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
@@ -31,12 +31,11 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
     let device =
         (caster == CasterArg::Engine).then(|| args.device.clone().unwrap_or_else(|| view::DEFAULT_DEVICE.to_owned()));
-    let caster = caster.choose(args.device.as_deref(), args.executor, &args.gpu)?;
+    let caster = caster.choose(args.device.as_deref(), args.executor)?;
     let camera = camera(args, &asked.scene)?;
-    require_memory(args, renderer, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut caster = caster.build(asked.scene.mesh(), args.sides)?;
+    let mut caster = caster.build(asked.scene.mesh(), Sides::Both)?;
     let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
     let engine = caster.counts();
     let numbers = layers(&picture, &asked.scene, &camera)?;
@@ -59,23 +58,6 @@ fn rays(picture: &RenderedPicture) -> Table {
         table.push([kind.into(), count.into()]);
     }
     table
-}
-
-/// Checks the memory of the picture, its files and the photons.
-fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), MemoryError> {
-    const PER_PIXEL: u64 = 400;
-    const PER_PHOTON: u64 = 450;
-    let photons = match renderer {
-        Renderer::Photon => {
-            let usual = Photons::for_scene(scene);
-            let [global, caustic] = [usual.global, usual.caustic].map(|n| u64::from(args.light.photons.unwrap_or(n)));
-            (global + caustic) * PER_PHOTON
-        }
-        _ => 0,
-    };
-    let need = memory::of_pixels(args.size.width, args.size.height, PER_PIXEL, photons);
-    let help = if photons > 0 { "ask for a smaller `--size` or fewer `--photons`" } else { SMALLER };
-    memory::require(format_args!("a lit picture of {} pixels", args.size), need, help)
 }
 
 /// Half a step of single precision, the host's.
@@ -129,7 +111,6 @@ fn trace(
         seed: light.seed.unwrap_or(SEED),
         rounding,
         lens: light.lens,
-        ambient: [light.ambient.unwrap_or(0.08) as f32; 3],
         ..Settings::default()
     };
     let mut photons = Photons::for_scene(scene);
@@ -150,14 +131,7 @@ fn trace(
         Renderer::Path => path::render(scene, camera, &settings, path::Direct::Both, caster, watch),
         Renderer::Photon => photon::render(scene, camera, &settings, &photons, caster, watch),
     };
-    let picture = picture.into_diagnostic()?;
-    if light.time {
-        let seconds = start.elapsed().as_secs_f64();
-        let rate = picture.counts.rays() as f64 / seconds.max(1e-9) / 1e6;
-        // Nothing is to be done if nobody reads this.
-        writeln!(std::io::stderr().lock(), "time: {seconds:.2} s, {rate:.3} M rays/s").ok();
-    }
-    Ok(picture)
+    picture.into_diagnostic()
 }
 
 fn report(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, found: &mut Findings) {

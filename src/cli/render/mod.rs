@@ -9,10 +9,10 @@ use miette::IntoDiagnostic as _;
 use serde_json::json;
 
 use super::executor::Decider;
-use super::{CommandLine, Out, Problem, memory, model_file, scene_name, study, view};
+use super::{CommandLine, Out, Problem, model_file, scene_name, study, view};
 use crate::case::device_named;
 use crate::geom::Mesh;
-use crate::geom::exact::{ExactT, Tracer};
+use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::io::atomic::FileSet;
 use crate::options::Size;
 use crate::picture::{ChannelUnit, Picture, Samples};
@@ -20,13 +20,9 @@ use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::{Provenance, Verdict};
 use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
-use args::SMALLER;
 use page::{hits_line, page};
 
 pub(super) use args::Args;
-
-/// Bytes per pixel of a picture by eye rays: rays, hits, layers and the files of them.
-const PER_PIXEL: u64 = 200;
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(asked) = scene::lit(args)? {
@@ -37,16 +33,14 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     let mesh = model_file::mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;
     let Size { width, height } = args.size;
-    let need = memory::of_pixels(width, height, PER_PIXEL, 0);
-    memory::require(format_args!("a picture of {} pixels", args.size), need, SMALLER)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
-    let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
-        None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), args.sides, ExactT::to_f32),
+    let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open()? {
+        None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), Sides::Both, ExactT::to_f32),
         Some(kind) => {
             provenance.profiles.push(profile.name.clone());
-            let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, args.sides)?;
+            let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, Sides::Both)?;
             answer.hits.into_iter().map(|h| h.map(|h| (h.triangle, h.t))).collect()
         }
     };

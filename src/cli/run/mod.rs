@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use refsim::machine::{Executor, ExecutorKind};
 use serde_json::json;
 
-use super::executor::{DeviceExecutor, GpuArgs};
-use super::{MemoryError, Out, Problem, error, memory, pixel, study, view};
+use super::executor::DeviceExecutor;
+use super::{Out, Problem, error, pixel, study, view};
 use crate::{
     case::{self, CaseOutcome, Overrides, PixelTrace, ProbeResult, Setup, Traced},
     io::atomic::FileSet,
@@ -43,9 +43,6 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 
-    #[command(flatten)]
-    gpu: GpuArgs,
-
     /// Instructions that a program may execute per pixel or vertex before the run ends with an error [default: what the
     /// case says, or the device's `limits.pixel_step_budget`, or 65536]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -57,11 +54,10 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let executor = args.executor.open(&args.gpu)?;
+    let executor = args.executor.open()?;
     let overrides = Overrides { step_budget: args.step_budget, ..Overrides::default() };
     let setup = Setup::read_with(&args.case, &overrides)?;
     error::print_warnings(&setup.warnings, out.json());
-    setup_memory(&setup)?;
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;
     let traced = traced.as_ref().map(|trace| Traced {
@@ -84,17 +80,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         trace::ShownTrace(traced).print(out)?;
     }
     Ok(verdict)
-}
-
-/// Checks the memory of a case's surfaces and their pictures; its textures are there already.
-pub(super) fn setup_memory(setup: &Setup) -> Result<(), MemoryError> {
-    let [width, height] = setup.size;
-    // What is stored, its channels as numbers, and the file of them.
-    let stored: u64 = setup.targets.iter().map(|target| 12 + 4 * target.bytes() as u64).sum();
-    let depth = setup.depth.map_or(0, |_| 12 + 4 * 4);
-    let need = memory::of_pixels(width, height, stored + depth, 0);
-    let what = format_args!("drawing {} targets of {width}x{height} pixels", setup.targets.len());
-    memory::require(what, need, "give the case smaller targets")
 }
 
 fn follow(setup: &Setup, executor: &Executor, place: [u32; 2]) -> miette::Result<PixelTrace> {

@@ -1,13 +1,11 @@
 //! The light of `crossbar subsurface`.
 
-use std::path::Path;
 use std::str::FromStr;
 
 use glam::{DMat3, DVec3};
 
 use crate::cli::Problem;
 use crate::cli::transfer::light::DistantLightArg;
-use crate::io::load_irradiances;
 use crate::options::number::three_finite;
 use crate::scene::Camera;
 use crate::study::subsurface::Lighting;
@@ -70,10 +68,7 @@ pub(super) fn coefficient(text: &str) -> Result<[f64; 3], String> {
 }
 
 /// The light that was asked for; else a white one from above and beside the eye.
-pub(super) fn lighting(asked: &[LightArg], irradiance: Option<&Path>, camera: &Camera) -> miette::Result<Lighting> {
-    if let Some(path) = irradiance {
-        return Ok(Lighting::ByFace(load_irradiances(path)?));
-    }
+pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Lighting> {
     if let [LightArg::Environment(light)] = asked {
         return environment(light).map(Lighting::Environment);
     }

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use super::card::CardArgs;
 use super::materials::published;
-use super::memory::{self, MemoryNeed};
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
 use super::study::{StudyArgs, StudyFiles};
@@ -71,10 +70,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Vec<LightArg>,
 
-    /// In place of lights, what has entered each face: a table with the header r,g,b and a line per face
-    #[arg(long, value_name = "FACES.csv", conflicts_with = "light")]
-    irradiance: Option<PathBuf>,
-
     #[command(flatten)]
     card: CardArgs,
 
@@ -102,37 +97,13 @@ impl StudyArgs for Args {
             LightArg::Environment(light) => light.file(),
             LightArg::OfPass(_) => None,
         });
-        let inputs =
-            model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).chain(lights).collect();
+        let inputs = model_name::named_file(&self.model).into_iter().chain(lights).collect();
         StudyFiles::new(Some(&self.out), Some(self.part), inputs)
-    }
-
-    /// Memory of the atlas, its links, the card's textures and the pictures of every way.
-    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        let SubsurfaceOptions { side, ref links, .. } = self.options;
-        // Before memory, which what cannot be has no need of.
-        require_side(side).map_err(no_atlas)?;
-        const PER_TEXEL: u64 = 1000;
-        const PER_LINK: u64 = 80;
-        const PER_PIXEL_AND_PICTURE: u64 = 100;
-        let texels = u64::from(side) * u64::from(side);
-        let most = u64::from(links.iter().copied().max().unwrap_or(0));
-        let ways = self.options.way_count();
-        let pictures = 3 * ways;
-        let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways);
-        Ok(Some(MemoryNeed {
-            what: format!(
-                "{side} x {side} texels with {most} links each, and {pictures} pictures of {} pixels",
-                self.size
-            ),
-            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, maps),
-            help: "ask for a smaller `--atlas`, fewer `--links` or a smaller `--size`",
-        }))
     }
 
     fn study(&self) -> miette::Result<Parameters> {
         self.options.check()?;
-        self.require_lights()?;
+        require_side(self.options.side).map_err(no_atlas)?;
         let material = self.material()?;
         let ways = self.options.ways(&material)?;
         let profile = self.card.profile("nv35")?;
@@ -140,7 +111,7 @@ impl StudyArgs for Args {
         let camera = self.eye.framing(&mesh, self.size)?;
         Ok(Parameters {
             model: self.model.display().to_string(),
-            lighting: lighting(&self.light, self.irradiance.as_deref(), &camera)?,
+            lighting: lighting(&self.light, &camera)?,
             switches: self.card.switches(),
             executor: self.card.executor()?,
             options: self.options.clone(),
@@ -175,15 +146,5 @@ impl Args {
                 Err(Problem::usage("expected a medium", help).into())
             }
         }
-    }
-
-    /// Refuses `--diffuse` where the light is a table of faces or an environment map.
-    fn require_lights(&self) -> Result<(), Problem> {
-        let has_map = self.light.iter().any(|light| matches!(light, LightArg::Environment(_)));
-        if self.options.diffuse.is_some() && (has_map || self.irradiance.is_some()) {
-            let help = "it is for `--light` of the kinds ambient, directional and point; what enters is known here";
-            return Err(Problem::usage("`--diffuse` changes nothing without lights of pass 1", help));
-        }
-        Ok(())
     }
 }

@@ -13,8 +13,7 @@ use refsim::timing::{Level, Model, TimingError};
 use super::args::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup, device_named};
-use crate::cli::run::setup_memory;
-use crate::cli::{Problem, memory, model_file, view};
+use crate::cli::{Problem, model_file, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
@@ -29,9 +28,6 @@ const TESSELLATION: u32 = 8;
 /// Tangent of half the vertical field of view, for meshes.
 const TANGENT: f32 = 0.375;
 
-/// Bytes per eye ray: the ray, its hit, its share of the log and of the buckets' cards.
-const PER_RAY: u64 = 90;
-
 /// A case, or rays on a mesh.
 pub(super) enum Input {
     Case(Box<Setup>),
@@ -45,13 +41,10 @@ impl Input {
             (Some(case), None) => {
                 let overrides = Overrides { device, ..Overrides::default() };
                 let setup = Setup::read_with(case, &overrides)?;
-                setup_memory(&setup)?;
                 Ok(Self::Case(Box::new(setup)))
             }
             (None, Some(size)) => {
                 let profile = device.map_or_else(|| device_named(DEFAULT_DEVICE), Ok)?;
-                let need = memory::of_pixels(size.width, size.height, PER_RAY, 0);
-                memory::require(format_args!("a timeline of {size} rays"), need, "ask for fewer `--eye-rays`")?;
                 let (mesh, camera, name) = scene(args.mesh.as_deref(), size)?;
                 let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
                 Ok(Self::Rays { profile: Box::new(profile), mesh: Box::new(mesh), rays: Box::new(rays), name })

@@ -8,9 +8,8 @@ use glam::DVec3;
 use crate::cli::{Problem, view};
 use crate::io::{load_cube_table, load_light_sources};
 use crate::options::number;
-use crate::options::one_of::variants;
 use crate::report::digits::{Quantity, shown};
-use crate::sphere::{BandWindow, ClearSky, EnvironmentPicture, HarmonicLight};
+use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
 
@@ -80,17 +79,13 @@ impl LightArgs {
     }
 }
 
-/// Light in spherical harmonics, with its window.
+/// Light in spherical harmonics.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct HarmonicLightArgs {
     /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
     /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
     #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
     light: DistantLightArg,
-
-    /// Damp the light's higher bands, so that it rings less
-    #[arg(long, value_name = "W", value_parser = variants::<BandWindow>())]
-    window: Option<BandWindow>,
 }
 
 impl HarmonicLightArgs {
@@ -104,13 +99,9 @@ impl HarmonicLightArgs {
         self.light.file()
     }
 
-    /// The light at an order, its window as wide as the first band that is left out.
+    /// The light at an order.
     pub(in crate::cli) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
-        let light = self.light.of_order(order)?;
-        Ok(match self.window {
-            Some(window) => light.windowed(window, order as f64),
-            None => light,
-        })
+        self.light.of_order(order)
     }
 }
 

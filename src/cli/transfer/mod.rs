@@ -6,5 +6,3 @@ pub(super) mod model;
 pub(super) mod on_card;
 pub(super) mod picture;
 pub(super) mod values;
-pub(super) mod vertex_choice;
-pub(super) mod vertex_names;

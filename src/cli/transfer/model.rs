@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use glam::DVec3;
 use serde_json::json;
 
 use crate::cli::model_name::{self, Model};
@@ -63,9 +62,16 @@ pub(in crate::cli) fn materials_of(path: &Path, model: &Model) -> miette::Result
     Ok((with_materials.materials, with_materials.material_of))
 }
 
-/// The vertex nearest to a place, of equals the first.
-pub(in crate::cli) fn nearest(positions: &[[f32; 3]], at: [f32; 3]) -> Option<usize> {
-    let wide = |place: [f32; 3]| DVec3::from(place.map(f64::from));
-    let distance = |vertex: usize| wide(positions[vertex]).distance_squared(wide(at));
-    (0..positions.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+/// The vertex of a file that `show` is asked for, below `count`.
+pub(in crate::cli) fn chosen_vertex(
+    command: &str,
+    vertex: Option<u32>,
+    count: usize,
+) -> Result<Option<usize>, Problem> {
+    let vertex = vertex.map(|vertex| vertex as usize);
+    if let Some(vertex) = vertex.filter(|&vertex| vertex >= count) {
+        let what = format!("expected a vertex below {count} (counted from 0), found {vertex}");
+        return Err(Problem::usage(what, format!("`crossbar {command} show` says how many there are")));
+    }
+    Ok(vertex)
 }

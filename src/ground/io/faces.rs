@@ -64,8 +64,7 @@ impl<C: Copy> Faces<C> {
                 Some(fault) if strict => {
                     return Err(input_error!("crossbar::model::polygon" =>
                             "{}: expected a flat face that does not touch itself, found one {fault}", named(place);
-                            help "cut the face into triangles in the program that wrote it, or read the model \
-                             without `--strict`"));
+                            help "cut the face into triangles in the program that wrote it"));
                 }
                 Some(fault) => match notes.iter_mut().find(|(known, ..)| *known == fault) {
                     Some((.., faces)) => *faces += 1,

@@ -134,16 +134,6 @@ fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path, strict: bool) -> Resu
     }
 }
 
-/// Tells whether a model file is read as OBJ.
-pub(super) fn is_obj(bytes: &[u8], path: &Path) -> bool {
-    ModelFormat::of(bytes, path) == ModelFormat::Obj
-}
-
-/// How an OBJ file's places are turned.
-pub(super) fn rotation_of_obj(options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
-    rotation(ModelFormat::Obj, options)
-}
-
 /// The rotation that brings the requested axis to z, for coordinates as returned by the format's reader.
 fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
     match (options.up?, format == ModelFormat::Gltf) {

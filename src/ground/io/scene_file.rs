@@ -69,17 +69,6 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
 /// Endings of models.
 const MODELS: [&str; 5] = ["obj", "ply", "stl", "gltf", "glb"];
 
-/// The model of a scene: the file itself by its name's ending, or that which a scene file names. `None` for a scene
-/// file that cannot be read.
-pub fn model_path(path: &Path) -> Option<PathBuf> {
-    if is_model(path) {
-        return Some(path.to_owned());
-    }
-    let text = String::from_utf8(read_limited(path, LONGEST).ok()??).ok()?;
-    let (mesh, ..) = parse(&text, path).ok()?;
-    Some(path.parent().unwrap_or(Path::new("")).join(mesh))
-}
-
 fn is_model(path: &Path) -> bool {
     MODELS.iter().any(|known| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)))
 }

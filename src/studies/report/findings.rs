@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::palette::Color;
 use super::summary::{SummaryLine, TallyEntry, Tone};
 use super::{Chart, NamedPicture, Provenance, Table};
-use crate::picture::{Picture, RgbImage};
+use crate::picture::Picture;
 
 /// File of an output folder: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
@@ -215,11 +215,6 @@ impl Findings {
     /// Adds a table that is not on the page.
     pub fn keep_table(&mut self, table: impl Into<FoundTable>) {
         self.tables.push(table.into().unprinted());
-    }
-
-    /// Adds a picture that is not on the page.
-    pub fn keep_picture(&mut self, name: impl Into<String>, image: RgbImage) {
-        self.pictures.push(NamedPicture::new(name, image, ""));
     }
 
     /// Adds a picture of numbers, written to `NAME.exr`.

@@ -203,18 +203,6 @@ impl Vertices {
         &self.triangles
     }
 
-    /// Per vertex the first triangle that it belongs to, and its corner there, 0 to 2.
-    pub fn first_corners(&self) -> Vec<(u32, usize)> {
-        let mut first = vec![None; self.len()];
-        for (triangle, corners) in (0..).zip(&self.triangles) {
-            for (corner, &vertex) in corners.iter().enumerate() {
-                first[vertex as usize].get_or_insert((triangle, corner));
-            }
-        }
-        // Every vertex is a corner of a triangle: others were left out.
-        first.into_iter().flatten().collect()
-    }
-
     /// The source of the frames' tangents.
     pub fn tangents(&self) -> Tangents {
         self.tangents

@@ -28,7 +28,6 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("leaky-teapot", "--rays-per-edge", "0", true),
     ("render", "--size", "8x8", true),
     ("render", "--samples", "1", false),
-    ("render", "--photons", "1000", false),
     ("radiosity", "--size", "8x8", true),
     ("radiosity", "--patches", "60", true),
     ("radiosity", "--iterations", "4", true),

@@ -27,8 +27,7 @@ use table::{TABLE, Tried};
 
 /// Options whose value here may be refused everywhere: it names something that this test cannot provide, another model
 /// than that of the file, or a precision that the card does not have.
-const NEVER_ACCEPTED: [&str; 9] =
-    ["--adapter", "--emulator", "--partial", "--probe", "--model", "--model-up", "--strict", "--crease", "--switch"];
+const NEVER_ACCEPTED: [&str; 6] = ["--emulator", "--model", "--model-up", "--strict", "--crease", "--switch"];
 
 /// An option of the table.
 #[derive(Clone, Debug)]
@@ -246,12 +245,11 @@ fn inputs() -> &'static Path {
         put("odd.mtl", "newmtl m\nNs 5\nKd 0.8 0.7 0.8\nKs 0.5 0.5 0.4\nd 1\nillum 2\n");
         let square = fs::read_to_string(folder.path().join("fixtures/models/square.obj")).expect("a model");
         put("square.obj", &square);
-        put("faces.csv", "r,g,b\n1,0.5,0.2\n0.1,1,1\n");
         put("rays.csv", "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0.1\n0.25,-1,0.75,0,1,0\n0.25,2,0.5,0,-1,0\n");
         put("rays_2.csv", "ox,oy,oz,dx,dy,dz\n0.7,-1,0.3,0,1,0\n0.3,-1,0.7,0.1,1,0\n0.25,2,0.5,0,-1,0\n");
         put("heights.csv", "0,0.1\n0.2,0\n");
         for line in [
-            "all-frequency factor --brdf phong --side 4 --supersamples 1x1 --terms 2 --out factors",
+            "all-frequency factor --brdf phong --side 4 --terms 2 --out factors",
             "all-frequency precompute docs/examples/step.obj --ground 3 --out on.npz",
             "all-frequency precompute square.obj --reflectance factors --out glossy_sight.npz",
             "all-frequency compress glossy_sight.npz --model square.obj --vectors 3 --out glossy.npz",

@@ -13,25 +13,21 @@ pub(super) struct Tried {
 /// The camera's options.
 macro_rules! eye {
     () => {
-        " --size=9x7 --eye=3,-4,2 --target=0.2,0.1,0.3 --up=1,0,1 --tan-half-height=0.2"
+        " --size=9x7 --eye=3,-4,2 --target=0.2,0.1,0.3 --tan-half-height=0.2"
     };
 }
 
 /// The options of a picture under distant light.
 macro_rules! picture {
     ($model:literal) => {
-        concat!(eye!(), " --exposure=0.3 --model=white-box --model-up=y --strict@", $model, " --light=red-and-blue")
+        concat!(eye!(), " --exposure=0.3 --model=white-box --model-up=y@", $model, " --light=red-and-blue")
     };
 }
 
 /// The options of a card.
 macro_rules! card {
     ($device:literal) => {
-        concat!(
-            " --target-format=rgba16 --sweep --values=npy --device=",
-            $device,
-            " --switch=target-rounding=truncate same:--executor=scalar --adapter=x"
-        )
+        concat!(" --sweep --device=", $device, " --switch=target-rounding=truncate same:--executor=scalar")
     };
 }
 
@@ -49,12 +45,11 @@ pub(super) const TABLE: &[Tried] = &[
             "alu quantize --format fp32 --block mxfp4 < 3f9ccccd",
             "alu mul --format e4m3fn:rst < 3B 3B",
         ],
-        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --exhaustive@5 --flags --tininess=before@0,1,4,5 \
-                  --exact --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1",
+        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --flags --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1",
     },
     Tried {
         bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],
-        options: "--side=16 --size=9x7 --out=other --model-up=y --strict@1",
+        options: "--side=16 --size=9x7 --out=other --model-up=y",
     },
     Tried {
         bases: &["check docs/examples/intersect.psa --device r200"],
@@ -62,7 +57,7 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["compare docs/examples/product.toml", "compare docs/examples/product.toml --left-format fp16"],
-        options: "--left=batch --right=scalar@0 --adapter=x --left-device=ideal-fp16 --right-device=ideal-fp16 \
+        options: "--left=batch --right=scalar@0 --left-device=ideal-fp16 --right-device=ideal-fp16 \
                   --left-format=s3.12 --right-format=s3.12 --left-switch=rounding=rtz --right-switch=rounding=rtz \
                   --step-budget=1 --pixel=1,1 --registers",
     },
@@ -80,8 +75,8 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
         ],
-        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 --adapter=x \
-                  --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
+        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 \
+                  --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y",
     },
     Tried {
         bases: &[
@@ -91,8 +86,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --part=1/1 --out=other \
-             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --brute-force same:--executor=scalar --adapter=x --model-up=y \
-             --strict",
+             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --brute-force same:--executor=scalar --model-up=y",
             eye!()
         ),
     },
@@ -108,11 +102,10 @@ pub(super) const TABLE: &[Tried] = &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
         ],
         options: concat!(
-            "--patches=12 --per-side=1 --factors=unoccluded \
-             --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv30 \
-             --switch=rounding=rtz same:--executor=scalar --adapter=x --tolerance=0.5 --iterations=2 \
+            "--patches=12 --factors=unoccluded --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 \
+             --device=nv30 --switch=rounding=rtz same:--executor=scalar --tolerance=0.5 --iterations=2 \
              --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --sweep-patches=12,30 --part=1/2 --view=front \
-             --exposure=0.3 --out=other --model-up=y --strict@1",
+             --out=other --model-up=y",
             eye!()
         ),
     },
@@ -122,15 +115,13 @@ pub(super) const TABLE: &[Tried] = &[
             "render cornell-box --size 8x8 --renderer whitted --samples 1 --out OUT",
             "render cornell-box --size 8x8 --renderer distributed --samples 2 --out OUT",
             "render cornell-box --size 8x8 --renderer path --samples 2 --out OUT",
-            "render cornell-box --size 8x8 --renderer photon --samples 1 --photons 200 --gather 2 --out OUT",
+            "render cornell-box --size 8x8 --renderer photon --samples 1 --out OUT",
             "render docs/examples/teapot.obj --size 8x8 --out OUT",
             "render odd.obj --size 8x8 --out OUT",
         ],
         options: concat!(
-            "--sides=front@0,5 same:--sides=front@1,2,3,4 --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
-             --depth=1@0,2,3,4,5,6 --seed=2@2,3,4,5,6 same:--seed=2@0,1 --view=front@0,5,6 same:--view=front@1,2,3,4 \
-             --exposure=0.3 --ambient=0.5 --lens=0.1,1 --photons=100 --gather=1 \
-             --caster=engine --time --model-up=y --strict@6",
+            "--device=ideal-fp16 --executor=batch --out=other --renderer=eye --samples=3 --view=front@0,5,6 \
+             same:--view=front@1,2,3,4 --exposure=0.3 --caster=engine --model-up=y",
             eye!()
         ),
     },
@@ -140,7 +131,7 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["run docs/examples/product.toml --out OUT"],
-        options: "--out=other same:--executor=batch --adapter=x --step-budget=1 --trace=0,0",
+        options: "--out=other same:--executor=batch --step-budget=1 --trace=0,0",
     },
     Tried { bases: &["scene white-box", "scene white-box --out OUT"], options: "--out=other" },
     Tried {
@@ -153,8 +144,8 @@ pub(super) const TABLE: &[Tried] = &[
         options: concat!(
             "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --tolerance=0.5 \
-             --light=ambient:1,1,1 --irradiance=faces.csv --diffuse=0.5 --all-pairs=no --device=nv30 --switch=rounding=rtz \
-             same:--executor=scalar --adapter=x --exposure=0.3 --part=1/2 --out=other --model-up=y --strict@1",
+             --light=ambient:1,1,1 --all-pairs=no --device=nv30 --switch=rounding=rtz \
+             same:--executor=scalar --part=1/2 --out=other --model-up=y",
             eye!()
         ),
     },
@@ -165,7 +156,7 @@ pub(super) const TABLE: &[Tried] = &[
             "timeline --eye-rays 4x4",
         ],
         options: "--eye-rays=5x4 --mesh=square.obj --device=nv20 --timing=rates --readback=async --double-buffer --cache \
-                  --sensitivity --perfetto=trace.json --model-up=y@0,1 --strict@0,1",
+                  --sensitivity --perfetto=trace.json --model-up=y@0,1,1",
     },
     Tried {
         bases: &[
@@ -176,129 +167,86 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=marble@3 --mm-per-unit=2@3 --channels=rgb \
                   --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.npz \
-                  --model-up=y --strict@2",
+                  --model-up=y",
     },
     Tried {
         bases: &[
             "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --out OUT.npz",
-            "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --max-error 0.1 --out OUT.npz",
             "cpca compress docs/examples/step.npz --clusters 9 --vectors 2 --model docs/examples/step.obj \
              --reclassify 0.5 --out OUT.npz",
             "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --model odd.obj --reclassify 0.5 --out OUT.npz",
         ],
-        options: "--clusters=5@0,1,2 --vectors=1@0,2 --max-error=0.02@0,1,2 --grow=clusters@0,1,2 --method=adaptive@0,1,2 \
-                  --linear@0,1,2 --iterations=1@0,2 --vq-iterations=1@0,1,2 --seed=2@0,1,2 \
-                  --model=white-box@0,1,2 --reclassify=0@0,1,2 --refit@0,1,2 --supercluster-size=2@0,1,2 \
-                  --out=other.npz@0,1,2 --model-up=y --strict@3",
+        options: "--clusters=5@0,1 --vectors=1@0,1 --method=adaptive@0,1 --model=white-box@0,1 --reclassify=0@0,1 \
+                  --supercluster-size=2@0,1 --out=other.npz@0,1 --model-up=y",
     },
-    Tried {
-        bases: &[
-            "cpca error docs/examples/step.npz docs/examples/step_small.npz",
-            "cpca error docs/examples/step.npz docs/examples/step_small.npz --model docs/examples/step.obj",
-            "cpca error docs/examples/step.npz docs/examples/step_small.npz --model odd.obj",
-        ],
-        options: "--csv=other.csv@0,1 --model=docs/examples/step.obj@0 --model-up=y --strict@2",
-    },
-    Tried {
-        bases: &[
-            "cpca show docs/examples/step_small.npz",
-            "cpca show docs/examples/step.npz --at 0,0,0 --model docs/examples/step.obj",
-            "cpca show docs/examples/step.npz --at 0,0,0 --model odd.obj",
-        ],
-        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --model-up=y --strict@2",
-    },
+    Tried { bases: &["cpca error docs/examples/step.npz docs/examples/step_small.npz"], options: "" },
+    Tried { bases: &["cpca show docs/examples/step_small.npz"], options: "--vertex=3" },
     Tried {
         bases: &[
             "cpca render docs/examples/step.npz --model docs/examples/step.obj --size 8x6 --out OUT",
             "cpca render docs/examples/step.npz --model odd.obj --size 8x6 --out OUT",
-            "cpca render docs/examples/step_small.npz --model docs/examples/step.obj --frames 2 --size 8x6 --out OUT",
+            "cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 8x6 --out OUT",
         ],
-        options: concat!(
-            "--original=docs/examples/step.npz@0,2 --window=hann@0,2 --values=npy@0,2 --frames=3@0,2 --turn=camera@2 \
-             --out=other@0,2",
-            picture!("1")
-        ),
+        options: concat!("--original=docs/examples/step.npz@0,2 --out=other@0,2", picture!("1")),
     },
     Tried {
         bases: &[
             "cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 8x6 --out OUT",
             "cpca card docs/examples/step_small.npz --model odd.obj --size 8x6 --out OUT",
         ],
-        options: concat!(
-            "--window=hann@0 --weights=unorm8@0 --map-side=8@0 --map-format=rgba8s@0 --out=other@0",
-            card!("r350"),
-            picture!("1")
-        ),
+        options: concat!("--out=other@0", card!("r350"), picture!("1")),
     },
     Tried {
         bases: &[
-            "all-frequency factor --brdf cook-torrance --side 4 --supersamples 2x2 --clamp 0.1 --terms 2 --out OUT",
-            "all-frequency factor --brdf schlick --side 4 --supersamples 2x2 --terms 2 --out OUT",
-            "all-frequency factor --brdf phong --side 4 --supersamples 2x2 --terms 2 --out OUT",
-            "all-frequency factor --brdf lambert --side 4 --supersamples 2x2 --terms 1 --out OUT",
+            "all-frequency factor --brdf cook-torrance --side 4 --terms 2 --out OUT",
+            "all-frequency factor --brdf schlick --side 4 --terms 2 --out OUT",
+            "all-frequency factor --brdf phong --side 4 --terms 2 --out OUT",
+            "all-frequency factor --brdf lambert --side 4 --terms 1 --out OUT",
             "all-frequency factor --table docs/examples/reflectance.csv --terms 2 --out OUT",
         ],
-        options: "--brdf=phong@0,1,3,4 --table=docs/examples/reflectance.csv@0,1,2,3 --roughness=0.3 \
-                  --fresnel=0.3 --isotropy=0.5 --exponent=9 --albedo=0.2 --denominators=product \
-                  --fresnel-form=constant --shadowing=none --side=5 \
-                  --supersamples=3x3 --clamp=0.05 --terms=1@0,1,2,4 --sweep-roughness=0.2,0.5 \
-                  --out=other",
+        options: "--brdf=phong@0,1,3,4 --table=docs/examples/reflectance.csv@0,1,2,3 --roughness=0.3 --fresnel=0.3 \
+                  --denominators=product --fresnel-form=constant --shadowing=none --side=5 --terms=1@0,1,2,4 --out=other",
     },
     Tried {
         bases: &[
             "all-frequency lighting --light disk:1,0,2:5",
-            "all-frequency lighting --light disk:1,0,2:20 --keep 60 --frames 2 --out OUT.csv",
-            "all-frequency lighting --light disk:1,0,2:20 --keep 60 --by transfer --transfer docs/examples/step_all.npz \
-             --model docs/examples/step.obj",
-            "all-frequency lighting --keep 60 --by transfer --transfer docs/examples/step_all.npz --model odd.obj",
+            "all-frequency lighting --light disk:1,0,2:20 --keep 60 --out OUT.csv",
         ],
-        options: "--light=red-and-blue --segments=6 --keep=9 --by=magnitude@1 --frames=3 \
-                  --transfer=docs/examples/step_all_small.npz --model=white-box --coefficients=other.csv \
-                  --out=other.csv --model-up=y --strict@3",
+        options: "--light=red-and-blue --segments=6 --keep=9 --by=magnitude@1 --out=other.csv",
     },
     Tried {
         bases: &[
             "all-frequency precompute docs/examples/room.obj --out OUT.npz",
             "all-frequency precompute odd.obj --out OUT.npz",
         ],
-        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y \
-                  --strict@1",
+        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y",
     },
     Tried {
         bases: &[
             "all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 15 \
-             --vectors 2 --iterations 2 --out OUT.npz",
+             --vectors 2 --out OUT.npz",
             "all-frequency compress docs/examples/step_all.npz --model odd.obj --out OUT.npz",
         ],
-        options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --method=static@0 --iterations=1@0 --seed=2@0 \
-                  --bits=8@0 --weight-bits=8@0 --resume=kept@0 --part=1/2@0 --out=other.npz@0 \
-                  --model-up=y --strict@1",
+        options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --bits=8@0 --resume=kept@0 --part=1/2@0 \
+                  --out=other.npz@0 --model-up=y",
     },
     Tried {
         bases: &[
             "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj",
             "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model odd.obj",
         ],
-        options: "--model=white-box --csv=other.csv@0 --model-up=y --strict@1",
+        options: "--model=white-box --model-up=y",
     },
-    Tried {
-        bases: &[
-            "all-frequency show docs/examples/step_all_small.npz",
-            "all-frequency show docs/examples/step_all.npz --at 0,0,0 --model docs/examples/step.obj",
-            "all-frequency show docs/examples/step_all.npz --at 0,0,0 --model odd.obj",
-        ],
-        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --model-up=y --strict@2",
-    },
+    Tried { bases: &["all-frequency show docs/examples/step_all_small.npz"], options: "--vertex=3" },
     Tried {
         bases: &[
             "all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 8x6 --out OUT",
             "all-frequency render docs/examples/step_all_small.npz --model odd.obj --size 8x6 --out OUT",
-            "all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 8x6 --frames 2 \
+            "all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 8x6 \
              --ground on.ground.npz --out OUT",
         ],
         options: concat!(
-            "--original=docs/examples/step_all.npz@0,2 --keep=9@0,2 --ground=on.ground.npz@0 --ground-model=white-box@0,2 \
-             --values=csv@0,2 --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+            "--original=docs/examples/step_all.npz@0,2 --keep=9@0,2 --ground=on.ground.npz@0 --out=other@0,2",
             picture!("1")
         ),
     },
@@ -309,8 +257,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency card glossy.npz --model square.obj --way colors --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=colors@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
-             --partial@0,2 --out=other@0,2",
+            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=colors@0,2 --out=other@0,2",
             card!("nv35"),
             picture!("1")
         ),
@@ -320,21 +267,13 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale precompute docs/examples/court.obj --directions 2 --out OUT.npz",
             "bi-scale precompute odd.obj --directions 2 --out OUT.npz",
         ],
-        options: "--directions=3 --horizon=normal@0 --samples=1@0 --crease=10@0 --tangents=1,2,3@0 --matrix=other.mtx \
-                  --part=2/3 --out=other.npz --model-up=y --strict@1",
+        options: "--directions=3 --crease=10@0 --tangents=1,2,3@0 --matrix=other.mtx \
+                  --part=2/3 --out=other.npz --model-up=y",
     },
+    Tried { bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"], options: "--out=other.npz" },
     Tried {
-        bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"],
-        options: "--seed=2 --seeds=3 --drop=0.25 --csv=other.csv --out=other.npz",
-    },
-    Tried {
-        bases: &[
-            "bi-scale multiply docs/examples/court_biclusters.npz",
-            "bi-scale multiply docs/examples/court_biclusters.npz --csv OUT.csv --model docs/examples/court.obj",
-            "bi-scale multiply docs/examples/court_biclusters.npz --csv OUT.csv --model odd.obj",
-        ],
-        options: "--light=red-and-blue@0,1 --csv=other.csv@0,1 --model=white-box@0,1 --model-up=y \
-                  --strict@2",
+        bases: &["bi-scale multiply docs/examples/court_biclusters.npz"],
+        options: "--light=red-and-blue --csv=other.csv",
     },
     Tried {
         bases: &[
@@ -343,8 +282,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale compare court.npz --model odd.obj",
         ],
         options: "--model=white-box --light=red-and-blue@0,1 --clusters=3@0,1 --vectors=1@0,1 \
-                  --linear@0,1 --sample=40@0,1 --seed=2@0,1 --wavelets=5@0,1 --priority=magnitude@0,1 \
-                  --csv=other.csv@0,1 --model-up=y --strict@2",
+                  --sample=40@0,1 --wavelets=5@0,1 --model-up=y",
     },
     Tried {
         bases: &[
@@ -352,16 +290,11 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale texture heights.csv --texels 4 --directions 2 --views 2 --sheet OUT.png --out OUT.npy",
             "bi-scale texture plain --texels 4 --directions 2 --views 2 --out OUT.npy",
         ],
-        options: "--relief=0.5 --color=0.1,0.2,0.3 --brdf=phong:0.2,0.3,4 --texels=5 --directions=3 \
-                  --views=3 --samples=2 --out=other.npy --sheet=other.png",
+        options: "--texels=5 --directions=3 --views=3 --out=other.npy --sheet=other.png",
     },
     Tried {
-        bases: &[
-            "bi-scale show docs/examples/court_biclusters.npz",
-            "bi-scale show court.npz --at 0,0,0 --model docs/examples/court.obj",
-            "bi-scale show court.npz --at 0,0,0 --model odd.obj",
-        ],
-        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --matrix=other.mtx@0,1 --model-up=y --strict@2",
+        bases: &["bi-scale show docs/examples/court_biclusters.npz", "bi-scale show court.npz"],
+        options: "--vertex=3 --matrix=other.mtx",
     },
     Tried {
         bases: &[
@@ -369,11 +302,11 @@ pub(super) const TABLE: &[Tried] = &[
              --texture-size 4 --texture-views 2 --size 8x6 --out OUT",
             "bi-scale render docs/examples/court_biclusters.npz --model odd.obj --texture bumps --size 8x6 --out OUT",
             "bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture plain.npy \
-             --frames 2 --size 8x6 --out OUT",
+             --size 8x6 --out OUT",
         ],
         options: concat!(
             "--texture=wall=tiles@0,2 --repeat=3@0 --texture-size=5@0,2 --texture-views=3@0,2 --crease=10 --reference@0,2 \
-             --values=csv@0,2 --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+             --out=other@0,2",
             picture!("1")
         ),
     },
@@ -384,7 +317,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale card docs/examples/court_biclusters.npz --model odd.obj --texture bumps --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--texture=wall=tiles@0 --repeat=3@0 --texture-size=5@0 --texture-views=3@0 --crease=10 --texture-format=rgba16f@0 --out=other@0",
+            "--texture=wall=tiles@0 --repeat=3@0 --texture-size=5@0 --texture-views=3@0 --crease=10 --out=other@0",
             card!("ideal-fp32"),
             picture!("1")
         ),

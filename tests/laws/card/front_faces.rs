@@ -299,9 +299,8 @@ fn bi_scale_transfer_shows_front_faces() {
     }
 }
 
-/// A study of an ideal card that interpolates shades reports the rounding of single precision and no more.
-#[test]
-fn a_study_blames_no_back_face() {
+/// What a study of the open box on a card says of the difference from the host.
+fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
     let scene = Scene::open_box();
     let basis = ExitBasis::Radiance;
     let meaning = PrtMeaning::Transfer { channels: 1, exit_functions: vec![0], light_order: 3, includes_albedo: true };
@@ -310,7 +309,7 @@ fn a_study_blames_no_back_face() {
             model: scene.name.to_owned(),
             light: "red and blue".to_owned(),
             camera: scene.camera,
-            exposure: None,
+            exposure,
         },
         clustering: scene.clusters(&basis),
         superclusters: None,
@@ -318,17 +317,29 @@ fn a_study_blames_no_back_face() {
         meaning,
         light: HarmonicLight::red_and_blue(3),
         card: CardSetting {
-            profile: ideal(),
+            profile,
             switches: Vec::new(),
             executor: ExecutorKind::Batch.into(),
             format: FLOATS,
             sweep: false,
-            values: None,
         },
         options: PrtCardOptions::default(),
     };
     let found = study.findings(&mut |_, _, _| ()).expect("a picture");
-    let document = found.document(&Provenance::new("crossbar cpca card"));
-    let largest = document["difference"]["largest_255ths"].as_f64().expect("a number");
-    assert!(largest > 0.0 && largest < 0.01, "{largest}: {:?}", found.conclusions());
+    found.document(&Provenance::new("crossbar cpca card"))["difference"].clone()
+}
+
+/// A study of an ideal card that interpolates shades reports the rounding of single precision and no more.
+#[test]
+fn a_study_blames_no_back_face() {
+    let largest = difference(ideal(), None)["largest_255ths"].as_f64().expect("a number");
+    assert!(largest > 0.0 && largest < 0.01, "{largest}");
+}
+
+/// Half precision has no number for this exposure: pixels that are not finite are counted, and seen.
+#[test]
+fn pixels_that_are_not_finite_are_not_right() {
+    let found = difference(Profile::named("ideal-fp16").expect("a device"), Some(1e9));
+    assert!(found["not_finite"].as_u64().is_some_and(|count| count > 0), "{found}");
+    assert!(found["rms_255ths"] == "inf" && found["visible_share"].as_f64() > Some(0.0), "{found}");
 }

@@ -4,5 +4,4 @@ mod card;
 mod coherence;
 mod compression;
 mod file;
-mod to_error;
 mod transfer;

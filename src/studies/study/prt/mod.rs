@@ -17,8 +17,6 @@ mod parts;
 mod precompute;
 mod render;
 mod stored_ways;
-mod turned_frames;
-mod vertex_values;
 
 use crate::all_frequency::shade::LightSizeError;
 use crate::card::CardError;
@@ -47,8 +45,6 @@ pub(super) use lit_view::auto_exposure;
 pub use precompute::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 pub use render::Rendering;
 pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
-pub use turned_frames::{TurnedFrames, Turning};
-pub use vertex_values::{ValuesFormat, VertexValues};
 
 library_errors! {
     CardError => "crossbar::prt::card";

@@ -4,16 +4,13 @@ use super::compression_error::CompressionError;
 use super::exit_radiance::{Lit, no_transfer};
 use super::interpolate::SeenSurface;
 use super::lit_view::LitView;
-use super::turned_frames::{Turned, TurnedFrames};
-use super::vertex_values::VertexValues;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
 use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color};
-use crate::scene::Camera;
-use crate::sphere::{HarmonicLight, HarmonicRotation};
+use crate::sphere::HarmonicLight;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::file::PrtFile;
 use crate::transfer::{Signal, Vertices};
@@ -33,73 +30,35 @@ pub struct Rendering {
     pub original: Option<Signal>,
     /// The light, of the order of the transfer.
     pub light: HarmonicLight,
-    /// Pictures with the light or the camera carried round the model.
-    pub frames: TurnedFrames,
-    /// Format and names of vertices, if their radiance is written.
-    pub values: Option<VertexValues>,
 }
 
 impl Study for Rendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let steps = self.frames.steps(2);
-        progress("rays", 0, steps);
+        progress("rays", 0, 2);
         let seen = SeenSurface::new(&self.mesh, &self.vertices, &self.view.camera);
-        progress("radiance", 1, steps);
-        let of_vertex = self.radiance((&self.light, &self.view.camera), None)?;
-        let drawn = seen.colors(&of_vertex, [0.0; 3]);
+        progress("radiance", 1, 2);
+        let drawn = self.colors(&seen, None)?;
         let radiance = |direction| self.light.radiance(direction);
         let (mut found, exposure) = self.view.findings("Precomputed radiance transfer", &drawn, radiance)?;
-        if let Some(values) = &self.values {
-            values.keep(self.vertices.positions(), &of_vertex, &mut found);
-        }
         self.conclude(&seen, &mut found);
         if let Some(original) = &self.original {
             self.compare(&seen, original, &drawn, exposure, &mut found)?;
         }
         self.clusters(&seen, &mut found);
-        let turned = |turned| self.turned(&seen, turned);
-        self.frames.report(&self.view, &self.mesh, exposure, turned, &mut found, 2, progress)?;
         Ok(found)
     }
 }
 
 impl Rendering {
-    /// Linear radiance of all pixels, as [`Self::radiance`].
-    fn colors(
-        &self,
-        seen: &SeenSurface,
-        from: (&HarmonicLight, &Camera),
-        original: Option<&Signal>,
-    ) -> Result<Vec<[f64; 3]>, StudyError> {
-        Ok(seen.colors(&self.radiance(from, original)?, [0.0; 3]))
-    }
-
-    /// Radiance of all vertices towards a camera, from the clusters, else the transfer; of `original`, if given.
-    fn radiance(
-        &self,
-        (light, camera): (&HarmonicLight, &Camera),
-        original: Option<&Signal>,
-    ) -> Result<Vec<[f64; 3]>, StudyError> {
-        let lit = Lit::new(&self.file.meaning, light).ok_or_else(no_transfer)?;
+    /// Linear radiance of all pixels, from the clusters, else the transfer; from `original`, if given.
+    fn colors(&self, seen: &SeenSurface, original: Option<&Signal>) -> Result<Vec<[f64; 3]>, StudyError> {
+        let lit = Lit::new(&self.file.meaning, &self.light).ok_or_else(no_transfer)?;
         let exit = match (original, &self.file.clustering, &self.file.transfer) {
             (Some(signal), ..) | (None, None, Some(signal)) => lit.of_signal(signal),
             (None, Some(clustering), _) => lit.of_clusters(clustering),
             (None, None, None) => return Err(no_transfer()),
         };
-        Ok(lit.radiance(&exit, &self.vertices, wide(camera.eye())))
-    }
-
-    /// The pixels with light or camera turned.
-    fn turned(&self, seen: &SeenSurface, turned: Turned) -> Result<Vec<[f64; 3]>, StudyError> {
-        match turned {
-            Turned::Light(turn) => {
-                let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);
-                self.colors(seen, (&light, &self.view.camera), None)
-            }
-            Turned::Camera(camera) => {
-                self.colors(&SeenSurface::new(&self.mesh, &self.vertices, &camera), (&self.light, &camera), None)
-            }
-        }
+        Ok(seen.colors(&lit.radiance(&exit, &self.vertices, wide(self.view.camera.eye())), [0.0; 3]))
     }
 
     fn conclude(&self, seen: &SeenSurface, found: &mut Findings) {
@@ -123,7 +82,7 @@ impl Rendering {
         exposure: f64,
         found: &mut Findings,
     ) -> Result<(), StudyError> {
-        let whole = self.colors(seen, (&self.light, &self.view.camera), Some(original))?;
+        let whole = self.colors(seen, Some(original))?;
         let (mut pictures, difference, largest) =
             self.view.against_original(drawn, &whole, exposure, "compressed less original")?;
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;

@@ -22,10 +22,6 @@ pub struct RadiosityOptions {
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub patches: u32,
 
-    /// Cut each side of each face into so many parts instead.
-    #[arg(long, value_name = "N", conflicts_with = "patches", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    pub per_side: Option<u32>,
-
     /// Where form factors come from: unoccluded (as if nothing stood between any two patches), or rays or rays:N
     /// (closed forms and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default).
     #[arg(long, value_name = "HOW", default_value = "rays")]
@@ -75,11 +71,6 @@ pub struct RadiosityOptions {
     #[arg(long = "sweep-patches", value_name = "N,N", value_delimiter = ',',
           value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub sweep: Vec<u32>,
-
-    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, surfaces that
-    /// do not emit at 18 % grey on average]
-    #[arg(long, value_name = "X", value_parser = number::positive)]
-    pub exposure: Option<f64>,
 }
 
 /// Source of form factors.
@@ -169,7 +160,7 @@ fn color_of(text: &str) -> Result<MaterialColor, String> {
 impl RadiosityOptions {
     /// Fineness of the subdivision.
     pub fn subdivision(&self) -> Subdivision {
-        self.per_side.map_or(Subdivision::AtMost(self.patches as usize), Subdivision::PerSide)
+        Subdivision::AtMost(self.patches as usize)
     }
 
     /// Stopping criteria.

@@ -82,13 +82,6 @@ fn run(
             progress("light of the environment", 0, 1);
             environment::irradiance(&atlas, parameters, light)?
         }
-        Lighting::ByFace(values) if values.len() != parameters.mesh.len() => {
-            let [expected, found] = [parameters.mesh.len(), values.len()];
-            let what = format!("expected an irradiance for each of {expected} faces, found {found}");
-            let help = "a line `r,g,b` per face of the model, in its order";
-            return Err(StudyError::new("subsurface::irradiance", what).with_help(help));
-        }
-        Lighting::ByFace(values) => model::by_texel(&atlas, values),
     };
     if irradiance.iter().flatten().all(|&e| e == 0.0) {
         let help = "add a `--light`, or move one to where the model's front faces see it";

@@ -59,8 +59,3 @@ pub(super) fn by_face(atlas: &Atlas, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
     };
     atlas.places().iter().map(mean).collect()
 }
-
-/// The value of each face at all of its texels.
-pub(super) fn by_texel(atlas: &Atlas, faces: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    atlas.texels().iter().map(|texel| faces[texel.face as usize]).collect()
-}

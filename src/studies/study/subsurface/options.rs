@@ -3,7 +3,6 @@
 use super::gather_way::{GatherWay, MapBits};
 use crate::options::number;
 use crate::options::one_of::{OneOf, one_of, variants};
-use crate::report::digits::{Quantity, shown};
 use crate::study::StudyError;
 use crate::subsurface::Material;
 use crate::subsurface::kernels::LinkLayout;
@@ -50,19 +49,11 @@ pub struct SubsurfaceOptions {
     #[arg(long, value_name = "X", default_value_t = crate::subsurface::multipole::TOLERANCE, value_parser = number::positive)]
     pub tolerance: f64,
 
-    /// Diffuse reflectance for direct light, 0 to 1 [default: 0.1]
-    #[arg(long, value_name = "X", value_parser = number::not_negative)]
-    pub diffuse: Option<f64>,
-
     #[arg(long, value_name = "YES", value_parser = yes_or_no(), help = format!(
         "Gather over all pairs of texels too [default: yes for atlases up to {ALL_PAIRS_SIDE}]"
     ))]
     all_pairs: Option<bool>,
 
-    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
-    /// average]
-    #[arg(long, value_name = "X", value_parser = number::positive)]
-    pub exposure: Option<f64>,
 }
 
 /// The choices of links, for `--choice`.
@@ -96,10 +87,6 @@ impl SubsurfaceOptions {
     /// # Errors
     /// If one is out of its range.
     pub fn check(&self) -> Result<(), StudyError> {
-        if let Some(diffuse) = self.diffuse.filter(|&diffuse| diffuse > 1.0) {
-            let (found, help) = (shown(diffuse, Quantity::Exact), "a surface reflects at most all of the light");
-            return Err(StudyError::usage(format!("expected a `--diffuse` from 0 to 1, found {found}"), help));
-        }
         if self.all_pairs == Some(true) && self.side > MAX_ALL_PAIRS_SIDE {
             let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
             return Err(StudyError::usage(format!("all pairs of {0} x {0} texels would take hours", self.side), help));
@@ -110,13 +97,6 @@ impl SubsurfaceOptions {
     /// Returns `true` if all pairs of texels are gathered.
     pub fn gathers_all_pairs(&self) -> bool {
         self.all_pairs.unwrap_or(self.side <= ALL_PAIRS_SIDE)
-    }
-
-    /// The number of ways, at most.
-    pub fn way_count(&self) -> u64 {
-        let kinds =
-            [self.choices.len(), self.channels.len(), self.link_formats.len(), self.maps.len(), self.links.len()];
-        kinds.into_iter().map(|count| count.max(1) as u64).product()
     }
 
     /// Every combination of what may be repeated: a row of the table for each.

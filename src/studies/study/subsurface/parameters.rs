@@ -40,8 +40,6 @@ pub struct Parameters {
 pub enum Lighting {
     /// Lights, by pass 1.
     Lights(Vec<Light>),
-    /// Flux that has entered each face, per area: E of equation 8.
-    ByFace(Vec<[f64; 3]>),
     /// Distant light of an environment map, per texel and with shadows, in place of pass 1.
     Environment(CubeLight),
 }

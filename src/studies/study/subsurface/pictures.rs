@@ -1,6 +1,6 @@
 //! Pictures: the model, and the maps of the passes (Figures 5 to 7).
 
-use super::{Parameters, SubsurfaceOutcome, WayRow};
+use super::{SubsurfaceOutcome, WayRow};
 use crate::picture::display::encode;
 use crate::picture::metrics::value_error;
 use crate::picture::{Picture, RgbImage, rgb8};
@@ -12,10 +12,7 @@ use crate::study::StudyError;
 const MIDDLE_GREY: f64 = 0.18;
 
 /// Auto-exposure: the model at 18 % grey on average; pixels that show nothing do not count.
-pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
-    if let Some(exposure) = parameters.options.exposure {
-        return Ok(exposure);
-    }
+pub(super) fn exposure(outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
     let Some(first) = outcome.rows.first() else { return Ok(1.0) };
     let shown = first.picture.linear()?;
     let lit: Vec<f64> =

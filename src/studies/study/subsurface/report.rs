@@ -18,7 +18,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
         found.keep_layers("whole", row.picture.clone());
     }
     conclude(&mut found, parameters, outcome);
-    let exposure = pictures::exposure(parameters, outcome)?;
+    let exposure = pictures::exposure(outcome)?;
     if let Some(row) = outcome.rows.first() {
         found.pictures(pictures::lead(row, exposure)?);
     }

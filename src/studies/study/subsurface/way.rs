@@ -25,7 +25,7 @@ use crate::subsurface::on_card::{
     pass_times,
 };
 
-/// Diffuse reflectance for direct light, unless asked for.
+/// Diffuse reflectance for direct light.
 const DIFFUSE: f64 = 0.1;
 /// Pass 3.
 const VIEW: ViewKernel = ViewKernel { transmittance: EyeTransmittance::Exact, direct: DirectLight::ByFragment };
@@ -202,7 +202,7 @@ pub(super) fn lit_card(
     card.record(record);
     match &parameters.lighting {
         Lighting::Lights(lights) => card.light(lights)?,
-        Lighting::ByFace(_) | Lighting::Environment(_) => card.irradiate(scene.irradiance)?,
+        Lighting::Environment(_) => card.irradiate(scene.irradiance)?,
     }
     Ok(card)
 }
@@ -235,7 +235,7 @@ fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
 
 fn view(parameters: &Parameters, direct: DirectLight) -> View {
     let kernel = ViewKernel { direct, ..VIEW };
-    View { kernel, diffuse: [parameters.options.diffuse.unwrap_or(DIFFUSE); 3], ..View::scattered(parameters.camera) }
+    View { kernel, diffuse: [DIFFUSE; 3], ..View::scattered(parameters.camera) }
 }
 
 /// E of every texel as the map has it; 0 where a texel has no area.

@@ -64,24 +64,9 @@ pub(super) fn compress_at(
     options: &CpcaOptions,
     observe: impl FnMut(&CpcaStep),
 ) -> Result<Compression, CpcaError> {
-    grow(level, signal, options, None, observe)
-}
-
-/// [`compress_at`] that ends before the first number of vectors that is not needed for a squared error of at most
-/// `limit`. A limit makes the static method, too, add vectors one by one.
-pub(super) fn grow(
-    level: SimdLevel,
-    signal: &Signal,
-    options: &CpcaOptions,
-    limit: Option<f64>,
-    observe: impl FnMut(&CpcaStep),
-) -> Result<Compression, CpcaError> {
     let mut work = Work::new(level, signal, options, observe)?;
     work.settle(options.vq_iterations)?;
-    for vectors in options.method.growth(options.vectors, limit.is_some()) {
-        if limit.is_some_and(|limit| work.meets(limit)) {
-            break;
-        }
+    for vectors in options.method.growth(options.vectors) {
         work.fit_all(vectors)?;
         if options.method != CpcaMethod::Static {
             work.settle(options.iterations)?;
@@ -134,15 +119,6 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         let step = CpcaStep { vectors: self.vectors, kind, moved, squared_error };
         (self.observe)(&step);
         self.steps.push(step);
-    }
-
-    /// Tells whether the squared error is at most a limit: that of the approximations, which differs by rounding from
-    /// the last step's.
-    fn meets(&self, limit: f64) -> bool {
-        let subspaces = || self.clusters.iter().map(|cluster| cluster.subspace.clone()).collect();
-        // Rounding is far below a thousandth: most numbers of vectors are not tried.
-        self.steps.last().is_some_and(|step| step.squared_error <= 1.001 * limit)
-            && Clustering::project(self.signal, subspaces(), self.of_point.clone()).squared_error(self.signal) <= limit
     }
 
     /// The generalised LBG algorithm for the current number of vectors.

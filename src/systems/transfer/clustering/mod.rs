@@ -5,8 +5,7 @@
 //! - [`mod@reference`]: the paper by plain loops, for tests. Read it first.
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
-//! - [`compress_to_error`]: the same with as few vectors, or clusters, as a given error needs;
-//! - [`refit`]: new principal components after points were moved.
+//! - [`mod@reference`]: the same by plain loops, for tests.
 //!
 //! Choices that the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error
 //! from a cluster that has others; the component of largest magnitude of each vector is positive; loops end when no
@@ -25,13 +24,9 @@ mod nearest;
 mod options;
 mod products;
 pub mod reference;
-mod refit;
 mod subspace;
-mod to_error;
 
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
 pub use compressed::Clustering;
 pub use options::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
-pub use refit::refit;
 pub use subspace::AffineSubspace;
-pub use to_error::{Grown, compress_to_error};

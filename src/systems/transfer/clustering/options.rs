@@ -88,18 +88,6 @@ pub enum CpcaError {
     /// No iterations.
     #[error("expected at least 1 iteration for each number of vectors, found 0")]
     NoIterations,
-    /// A share of the error outside its range.
-    #[error("expected an error above 0 and below 1, as a share of the signal's squares, found {found}")]
-    ErrorShare { found: f64 },
-    /// Redistribution may raise an error that was met.
-    #[error("expected a method that ends when the error is met, found adaptive, which goes on")]
-    AdaptiveGoesOn,
-    /// The error is not met.
-    #[error(
-        "expected an error of at most {expected} of the signal's squares, found {found:.4e} with {clusters} clusters of \
-         {vectors} vectors"
-    )]
-    NotMet { expected: f64, found: f64, clusters: usize, vectors: usize },
     /// The number of start points differs from that of clusters.
     #[error("expected {clusters} start points, one per cluster, found {found}")]
     StartCount { clusters: usize, found: usize },
@@ -145,13 +133,12 @@ impl CpcaMethod {
         }
     }
 
-    /// The successive numbers of vectors per cluster, up to `vectors`; every one of the static method's
-    /// if `one_by_one`.
-    pub(super) fn growth(self, vectors: usize, one_by_one: bool) -> Vec<usize> {
+    /// The successive numbers of vectors per cluster, up to `vectors`.
+    pub(super) fn growth(self, vectors: usize) -> Vec<usize> {
         match self {
             Self::Static if vectors == 0 => Vec::new(),
-            Self::Static if !one_by_one => vec![vectors],
-            Self::Static | Self::Iterative | Self::Adaptive { .. } => (1..=vectors).collect(),
+            Self::Static => vec![vectors],
+            Self::Iterative | Self::Adaptive { .. } => (1..=vectors).collect(),
             Self::Doubling => {
                 let doubled =
                     std::iter::successors(Some(1), |count| Some(2 * count)).take_while(|&count| count < vectors);

@@ -14,13 +14,12 @@ use crate::transfer::light::{Decimation, DistantLight, HaarLight, LightTruncatio
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 
-/// The coefficients of a light that is turned, of them `keep` of largest area times magnitude; `None`: all.
+/// The coefficients of a light, of them `keep` of largest area times magnitude; `None`: all.
 pub(in crate::study) fn coefficients(
     (light, decimation): (&DistantLight, Decimation),
-    rotation: &DMat3,
     keep: Option<usize>,
 ) -> Result<LightTruncation, InputError> {
-    let light = HaarLight::new(&light.cube(rotation, decimation)?, Segmentation::Quarters);
+    let light = HaarLight::new(&light.cube(&DMat3::IDENTITY, decimation)?, Segmentation::Quarters);
     light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area)
 }
 

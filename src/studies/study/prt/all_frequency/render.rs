@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use glam::DMat3;
 use serde_json::json;
 
 use super::exact;
@@ -15,8 +14,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 use crate::scene::Camera;
 use crate::study::prt::render::cluster_color;
-use crate::study::prt::turned_frames::Turned;
-use crate::study::prt::{SeenSurface, TurnedFrames, VertexValues, of_texels};
+use crate::study::prt::{SeenSurface, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::Vertices;
 use crate::transfer::light::{HaarLight, LightTruncation};
@@ -31,10 +29,6 @@ pub struct AllFrequencyRendering {
     pub lit: LitModel,
     /// The ground below it.
     pub ground: Option<RenderedGround>,
-    /// Pictures with the light or the camera carried round the model.
-    pub frames: TurnedFrames,
-    /// Format and names of the model's vertices, if their radiance is written.
-    pub values: Option<VertexValues>,
 }
 
 /// The ground below a model, with transfer of its own.
@@ -52,21 +46,18 @@ pub struct RenderedGround {
 
 impl Study for AllFrequencyRendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let steps = self.frames.steps(2);
-        progress("rays", 0, steps);
-        let seen = self.seen(&self.lit.view.camera);
-        progress("radiance", 1, steps);
+        progress("rays", 0, 2);
+        let seen = self.seen();
+        progress("radiance", 1, 2);
         let parts = self.parts();
         let mut times = FrameTimes::default();
-        let cut = self.light(&DMat3::IDENTITY, &mut times)?;
-        let transferred = transferred(&parts, &cut.light, &mut times)?;
+        let cut = self.light(&mut times)?;
+        let transferred: Vec<Transferred> =
+            parts.iter().map(|part| part.transferred(&cut.light, &mut times)).collect::<Result<_, _>>()?;
         let of_vertex = radiance(&parts, &transferred, &self.lit.view.camera, &mut times);
         let drawn = seen.colors(&of_vertex, [0.0; 3]);
         let radiances = cut.light.radiances();
         let (mut found, exposure) = self.lit.view.findings("All-frequency transfer", &drawn, of_texels(&radiances))?;
-        if let Some(values) = &self.values {
-            values.keep(self.lit.vertices.positions(), &of_vertex, &mut found);
-        }
         self.conclude(&seen, &drawn, &cut, &mut found);
         if parts.iter().all(Part::is_coded) {
             time(&parts, &cut.light, times, &mut found);
@@ -78,14 +69,8 @@ impl Study for AllFrequencyRendering {
             self.compare(&seen, (&of_vertex, &drawn), &exact, exposure, &mut found)?;
         }
         self.clusters(&seen, &mut found);
-        self.frames(&seen, &parts, (&transferred, exposure), &mut found, progress)?;
         Ok(found)
     }
-}
-
-/// Steps 2 and 3 of all parts.
-fn transferred(parts: &[Part<'_>], light: &HaarLight, times: &mut FrameTimes) -> Result<Vec<Transferred>, StudyError> {
-    parts.iter().map(|part| part.transferred(light, times)).collect()
 }
 
 /// Step 4 of all parts, vertices after one another.
@@ -129,17 +114,17 @@ impl AllFrequencyRendering {
         std::iter::once(Part::new(&self.lit.vertices, &self.lit.colors, &self.lit.file)).chain(ground).collect()
     }
 
-    /// The surface point in each of a camera's pixels; vertices of the ground follow those of the model.
-    fn seen(&self, camera: &Camera) -> SeenSurface {
+    /// The surface point in each of the camera's pixels; vertices of the ground follow those of the model.
+    fn seen(&self) -> SeenSurface {
         let ground = self.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
         let parts: Vec<_> = std::iter::once((&self.lit.mesh, &self.lit.vertices)).chain(ground).collect();
-        SeenSurface::of_parts(&parts, camera)
+        SeenSurface::of_parts(&parts, &self.lit.view.camera)
     }
 
     /// Step 1: the light's coefficients.
-    fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, StudyError> {
+    fn light(&self, times: &mut FrameTimes) -> Result<LightTruncation, StudyError> {
         let start = Instant::now();
-        let cut = exact::coefficients((&self.lit.light, self.lit.decimation), rotation, self.lit.keep)?;
+        let cut = exact::coefficients((&self.lit.light, self.lit.decimation), self.lit.keep)?;
         times.light = start.elapsed().as_secs_f64();
         Ok(cut)
     }
@@ -222,32 +207,5 @@ impl AllFrequencyRendering {
             found.heading("Clusters of three segments");
             found.pictures(pictures);
         }
-    }
-
-    /// Frames with light or camera carried round z.
-    fn frames(
-        &self,
-        seen: &SeenSurface,
-        parts: &[Part<'_>],
-        (still, exposure): (&[Transferred], f64),
-        found: &mut Findings,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<(), StudyError> {
-        let colors = |turned| {
-            let mut times = FrameTimes::default();
-            match turned {
-                Turned::Light(turn) => {
-                    let light = self.light(&turn, &mut times)?.light;
-                    let transferred = transferred(parts, &light, &mut times)?;
-                    Ok(seen.colors(&radiance(parts, &transferred, &self.lit.view.camera, &mut times), [0.0; 3]))
-                }
-                // View alone changed: step 4 alone.
-                Turned::Camera(camera) => {
-                    let colors = radiance(parts, still, &camera, &mut times);
-                    Ok(self.seen(&camera).colors(&colors, [0.0; 3]))
-                }
-            }
-        };
-        self.frames.report(&self.lit.view, &self.lit.mesh, exposure, colors, found, 2, progress)
     }
 }

@@ -49,12 +49,12 @@ impl<'a> BiScaleDrawing<'a> {
         Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.view.camera), lookups })
     }
 
-    /// The light's texels, turned by a rotation.
+    /// The light's texels.
     ///
     /// # Errors
     /// [`InputError`].
-    pub(in crate::study) fn cube(&self, rotation: &DMat3) -> Result<CubeLight, InputError> {
-        self.rendering.light.cube(rotation, Decimation::SolidAngle)
+    pub(in crate::study) fn cube(&self) -> Result<CubeLight, InputError> {
+        self.rendering.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)
     }
 
     /// L~ of the light's texels.
@@ -67,26 +67,11 @@ impl<'a> BiScaleDrawing<'a> {
 
     /// Equation 3 at all pixels with L~; black where there is nothing.
     pub(in crate::study) fn shade(&self, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        self.shade_pixels(&self.pixels, local)
-    }
-
-    /// The same as another camera sees it.
-    pub(in crate::study) fn shade_from(&self, camera: &Camera, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        self.shade_pixels(&self.rendering.surface.pixels(camera), local)
-    }
-
-    /// Radiance of all vertices towards the camera.
-    pub(super) fn radiance_of_vertices(&self, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let shown = self.rendering.surface.at_vertices(&self.rendering.view.camera);
-        self.shade_pixels(&shown.into_iter().map(Some).collect::<Vec<_>>(), local)
-    }
-
-    fn shade_pixels(&self, pixels: &[Option<SurfacePixel>], local: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let color = |b: &mut Vec<[f64; 3]>, pixel: &Option<SurfacePixel>| {
             let pixel = pixel.as_ref();
             pixel.map_or([0.0; 3], |pixel| self.lookups[pixel.texture].radiance(local, &pixel.shaded, b))
         };
-        pixels.par_iter().map_init(Vec::new, color).collect()
+        self.pixels.par_iter().map_init(Vec::new, color).collect()
     }
 
     /// The pictures between one by rays and `drawn`, that of transfer.

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use glam::DMat3;
 use serde_json::json;
 
 use super::causes;
@@ -12,7 +11,6 @@ use super::subject::{BiScaleRendering, SurfaceTexture};
 use super::surface::SurfacePixel;
 use crate::report::{Cell, Findings, FoundTable, Table};
 use crate::study::prt::of_texels;
-use crate::study::prt::turned_frames::Turned;
 use crate::study::{ProgressFn, Study, StudyError};
 
 /// Times of the steps of a frame, in seconds.
@@ -32,32 +30,21 @@ fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
 
 impl Study for BiScaleRendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let steps = self.frames.steps(2);
-        progress("rays", 0, steps);
+        progress("rays", 0, 2);
         let drawing = BiScaleDrawing::new(self)?;
-        progress("radiance", 1, steps);
-        let (cube, light) = timed(|| drawing.cube(&DMat3::IDENTITY));
+        progress("radiance", 1, 2);
+        let (cube, light) = timed(|| drawing.cube());
         let cube = cube?;
         let local = drawing.local(&cube)?;
         let (drawn, shading) = timed(|| drawing.shade(&local.rows));
         let times = StepTimes { light, transfer: local.seconds, shading };
         let (mut found, exposure) = self.view.findings("Bi-scale transfer", &drawn, of_texels(cube.texels()))?;
-        if let Some(values) = &self.values {
-            let radiance = drawing.radiance_of_vertices(&local.rows);
-            values.keep(self.surface.vertices.positions(), &radiance, &mut found);
-        }
         self.conclude(&drawing.pixels, &local, &mut found);
         self.time(&drawing.pixels, times, &mut found);
         if self.reference {
             let pictures = drawing.causes(&cube, &drawn, progress)?;
             causes::report(self, &pictures, exposure, &mut found)?;
         }
-        let turned = |turned| match turned {
-            Turned::Light(turn) => Ok(drawing.shade(&drawing.local(&drawing.cube(&turn)?)?.rows)),
-            // View alone changed: L~ is that of before.
-            Turned::Camera(camera) => Ok(drawing.shade_from(&camera, &local.rows)),
-        };
-        self.frames.report(&self.view, &self.surface.mesh, exposure, turned, &mut found, 2, progress)?;
         Ok(found)
     }
 }

@@ -4,7 +4,7 @@ use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch};
 use crate::study::StudyError;
-use crate::study::prt::{LitView, TurnedFrames, VertexValues};
+use crate::study::prt::LitView;
 use crate::transfer::light::DistantLight;
 
 /// A model with its transfer, its textures, a light and a camera.
@@ -20,12 +20,8 @@ pub struct BiScaleRendering {
     pub textures: Vec<SurfaceTexture>,
     /// The light.
     pub light: DistantLight,
-    /// Pictures with the light or the camera carried round the model.
-    pub frames: TurnedFrames,
     /// True to compare the picture with one by rays; all textures must have patches.
     pub reference: bool,
-    /// Format and names of vertices, if their radiance is written, at the texture coordinates of their first triangles.
-    pub values: Option<VertexValues>,
 }
 
 /// A bidirectional texture with its name.

@@ -68,18 +68,6 @@ impl TexturedSurface {
         rays.par_iter().zip(&hits).map(|(ray, hit)| Some(self.pixel(ray, hit.as_ref()?, eye))).collect()
     }
 
-    /// Per vertex what a pixel exactly at it would show of its first triangle, whether or not the camera sees it.
-    pub(super) fn at_vertices(&self, camera: &Camera) -> Vec<SurfacePixel> {
-        let eye = wide(camera.eye());
-        let places = self.vertices.first_corners().into_iter().zip(self.vertices.positions());
-        let shown = |((triangle, corner), &place): ((u32, usize), &[f32; 3])| {
-            let mut weights = [0.0; 3];
-            weights[corner] = 1.0;
-            self.shown(triangle, (wide(place), weights), eye)
-        };
-        places.map(shown).collect()
-    }
-
     fn pixel(&self, ray: &Ray, hit: &Hit, eye: DVec3) -> SurfacePixel {
         let corners = self.vertices.triangles()[hit.triangle as usize];
         let places = corners.map(|corner| wide(self.vertices.positions()[corner as usize]));

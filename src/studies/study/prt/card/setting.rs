@@ -11,9 +11,7 @@ use crate::error::InputError;
 use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
 use crate::study::StudyError;
 use crate::study::prt::LitView;
-use crate::study::prt::VertexValues;
 use crate::study::timeline_trace;
-use crate::transfer::Vertices;
 
 /// The card that draws.
 #[derive(Debug)]
@@ -28,8 +26,6 @@ pub struct CardSetting {
     pub format: TexelFormat,
     /// True to vary number formats, maps and targets one after the other.
     pub sweep: bool,
-    /// Format and names of vertices, if their radiance is written: that of the host, from the numbers that are drawn.
-    pub values: Option<VertexValues>,
 }
 
 impl CardSetting {
@@ -75,18 +71,6 @@ impl PictureStudy<'_> {
         compared.report(&self.view.camera, caption, self.from, &mut found)?;
         found.field("exposure", json!(exposure));
         Ok(found)
-    }
-
-    /// Keeps the radiance of vertices towards the camera, if it is asked for.
-    pub(super) fn keep_values(
-        &self,
-        vertices: &Vertices,
-        radiance: impl FnOnce() -> Vec<[f64; 3]>,
-        found: &mut Findings,
-    ) {
-        if let Some(values) = &self.card.values {
-            values.keep(vertices.positions(), &radiance(), found);
-        }
     }
 
     /// Adds the time of a frame, with its log as a timeline.

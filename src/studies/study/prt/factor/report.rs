@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde_json::json;
 
 use super::subject::BrdfFactors;
-use super::{files, harmonics, sphere, sweep, terms};
+use super::{files, harmonics, sphere, terms};
 use crate::all_frequency::factor::{DiscSamples, Factorization, ProductErrors, ProductFactors, ProductTable};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
@@ -39,7 +39,6 @@ impl Study for BrdfFactors {
         found.table(FoundTable::from(harmonics::table(&harmonic)).csv("harmonics").field("harmonics"));
         found.heading("Directional albedo");
         found.table(FoundTable::from(self.albedos(&table, &factors)).csv("albedo").field("albedo"));
-        sweep::report(&mut found, self.sweep(progress)?);
         files::keep(&mut found, &all, &factors)?;
         self.fields(&mut found, &all, &errors);
         Ok(found)

@@ -26,8 +26,6 @@ pub struct BrdfFactors {
     pub sampling: FactorSampling,
     /// m; `None` for ten, or the rank of the table where that is less.
     pub terms: Option<usize>,
-    /// Roughnesses of the same lobe to be factored besides, as in Figure 3.
-    pub roughnesses: Vec<f64>,
 }
 
 /// The paper's m for glossy surfaces.

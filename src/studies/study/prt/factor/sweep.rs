@@ -5,15 +5,11 @@ use super::subject::{BrdfFactors, FactorSubject};
 use crate::all_frequency::factor::{DiscSamples, FacetDistribution, Lobe, ProductErrors, ProductFunction as _};
 use crate::error::InputError;
 use crate::picture::metrics::{ScreenPicture, flip};
-use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table};
-use crate::study::{ProgressFn, StudyError};
+use crate::report::{Cell, Table};
+use crate::study::StudyError;
 
 /// Pixels per degree of whoever looks: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
 const PIXELS_PER_DEGREE: f64 = 67.0;
-
-/// Title of table and chart.
-const TITLE: &str = "Errors of the terms by roughness";
 
 /// One roughness.
 pub(in crate::study) struct SweptRoughness {
@@ -22,8 +18,6 @@ pub(in crate::study) struct SweptRoughness {
     pub(in crate::study) errors: ProductErrors,
     /// Mean of FLIP between spheres of the table and of the terms.
     pub(in crate::study) flip: f64,
-    /// By f, and by the terms.
-    pub(in crate::study) pictures: [NamedPicture; 2],
 }
 
 /// The lobe with another roughness.
@@ -41,21 +35,13 @@ fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, InputError> {
 
 impl BrdfFactors {
     /// The lobe of [`FactorSubject::Lobe`] with each roughness.
-    pub(in crate::study) fn sweep(&self, progress: &mut ProgressFn<'_>) -> Result<Vec<SweptRoughness>, StudyError> {
-        if self.roughnesses.is_empty() {
-            return Ok(Vec::new());
-        }
+    pub(in crate::study) fn sweep(&self, roughnesses: &[f64]) -> Result<Vec<SweptRoughness>, StudyError> {
         let FactorSubject::Lobe(lobe) = &self.subject else {
             let what = format!("expected a model of microfacets whose roughness can be swept, found {}", self.name);
             let help = "roughness is swept for Cook and Torrance's and for Schlick's model";
             return Err(StudyError::new("crossbar::factor::sweep", what).with_help(help));
         };
-        let all = self.roughnesses.len() as u64;
-        let one = |(done, &roughness): (u64, &f64)| {
-            progress("roughnesses", done, all);
-            self.swept(&with_roughness(lobe, roughness)?, roughness)
-        };
-        (0..).zip(&self.roughnesses).map(one).collect()
+        roughnesses.iter().map(|&roughness| self.swept(&with_roughness(lobe, roughness)?, roughness)).collect()
     }
 
     fn swept(&self, lobe: &Lobe, roughness: f64) -> Result<SweptRoughness, StudyError> {
@@ -71,52 +57,13 @@ impl BrdfFactors {
         let screens = [&original, &drawn].map(|radiance| ScreenPicture::new(&sphere::picture(radiance), exposure));
         let [one, other] = screens;
         let seen = flip(&one?, &other?, PIXELS_PER_DEGREE);
-        let named = |kind: &str, radiance: &[f64], caption: String| -> Result<NamedPicture, StudyError> {
-            let name = format!("roughness-{}-{kind}", shown(roughness, Quantity::Exact));
-            Ok(NamedPicture::new(name, sphere::picture(radiance).display(exposure)?, caption))
-        };
-        let label = shown(roughness, Quantity::Exact);
         Ok(SweptRoughness {
             roughness,
             relative_squared_error: found.relative_squared_error(found.terms()),
             errors: DiscSamples::new(&table).errors(&factors),
             flip: seen.map_or(0.0, |seen| seen.mean),
-            pictures: [
-                named("f", &original, format!("roughness {label}: f"))?,
-                named("terms", &drawn, format!("roughness {label}: terms {}", found.terms()))?,
-            ],
         })
     }
-}
-
-/// Table, chart and pictures.
-pub(super) fn report(found: &mut Findings, rows: Vec<SweptRoughness>) {
-    if rows.is_empty() {
-        return;
-    }
-    found.heading("Roughness");
-    found.table(FoundTable::from(roughness_table(&rows, TITLE)).csv("roughness").field("roughness"));
-    if rows.len() > 1 {
-        let line = |label: &str, of: fn(&SweptRoughness) -> f64| Series {
-            label: label.to_owned(),
-            points: rows.iter().map(|row| (row.roughness, of(row))).collect(),
-        };
-        let chart = Chart {
-            title: TITLE.to_owned(),
-            x: "roughness".to_owned(),
-            y: "error".to_owned(),
-            y_scale: Scale::Logarithmic,
-            lines: vec![
-                line("relative squared", |row| row.relative_squared_error),
-                line("RMS", |row| row.errors.rms),
-                line("FLIP of spheres", |row| row.flip),
-            ],
-            ..Chart::default()
-        };
-        let caption = "A sharper lobe needs more terms (Figure 3).".to_owned();
-        found.chart(NamedChart { name: "roughness".to_owned(), chart, caption });
-    }
-    found.pictures(rows.into_iter().flat_map(|row| row.pictures).collect());
 }
 
 /// A row per roughness.

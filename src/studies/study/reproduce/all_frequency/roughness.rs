@@ -36,9 +36,8 @@ fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), StudyEr
         subject: FactorSubject::Lobe(lobe),
         sampling: FactorSampling::default(),
         terms: Some(TERMS),
-        roughnesses: ROUGHNESSES.to_vec(),
     };
-    let rows = study.sweep(&mut |_, _, _| ()).map_err(|error| failed(HOST)(&error))?;
+    let rows = study.sweep(&ROUGHNESSES).map_err(|error| failed(HOST)(&error))?;
     let table = roughness_table(&rows, &format!("Errors of {TERMS} terms by roughness, {form}"));
     Ok((table, rows))
 }

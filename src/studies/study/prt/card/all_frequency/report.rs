@@ -6,7 +6,6 @@ use super::coding::{coarse_codes, ways_to_code};
 use super::pixels::exact_pixels;
 use super::precision::{factored_precision, ways_of_precision};
 use super::subject::{AllFrequencyOnCard, HostSteps, in_double};
-use crate::all_frequency::on_card::reference::vertex_radiance;
 use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
 use crate::all_frequency::on_card::{
     FactoredDrawing, ProductOptions, ProductPlace, TransferredMesh, VertexColors, draw,
@@ -44,7 +43,6 @@ impl Study for AllFrequencyOnCard {
         let is_clamped = card.is_clamped() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
         let compared = ComparedPicture::new(&seen, &drawn, &host, is_clamped);
         let mut found = study.findings("All-frequency transfer on a card", &compared, exposure)?;
-        study.keep_values(&lit.vertices, || vertex_radiance(&mesh, lit.view.camera.eye()), &mut found);
         conclude(&drawing, &mut found);
         let radiances = steps.cut.light.radiances();
         found.pictures(vec![lit.view.light_picture(of_texels(&radiances))?]);

@@ -1,7 +1,5 @@
 //! A lit model with all-frequency transfer, and the steps of the host before a card draws it.
 
-use glam::DMat3;
-
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::all_frequency::on_card::{ProductPlace, TransferredMesh};
@@ -38,7 +36,7 @@ impl AllFrequencyOnCard {
     }
 
     pub(super) fn cut(&self, keep: Option<usize>) -> Result<LightTruncation, InputError> {
-        exact::coefficients((&self.lit.light, self.lit.decimation), &DMat3::IDENTITY, keep)
+        exact::coefficients((&self.lit.light, self.lit.decimation), keep)
     }
 
     /// The host's work before a card draws.

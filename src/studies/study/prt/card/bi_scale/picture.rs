@@ -64,17 +64,6 @@ impl BiScaleOnCard {
         };
         seen.par_iter().map(of).collect()
     }
-
-    /// Equation 3 in f64 at each vertex, at the texture coordinates that it has in its first triangle.
-    pub(super) fn radiance_of_vertices(&self, local: &[[f64; 3]], edges: BlockEdges) -> Vec<[f64; 3]> {
-        let at_vertex = |(triangle, corner): (u32, usize)| {
-            let mut weights = [0.0; 3];
-            weights[corner] = 1.0;
-            Some(SeenPixel { triangle, corners: self.vertices.triangles()[triangle as usize], weights })
-        };
-        let seen: Vec<Option<SeenPixel>> = self.vertices.first_corners().into_iter().map(at_vertex).collect();
-        self.exact(local, &seen, 1.0, edges)
-    }
 }
 
 /// Numbers of single precision as such of double.

@@ -43,8 +43,6 @@ impl Study for BiScaleOnCard {
         let drawn = self.draw(&local.local, self.options, card.format, exposure)?;
         let compared = ComparedPicture::new(&seen, &drawn.pixels, &host, card.is_clamped());
         let mut found = study.findings("Bi-scale transfer on a card", &compared, exposure)?;
-        let of_vertices = || self.radiance_of_vertices(&doubles(&local.local), edges);
-        study.keep_values(&self.vertices, of_vertices, &mut found);
         let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
         found.pictures(vec![self.view.light_picture(of_texels(cube.texels()))?]);
         let whole = self.exact(&exact, &seen, exposure, edges);

@@ -5,7 +5,6 @@ use super::subject::OnCard;
 use super::{precision, tables};
 use crate::card::seen_pixels;
 use crate::cpca::on_card::time::host_of_section_7;
-use crate::geom::vector::wide;
 use crate::report::{Findings, Provenance};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::frame;
@@ -32,8 +31,6 @@ impl Study for OnCard {
         let drawn = way.draw(self, transfer, exposure).map_err(no_cpca_card)?;
         let compared = ComparedPicture::new(&seen, &drawn.colors, &host, card.is_clamped());
         let mut found = study.findings("Compressed transfer on a card", &compared, exposure)?;
-        let of_vertices = || lit.radiance(&exit, &self.vertices, wide(self.view.camera.eye()));
-        study.keep_values(&self.vertices, of_vertices, &mut found);
         let radiance = |direction| self.light.radiance(direction);
         found.pictures(vec![self.view.light_picture(radiance)?]);
         report_sizes(tables::sizes(&drawn.size, &drawn.draws), &mut found);

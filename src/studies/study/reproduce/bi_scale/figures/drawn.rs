@@ -1,7 +1,5 @@
 //! Pictures of a figure: by transfer, by rays, by low-frequency light, and of the sources of error.
 
-use glam::DMat3;
-
 use super::scene::{FigureSize, TexturedModel};
 use super::{HOST, StudyError, failed};
 use crate::bi_scale::baselines::{HarmonicRows, LocalTransfer, StoredTransfer};
@@ -26,7 +24,7 @@ impl DrawnFigure {
         let fail = failed(HOST);
         let rendering = model.rendering(side, size)?;
         let drawing = BiScaleDrawing::new(&rendering).map_err(|e| fail(&e))?;
-        let cube = drawing.cube(&DMat3::IDENTITY).map_err(|e| fail(&e))?;
+        let cube = drawing.cube().map_err(|e| fail(&e))?;
         let local = drawing.local(&cube).map_err(|e| fail(&e))?;
         let drawn = drawing.shade(&local.rows);
         let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).map_err(|e| fail(&e))?;

@@ -11,7 +11,7 @@ use crate::geom::Mesh;
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::study::framing::framed;
-use crate::study::prt::{BiScaleRendering, LitView, SurfaceTexture, TexturedSurface, TurnedFrames};
+use crate::study::prt::{BiScaleRendering, LitView, SurfaceTexture, TexturedSurface};
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::DistantLight;
 
@@ -73,9 +73,7 @@ impl TexturedModel {
             file,
             textures: vec![self.texture(side, size)?],
             light: DistantLight::Sky(HARD_SUN),
-            frames: TurnedFrames::default(),
             reference: true,
-            values: None,
         })
     }
 
