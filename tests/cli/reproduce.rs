@@ -64,13 +64,13 @@ fn what_is_recorded_stays() {
     let folder = tempfile::tempdir().expect("a folder");
     let kept = folder.path().join("cpca-figure-6.toml");
     std::fs::write(&kept, "a record").expect("a file");
-    let entries = ["cpca-figure-6", "cpca-section-6"];
+    let entries = ["cpca-section-6", "cpca-figure-6"];
     let ran = crossbar_in(folder.path(), &[&["reproduce", "--record", ".", "--json"], &entries[..]].concat(), "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let records = document["records"].as_array().expect("records").iter();
     let records: Vec<_> = records.map(|record| (record["entry"].clone(), record["record"].clone())).collect();
-    assert_eq!(records, [(entries[0].into(), "kept".into()), (entries[1].into(), "new".into())]);
+    assert_eq!(records, [(entries[0].into(), "new".into()), (entries[1].into(), "kept".into())]);
     assert_eq!(std::fs::read_to_string(&kept).expect("the file"), "a record");
     let new = std::fs::read_to_string(folder.path().join("cpca-section-6.toml")).expect("a record");
     assert!(new.contains("command = \"crossbar reproduce cpca-section-6 --full-size\""), "{new}");
