@@ -148,11 +148,8 @@ impl LightArgs {
         let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
         let depth = [("--depth", self.depth.is_some() && is_eye)];
         given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
-        let of_light = [
-            ("--seed", self.seed.is_some()),
-            ("--exposure", self.exposure.is_some()),
-            ("--lens", self.lens.is_some()),
-        ];
+        let of_light =
+            [("--seed", self.seed.is_some()), ("--exposure", self.exposure.is_some()), ("--lens", self.lens.is_some())];
         let of_light = of_light.map(|(option, given)| (option, given && renderer.is_none()));
         given::refuse(of_light, "scenes with light", "add a `--renderer`, or leave it out")
     }

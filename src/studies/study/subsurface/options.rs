@@ -53,7 +53,6 @@ pub struct SubsurfaceOptions {
         "Gather over all pairs of texels too [default: yes for atlases up to {ALL_PAIRS_SIDE}]"
     ))]
     all_pairs: Option<bool>,
-
 }
 
 /// The choices of links, for `--choice`.

@@ -11,7 +11,6 @@ use super::surface::SurfacePixel;
 use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::shade::TextureLookup;
 use crate::error::InputError;
-use crate::scene::Camera;
 use crate::study::{ProgressFn, StudyError};
 use crate::transfer::light::{CubeLight, Decimation};
 
