@@ -12,8 +12,8 @@ Examples:
       under a clear sky with a sun: picture, a page
   crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --keep 200 --size 64x48
       beside the uncompressed transfer, with 200 coefficients of the light
-  crossbar all-frequency render docs/examples/step_all.npz --model docs/examples/step.obj --light red-and-blue --frames 4 --size 64x48
-      uncompressed, the light turned around z in four steps
+  crossbar all-frequency render docs/examples/step_all.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
+      uncompressed, under a red and a blue light
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Every pixel takes its own view, on the host.";
 

@@ -142,11 +142,14 @@ impl ObjReader {
     }
 
     fn texcoord(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), InputError> {
-        // A third number is the depth of a volume texture.
-        let (&[u, v] | &[u, v, _]) = numbers else {
-            return Err(self.syntax(line, "a texture coordinate `vt u v`", text));
+        let uv = match numbers {
+            // The coordinate of a one-dimensional texture; v is 0 by default.
+            &[u] => [self.number(line, u)?, 0.0],
+            // A third number is the depth of a volume texture.
+            &[u, v] | &[u, v, _] => self.numbers(line, [u, v])?,
+            _ => return Err(self.syntax(line, "a texture coordinate `vt u`, `vt u v` or `vt u v w`", text)),
         };
-        self.texcoords.push(self.numbers(line, [u, v])?);
+        self.texcoords.push(uv);
         Ok(())
     }
 

@@ -270,6 +270,7 @@ fn errors_say_where_and_what() {
     };
     let cases = [
         ("/asset/version", json!("1.0"), "asset.version: expected 2.0, found `1.0`"),
+        ("/asset", json!({ "version": "2.1", "minVersion": "2.1" }), "asset.minVersion: expected 2.0, found `2.1`"),
         (
             "/scenes/0/nodes",
             json!([7]),

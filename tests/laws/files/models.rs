@@ -75,6 +75,17 @@ proptest! {
     }
 }
 
+/// Wavefront's format: `vt u v w`, of which v and w are 0 by default.
+#[test]
+fn texture_coordinates_have_one_to_three_numbers() {
+    let read = |coordinate: &str| {
+        let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt {coordinate}\nf 1/1 2/1 3/1\n");
+        parse_obj(text.as_bytes(), Path::new("m.obj"))
+    };
+    assert!(["0.5", "0.5 0.25", "0.5 0.25 1"].iter().all(|coordinate| read(coordinate).is_ok()));
+    assert!(read("").is_err() && read("0.5 0 0 0").is_err());
+}
+
 #[test]
 fn the_good_model_is_good() {
     assert_eq!(parse_obj(GOOD.as_bytes(), Path::new("m.obj")).expect("a mesh").len(), 4);
