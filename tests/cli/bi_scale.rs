@@ -285,11 +285,11 @@ fn the_card_draws_what_the_host_draws() {
     };
     let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
     let fine = on_card("--device ideal-fp32");
-    assert!(rms(&fine) < 1.0 && fine["time"].is_null(), "{}", rms(&fine));
+    assert!(rms(&fine) < 2.0 && fine["time"].is_null(), "{}", rms(&fine));
     let with_one = picture(&out, "card");
     // The floor has a texture of its own, of which the host's picture knows too.
     let both = on_card("--texture floor=mail --device ideal-fp32");
-    assert!(rms(&both) < 1.0, "{}", rms(&both));
+    assert!(rms(&both) < 2.0, "{}", rms(&both));
     assert!(number(&both["sizes"][4]["number"]) == 2.0, "{}", both["sizes"]);
     let changed = with_one.iter().zip(picture(&out, "card")).filter(|(a, b)| *a != b).count();
     let lit = with_one.iter().filter(|color| color.iter().any(|&value| value > 0.0)).count();

@@ -43,7 +43,6 @@ const CUT: &[(&str, &str, &str, bool)] = &[
 /// Commands that do not run here: their beginning, and the reason.
 const NOT_RUN: &[(&str, &str)] = &[
     ("alu mulAdd", "reads what TestFloat writes, which is not part of the repository"),
-    ("devices --probe llvmpipe", "needs this adapter; tests/gpu probes the one that there is"),
     ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
     ("cpca precompute transfer-bird", "takes minutes; the other examples compute the same of a small model"),
     ("merge", "reads the parts that other commands write; tests/cli/parts.rs merges those of every command"),

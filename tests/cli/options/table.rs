@@ -20,7 +20,7 @@ macro_rules! eye {
 /// The options of a picture under distant light.
 macro_rules! picture {
     ($model:literal) => {
-        concat!(eye!(), " --exposure=0.3 --model=white-box --model-up=y@", $model, " --light=red-and-blue")
+        concat!(eye!(), " --exposure=0.3 --model=white-box --model-up=y --strict@", $model, " --light=red-and-blue")
     };
 }
 
@@ -41,7 +41,7 @@ pub(super) const TABLE: &[Tried] = &[
             "alu roundToInt --format fp16 --flags < 3E00",
             "alu convert --format fp16 --to fp32 < 3E01",
             "alu sqrt --format s1.3 < 18",
-            "alu dot --format fp16 < 6800 3C00 3C00 3C00",
+            "alu dot --format fp16 < 6800 3C00 3C00 3C00 3C00 3C00",
             "alu quantize --format fp32 --block mxfp4 < 3f9ccccd",
             "alu mul --format e4m3fn:rst < 3B 3B",
         ],
@@ -49,7 +49,7 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],
-        options: "--side=16 --size=9x7 --out=other --model-up=y",
+        options: "--side=16 --size=9x7 --out=other --model-up=y --strict@1",
     },
     Tried {
         bases: &["check docs/examples/intersect.psa --device r200"],
@@ -76,7 +76,7 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
         ],
         options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 \
-                  --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y",
+                  --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
     },
     Tried {
         bases: &[
@@ -86,7 +86,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --part=1/1 --out=other \
-             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --brute-force same:--executor=scalar --model-up=y",
+             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --brute-force same:--executor=scalar --model-up=y --strict",
             eye!()
         ),
     },
@@ -104,8 +104,8 @@ pub(super) const TABLE: &[Tried] = &[
         options: concat!(
             "--patches=12 --factors=unoccluded --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 \
              --device=nv30 --switch=rounding=rtz same:--executor=scalar --tolerance=0.5 --iterations=2 \
-             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --sweep-patches=12,30 --part=1/2 --view=front \
-             --out=other --model-up=y",
+             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --sweep-patches=12,30 --part=1/2 same:--view=front@0,2 \
+             --view=front@1 --out=other --model-up=y --strict@1",
             eye!()
         ),
     },
@@ -115,13 +115,14 @@ pub(super) const TABLE: &[Tried] = &[
             "render cornell-box --size 8x8 --renderer whitted --samples 1 --out OUT",
             "render cornell-box --size 8x8 --renderer distributed --samples 2 --out OUT",
             "render cornell-box --size 8x8 --renderer path --samples 2 --out OUT",
-            "render cornell-box --size 8x8 --renderer photon --samples 1 --out OUT",
+            "render cornell-box --size 8x8 --renderer photon --samples 1 --photons 200 --gather 2 --out OUT",
             "render docs/examples/teapot.obj --size 8x8 --out OUT",
             "render odd.obj --size 8x8 --out OUT",
         ],
         options: concat!(
-            "--device=ideal-fp16 --executor=batch --out=other --renderer=eye --samples=3 --view=front@0,5,6 \
-             same:--view=front@1,2,3,4 --exposure=0.3 --caster=engine --model-up=y",
+            "--device=ideal-fp16 --executor=batch --out=other --renderer=eye --samples=3 --depth=1@0,2,3,4,5,6 \
+             --seed=2@2,3,4,5,6 same:--seed=2@0,1 --view=front@0,5,6 same:--view=front@1,2,3,4 --exposure=0.3 \
+             --lens=0.1,1 --photons=100 --gather=1 --caster=engine --model-up=y --strict@6",
             eye!()
         ),
     },
@@ -145,7 +146,7 @@ pub(super) const TABLE: &[Tried] = &[
             "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --tolerance=0.5 \
              --light=ambient:1,1,1 --all-pairs=no --device=nv30 --switch=rounding=rtz \
-             same:--executor=scalar --part=1/2 --out=other --model-up=y",
+             same:--executor=scalar --part=1/2 --out=other --model-up=y --strict@1",
             eye!()
         ),
     },
@@ -156,7 +157,7 @@ pub(super) const TABLE: &[Tried] = &[
             "timeline --eye-rays 4x4",
         ],
         options: "--eye-rays=5x4 --mesh=square.obj --device=nv20 --timing=rates --readback=async --double-buffer --cache \
-                  --sensitivity --perfetto=trace.json --model-up=y@0,1,1",
+                  --sensitivity --perfetto=trace.json --model-up=y@0,1 --strict@0,1",
     },
     Tried {
         bases: &[
@@ -167,7 +168,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=marble@3 --mm-per-unit=2@3 --channels=rgb \
                   --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.npz \
-                  --model-up=y",
+                  --model-up=y --strict@2",
     },
     Tried {
         bases: &[
@@ -177,7 +178,7 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --model odd.obj --reclassify 0.5 --out OUT.npz",
         ],
         options: "--clusters=5@0,1 --vectors=1@0,1 --method=adaptive@0,1 --model=white-box@0,1 --reclassify=0@0,1 \
-                  --supercluster-size=2@0,1 --out=other.npz@0,1 --model-up=y",
+                  --supercluster-size=2@0,1 --out=other.npz@0,1 --model-up=y --strict@2",
     },
     Tried { bases: &["cpca error docs/examples/step.npz docs/examples/step_small.npz"], options: "" },
     Tried { bases: &["cpca show docs/examples/step_small.npz"], options: "--vertex=3" },
@@ -219,7 +220,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency precompute docs/examples/room.obj --out OUT.npz",
             "all-frequency precompute odd.obj --out OUT.npz",
         ],
-        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y",
+        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y --strict@1",
     },
     Tried {
         bases: &[
@@ -228,14 +229,14 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency compress docs/examples/step_all.npz --model odd.obj --out OUT.npz",
         ],
         options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --bits=8@0 --resume=kept@0 --part=1/2@0 \
-                  --out=other.npz@0 --model-up=y",
+                  --out=other.npz@0 --model-up=y --strict@1",
     },
     Tried {
         bases: &[
             "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj",
             "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model odd.obj",
         ],
-        options: "--model=white-box --model-up=y",
+        options: "--model=white-box --model-up=y --strict@1",
     },
     Tried { bases: &["all-frequency show docs/examples/step_all_small.npz"], options: "--vertex=3" },
     Tried {
@@ -268,7 +269,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale precompute odd.obj --directions 2 --out OUT.npz",
         ],
         options: "--directions=3 --crease=10@0 --tangents=1,2,3@0 --matrix=other.mtx \
-                  --part=2/3 --out=other.npz --model-up=y",
+                  --part=2/3 --out=other.npz --model-up=y --strict@1",
     },
     Tried { bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"], options: "--out=other.npz" },
     Tried {
@@ -282,7 +283,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale compare court.npz --model odd.obj",
         ],
         options: "--model=white-box --light=red-and-blue@0,1 --clusters=3@0,1 --vectors=1@0,1 \
-                  --sample=40@0,1 --wavelets=5@0,1 --model-up=y",
+                  --sample=40@0,1 --wavelets=5@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[

@@ -24,18 +24,18 @@ const LEAST_AREA: f64 = 1e-9;
 /// The surface under a texel.
 struct Part {
     outlines: Vec<Outline>,
-    patches: Vec<Patch>,
+    patches: Vec<TexelPatch>,
     area: f64,
 }
 
 /// The outline of a flat convex polygon.
 struct Outline {
     normal: DVec3,
-    sides: Vec<Side>,
+    sides: Vec<OutlineSide>,
 }
 
 /// A side of a polygon.
-struct Side {
+struct OutlineSide {
     start: DVec3,
     /// The unit vector to its end.
     along: DVec3,
@@ -43,7 +43,7 @@ struct Side {
 }
 
 /// A parallelogram with sides e and f, or its half that has the side e and, from there, the side f.
-struct Patch {
+struct TexelPatch {
     corner: DVec3,
     e: DVec3,
     f: DVec3,
@@ -68,15 +68,15 @@ pub(super) fn long_mean<const N: usize>(
 impl Part {
     fn new(outlines: [Vec<DVec3>; 2]) -> Self {
         let is_whole = outlines.iter().any(|outline| outline.len() < 3);
-        let patches_of = |outline: &Vec<DVec3>| -> Vec<Patch> {
+        let patches_of = |outline: &Vec<DVec3>| -> Vec<TexelPatch> {
             // A rectangle of the atlas on one side of its face's diagonal.
             if let ([a, b, c, _], true) = (outline.as_slice(), is_whole) {
-                return vec![Patch::new([*a, *b, *c], false)];
+                return vec![TexelPatch::new([*a, *b, *c], false)];
             }
             let pairs = outline.windows(2).skip(1);
-            pairs.map(|side| Patch::new([outline[0], side[0], side[1]], true)).collect()
+            pairs.map(|side| TexelPatch::new([outline[0], side[0], side[1]], true)).collect()
         };
-        let mut patches: Vec<Patch> = outlines.iter().flat_map(patches_of).collect();
+        let mut patches: Vec<TexelPatch> = outlines.iter().flat_map(patches_of).collect();
         patches.retain(|patch| patch.area > 0.0);
         let area = patches.iter().map(|patch| patch.area).sum();
         Self { outlines: outlines.iter().filter_map(|corners| Outline::new(corners)).collect(), patches, area }
@@ -88,7 +88,7 @@ impl Part {
     }
 }
 
-impl Patch {
+impl TexelPatch {
     fn new([a, b, c]: [DVec3; 3], is_triangle: bool) -> Self {
         let (e, f) = (b - a, c - b);
         let area = e.cross(f).length() * if is_triangle { 0.5 } else { 1.0 };
@@ -100,7 +100,7 @@ impl Outline {
     /// `None` if rounding may have turned the normal.
     fn new(corners: &[DVec3]) -> Option<Self> {
         let next = corners.iter().cycle().skip(1);
-        let sides: Vec<Side> = corners.iter().zip(next).map(|(&a, &b)| Side::new(a, b)).collect();
+        let sides: Vec<OutlineSide> = corners.iter().zip(next).map(|(&a, &b)| OutlineSide::new(a, b)).collect();
         let &first = corners.first()?;
         let normal: DVec3 = corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
         let length: f64 = sides.iter().map(|side| side.length).sum();
@@ -116,7 +116,7 @@ impl Outline {
         let squared = height * height;
         let within = kernel.disc(squared);
         let mut sum = [0.0; N];
-        for &Side { start, along, length } in &self.sides {
+        for &OutlineSide { start, along, length } in &self.sides {
             let offset = start - point;
             let (from, away) = (offset.dot(along), self.normal.dot(offset.cross(along)));
             let p = away * away;
@@ -134,7 +134,7 @@ impl Outline {
     }
 }
 
-impl Side {
+impl OutlineSide {
     fn new(a: DVec3, b: DVec3) -> Self {
         Self { start: a, along: (b - a).normalize_or_zero(), length: a.distance(b) }
     }
@@ -187,8 +187,8 @@ impl<const N: usize> Light<'_, N> {
     }
 
     /// The mean light on a patch.
-    fn mean(&self, patch: &Patch) -> [f64; N] {
-        let &Patch { corner, e, f, is_triangle, .. } = patch;
+    fn mean(&self, patch: &TexelPatch) -> [f64; N] {
+        let &TexelPatch { corner, e, f, is_triangle, .. } = patch;
         let normal = e.cross(f);
         let allowed = TOLERANCES.map(|part| part * self.kernel.tolerance());
         // The middle of a side that is this short has its mean light within a quarter of the tolerance.
