@@ -126,6 +126,12 @@ fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette:
 
 /// The unit of an operation on lines of many numbers, once its options go together; `None` for other operations.
 fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
+    if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
+        return Err(Problem::usage(
+            "`--accumulator` and `--summation` are for `dot` only",
+            "leave them out: every other operation is rounded once, in its format",
+        ));
+    }
     let operation = match (args.op, args.block) {
         (AluOperation::Quantize, Some(block)) => RowOperation::Quantize(block),
         (AluOperation::Dequantize, Some(block)) => RowOperation::Dequantize(block),
@@ -142,12 +148,6 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
             RowOperation::Dot(args.summation.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(args.format))
         }
         (_, None) => {
-            if args.accumulator.is_some() || args.summation.is_some() {
-                return Err(Problem::usage(
-                    "`--accumulator` and `--summation` are for `dot` only",
-                    "leave them out: every other operation is rounded once, in its format",
-                ));
-            }
             return Ok(None);
         }
     };

@@ -75,7 +75,7 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
         ],
-        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 \
+        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2 same:--device=r200@3 --device=ideal-fp16@1 --executor=exact@1,2,3 \
                   --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
     },
     Tried {
@@ -86,7 +86,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --part=1/1 --out=other \
-             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --brute-force same:--executor=scalar --model-up=y --strict",
+             --rays-per-edge=2@0,1 --seed=2@0 --sides=both@0,2 same:--sides=both@1 same:--brute-force same:--executor=scalar --model-up=y --strict",
             eye!()
         ),
     },
@@ -102,7 +102,7 @@ pub(super) const TABLE: &[Tried] = &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
         ],
         options: concat!(
-            "--patches=12 --factors=unoccluded --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 \
+            "--patches=12 --factors=unoccluded@0,1 --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 \
              --device=nv30 --switch=rounding=rtz same:--executor=scalar --tolerance=0.5 --iterations=2 \
              --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --sweep-patches=12,30 --part=1/2 same:--view=front@0,2 \
              --view=front@1 --out=other --model-up=y --strict@1",
@@ -120,7 +120,7 @@ pub(super) const TABLE: &[Tried] = &[
             "render odd.obj --size 8x8 --out OUT",
         ],
         options: concat!(
-            "--device=ideal-fp16 --executor=batch --out=other --renderer=eye --samples=3 --depth=1@0,2,3,4,5,6 \
+            "--device=ideal-fp16 --executor=batch --out=other --renderer=eye@1,2,3,4,5,6 --samples=3 --depth=1@0,3,4,5,6 same:--depth=1@2 \
              --seed=2@2,3,4,5,6 same:--seed=2@0,1 --view=front@0,5,6 same:--view=front@1,2,3,4 --exposure=0.3 \
              --lens=0.1,1 --photons=100 --gather=1 --caster=engine --model-up=y --strict@6",
             eye!()
@@ -166,7 +166,7 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca precompute odd.obj --kind glossy --order 2 --rows 4 --degree 18 --bounces 1 --out OUT.npz",
             "cpca precompute square.obj --order 2 --degree 18 --material marble --mm-per-unit 10 --out OUT.npz",
         ],
-        options: "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=marble@3 --mm-per-unit=2@3 --channels=rgb \
+        options: "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=skin1@3 --mm-per-unit=2@3 --channels=rgb \
                   --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.npz \
                   --model-up=y --strict@2",
     },
@@ -258,7 +258,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency card glossy.npz --model square.obj --way colors --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=colors@0,2 --out=other@0,2",
+            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=colors@0 --out=other@0,2",
             card!("nv35"),
             picture!("1")
         ),
