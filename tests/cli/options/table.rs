@@ -75,7 +75,7 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
         ],
-        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2 same:--device=r200@3 --device=ideal-fp16@1 --executor=exact@1,2,3 \
+        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,3 same:--device=r200@2 --device=ideal-fp16@1 --executor=exact@1,2,3 \
                   --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
     },
     Tried {
@@ -102,7 +102,7 @@ pub(super) const TABLE: &[Tried] = &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
         ],
         options: concat!(
-            "--patches=12 --factors=unoccluded@0,1 --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 \
+            "--patches=12 --factors=unoccluded@0 same:--factors=unoccluded@1 --enforce-closure --solver=gauss-seidel --packing=luminance --storage=fp16 \
              --device=nv30 --switch=rounding=rtz same:--executor=scalar --tolerance=0.5 --iterations=2 \
              --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 --sweep-patches=12,30 --part=1/2 same:--view=front@0,2 \
              --view=front@1 --out=other --model-up=y --strict@1",

@@ -2,11 +2,11 @@
 //! over a texel i and a cluster C. The paper does not say how it integrates; the method is ours.
 //!
 //! - Moments: [`SurfaceMoments`] has area, mean point and covariance of every cluster of an atlas. Of a far cluster the
-//!   mean of R_d is taken to second order ([`kernel`]), with the moments of both.
-//! - Descent: [`Factors`] goes from a cluster to its children until they are far from a texel ([`integrate`]).
-//! - Local expansions: squares of texels gather from far clusters together ([`block`], [`expansion`]).
-//! - Near texels are divided into quarters ([`near`]); those that are long against the mean free path are integrated by
-//!   contours ([`long`]).
+//!   mean of R_d is taken to second order (`kernel`), with the moments of both.
+//! - Descent: [`Factors`] goes from a cluster to its children until they are far from a texel (`integrate`).
+//! - Local expansions: squares of texels gather from far clusters together (`block`, `expansion`).
+//! - Near texels are divided into quarters (`near`); those that are long against the mean free path are integrated by
+//!   contours (`long`).
 //!
 //! A factor is an area times a mean of R_d that is symmetric in texel and cluster, so A_i F_ij = A_j F_ji.
 
