@@ -13,9 +13,9 @@ use textwrap::WordSplitter::NoHyphenation;
 
 use super::shown::{MAX_SHOWN, ShownError};
 use crate::case::{CaseError, meant};
+use crate::error::InputError;
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
-use crate::split::PartError;
 
 /// Columns of tables and errors that go to a file or pipe, so that their text does not depend on a terminal.
 pub(super) const PLAIN_WIDTH: usize = 100;
@@ -34,10 +34,10 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(code(crossbar::unwritable))]
     Unwritable(#[from] WriteError),
-    /// A part of the work that cannot be written, or parts that do not fit.
+    /// Input that a room cannot use.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Part(#[from] PartError),
+    Input(#[from] InputError),
     /// A signal ended the work before its files were there.
     #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
     #[diagnostic(

@@ -5,10 +5,9 @@ use serde_json::{Value, json};
 use super::{Out, Problem, Verdict, study};
 use crate::error::InputError;
 use crate::names::did_you_mean;
-use crate::options::number;
 use crate::report::{Cell, Findings, Table};
 use crate::subsurface::materials::{MATERIALS, PublishedFigure, PublishedMaterial, named};
-use crate::subsurface::{Coefficients, Dipole, Material};
+use crate::subsurface::{Dipole, Material};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -16,16 +15,12 @@ Examples:
       the published media: coefficients, mean free paths, diffuse reflectances
   crossbar materials marble
       lengths and reflectances of marble, and where its coefficients are from
-  crossbar materials skin1 --radius 0,0.5,1,2,5
-      how much light leaves at these distances (mm) from where it entered
-  crossbar materials --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3
-      a medium of one's own; one number for all channels, or R,G,B
-  crossbar materials ketchup --eta 1.5 --json
-      published coefficients behind another boundary, for machines
+  crossbar materials ketchup --json
+      the same of ketchup, for machines
 
 Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
 
-/// Distances that are shown without `--radius`, in mean free paths of the longest.
+/// Distances that are shown, in mean free paths of the longest.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 /// Fractions of the light whose radii are shown.
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
@@ -35,58 +30,14 @@ const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A published medium; all of them if left out
-    #[arg(conflicts_with_all = ["sigma_s", "sigma_a"])]
     name: Option<String>,
-
-    /// Distances in mm at which R_d is shown [default: 0 to 10 of the longest mean free path]
-    #[arg(long, value_name = "MM,...", value_delimiter = ',', value_parser = number::not_negative)]
-    radius: Vec<f64>,
-
-    /// Reduced scattering coefficient per mm, one number or R,G,B
-    #[arg(long, value_name = "PER_MM", value_parser = channels, requires = "sigma_a", allow_hyphen_values = true)]
-    sigma_s: Option<Channels>,
-
-    /// Absorption coefficient per mm, one number or R,G,B
-    #[arg(long, value_name = "PER_MM", value_parser = channels, requires = "sigma_s", allow_hyphen_values = true)]
-    sigma_a: Option<Channels>,
-
-    /// Index of refraction, 1 to 3 [default: the published one; 1.3 for a medium of one's own]
-    #[arg(long, value_name = "ETA", value_parser = number::finite)]
-    eta: Option<f64>,
-}
-
-/// One number per channel.
-#[derive(Clone, Copy, Debug)]
-struct Channels([f64; 3]);
-
-fn channels(text: &str) -> Result<Channels, String> {
-    let numbers: Vec<f64> = text.split(',').map(number::finite).collect::<Result<_, _>>()?;
-    match numbers[..] {
-        [all] => Ok(Channels([all; 3])),
-        [red, green, blue] => Ok(Channels([red, green, blue])),
-        _ => Err(format!("expected one number, or three as R,G,B, found `{text}`")),
-    }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let own = match (args.sigma_s, args.sigma_a) {
-        (Some(Channels(s)), Some(Channels(a))) => {
-            let channels = [0, 1, 2].map(|c| Coefficients { sigma_s_prime: s[c], sigma_a: a[c] });
-            Some(Material::new("own", channels, args.eta.unwrap_or(1.3)).map_err(refused)?)
-        }
-        _ => None,
-    };
-    let published = args.name.as_deref().map(published).transpose()?;
-    let material = own.or_else(|| published.map(PublishedMaterial::material));
-    match material {
-        Some(material) => {
-            let eta = args.eta.unwrap_or(material.eta);
-            let material = Material::new(material.name, material.channels, eta).map_err(refused)?;
-            study::show(&one(&Shown::new(&material, &args.radius).map_err(refused)?, published), out)
-        }
-        None if args.eta.is_some() || !args.radius.is_empty() => {
-            let help = "name a medium, or give `--sigma-s` and `--sigma-a`; `crossbar materials` lists the names";
-            Err(Problem::usage("`--eta` and `--radius` are about one medium", help).into())
+    match args.name.as_deref() {
+        Some(name) => {
+            let published = published(name)?;
+            study::show(&one(&Shown::new(&published.material()).map_err(refused)?, published), out)
         }
         None => all(out),
     }
@@ -101,7 +52,7 @@ pub(super) fn published(name: &str) -> Result<&'static PublishedMaterial, Proble
     named(name).ok_or_else(|| {
         let names = MATERIALS.map(|material| material.name);
         let meant = did_you_mean(name, names);
-        let help = format!("{meant}the media are {}; `--sigma-s` and `--sigma-a` make others", names.join(", "));
+        let help = format!("{meant}the media are {}", names.join(", "));
         Problem::usage(format!("there is no medium `{name}`"), help)
     })
 }
@@ -111,15 +62,15 @@ struct Shown {
     name: String,
     eta: f64,
     dipoles: [Dipole; 3],
-    at: Vec<f64>,
+    at: [f64; 6],
 }
 
 impl Shown {
-    fn new(material: &Material, at: &[f64]) -> Result<Self, InputError> {
+    fn new(material: &Material) -> Result<Self, InputError> {
         let [red, green, blue] = material.channels.map(|channel| Dipole::new(channel, material.eta));
         let dipoles = [red?, green?, blue?];
         let longest = dipoles.iter().map(Dipole::mean_free_path).fold(0.0, f64::max);
-        let at = if at.is_empty() { PATHS.map(|paths| paths * longest).to_vec() } else { at.to_vec() };
+        let at = PATHS.map(|paths| paths * longest);
         Ok(Self { name: material.name.clone(), eta: material.eta, dipoles, at })
     }
 
@@ -134,10 +85,10 @@ const RGB: [&str; 3] = ["red", "green", "blue"];
 fn all(out: &mut Out) -> miette::Result<Verdict> {
     let mut rows = Vec::new();
     for material in &MATERIALS {
-        rows.push((material, Shown::new(&material.material(), &[]).map_err(refused)?));
+        rows.push((material, Shown::new(&material.material()).map_err(refused)?));
     }
     if out.json() {
-        let rows: Vec<Value> = rows.iter().map(|(material, shown)| document(shown, Some(material))).collect();
+        let rows: Vec<Value> = rows.iter().map(|(material, shown)| document(shown, material)).collect();
         out.document(&rows)?;
         return Ok(Verdict::Done);
     }
@@ -166,7 +117,7 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
 }
 
 /// Everything about one medium.
-fn one(shown: &Shown, published: Option<&PublishedMaterial>) -> Findings {
+fn one(shown: &Shown, published: &PublishedMaterial) -> Findings {
     let mut found = Findings::new(shown.name.as_str());
     found.fields(document(shown, published));
     found.introduce(format!("{}: index of refraction {}", shown.name, shown.eta));
@@ -178,9 +129,7 @@ fn one(shown: &Shown, published: Option<&PublishedMaterial>) -> Findings {
         table.push([r.into(), red, green, blue]);
     }
     found.table(table);
-    if let Some(published) = published {
-        found.table(sources(published));
-    }
+    found.table(sources(published));
     found
 }
 
@@ -221,7 +170,7 @@ fn sources(material: &PublishedMaterial) -> Table {
     table
 }
 
-fn document(shown: &Shown, published: Option<&PublishedMaterial>) -> Value {
+fn document(shown: &Shown, published: &PublishedMaterial) -> Value {
     let radii: Vec<Value> = FRACTIONS
         .iter()
         .map(|&fraction| json!({ "fraction": fraction, "mm": shown.each(|dipole| dipole.radius_of(fraction)) }))
@@ -243,7 +192,7 @@ fn document(shown: &Shown, published: Option<&PublishedMaterial>) -> Value {
         "total_integrated": shown.each(Dipole::integrated_total),
         "radii": radii,
         "r_d": r_d,
-        "sources": published.map(source_document),
+        "sources": source_document(published),
     })
 }
 

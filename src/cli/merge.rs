@@ -4,7 +4,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::version;
-use crate::split::{PartError, PartSet};
+use crate::error::{InputError, ensure};
+use crate::split::PartSet;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -46,16 +47,17 @@ impl Args {
     }
 
     /// Refuses a command without `--part`: its parts were not written by this program.
-    pub(super) fn require_divisible(&self, program: &clap::Command, parts: &PartSet) -> Result<(), PartError> {
+    pub(super) fn require_divisible(&self, program: &clap::Command, parts: &PartSet) -> Result<(), InputError> {
         let mut command = program;
         for word in &parts.command().arguments {
             let Some(found) = command.find_subcommand(word) else { break };
             command = found;
         }
-        if command.get_arguments().any(|arg| arg.get_id() == "part") {
-            return Ok(());
-        }
-        let path = self.parts.first().map_or(Path::new(""), PathBuf::as_path).into();
-        Err(PartError::Indivisible { path, command: parts.command().line() })
+        let path = self.parts.first().map_or(Path::new(""), PathBuf::as_path);
+        ensure!(
+            command.get_arguments().any(|arg| arg.get_id() == "part"), "crossbar::part::command" =>
+            "{}: expected a part of a command with `--part`, found one of `{}`", path.display(), parts.command().line()
+        );
+        Ok(())
     }
 }

@@ -8,8 +8,9 @@ use serde_json::json;
 use super::resolved::CommandLine;
 use super::version;
 use super::words::counted;
+use crate::error::InputError;
 use crate::report::Findings;
-use crate::split::{PartError, PartNumber, SplitCommand, SplitRun, WrittenPart};
+use crate::split::{PartNumber, SplitCommand, SplitRun, WrittenPart, not_utf8};
 
 /// The option of commands whose work can be split.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -23,8 +24,8 @@ impl PartArgs {
     /// How the command's items are computed: all of them, those of the part, whose file is `out`, or none.
     ///
     /// # Errors
-    /// [`PartError`] for an argument that is not UTF-8, or a program that cannot be told from others.
-    pub(super) fn split(self, line: &CommandLine, out: &Path) -> Result<SplitRun, PartError> {
+    /// For an argument that is not UTF-8, or a program that cannot be told from others.
+    pub(super) fn split(self, line: &CommandLine, out: &Path) -> Result<SplitRun, InputError> {
         match (&line.parts, self.part) {
             (Some(parts), _) => Ok(SplitRun::Merge(parts.clone())),
             (None, None) => Ok(SplitRun::Whole),
@@ -36,12 +37,9 @@ impl PartArgs {
 /// The command whose results are kept in files.
 ///
 /// # Errors
-/// [`PartError`] for an argument that is not UTF-8, or a program that cannot be told from others.
-pub(super) fn command(line: &CommandLine) -> Result<SplitCommand, PartError> {
-    let utf8 = |argument: &OsString| {
-        let found = || PartError::Name { found: argument.display().to_string() };
-        argument.to_str().map(str::to_owned).ok_or_else(found)
-    };
+/// For an argument that is not UTF-8, or a program that cannot be told from others.
+pub(super) fn command(line: &CommandLine) -> Result<SplitCommand, InputError> {
+    let utf8 = |argument: &OsString| argument.to_str().map(str::to_owned).ok_or_else(|| not_utf8(argument));
     let arguments = line.arguments.iter().map(utf8).collect::<Result<_, _>>()?;
     Ok(SplitCommand { program: version::program()?, arguments })
 }

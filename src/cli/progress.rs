@@ -3,7 +3,7 @@
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressDrawTarget, ProgressStyle};
@@ -31,8 +31,8 @@ pub(super) fn silence() {
 pub struct ProgressBar {
     /// It draws to standard error and hides itself where that is no terminal.
     bar: indicatif::ProgressBar,
-    /// Set where standard error is no terminal.
-    lines: Option<Mutex<PlainLines>>,
+    /// True where standard error is no terminal.
+    is_plain: bool,
     pace: Mutex<Pace>,
     /// Options that make the work quicker; empty if there are none.
     quicker: &'static str,
@@ -45,10 +45,8 @@ impl ProgressBar {
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {human_pos}/{human_len} {eta} left") {
             bar.set_style(style.progress_chars("=> "));
         }
-        let is_silent = begin(&bar);
-        let plain = !io::stderr().is_terminal() && !is_silent;
-        let lines = plain.then(|| Mutex::new(PlainLines::new(Instant::now())));
-        Self { bar, lines, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
+        let is_plain = !begin(&bar) && !io::stderr().is_terminal();
+        Self { bar, is_plain, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
     }
 
     /// Says what makes the work quicker, if it will take long: options, as in "a smaller `--size`".
@@ -62,7 +60,7 @@ impl ProgressBar {
     pub fn unending(what: &str) -> Self {
         let bar = indicatif::ProgressBar::new_spinner().with_message(what.to_owned());
         begin(&bar);
-        Self { bar, lines: None, pace: Mutex::new(Pace::new(Instant::now(), 0)), quicker: "" }
+        Self { bar, is_plain: false, pace: Mutex::new(Pace::new(Instant::now(), 0)), quicker: "" }
     }
 
     /// `done` of `total` steps of `what` are done.
@@ -82,13 +80,15 @@ impl ProgressBar {
     /// Writes what is due: that the work will take long, and where there is no bar, a plain line.
     fn say(&self) {
         let (now, done, total) = (Instant::now(), self.bar.position(), self.bar.length().unwrap_or(0));
-        let (left, is_news) = lock(&self.pace).left(now, done, total);
+        // A panic elsewhere leaves nothing here that is wrong.
+        let mut pace = self.pace.lock().unwrap_or_else(PoisonError::into_inner);
+        let ((left, is_news), is_due) = (pace.left(now, done, total), self.is_plain && pace.is_line_due(now));
+        drop(pace);
         let what = self.bar.message();
         if let Some(left) = left.filter(|_| is_news) {
             self.announce(&long_work(&what, left, self.quicker));
         }
-        let Some(lines) = &self.lines else { return };
-        if lock(lines).due(now) {
+        if is_due {
             // Nothing is to be done if nobody reads this.
             writeln!(io::stderr().lock(), "{}", plain_line(&what, done, total, left)).ok();
         }
@@ -96,9 +96,9 @@ impl ProgressBar {
 
     /// Writes a line above the bar, or where there is none, a plain one.
     fn announce(&self, line: &str) {
-        match &self.lines {
-            None => self.bar.println(line),
-            Some(_) => drop(writeln!(io::stderr().lock(), "progress: {line}")),
+        match self.is_plain {
+            false => self.bar.println(line),
+            true => drop(writeln!(io::stderr().lock(), "progress: {line}")),
         }
     }
 }
@@ -119,11 +119,6 @@ impl Drop for ProgressBar {
     }
 }
 
-/// A panic elsewhere leaves nothing here that is wrong.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// How fast steps are done: work in several stages counts anew from stage to stage.
 #[derive(Debug)]
 struct Pace {
@@ -132,11 +127,22 @@ struct Pace {
     stage: (Instant, u64, u64),
     done: u64,
     is_announced: bool,
+    /// When the next plain line is due.
+    next_line: Instant,
 }
 
 impl Pace {
     fn new(start: Instant, total: u64) -> Self {
-        Self { start, stage: (start, 0, total), done: 0, is_announced: false }
+        Self { start, stage: (start, 0, total), done: 0, is_announced: false, next_line: start + FIRST }
+    }
+
+    /// Returns `true` if a plain line is due; if so, the next one is put off.
+    fn is_line_due(&mut self, now: Instant) -> bool {
+        let is_due = now >= self.next_line;
+        if is_due {
+            self.next_line = now + EVERY;
+        }
+        is_due
     }
 
     /// The time that the rest of a stage takes at its pace, once there is one; and if it is long for the first time.
@@ -175,77 +181,10 @@ fn long_work(what: &str, left: Duration, quicker: &str) -> String {
     format!("{what} will take {} at this pace{quicker}", about(left))
 }
 
-/// When the next plain line is due.
-#[derive(Debug)]
-struct PlainLines {
-    next: Instant,
-}
-
-impl PlainLines {
-    fn new(start: Instant) -> Self {
-        Self { next: start + FIRST }
-    }
-
-    /// Returns `true` if a line is due; if so, the next one is put off.
-    fn due(&mut self, now: Instant) -> bool {
-        let due = now >= self.next;
-        if due {
-            self.next = now + EVERY;
-        }
-        due
-    }
-}
-
 /// A line of progress: steps done, of all, and the time left.
 fn plain_line(what: &str, done: u64, total: u64, left: Option<Duration>) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "working" } else { &what };
     let left = left.map(|left| format!(", {} left", about(left))).unwrap_or_default();
     format!("progress: {what}, {} of {} done{left}", count(done.min(total)), count(total))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn plain_lines_come_now_and_then() {
-        let start = Instant::now();
-        let mut lines = PlainLines::new(start);
-        let due = [0, 1, 2, 3, 11, 12, 40, 41].map(|s| lines.due(start + Duration::from_secs(s)));
-        assert_eq!(due, [false, false, true, false, false, true, true, false]);
-    }
-
-    #[test]
-    fn a_plain_line_is_plain() {
-        assert_eq!(plain_line("fp16", 3, 24, None), "progress: fp16, 3 of 24 done");
-        let left = Some(Duration::from_secs(100));
-        let line = plain_line("a\x1b[2J\n", 1_000, 65_536, left);
-        assert_eq!(line, "progress: a\\u{1b}[2J\\n, 1,000 of 65,536 done, about 2 min left");
-    }
-
-    #[test]
-    fn long_work_is_announced_once() {
-        let start = Instant::now();
-        let at = |seconds: f64| start + Duration::from_secs_f64(seconds);
-        let mut pace = Pace::new(start, 100);
-        assert_eq!(pace.left(at(1.0), 1, 100), (None, false), "too early to tell");
-        let (left, is_news) = pace.left(at(3.0), 3, 100);
-        assert_eq!((left, is_news), (Some(Duration::from_secs(97)), true));
-        assert!(!pace.left(at(4.0), 4, 100).1, "said already");
-        // Another stage counts from its own start.
-        assert_eq!(pace.left(at(10.0), 0, 50), (None, false));
-        assert_eq!(pace.left(at(20.0), 40, 50), (Some(Duration::from_secs_f64(2.5)), false));
-
-        let mut quick = Pace::new(start, 10);
-        assert!(!quick.left(at(3.0), 5, 10).1);
-    }
-
-    #[test]
-    fn long_work_says_what_is_quicker() {
-        let line = long_work("visibility", Duration::from_secs(400), "fewer `--samples`");
-        assert_eq!(line, "visibility will take about 7 min at this pace; quicker with fewer `--samples`");
-        assert_eq!(long_work("", Duration::from_secs(8000), ""), "this will take about 2 h at this pace");
-        assert_eq!(about(Duration::ZERO), "about 1 s");
-    }
 }

@@ -52,9 +52,6 @@ pub(super) struct Args {
     view: Option<String>,
 
     #[command(flatten)]
-    eye: EyeArgs,
-
-    #[command(flatten)]
     part: PartArgs,
 
     /// Where to write pictures, tables and the page
@@ -72,7 +69,7 @@ impl StudyArgs for Args {
 
     fn study(&self) -> miette::Result<Parameters> {
         let scene = scene_name::scene(&self.scene)?;
-        let viewpoint = Viewpoint { size: self.size, view: self.view.as_deref(), eye: self.eye };
+        let viewpoint = Viewpoint { size: self.size, view: self.view.as_deref(), eye: EyeArgs::default() };
         let (camera, methods) = (viewpoint.camera(&scene)?, self.options.methods()?);
         let is_on_card = methods.iter().any(|method| matches!(method, SolveMethod::Card(_)));
         if !is_on_card {

@@ -11,7 +11,7 @@ use crate::report::visible::visible;
 pub(super) const MAX_SHOWN: usize = 20;
 
 /// A copy of a diagnostic that any renderer may write to a terminal as it is.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct ShownError {
     message: String,
     code: Option<String>,
@@ -66,19 +66,7 @@ impl ShownError {
     }
 
     fn message(text: &str) -> Self {
-        Self {
-            message: visible(text).into_owned(),
-            code: None,
-            severity: None,
-            help: None,
-            url: None,
-            excerpt: None,
-            labels: Vec::new(),
-            related: Vec::new(),
-            more: 0,
-            cause: None,
-            cause_is_diagnostic: false,
-        }
+        Self { message: visible(text).into_owned(), ..Self::default() }
     }
 
     /// Errors of all lists that were left out.

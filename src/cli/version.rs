@@ -1,11 +1,12 @@
 //! Text of `crossbar --version`.
 
 use std::fs::File;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use crate::error::InputError;
 use crate::report::sha256;
-use crate::split::PartError;
+use crate::split::unreadable;
 
 /// Commit that the program was built from. `build.rs` sets it in optimised builds, whoever packages the program in any.
 pub(super) const COMMIT: &str = match option_env!("CROSSBAR_COMMIT") {
@@ -24,16 +25,15 @@ pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
 /// development build, modified sources) the SHA-256 of its file.
 ///
 /// # Errors
-/// [`PartError::Unreadable`] if the program's own file cannot be read.
-pub(super) fn program() -> Result<String, PartError> {
+/// If the program's own file cannot be read.
+pub(super) fn program() -> Result<String, InputError> {
     let version = env!("CARGO_PKG_VERSION");
     if !COMMIT.is_empty() && COMMIT.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         return Ok(format!("{version} ({COMMIT})"));
     }
-    let unreadable = |path: PathBuf| move |source| PartError::Unreadable { path, source };
     // There the file can be read even if it has been replaced since.
     let path = if cfg!(target_os = "linux") { Ok("/proc/self/exe".into()) } else { std::env::current_exe() };
-    let path = path.map_err(unreadable("the program".into()))?;
-    let digest = File::open(&path).and_then(sha256).map_err(unreadable(path))?;
+    let path: PathBuf = path.map_err(|source| unreadable(Path::new("the program"), source))?;
+    let digest = File::open(&path).and_then(sha256).map_err(|source| unreadable(&path, source))?;
     Ok(format!("{version} (SHA-256 {digest})"))
 }

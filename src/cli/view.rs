@@ -132,38 +132,3 @@ pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> Res
     }
     Ok(set.commit()?)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A long box far from the origin, wide, high or deep.
-    fn long_box(axis: usize) -> Mesh {
-        let mut side = [1.0_f32; 3];
-        side[axis] = 6.0;
-        let corners: Vec<[f32; 3]> =
-            (0..8).map(|c| [0, 1, 2].map(|i| 40.0 + if c >> i & 1 == 1 { side[i] } else { 0.0 })).collect();
-        let faces = vec![[0, 1, 2], [1, 3, 2], [4, 5, 6], [5, 7, 6], [0, 1, 4], [2, 3, 6]];
-        Mesh::new(corners, faces).expect("a box")
-    }
-
-    #[test]
-    fn a_model_fills_the_picture() {
-        for (axis, width, height) in [(0, 64, 64), (1, 64, 64), (2, 64, 64), (0, 30, 90), (2, 120, 40)] {
-            let mesh = long_box(axis);
-            let size = Size { width, height };
-            let camera = framing(&mesh, size, 0.375, (None, None, [0.0, 0.0, 1.0])).expect("a camera");
-            let places: Vec<[f64; 2]> = mesh.positions().iter().map(|&v| place(&camera, v)).collect();
-            let reach = |side: usize| places.iter().map(|at| at[side].abs()).fold(0.0, f64::max);
-            assert!(reach(0) < 0.93 && reach(1) < 0.93, "nothing is cut off: {places:?}");
-            assert!(reach(0).max(reach(1)) > 0.91, "one side is filled: {places:?}");
-        }
-    }
-
-    /// Where a point is seen, from -1 to 1 on either side.
-    fn place(camera: &Camera, point: [f32; 3]) -> [f64; 2] {
-        let to = DVec3::from(point.map(f64::from)) - DVec3::from(camera.eye().map(f64::from));
-        // Both reach from the middle of the picture to its edge, at distance 1.
-        [camera.right(), camera.up()].map(|side| to.dot(side) / (side.length_squared() * to.dot(camera.forward())))
-    }
-}

@@ -11,6 +11,7 @@ use refsim::{
 };
 use serde::Serialize;
 
+use crate::error::{InputError, input_error};
 use crate::io::read_limited;
 use crate::report::{SourceText, quoted_line};
 
@@ -45,14 +46,10 @@ pub enum ShaderError {
     #[error("shader `{name}` cannot be read")]
     #[diagnostic(code(crossbar::shader::unreadable), help("check the path"))]
     Unreadable { name: String, source: io::Error },
-    /// The file is not text.
-    #[error("expected a shader in ASCII or UTF-8, found byte {byte:#04x} at offset {offset} of `{name}`")]
-    #[diagnostic(code(crossbar::shader::text), help("name a file with shader assembly, not a compiled shader"))]
-    NotText { name: String, byte: u8, offset: usize },
-    /// The file exceeds the maximum length.
-    #[error("expected a shader of at most {MAX_BYTES} bytes, found more in `{name}`")]
-    #[diagnostic(code(crossbar::shader::length), help("check that this is the file you mean"))]
-    TooLong { name: String },
+    /// The file is too long, or not text.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Input(#[from] InputError),
     /// The text is not shader assembly.
     #[error("`{name}` has {}", count(errors.len(), "syntax error"))]
     #[diagnostic(code("asm::syntax"))]
@@ -121,24 +118,22 @@ impl ShaderText {
         let unreadable = |source| ShaderError::Unreadable { name: name.clone(), source };
         // Reads no more than the limit: the path may name an endless device file.
         let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
-            return Err(ShaderError::TooLong { name });
+            return Err(input_error!(
+                "crossbar::shader::length" => "expected a shader of at most {MAX_BYTES} bytes, found more in `{name}`";
+                help "check that this is the file you mean"
+            )
+            .into());
         };
-        Self::from_bytes(name, bytes)
-    }
-
-    /// Creates a shader text from the bytes of a file.
-    ///
-    /// # Errors
-    /// If they are not text.
-    pub fn from_bytes(name: String, bytes: Vec<u8>) -> Result<Self, ShaderError> {
-        match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self::new(name, text)),
-            Err(error) => {
-                let offset = error.utf8_error().valid_up_to();
-                let byte = error.as_bytes().get(offset).copied().unwrap_or_default();
-                Err(ShaderError::NotText { name, byte, offset })
-            }
-        }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let offset = error.utf8_error().valid_up_to();
+            let byte = error.as_bytes().get(offset).copied().unwrap_or_default();
+            input_error!(
+                "crossbar::shader::text" =>
+                "expected a shader in ASCII or UTF-8, found byte {byte:#04x} at offset {offset} of `{name}`";
+                help "name a file with shader assembly, not a compiled shader"
+            )
+        })?;
+        Ok(Self::new(name, text))
     }
 
     /// Name in messages.

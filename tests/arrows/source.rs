@@ -83,7 +83,9 @@ impl Crate {
             let member = MEMBERS.iter().find_map(|member| below.strip_prefix(member).ok());
             // The root of a member re-imports rooms of other members, which is no use of them.
             let is_root = member.is_some_and(|below| below == Path::new("lib.rs"));
-            (!is_root).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
+            // Tests of a member use what they like.
+            let is_test = member.is_some_and(|below| below.starts_with("tests"));
+            (!is_root && !is_test).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
         });
         Self::of_texts(texts)
     }

@@ -146,18 +146,6 @@ fn a_model_stands_on_a_ground() {
     assert_eq!(other.code, Some(2), "its model is beside a ground's file: {}", other.stderr);
 }
 
-/// A vertex has a cluster and weights in each of its segments, or sees directions.
-#[test]
-fn a_vertex_is_shown() {
-    let shown = document(&format!("all-frequency show {CODED} --vertex 12"));
-    assert_eq!((&shown["vertex"]["number"], &shown["vertex"]["directions_visible"]), (&Value::from(12), &Value::Null));
-    let segments = shown["vertex"]["segments"].as_array().expect("segments");
-    assert!(!segments.is_empty() && segments.len() <= 24);
-    assert!(segments.iter().all(|part| number(&part["norm"]) > 0.0 && part["cluster"].is_u64()), "{segments:?}");
-    let sees = document(&format!("all-frequency show {SIGHT} --vertex 12"));
-    assert!(number(&sees["vertex"]["directions_visible"]) > 1000.0 && sees["vertex"]["segments"].is_null());
-}
-
 /// Light alone: its energy is that of kept and dropped coefficients.
 #[test]
 fn light_is_taken_apart() {
@@ -184,7 +172,7 @@ fn truncated_light_is_drawn() {
     ));
     assert!(number(&cut["negative_texels"]) > 0.0, "{cut}");
     let picture = |light: &str, keep: &str| {
-        let options = format!("--light {light} {keep} --size 32x24 --exposure 0.5 --out {page}");
+        let options = format!("--light {light} {keep} --size 32x24 --out {page}");
         document(&format!("all-frequency render {SIGHT} --model {STEP} {options}"));
         let bytes = fs::read(folder.path().join("page/picture.exr")).expect("written");
         crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
@@ -219,10 +207,6 @@ fn what_does_not_go_together_is_refused() {
         ("bi-scale bicluster docs/examples/step.npz --out OUT", "`crossbar cpca` takes it"),
         ("bi-scale render docs/examples/step.npz --model white-box --texture mail", "`crossbar cpca` takes it"),
         ("all-frequency compress docs/examples/signal.csv --model white-box --out OUT", "expected a .npz file"),
-        (
-            "all-frequency show docs/examples/step_all.npz --vertex 70",
-            "expected a vertex below 70 (counted from 0), found 70",
-        ),
         ("cpca error docs/examples/step.npz docs/examples/step_all_small.npz", "`crossbar all-frequency` takes it"),
         ("cpca precompute docs/examples/step.obj --ground 8 --out OUT", "unexpected argument '--ground'"),
         (

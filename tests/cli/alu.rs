@@ -24,6 +24,9 @@ fn results_have_the_width_of_the_format() {
     assert_eq!(results("lt --format fp32 --flags", "3F800000 40000000\n40000000 7FC00000"), ["1 00", "0 10"]);
     assert_eq!(results("convert --format fp32 --to s3.12 --flags", "3F800000\n42C80000"), ["1000 00", "7FFF 05"]);
     assert_eq!(results("mulAdd --format fp16", "3C00 3C00 3C00"), ["4000"]);
+    assert_eq!(results("add --format s8.8", "00100 00100\n  0A\t2B \r"), ["00200", "00035"]);
+    let widest = alu("sqrt --format fp32 --verify --flags", "FFFFFFFF 80000000 1F\n");
+    assert_eq!((widest.code, widest.stdout.ends_with("0 passed, 1 failed\n")), (Some(1), true), "{}", widest.stdout);
 }
 
 #[test]
@@ -65,15 +68,27 @@ fn chance_is_by_seed_and_line() {
 #[test]
 fn lines_of_many_numbers() {
     let block = "83 0 8 7 4";
-    assert_eq!(results("quantize --format fp32 --block mxfp4", "3f800000 becccccd 42c00000 42200000"), [block]);
+    let numbers = "3f800000 becccccd 42c00000 42200000";
+    assert_eq!(results("quantize --format fp32 --block mxfp4", numbers), [block]);
+    assert_eq!(results("quantize --format fp32 --block mxfp4 --flags", numbers), [format!("{block} 03")]);
+    assert_eq!(results("quantize --format fp32 --block mxint8 --flags", "7f800000 0"), ["FF 00 00 10"]);
     let back = results("dequantize --format fp32 --block mxfp4 --json --flags", block);
     assert_eq!(back, [r#"{"flags":"00","results":["00000000","80000000","42C00000","42000000"]}"#]);
     let terms = "6800 3C00 3C00 3C00 3C00 3C00\n\n3C00 3C00";
-    assert_eq!(results("dot --format fp16", terms), ["6800", "3C00"]);
+    // 2048 + 1 + 1 in fp16: a half more is lost twice, in single precision neither is.
+    assert_eq!(results("dot --format fp16 --flags", terms), ["6800 01", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --accumulator fp32 --flags", terms), ["6801 00", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --summation exact", terms), ["6801", "3C00"]);
+    let many = "0 ".repeat(33);
     for (arguments, input, expected) in [
         ("quantize --format fp32", "0", "blocks need a block format"),
+        ("quantize --format fp32 --block mxfp4", &many, "line 1: expected 1 to 32 numbers, found 33 fields"),
+        (
+            "dequantize --format fp32 --block mxfp4",
+            "7f",
+            "line 1: expected a scale and 1 to 32 elements, found 1 field",
+        ),
+        ("dequantize --format fp32 --block mxfp4", "7f 10", "line 1: expected at most 1 hexadecimal digits (4 bits)"),
         ("add --format fp32 --block mxfp4", "0 0", "`--block` is for `quantize` and `dequantize` only"),
         ("add --format fp32 --summation tree", "0 0", "`--accumulator` and `--summation` are for `dot` only"),
         ("dot --format fp32 --accumulator fp16:rst", "0 0", "round more than once"),
@@ -179,6 +194,11 @@ fn bad_lines_name_their_number() {
         ("add --format fp16", "\n\n3C00 3G00\n", "line 3: expected hexadecimal digits, found `3G00`"),
         ("add --format fp16", "3C00 13C00\n", "line 1: expected at most 4 hexadecimal digits (16 bits), found `13C00`"),
         ("add --format e3m2", "40 00\n", "line 1: expected at most 2 hexadecimal digits (6 bits), found `40`"),
+        ("add --format e3m2", "001 1\n", "line 1: expected at most 2 hexadecimal digits (6 bits), found `001`"),
+        ("add --format e3m2", "1 2 3 4 5 6 7\n", "line 1: expected 2 operands, found 7 fields"),
+        ("add --format e3m2", "1 0x2\n", "line 1: expected hexadecimal digits, found `0x2`"),
+        ("add --format e3m2", "é 1\n", "line 1: expected hexadecimal digits"),
+        ("sqrt --format fp32", "1FFFFFFFF\n", "line 1: expected at most 8 hexadecimal digits (32 bits)"),
         ("sqrt --format fp16 --verify --flags", "3C00 3C00\n", "line 1: expected 1 operand, result and flags"),
         ("eq --format fp16 --verify", "3C00 3C00 2 00\n", "line 1: expected at most 1 hexadecimal digits (1 bits)"),
     ] {
@@ -186,6 +206,8 @@ fn bad_lines_name_their_number() {
         assert_eq!(ran.code, Some(2), "alu {arguments}");
         assert!(ran.stderr.contains(expected), "alu {arguments}: {}", ran.stderr);
     }
+    let long = alu("add --format e3m2", &"F".repeat(4000)).refusal("a long line");
+    assert!(long.len() < 400, "a long line is not echoed whole: {long}");
 }
 
 #[test]

@@ -29,6 +29,11 @@ pub(crate) fn document_of(line: &str) -> Value {
     document(&line.split_whitespace().collect::<Vec<_>>())
 }
 
+/// Texts under their names, for one snapshot.
+pub(crate) fn listed<'a>(texts: impl IntoIterator<Item = (&'a str, String)>) -> String {
+    texts.into_iter().map(|(name, text)| format!("== {name}\n{text}")).collect()
+}
+
 pub(crate) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
 }

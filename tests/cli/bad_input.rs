@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::answers::listed;
 use crate::{ProgramOutput, crossbar, crossbar_in};
 
 /// Runs in a fresh folder that must be as empty afterwards as before, and expects an error in one piece.
@@ -56,9 +57,8 @@ fn messages() {
         ("bad_ideal_format", &["devices", "ideal-fp17"], ""),
         ("bad_hex", &["alu", "sqrt", "--format", "fp16"], "0x3C00\n"),
     ];
-    for (name, arguments, input) in cases {
-        insta::assert_snapshot!(name, refused(arguments, input).stderr);
-    }
+    let said = listed(cases.map(|(name, arguments, input)| (name, refused(arguments, input).stderr)));
+    insta::assert_snapshot!(said);
 }
 
 #[test]

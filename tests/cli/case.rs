@@ -4,6 +4,7 @@ use std::{fs, path::Path};
 
 use serde_json::Value;
 
+use crate::answers::listed;
 use crate::{crossbar, crossbar_in};
 
 /// The example cases by name.
@@ -37,13 +38,14 @@ fn every_example_is_tested() {
 
 #[test]
 fn examples_pass_and_write_their_pictures() {
-    for name in CASES {
+    let said = listed(CASES.iter().map(|&name| {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let ran = crossbar_in(folder.path(), &["run", &example(name)], "");
         assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{name}");
-        insta::assert_snapshot!(*name, ran.stdout.replace('\\', "/"));
         assert!(folder.path().join("out").join(name).is_dir(), "{name} has its folder");
-    }
+        (name, ran.stdout.replace('\\', "/"))
+    }));
+    insta::assert_snapshot!(said);
 }
 
 #[test]
@@ -201,7 +203,7 @@ fn refused(text: &str) -> String {
 
 #[test]
 fn bad_cases() {
-    for (name, from, to) in [
+    let cases = [
         ("unknown_field", "full_screen = true", "fullscreen = true"),
         ("not_toml", "full_screen = true", "full_screen = = true"),
         ("unknown_device", "\"r200\"", "\"r2000\""),
@@ -258,10 +260,12 @@ fn bad_cases() {
         ("mip_level_beyond", "texels = [[1]]", "texels = [[1]]\nmax_mip_level = 1"),
         ("tolerance_of_raw", "expected = [1]", "raw = [255]\ntolerance = 1"),
         ("target_of_depth", "expected = [1]", "depth = 1\ntarget = 0\n[depth]"),
-    ] {
+    ];
+    let said = listed(cases.map(|(name, from, to)| {
         assert!(SMALL.contains(from), "{name} changes something");
-        insta::assert_snapshot!(format!("bad_{name}"), refused(&SMALL.replace(from, to)));
-    }
+        (name, refused(&SMALL.replace(from, to)))
+    }));
+    insta::assert_snapshot!(said);
 }
 
 /// A program that reads what the case never set runs on Direct3D's default, zeros, and says so; so does one whose
@@ -359,15 +363,20 @@ fn a_program_that_runs_too_long_is_an_error() {
     let said = fails(&["run", "case.toml"]);
     insta::assert_snapshot!(said);
     assert_eq!(said, fails(&["run", "case.toml", "--executor", "batch"]));
-    let traced = fails(&["run", "case.toml", "--trace", "7,3", "--step-budget", "1000"]);
-    assert!(traced.contains("pixel (7, 3)") && traced.contains("1000"), "{traced}");
     assert!(fails(&["compare", "case.toml"]).contains("pixel (0, 0)"));
-    assert!(fails(&["compare", "case.toml", "--step-budget", "5"]).contains("the 5 steps"));
-    fs::write(folder.path().join("case.toml"), format!("step_budget = 0\n{text}")).expect("a file");
+    let with_budget = |budget: u32, text: &str| {
+        fs::write(folder.path().join("case.toml"), format!("step_budget = {budget}\n{text}")).expect("a file");
+    };
+    with_budget(1000, &text);
+    let traced = fails(&["run", "case.toml", "--trace", "7,3"]);
+    assert!(traced.contains("pixel (7, 3)") && traced.contains("1000"), "{traced}");
+    with_budget(5, &text);
+    assert!(fails(&["compare", "case.toml"]).contains("the 5 steps"));
+    with_budget(0, &text);
     assert!(fails(&["run", "case.toml"]).contains("step budget of 1 or more"));
     let fits = text.replace("[255, 0, 0, 0]", "[2, 0, 0, 0]");
     for (budget, code) in [(63, 0), (62, 2)] {
-        fs::write(folder.path().join("case.toml"), format!("step_budget = {budget}\n{fits}")).expect("a file");
+        with_budget(budget, &fits);
         let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
         assert_eq!(ran.code, Some(code), "{budget}: {}", ran.stderr);
     }

@@ -4,6 +4,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
+use crate::answers::listed;
 use crate::{ProgramOutput, case::CASES, case::example, crossbar_in};
 
 /// Runs the program on `text` as `case.toml` in a folder of its own.
@@ -214,7 +215,7 @@ fn a_device_without_a_switch_of_the_case() {
 #[test]
 fn bad_sides() {
     let plain = PLAIN.replace("PROGRAM", "mov r0, c0\nmov oC0, r0");
-    for (name, arguments) in [
+    let cases = [
         ("the_same", &["--left", "batch", "--right", "batch"][..]),
         ("unknown_device", &["--right-device", "r2000"]),
         ("unknown_format", &["--left-format", "fp17"]),
@@ -225,11 +226,13 @@ fn bad_sides() {
         ("pixel_outside", &["--pixel", "4,0"]),
         ("no_pixel", &["--pixel", "4"]),
         ("pixel_and_registers", &["--pixel", "1,1", "--registers"]),
-    ] {
+    ];
+    let said = listed(cases.map(|(name, arguments)| {
         let ran = on(&plain, &[&["compare", "case.toml"], arguments].concat());
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
-        insta::assert_snapshot!(format!("bad_{name}"), ran.stderr);
-    }
+        (name, ran.stderr)
+    }));
+    insta::assert_snapshot!(said);
 }
 
 #[test]
@@ -283,9 +286,10 @@ fn nothing_to_trace() {
     let text = PLAIN.replace("PROGRAM", "mov r0, c0\nmov oC0, r0").replace("size = [4, 4]", "size = [64, 64]");
     let corner = "vertices = [{ position = [-1, 1] }, { position = [-0.9, 1] }, { position = [-1, 0.9] }]";
     let text = text.replace("full_screen = true\nattributes = { }", corner);
-    for (name, pixel) in [("near", "5,4"), ("far", "60,60"), ("outside", "64,0")] {
+    let said = listed([("near", "5,4"), ("far", "60,60"), ("outside", "64,0")].map(|(name, pixel)| {
         let ran = on(&text, &["run", "case.toml", "--trace", pixel]);
         assert_eq!(ran.code, Some(if name == "outside" { 2 } else { 0 }), "{}", ran.stderr);
-        insta::assert_snapshot!(format!("nothing_{name}"), ran.transcript());
-    }
+        (name, ran.transcript())
+    }));
+    insta::assert_snapshot!(said);
 }

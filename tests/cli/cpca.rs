@@ -6,6 +6,7 @@ use std::path::Path;
 use approx::assert_relative_eq;
 use crossbar::io::{NumberTable, write_npy};
 use crossbar::picture::{Picture, exr};
+use crossbar::transfer::file::load_prt;
 use serde_json::Value;
 
 use crate::answers::{document, number, place, refused, refused_in};
@@ -43,7 +44,6 @@ fn what_does_not_go_together_is_refused() {
         ),
         (&["error", &transfer, &transfer], "expected clusters, found transfer alone"),
         (&["error", &signal, &small], "expected 24 points of 3 numbers"),
-        (&["show", &small, "--vertex", "1000"], "expected a vertex below"),
         (&["show", &model], "expected a .npz file, found another beginning"),
     ] {
         let said = refused_in(folder.path(), &[&["cpca"], arguments].concat());
@@ -138,9 +138,9 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
         let options = ["--kind", "glossy", "--rows", "16", "--brdf", "ward:0.1,0.4,0.1,0.4", "--order", "4"];
         let command = ["cpca", "precompute", &model, "--tangents", tangents, "--out", &out];
         document(&[&command[..], &options].concat());
-        let shown = document(&["cpca", "show", &out, "--vertex", "2"]);
-        assert_eq!(shown["mesh"]["tangents"], tangents);
-        (out, shown["vertex"]["transfer"].as_array().expect("numbers").clone())
+        assert_eq!(document(&["cpca", "show", &out])["mesh"]["tangents"], tangents);
+        let transfer = load_prt(out.as_ref(), None).expect("a file").transfer.expect("transfer");
+        (out, transfer.values().to_vec())
     };
     let (texture, along_texture) = made("texture.npz", "texture");
     let (axis, along_y) = made("axis.npz", "0,1,0");

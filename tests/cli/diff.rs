@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
 
+use crate::answers::listed;
 use crate::{ProgramOutput, crossbar_in};
 
 /// A slope of 16 x 12 pixels.
@@ -68,11 +69,12 @@ fn what_it_says() {
         ("layers", &["layers.exr", "other_layers.exr", "--ppd", "20"], 1),
         ("depth", &["depth.exr", "nearer.exr"], 1),
     ];
-    for (name, arguments, code) in cases {
+    let said = listed(cases.map(|(name, arguments, code)| {
         let ran = diff(folder.path(), arguments);
         assert_eq!(ran.code, Some(code), "{name}: {}", ran.stderr);
-        insta::assert_snapshot!(format!("diff_{name}"), ran.transcript());
-    }
+        (name, ran.transcript())
+    }));
+    insta::assert_snapshot!(said);
 }
 
 #[test]
@@ -89,12 +91,13 @@ fn bad_input() {
         ("ppd", &["a.exr", "a.exr", "--ppd", "0.5"]),
         ("window", &["a.exr", "a.exr", "--min-ssim", "nan"]),
     ];
-    for (name, arguments) in cases {
+    let said = listed(cases.map(|(name, arguments)| {
         let ran = diff(folder.path(), &[arguments, &["--out", "maps"]].concat());
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
         assert!(!folder.path().join("maps").exists(), "{name} left something behind");
-        insta::assert_snapshot!(format!("diff_bad_{name}"), ran.stderr);
-    }
+        (name, ran.stderr)
+    }));
+    insta::assert_snapshot!(said);
 }
 
 #[test]

@@ -14,6 +14,7 @@ use crossbar::scene::built;
 use glam::DVec3;
 
 use crate::crossbar;
+use crate::generated::hold_bytes;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples")
@@ -91,12 +92,7 @@ fn examples_are_what_the_library_makes() {
     ];
     files.extend(scene_files(&built::build("cornell-box").expect("a scene"), "room").expect("files"));
     for (name, bytes) in files {
-        let path = folder().join(&name);
-        if writes_files() {
-            fs::write(&path, &bytes).expect("written");
-        }
-        let there = fs::read(&path).expect("an example");
-        assert!(there == bytes, "run with INSTA_UPDATE=always to write {}", path.display());
+        hold_bytes(&folder().join(&name), &bytes);
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::answers::listed;
 use crate::{crossbar, crossbar_in};
 
 const TABLE: &str = "docs/examples/reflectance.csv";
@@ -63,7 +64,7 @@ fn bad_input_is_refused() {
     put("equal.csv", line.repeat(4).as_bytes());
     put("zero.csv", "0,0,0,0\n".repeat(4).as_bytes());
     let before = fs::read_dir(folder.path()).expect("a folder").count();
-    for (name, arguments) in [
+    let cases = [
         ("ragged", &["--table", "ragged.csv"][..]),
         ("nan", &["--table", "nan.csv"]),
         ("negative", &["--table", "negative.csv"]),
@@ -71,12 +72,14 @@ fn bad_input_is_refused() {
         ("above_rank", &["--table", "equal.csv", "--terms", "2"]),
         ("dark", &["--table", "zero.csv"]),
         ("roughness", &["--brdf", "schlick", "--roughness", "2"]),
-    ] {
+    ];
+    let said = listed(cases.map(|(name, arguments)| {
         let ran = crossbar_in(folder.path(), &[&["all-frequency", "factor"], arguments].concat(), "");
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), before, "{arguments:?}");
-        insta::assert_snapshot!(format!("factor_bad_{name}"), ran.stderr);
-    }
+        (name, ran.stderr)
+    }));
+    insta::assert_snapshot!(said);
 }
 
 /// Options that the subject has no use for are refused before its file is looked for.

@@ -84,6 +84,29 @@ fn what_is_lost_is_said() {
     }
 }
 
+/// Long work says once how long it will take and what makes it quicker, and where standard error is no terminal, in
+/// plain lines how much of it is done; with `--quiet` it says nothing.
+#[test]
+fn long_work_is_announced() {
+    let said = [None, Some("--quiet")].map(|more| {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let mut command = unignoring(crate::program::path());
+        command.args(LONG).args(more).current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null());
+        let mut child = command.stderr(Stdio::piped()).spawn().expect("the program that this test was built with");
+        begun(&mut child, folder.path());
+        std::thread::sleep(Duration::from_secs(4));
+        signal(&child, "INT");
+        let output = child.wait_with_output().expect("a child");
+        String::from_utf8(output.stderr).expect("text")
+    });
+    let lines: Vec<&str> = said[0].lines().filter(|line| line.starts_with("progress: ")).collect();
+    let (announced, counted): (Vec<&str>, Vec<&str>) = lines.iter().partition(|line| line.contains("will take about"));
+    assert_eq!((announced.len(), counted.len()), (1, 1), "{said:?}");
+    assert!(announced[0].ends_with(" at this pace; quicker with fewer `--samples` or a smaller `--size`"), "{said:?}");
+    assert!(counted[0].contains(" of ") && counted[0].contains(" done, about ") && counted[0].ends_with(" left"));
+    assert!(!said[0].contains(['\x1b', '\r']) && !said[1].contains("progress"), "{said:?}");
+}
+
 /// A reader that never empties its pipe does not keep the program running.
 #[test]
 fn a_full_pipe_does_not_keep_the_program() {

@@ -22,6 +22,8 @@ mod diff;
 mod environment;
 mod examples;
 mod factor;
+#[path = "../support/pages.rs"]
+mod generated;
 mod help;
 mod hostile;
 mod interrupted;
@@ -37,6 +39,7 @@ mod radiosity;
 mod random;
 mod render;
 mod reproduce;
+mod resolved;
 mod scene;
 mod shown;
 mod subsurface;
@@ -45,5 +48,6 @@ mod timeline;
 mod trace_format;
 mod tracing;
 mod tree;
+mod values;
 
 use program::{ProgramOutput, crossbar, crossbar_in, start};

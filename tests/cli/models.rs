@@ -33,7 +33,6 @@ fn what_is_mended_is_said_by_every_command() {
         ("render m.obj --renderer eye --size 4x4 --out q", true),
         ("atlas m.obj --side 16", true),
         ("leaks --mesh m.obj --size 4x4 --device r300 --out l", true),
-        ("timeline --eye-rays 4x4 --mesh m.obj", false),
     ] {
         let ran = run(folder.path(), line);
         assert_eq!(ran.code, Some(0), "{line}: {}", ran.transcript());

@@ -20,7 +20,7 @@ const COMMANDS: &[&str] = &[
     "all-frequency precompute docs/examples/step.obj --ground 5 --out out.npz",
     "all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 15 --vectors 2 \
      --out out.npz",
-    "bi-scale precompute docs/examples/court.obj --directions 3 --matrix out.mtx --out out.npz",
+    "bi-scale precompute docs/examples/court.obj --directions 3 --out out.npz",
     "leaky-teapot --size 24x16 --tessellation 1 --rays-per-edge 1 --format fp16 --format s3.12 --format fp32 --out out",
     "leaky-teapot --mesh docs/examples/step.obj --rays docs/examples/rays.csv --rays-per-edge 0 --device r200 \
      --device nv35 --out out",

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::answers::listed;
 use crate::{ProgramOutput, crossbar_in};
 
 fn radiosity(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
@@ -193,18 +194,17 @@ fn bad_input() {
         ("no_patches", &["cornell-room", "--patches", "0"]),
         ("unknown_view", &["cornell-room", "--view", "behind"]),
     ];
-    for (name, arguments) in cases {
+    let said = listed(cases.map(|(name, arguments)| {
         let folder = tempfile::tempdir().expect("a folder for the test");
         for (file, text) in FILES {
             std::fs::write(folder.path().join(file), text).expect("written");
         }
-        let mut all = vec!["radiosity"];
-        all.extend(arguments);
-        let ran = crossbar_in(folder.path(), &all, "");
+        let ran = crossbar_in(folder.path(), &[&["radiosity"], arguments].concat(), "");
         assert_eq!(ran.code, Some(2), "{name}: {}", ran.stderr);
         assert!(!folder.path().join("out").exists(), "{name} left something behind");
-        insta::assert_snapshot!(format!("radiosity_{name}"), ran.stderr);
-    }
+        (name, ran.stderr)
+    }));
+    insta::assert_snapshot!(said);
 }
 
 /// Every command takes a model with a triangle without area, and says how many it has.

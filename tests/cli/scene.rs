@@ -1,14 +1,19 @@
 //! `crossbar scene`: the list, one scene, its files, and the message for a wrong name.
 
+use crate::answers::listed;
 use crate::{crossbar, crossbar_in};
 
 #[test]
 fn all_scenes_and_one() {
-    insta::assert_snapshot!("scenes", crossbar(&["scene"], "").transcript());
-    insta::assert_snapshot!("scene_office", crossbar(&["scene", "office"], "").transcript());
-    insta::assert_snapshot!("scene_json", crossbar(&["scene", "cornell-box", "--json"], "").transcript());
-    insta::assert_snapshot!("scene_unknown", crossbar(&["scene", "kitchen"], "").transcript());
-    insta::assert_snapshot!("scene_slip", crossbar(&["scene", "teapot_room"], "").transcript());
+    let cases = [
+        ("scenes", "scene"),
+        ("scene_office", "scene office"),
+        ("scene_json", "scene cornell-box --json"),
+        ("scene_unknown", "scene kitchen"),
+        ("scene_slip", "scene teapot_room"),
+    ];
+    let said = cases.map(|(name, line)| (name, crossbar(&line.split(' ').collect::<Vec<_>>(), "").transcript()));
+    insta::assert_snapshot!(listed(said));
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! `crossbar subsurface`.
 
-use crate::environment::writes_files;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -8,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use crate::answers::words;
+use crate::generated::{filled, hold};
 use crate::{ProgramOutput, crossbar_in};
 
 /// A tetrahedron.
@@ -150,16 +150,13 @@ fn hold_on_page(name: &str, command: &str, expected: &str) {
     let _alone = PAGE.lock().unwrap_or_else(PoisonError::into_inner);
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/studies/subsurface.md");
     let text = std::fs::read_to_string(&page).expect("the page");
-    let mark = format!("<!-- subsurface: {name} -->");
-    let (before, rest) = text.split_once(&mark).expect("the mark");
-    let (found, after) = rest.split_once("<!-- /subsurface -->").expect("the end mark");
-    if writes_files() {
-        let text = format!("{before}{mark}{expected}<!-- /subsurface -->{after}");
-        std::fs::write(&page, text).expect("written");
-    } else {
-        assert_eq!(found, expected, "INSTA_UPDATE=always cargo test --test cli writes it");
-    }
-    assert!(before.contains(&format!("crossbar {command}")), "the page names the command");
+    let split = |name: &str| text.split_once(&format!("<!-- subsurface: {name} -->")).expect("the mark");
+    let block = |other: &str| match split(other).1.split_once("<!-- /subsurface -->") {
+        Some((there, _)) if other != name => there.to_owned(),
+        _ => expected.to_owned(),
+    };
+    assert!(split(name).0.contains(&format!("crossbar {command}")), "the page names the command");
+    hold(&page, &filled(&text, "subsurface", block));
 }
 
 /// Errors of links by the size of the model.

@@ -22,7 +22,7 @@ fn fixture(path: &str) -> String {
 /// No line of any table is wider than the terminal.
 #[test]
 fn tables_fit_the_terminal() {
-    let (case, square) = (fixture("cases/modulate.toml"), fixture("models/square.obj"));
+    let case = fixture("cases/modulate.toml");
     let commands: [&[&str]; 13] = [
         &["leaky-teapot", "--size", "16x16", "--tessellation", "2", "--rays-per-edge", "1"],
         &["radiosity", "cornell-box", "--patches", "40", "--size", "16x16", "--sweep-patches", "30"],
@@ -35,7 +35,7 @@ fn tables_fit_the_terminal() {
         &["compare", &case, "--right-format", "s3.8"],
         &["run", &case],
         &["run", &case, "--trace", "1,1"],
-        &["timeline", "--eye-rays", "48x40", "--mesh", &square, "--device", "r200", "--sensitivity", "--cache"],
+        &["timeline", "--eye-rays", "12x8", "--device", "r200", "--sensitivity", "--cache"],
         &["scene"],
     ];
     let folder = tempfile::tempdir().expect("a folder for the test");

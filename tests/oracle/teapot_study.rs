@@ -17,7 +17,7 @@ pub(crate) fn parameters(size: u32, rate: u32, configurations: Vec<Configuration
         model: None,
         listed: None,
         executor: ExecutorKind::Batch.into(),
-        options: LeakyTeapotOptions { rays_per_edge: 2, seed: 1, sides: Sides::Front, all_pairs: false },
+        options: LeakyTeapotOptions { rays_per_edge: 2, sides: Sides::Front, all_pairs: false },
     }
 }
 

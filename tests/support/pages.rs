@@ -8,16 +8,24 @@ use crate::environment::writes_files;
 
 /// Holds a file against what it should be, or writes it.
 pub(crate) fn hold(path: &Path, expected: &str) {
+    hold_bytes(path, expected.as_bytes());
+}
+
+/// The same of any bytes. Line ends of texts may be those of another system.
+pub(crate) fn hold_bytes(path: &Path, expected: &[u8]) {
     if writes_files() {
         fs::write(path, expected).expect("it can be written");
     }
-    let found = fs::read_to_string(path).unwrap_or_default().replace('\r', "");
-    let other = expected.lines().zip(found.lines()).find(|(expected, found)| expected != found);
+    let found = fs::read(path).unwrap_or_default();
+    let (same, other) = match (str::from_utf8(&found), str::from_utf8(expected)) {
+        (Ok(found), Ok(expected)) => {
+            let mut lines = expected.lines().zip(found.lines());
+            (found.replace('\r', "") == expected, lines.find(|(expected, found)| expected != found))
+        }
+        _ => (found == expected, None),
+    };
     let path = path.display();
-    assert!(
-        found == expected,
-        "{path} is out of date, INSTA_UPDATE=always cargo test writes it; expected, found: {other:?}"
-    );
+    assert!(same, "{path} is out of date, INSTA_UPDATE=always cargo test writes it; expected, found: {other:?}");
 }
 
 /// The text with what stands between `<!-- KIND: NAME -->` and `<!-- /KIND -->` replaced by what `said` says of the

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::cli::transfer::model::{load, vertices};
 use crate::cli::transfer::picture::PictureArgs;
 use crate::scene::{Material, Surface};
@@ -62,8 +62,8 @@ pub(super) struct LitArgs {
     #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
-    #[command(flatten)]
-    light: LightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
+    light: DistantLightArg,
 
     /// Light coefficients that are kept, those of largest area times magnitude [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::cli::Problem;
 use crate::cli::study::written;
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::error::InputError;
 use crate::io::{write_cube_table, write_file};
 use crate::options::one_of::variants;
@@ -38,8 +38,8 @@ enum ByArg {
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    #[command(flatten)]
-    light: LightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
+    light: DistantLightArg,
 
     /// Squares that have a Haar transform each
     #[arg(long, value_name = "N", default_value = "24", value_parser = variants::<Segmentation>())]

@@ -5,46 +5,33 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::code::CodedSegment;
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
-use crate::cli::transfer::model::chosen_vertex;
-use crate::cli::words::{counted, measured};
-use crate::report::{Cell, Findings, Table};
+use crate::cli::words::counted;
+use crate::report::Findings;
 
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency show docs/examples/step_all_small.npz
       what is coded, in how many bytes
-  crossbar all-frequency show docs/examples/step_all_small.npz --vertex 12
-      of one vertex: its cluster and weights in each segment
-  crossbar all-frequency show docs/examples/step_all.npz --vertex 12 --json
-      what the vertex sees, for machines
+  crossbar all-frequency show docs/examples/step_all.npz --json
+      what the vertices see, for machines
 
 The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
-/// Show what a .npz file holds: visibility, coded segments, the code of a vertex
+/// Show what a .npz file holds: visibility, coded segments
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The file
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
-
-    /// A vertex, counted from 0
-    #[arg(long, value_name = "N")]
-    vertex: Option<u32>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = &load_all_frequency(&args.file, None)?;
-    let vertex = chosen_vertex("all-frequency", args.vertex, file.mesh.vertices as usize)?;
     let mut found = Findings::new("All-frequency transfer");
     found.fields(header(file));
-    found.field("vertex", json!(vertex.map(|vertex| vertex_document(file, vertex))));
-    match vertex {
-        None => all(file, &mut found),
-        Some(vertex) => one(file, vertex, &mut found),
-    }
+    all(file, &mut found);
     Ok(found)
 }
 
@@ -91,64 +78,4 @@ fn all(file: &AllFrequencyFile, found: &mut Findings) {
             counted(coded.size().total() as usize)
         ));
     }
-}
-
-/// A segment's code at a vertex.
-struct CodedVertex {
-    segment: usize,
-    cluster: u16,
-    weights: Vec<f64>,
-    /// The root of the sum of the squares of its decoded transfer.
-    norm: f64,
-}
-
-impl CodedVertex {
-    fn new(part: &CodedSegment, vertex: usize) -> Option<Self> {
-        let at = part.vertices.binary_search(&(vertex as u32)).ok()?;
-        let transfer = part.decoded(at);
-        Some(Self {
-            segment: part.segment,
-            cluster: part.cluster_of[at],
-            weights: part.decoded_weights().nth(at)?,
-            norm: transfer.iter().map(|value| value * value).sum::<f64>().sqrt(),
-        })
-    }
-}
-
-/// The segments that a vertex has, in their order.
-fn coded_vertex(file: &AllFrequencyFile, vertex: usize) -> Option<Vec<CodedVertex>> {
-    let coded = file.coded.as_ref()?;
-    Some(coded.segments.iter().filter_map(|part| CodedVertex::new(part, vertex)).collect())
-}
-
-/// Directions that a vertex sees.
-fn visible(file: &AllFrequencyFile, vertex: usize) -> Option<u32> {
-    let maps = file.visibility.as_ref()?;
-    Some(maps.bits(vertex).iter().map(|word| word.count_ones()).sum())
-}
-
-fn vertex_document(file: &AllFrequencyFile, vertex: usize) -> Value {
-    let segment = |part: CodedVertex| json!({ "segment": part.segment, "cluster": part.cluster, "weights": part.weights, "norm": part.norm });
-    let coded = coded_vertex(file, vertex).map(|parts| parts.into_iter().map(segment).collect::<Vec<_>>());
-    json!({ "number": vertex, "directions_visible": visible(file, vertex), "segments": coded })
-}
-
-fn one(file: &AllFrequencyFile, vertex: usize, found: &mut Findings) {
-    found.introduce(format!("vertex    {vertex}"));
-    if let Some(visible) = visible(file, vertex) {
-        found.introduce(format!("sees      {} of 98,304 directions", counted(visible as usize)));
-    }
-    let Some(parts) = coded_vertex(file, vertex) else { return };
-    found.introduce(format!("segments  {} of 24 hold transfer", parts.len()));
-    let mut table = Table::new("Code", &["segment", "cluster", "norm", "weights"]);
-    for part in parts {
-        let weights: Vec<String> = part.weights.iter().map(|weight| measured(*weight)).collect();
-        table.push([
-            part.segment.into(),
-            u64::from(part.cluster).into(),
-            Cell::measured(part.norm),
-            weights.join(" ").into(),
-        ]);
-    }
-    found.table(table);
 }

@@ -4,9 +4,10 @@ use std::io::{Read, Write as _};
 
 use refsim::num::{DotOrder, Env, Flags, Format, block::BLOCK, block::BlockFormat, ops};
 
-use super::line::{LineError, hex, push_hex};
+use super::line::{hex, other_fields, push_hex};
 use super::stream::{TaskOutput, each_line};
 use crate::cli::{Out, OutputError};
+use crate::error::InputError;
 
 /// The operation on a line.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +39,7 @@ struct Converted {
 
 impl RowUnit {
     /// Converts line `number` (from 1); `None` if it is blank.
-    fn convert(&self, text: &[u8], number: u64) -> Result<Option<Converted>, LineError> {
+    fn convert(&self, text: &[u8], number: u64) -> Result<Option<Converted>, InputError> {
         let fields: Vec<&[u8]> = text.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()).collect();
         if fields.is_empty() {
             return Ok(None);
@@ -50,9 +51,9 @@ impl RowUnit {
             RowOperation::Dot(..) => (count <= 2 * BLOCK && count.is_multiple_of(2), "1 to 32 pairs of numbers"),
         };
         if !fits {
-            return Err(LineError::Count { line: number, expected: expected.to_owned(), found: count });
+            return Err(other_fields(number, expected, count));
         }
-        let read = |fields: &[&[u8]], format: Format| -> Result<Vec<u32>, LineError> {
+        let read = |fields: &[&[u8]], format: Format| -> Result<Vec<u32>, InputError> {
             fields.iter().map(|field| hex(field, format.width(), number)).collect()
         };
         let plain = self.env.format;
@@ -139,57 +140,4 @@ pub(super) fn run(unit: &RowUnit, flags: bool, input: impl Read, out: &mut Out) 
         out.write_all(&part.text).and_then(|()| out.flush()).map_err(OutputError::from)?;
         Ok(())
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn unit(operation: RowOperation) -> RowUnit {
-        RowUnit { operation, env: Format::FP32.into() }
-    }
-
-    fn mxfp4() -> BlockFormat {
-        "mxfp4".parse().expect("a block format")
-    }
-
-    #[track_caller]
-    fn line(unit: &RowUnit, text: &str) -> String {
-        let mut out = Vec::new();
-        unit.push(&mut out, &unit.convert(text.as_bytes(), 1).expect("a line").expect("not blank"), true);
-        String::from_utf8(out).expect("text")
-    }
-
-    #[test]
-    fn blocks_there_and_back() {
-        let there = unit(RowOperation::Quantize(mxfp4()));
-        assert_eq!(line(&there, "3f800000 becccccd 42c00000 42200000"), "83 0 8 7 4 03\n");
-        let back = unit(RowOperation::Dequantize(mxfp4()));
-        assert_eq!(line(&back, "83 0 8 7 4"), "00000000 80000000 42C00000 42000000 00\n");
-        let mxint8 = "mxint8".parse().expect("a block format");
-        assert_eq!(line(&unit(RowOperation::Quantize(mxint8)), "7f800000 0"), "FF 00 00 10\n");
-    }
-
-    /// 2048 + 1 + 1 in fp16: a half more is lost twice, in single precision neither is.
-    #[test]
-    fn accumulators() {
-        let dot = |accumulator| RowUnit {
-            operation: RowOperation::Dot(DotOrder::Sequential, accumulator),
-            env: Format::FP16.into(),
-        };
-        let terms = "6800 3c00 3c00 3c00 3c00 3c00";
-        assert_eq!(line(&dot(Format::FP16), terms), "6800 01\n");
-        assert_eq!(line(&dot(Format::FP32), terms), "6801 00\n");
-    }
-
-    #[test]
-    fn bad_lines() {
-        let error = |operation, text: &str| unit(operation).convert(text.as_bytes(), 3).expect_err("bad").to_string();
-        let (there, back) = (RowOperation::Quantize(mxfp4()), RowOperation::Dequantize(mxfp4()));
-        assert_eq!(error(back, "7f"), "line 3: expected a scale and 1 to 32 elements, found 1 field");
-        assert_eq!(error(there, &"0 ".repeat(33)), "line 3: expected 1 to 32 numbers, found 33 fields");
-        assert_eq!(error(back, "7f 10"), "line 3: expected at most 1 hexadecimal digits (4 bits), found `10`");
-        let dot = RowOperation::Dot(DotOrder::Tree, Format::FP32);
-        assert_eq!(error(dot, "0 0 0"), "line 3: expected 1 to 32 pairs of numbers, found 3 fields");
-    }
 }

@@ -3,34 +3,23 @@
 //! Whatever one read from the input brings is worked on at once, so that a program at the other end of two pipes may
 //! send a line and wait for the answer; a file comes a mebibyte at a time, and its lines are shared out to the threads.
 
-use std::io::{self, ErrorKind, Read, Write as _};
+use std::io::{ErrorKind, Read, Write as _};
 
-use miette::Diagnostic;
 use rayon::prelude::*;
 use refsim::num::Outcome;
 use serde_json::json;
 
 use super::{
-    line::{AluLine, LineError, LineFormat, push_hex},
+    line::{AluLine, LineFormat, push_hex},
     operation::Unit,
 };
 use crate::cli::{Out, OutputError, Verdict};
+use crate::error::{InputError, input_error};
 
 /// Bytes asked for at a time.
 const READ: usize = 1 << 20;
 /// Lines of one task.
 const TASK_LINES: usize = 4096;
-
-#[derive(Debug, thiserror::Error, Diagnostic)]
-#[error("standard input cannot be read")]
-#[diagnostic(code(crossbar::alu::input))]
-struct InputError(#[from] io::Error);
-
-/// A check that checked nothing must not pass: the generator of the lines may have failed.
-#[derive(Debug, thiserror::Error, Diagnostic)]
-#[error("expected at least one line to verify, found none")]
-#[diagnostic(code(crossbar::alu::empty), help("pipe lines in, as from `testfloat_gen f16_add`"))]
-struct NothingToVerify;
 
 /// Output for consecutive lines, and the first error, after which nothing was read.
 #[derive(Default)]
@@ -38,13 +27,13 @@ pub(super) struct TaskOutput {
     pub(super) text: Vec<u8>,
     passed: u64,
     failed: u64,
-    error: Option<LineError>,
+    error: Option<InputError>,
 }
 
 /// Calls `work` on tasks of consecutive lines, `take` on what they made, in the order of the lines.
 pub(super) fn each_line(
     mut input: impl Read,
-    work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), LineError> + Sync,
+    work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError> + Sync,
     mut take: impl FnMut(&TaskOutput) -> miette::Result<()>,
 ) -> miette::Result<()> {
     let mut buffer: Vec<u8> = Vec::new();
@@ -57,7 +46,9 @@ pub(super) fn each_line(
                 buffer.truncate(held);
                 continue;
             }
-            got => got.map_err(InputError::from)?,
+            got => got.map_err(|error| {
+                InputError::new("crossbar::alu::input", "standard input cannot be read").with_source(error)
+            })?,
         };
         buffer.truncate(held + got);
         // The last line of the input may lack its end; any other piece of a line waits for the rest.
@@ -90,7 +81,7 @@ pub(super) fn each_line(
 fn run_task(
     lines: &[&[u8]],
     first: u64,
-    work: &impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), LineError>,
+    work: &impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError>,
 ) -> TaskOutput {
     let mut part = TaskOutput::default();
     for (line, number) in lines.iter().zip(first..) {
@@ -170,8 +161,11 @@ pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) 
         failed += part.failed;
         Ok(())
     })?;
+    // A check that checked nothing must not pass: the generator of the lines may have failed.
     if passed + failed == 0 {
-        return Err(NothingToVerify.into());
+        let empty = input_error!("crossbar::alu::empty" => "expected at least one line to verify, found none";
+            help "pipe lines in, as from `testfloat_gen f16_add`");
+        return Err(empty.into());
     }
     if json {
         // Every mismatch begins with a comma.

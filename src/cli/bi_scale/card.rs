@@ -7,7 +7,7 @@ use super::textures::TransferOfModel;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, corner_coordinates};
 use crate::cli::Problem;
 use crate::cli::study::{StudyArgs, StudyFiles};
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::transfer::picture::PictureArgs;
 use crate::study::prt::BiScaleOnCard;
@@ -33,8 +33,8 @@ pub(super) struct Args {
     #[command(flatten)]
     textures: TextureArgs,
 
-    #[command(flatten)]
-    light: LightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
+    light: DistantLightArg,
 
     #[command(flatten)]
     card: OnCardArgs,
@@ -63,7 +63,7 @@ impl StudyArgs for Args {
             let what = format!("{}: expected biclusters, found a matrix alone", self.file.display());
             return Err(Problem::usage(what, "`crossbar bi-scale bicluster` makes them").into());
         };
-        let repeat = textures.patches.repeat() as f32;
+        let repeat = textures.patches.repeat as f32;
         let coordinates = corner_coordinates(&model.mesh, [repeat; 2]).map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;

@@ -11,7 +11,7 @@ use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::transfer::light_vectors;
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::report::Findings;
@@ -43,8 +43,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "MODEL")]
     model: Option<PathBuf>,
 
-    #[command(flatten)]
-    light: LightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
+    light: DistantLightArg,
 
     /// Clusters of rows
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65_536))]
@@ -57,10 +57,6 @@ pub(super) struct Args {
     /// Rows that the first clusters are found from
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     sample: u32,
-
-    /// Wavelet coefficients of a row
-    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=6144))]
-    wavelets: u32,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
@@ -96,7 +92,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         biclusters: &biclusters,
         transfer: transfer.transpose().map_err(|error| refused(&error))?,
         clusters: args.clusters(),
-        wavelets: args.wavelets(),
+        wavelets: HaarRowOptions::default(),
         order: HARMONICS_ORDER,
     };
     let mut show = |what: &str, done: u64, of: u64| bar.show(what.to_owned(), done, of);
@@ -126,10 +122,6 @@ impl Args {
             sample: self.sample as usize,
             ..RowClusterOptions::default()
         }
-    }
-
-    fn wavelets(&self) -> HaarRowOptions {
-        HaarRowOptions { keep: self.wavelets as usize, ..HaarRowOptions::default() }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, load_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::DistantLightArg;
 use crate::cli::transfer::model::{load as load_model, vertices};
 use crate::cli::words::counted;
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
@@ -83,7 +83,7 @@ fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem>
 }
 
 /// The light of a verb.
-pub(super) fn cube_of(light: &LightArgs, verb: &str) -> miette::Result<CubeLight> {
+pub(super) fn cube_of(light: &DistantLightArg, verb: &str) -> miette::Result<CubeLight> {
     let cube = light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     Ok(cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar bi-scale {verb} --help`")))?)
 }

@@ -9,7 +9,7 @@ use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::study::written;
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::cli::words::counted;
 use crate::io::write_file;
 use crate::report::{Cell, Findings, Table};
@@ -35,8 +35,8 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    #[command(flatten)]
-    light: LightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
+    light: DistantLightArg,
 
     /// Write red, green and blue of every row to this table
     #[arg(long, value_name = "Y.csv")]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::file::{angle, load_creased, write_matrix};
+use super::file::{angle, load_creased};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
 use crate::bi_scale::transfer::transfer_matrix;
@@ -28,7 +28,7 @@ const LOG2_SAMPLES: u32 = 1;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar bi-scale precompute docs/examples/step.obj --directions 8 --matrix step.mtx --out step.npz
+  crossbar bi-scale precompute docs/examples/step.obj --directions 8 --out step.npz
       which light texels each vertex sees, and from which of its 64 local directions
   crossbar bi-scale precompute docs/examples/court.obj --directions 4 --crease 40 --out court.npz
       with normals that are smooth over edges up to 40 degrees";
@@ -54,10 +54,6 @@ pub(super) struct Args {
     /// axis X,Y,Z
     #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
     tangents: TangentsArg,
-
-    /// Write the matrix as text too, in the Matrix Market format
-    #[arg(long, value_name = "T.mtx")]
-    matrix: Option<PathBuf>,
 
     #[command(flatten)]
     part: PartArgs,
@@ -90,14 +86,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     })?;
     let counts = maps.counts.clone();
     drop((bar, maps));
-    if let Some(path) = &args.matrix {
-        let comment = format!(
-            "row: vertex x {} + local direction, column: face x 1024 + row x 32 + column of a cube of light texels;\n\
-             both from 0 there, from 1 in this file. Values are the visible shares of texels.",
-            directions.directions().len()
-        );
-        write_matrix(&matrix, &comment, path)?;
-    }
     let meaning = BiScaleMeaning { mesh: MeshDigest::new(&vertices), side: side.into(), horizon: sampling.horizon };
     let (rows, nonzeros) = (matrix.rows(), matrix.nonzeros());
     let file = BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters: None };
@@ -119,6 +107,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         100.0 * nonzeros as f64 / (rows as f64 * LIGHT_TEXELS as f64)
     ));
     note_vertices(&mut found, &vertices, &[]);
-    written(&mut found, [("matrix", args.matrix.as_deref()), ("out", Some(path))]);
+    written(&mut found, [("out", Some(path))]);
     Ok(found)
 }

@@ -6,7 +6,7 @@ use super::texture_args::TextureArgs;
 use super::textures::TransferOfModel;
 use crate::cli::Problem;
 use crate::cli::study::{StudyArgs, StudyFiles};
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::cli::transfer::picture::PictureArgs;
 use crate::study::prt::{BiScaleRendering, TexturedSurface};
 
@@ -35,8 +35,8 @@ pub(super) struct Args {
     #[arg(long)]
     reference: bool,
 
-    #[command(flatten)]
-    light: LightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
+    light: DistantLightArg,
 
     #[command(flatten)]
     picture: PictureArgs,
@@ -57,7 +57,7 @@ impl StudyArgs for Args {
     fn study(&self) -> miette::Result<BiScaleRendering> {
         let (textures, name) = (&self.textures, &self.picture.model);
         let (TransferOfModel { file, model, vertices, light }, texture_of) = textures.transfer(&self.file, name)?;
-        let surface = TexturedSurface::new(model.mesh.clone(), vertices, texture_of, textures.patches.repeat());
+        let surface = TexturedSurface::new(model.mesh.clone(), vertices, texture_of, textures.patches.repeat);
         let surface = surface.map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;

@@ -12,17 +12,13 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::values::EntryValues;
 use crate::cli::Problem;
 use crate::cli::study::written;
-use crate::cli::transfer::model::chosen_vertex;
 use crate::cli::words::counted;
 use crate::report::{Cell, Findings, Table};
-use crate::transfer::grid::{LIGHT_SIDE, face_row_column};
 
 const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale show docs/examples/court_biclusters.npz
       values, and biclusters by size
-  crossbar bi-scale show docs/examples/step_biclusters.npz --vertex 12
-      one vertex: the biclusters of its rows
   crossbar bi-scale show docs/examples/quarters.mtx --json
       any sparse matrix, for machines
   crossbar bi-scale show docs/examples/step_biclusters.npz --matrix step.mtx
@@ -30,17 +26,13 @@ Examples:
 
 `crossbar bi-scale multiply --csv` writes the light that reaches all local directions.";
 
-/// Show what a matrix or a .npz file of biclusters holds: values, sizes of biclusters, rows of a vertex
+/// Show what a matrix or a .npz file of biclusters holds: values, sizes of biclusters
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A Matrix Market file (.mtx), or what `crossbar bi-scale precompute` or `bicluster` wrote
     #[arg(value_name = "FILE")]
     file: PathBuf,
-
-    /// A vertex, or a row of a matrix of something else, counted from 0
-    #[arg(long, value_name = "N")]
-    vertex: Option<u32>,
 
     /// Write the matrix, or the sum of the biclusters, which is the same, to this Matrix Market file
     #[arg(long, value_name = "X.mtx")]
@@ -51,17 +43,12 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
     let rows = rows(&file);
     let local = file.meaning.map_or(1, |meaning| meaning.side.pow(2) as usize);
-    let vertex = chosen_vertex("bi-scale", args.vertex, rows / local)?;
     if let Some(path) = &args.matrix {
         write_text(&file, &args.file, path)?;
     }
     let mut found = Findings::new("Bi-scale transfer");
     found.fields(document(&file, rows, local));
-    found.field("vertex", json!(vertex.map(|vertex| vertex_document(&file, vertex, local))));
-    match vertex {
-        Some(vertex) => one(&file, (vertex, local), &mut found),
-        None => all(&file, rows, local, &mut found),
-    }
+    all(&file, rows, local, &mut found);
     written(&mut found, [("matrix", args.matrix.as_deref())]);
     Ok(found)
 }
@@ -163,70 +150,4 @@ fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
     json!({ "rows": rows, "mesh": mesh, "unit_bits": stored.and_then(EntryValues::fraction_bits),
             "distinct_values": stored.and_then(EntryValues::table_len),
             "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values, "biclusters": biclusters })
-}
-
-/// Per row of a vertex: its entries, and the biclusters that it belongs to.
-struct RowOfVertex {
-    direction: usize,
-    entries: Option<Vec<(u32, f64)>>,
-    biclusters: Option<Vec<u32>>,
-}
-
-fn rows_of(file: &BiScaleFile, vertex: usize, local: usize) -> Vec<RowOfVertex> {
-    let belongs = file.biclusters.as_ref().map(|biclusters| {
-        let mut belongs = vec![Vec::new(); local];
-        for number in 0..biclusters.len() {
-            for &row in biclusters.rows_of(number) {
-                if let Some(into) = (row as usize).checked_sub(vertex * local).and_then(|at| belongs.get_mut(at)) {
-                    into.push(number as u32);
-                }
-            }
-        }
-        belongs
-    });
-    let of = |direction: usize| {
-        let entries = file.matrix.as_ref().map(|matrix| {
-            let entries = matrix.row(vertex * local + direction).iter();
-            entries.map(|entry| (entry.index, matrix.value(entry.value))).collect()
-        });
-        RowOfVertex { direction, entries, biclusters: belongs.as_ref().map(|belongs| belongs[direction].clone()) }
-    };
-    (0..local).map(of).collect()
-}
-
-fn one(file: &BiScaleFile, (vertex, local): (usize, usize), found: &mut Findings) {
-    found.introduce(format!("{} {vertex}", if file.meaning.is_some() { "vertex   " } else { "row      " }));
-    let mut table = Table::new(
-        "Local directions",
-        &["direction", "light texels", "sum of values", "first texel (face, row, column)", "biclusters"],
-    );
-    for row in rows_of(file, vertex, local) {
-        let first = row.entries.as_ref().and_then(|entries| entries.first()).map_or(Cell::Empty, |&(texel, _)| {
-            let [face, row, column] = face_row_column(texel as usize, LIGHT_SIDE);
-            format!("{face}, {row}, {column}").into()
-        });
-        let count = |count: Option<usize>| count.map_or(Cell::Empty, Cell::from);
-        let sum = row.entries.as_ref().map(|entries| entries.iter().map(|(_, value)| value).sum::<f64>());
-        table.push([
-            row.direction.into(),
-            count(row.entries.as_ref().map(Vec::len)),
-            sum.map_or(Cell::Empty, Cell::measured),
-            first,
-            count(row.biclusters.as_ref().map(Vec::len)),
-        ]);
-    }
-    found.table(table);
-}
-
-fn vertex_document(file: &BiScaleFile, vertex: usize, local: usize) -> Value {
-    let rows: Vec<Value> = rows_of(file, vertex, local)
-        .into_iter()
-        .map(|row| {
-            let entries: Option<Vec<Value>> = row.entries.map(|entries| {
-                entries.into_iter().map(|(column, value)| json!({ "column": column, "value": value })).collect()
-            });
-            json!({ "direction": row.direction, "entries": entries, "biclusters": row.biclusters })
-        })
-        .collect();
-    json!({ "number": vertex, "rows": rows })
 }

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::textures::{PatchArgs, TransferOfModel, patch_kind};
 use crate::bi_scale::directions::LocalDirections;
 use crate::cli::Problem;
-use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::light::DistantLightArg;
 use crate::cli::transfer::model::materials_of;
 use crate::cli::transfer::picture::PictureArgs;
 use crate::names::did_you_mean;
@@ -53,7 +53,7 @@ impl TextureArgs {
         if !self.texture.iter().any(|texture| patch_kind(&texture.source).is_some()) {
             self.patches.require_patch()?;
         }
-        let transfer = TransferOfModel::load(file, model, self.patches.crease())?;
+        let transfer = TransferOfModel::load(file, model, self.patches.crease)?;
         let (materials, material_of) = materials_of(model, &transfer.model)?;
         let of_material = self.of_materials(&materials)?;
         let texture_of = material_of.iter().map(|&material| of_material[material as usize]).collect();
@@ -65,7 +65,7 @@ impl TextureArgs {
         &'a self,
         transfer: &'a Path,
         picture: &'a PictureArgs,
-        light: &'a LightArgs,
+        light: &'a DistantLightArg,
     ) -> Vec<&'a Path> {
         let files = self.texture.iter().map(|texture| texture.source.as_path());
         let files = files.filter(|source| patch_kind(source).is_none());

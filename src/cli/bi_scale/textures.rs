@@ -22,7 +22,7 @@ use crate::transfer::file::other_mesh_error;
 pub(super) struct PatchArgs {
     /// How often a texture repeats where texture coordinates grow by 1
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
-    repeat: f64,
+    pub(super) repeat: f64,
 
     /// Texels along an edge of the textures of patches [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
@@ -34,7 +34,7 @@ pub(super) struct PatchArgs {
 
     /// The crease angle in degrees, as given to `crossbar bi-scale precompute`
     #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
-    crease: Option<f64>,
+    pub(super) crease: Option<f64>,
 }
 
 impl PatchArgs {
@@ -46,22 +46,6 @@ impl PatchArgs {
         let of_patches =
             [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];
         given::refuse(of_patches, "textures of patches, found files alone", "leave it out: a file has its own size")
-    }
-
-    pub(super) fn repeat(&self) -> f64 {
-        self.repeat
-    }
-
-    pub(super) fn crease(&self) -> Option<f64> {
-        self.crease
-    }
-
-    fn views(&self) -> u8 {
-        self.texture_views.unwrap_or(12)
-    }
-
-    fn size(&self) -> u32 {
-        self.texture_size.unwrap_or(64)
     }
 
     /// A texture by its file, or that of a patch by its name, sampled in a transfer's local directions.
@@ -77,8 +61,10 @@ impl PatchArgs {
             return Ok(SurfaceTexture { name, samples: load_bidirectional_texture(source)?, patch: None });
         };
         let refused = |error: String| Problem::usage(error, "see `--help`");
-        let view = LocalDirections::new(self.views().into()).map_err(|error| refused(error.to_string()))?;
-        let sampling = TextureSampling { size: self.size() as usize, view, light: light.clone(), samples: 1 };
+        let view = LocalDirections::new(self.texture_views.unwrap_or(12).into())
+            .map_err(|error| refused(error.to_string()))?;
+        let size = self.texture_size.unwrap_or(64) as usize;
+        let sampling = TextureSampling { size, view, light: light.clone(), samples: 1 };
         let patch = kind.patch(1.0);
         let samples = patch.texture(&sampling, &mut |_, _| ()).map_err(|error| refused(error.to_string()))?;
         Ok(SurfaceTexture { name, samples, patch: Some(patch) })

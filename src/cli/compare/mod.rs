@@ -64,11 +64,6 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "NAME=VALUE", value_parser = super::switch::parse)]
     right_switch: Vec<(String, String)>,
 
-    /// Instructions that a program may execute per pixel or vertex, on both sides [default: what the case says, or the
-    /// device's `limits.pixel_step_budget`, or 65536]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    step_budget: Option<u32>,
-
     /// Compare what every instruction writes at one pixel, whether or not the targets differ there
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse, allow_hyphen_values = true, conflicts_with = "registers")]
     pixel: Option<[u32; 2]>,
@@ -99,11 +94,7 @@ impl Args {
                         `--right-switch rounding=rtz` for example";
             return Err(Problem::usage("both sides are the same", help).into());
         }
-        let budget = self.step_budget;
-        Ok([
-            request("left", left, budget, left_executor.open()?)?,
-            request("right", right, budget, right_executor.open()?)?,
-        ])
+        Ok([request("left", left, left_executor.open()?)?, request("right", right, right_executor.open()?)?])
     }
 
     fn scope(&self, size: [u32; 2]) -> miette::Result<Scope> {
@@ -118,12 +109,7 @@ impl Args {
 /// Device, format and switches as asked for.
 type SideSettings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
 
-fn request(
-    name: &'static str,
-    settings: SideSettings<'_>,
-    step_budget: Option<u32>,
-    executor: Executor,
-) -> miette::Result<SideRequest> {
+fn request(name: &'static str, settings: SideSettings<'_>, executor: Executor) -> miette::Result<SideRequest> {
     let (device, format, switches) = settings;
     let checked =
         |text: &str| text.parse().and_then(Format::for_registers).map(|_| text.to_owned()).map_err(bad_format);
@@ -132,7 +118,7 @@ fn request(
             device: device.map(device_named).transpose()?,
             format: format.map(checked).transpose()?,
             switches: switches.to_vec(),
-            step_budget,
+            ..Overrides::default()
         })
     };
     let overrides = overrides().wrap_err_with(|| format!("the {name} side cannot be set up"))?;

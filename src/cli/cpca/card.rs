@@ -6,7 +6,7 @@ use refsim::texture::TexelFormat;
 
 use super::file::{FileOfModel, clusters_of, light_order};
 use crate::cli::study::{StudyArgs, StudyFiles};
-use crate::cli::transfer::light::HarmonicLightArgs;
+use crate::cli::transfer::light::{DEFAULT_LIGHT, DistantLightArg, HARMONIC_LIGHT};
 use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::transfer::picture::PictureArgs;
 use crate::cpca::coherence::Superclusters;
@@ -33,8 +33,8 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
-    #[command(flatten)]
-    light: HarmonicLightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = HARMONIC_LIGHT)]
+    light: DistantLightArg,
 
     #[command(flatten)]
     card: OnCardArgs,

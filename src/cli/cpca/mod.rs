@@ -21,7 +21,7 @@ Examples:
       the same by 8 clusters of 3 vectors
   crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz
       what compression costs
-  crossbar cpca show docs/examples/step_small.npz --vertex 12
+  crossbar cpca show docs/examples/step_small.npz
       what is in a file
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
       pictures of it

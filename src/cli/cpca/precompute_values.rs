@@ -50,17 +50,3 @@ impl RowsArg {
         if self.is_whole { whole() } else { ExitBasis::without_1_0(self.order).unwrap_or_else(|_| whole()) }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_are_squares_or_one_less() {
-        let rows = |text: &str| text.parse::<RowsArg>().map(|rows| rows.basis().len());
-        for count in [1, 3, 4, 8, 9, 15, 16, 24, 25, 99, 100] {
-            assert_eq!(rows(&count.to_string()), Ok(count));
-        }
-        assert!(["0", "2", "10", "101", "-1", ""].iter().all(|text| rows(text).is_err()));
-    }
-}

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::file::{FileOfModel, light_order};
 use crate::cli::Problem;
 use crate::cli::study::{StudyArgs, StudyFiles};
-use crate::cli::transfer::light::HarmonicLightArgs;
+use crate::cli::transfer::light::{DEFAULT_LIGHT, DistantLightArg, HARMONIC_LIGHT};
 use crate::cli::transfer::picture::PictureArgs;
 use crate::study::prt::Rendering;
 use crate::transfer::file::{PrtFile, load_prt};
@@ -33,8 +33,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
-    #[command(flatten)]
-    light: HarmonicLightArgs,
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = HARMONIC_LIGHT)]
+    light: DistantLightArg,
 
     #[command(flatten)]
     picture: PictureArgs,

@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::coherence::count;
-use crate::cli::transfer::model::chosen_vertex;
-use crate::cli::words::{counted, measured};
+use crate::cli::words::counted;
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::clustering::Clustering;
 use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
@@ -16,44 +15,33 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar cpca show docs/examples/step_small.npz
       the header, and the clusters with their spectra
-  crossbar cpca show docs/examples/step_small.npz --vertex 12
-      one vertex: its cluster, its weights, its transfer
-  crossbar cpca show docs/examples/step.npz --vertex 12 --json
-      the same of uncompressed transfer, for machines
+  crossbar cpca show docs/examples/step.npz --json
+      the header of uncompressed transfer, for machines
 
 The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;
 
-/// Show what a .npz file holds: header, clusters with spectra, transfer and weights of a vertex
+/// Show what a .npz file holds: header, clusters with spectra
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The file
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
-
-    /// A vertex, or another point, counted from 0
-    #[arg(long, value_name = "N")]
-    vertex: Option<u32>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load_prt(&args.file, None)?;
-    let vertex = chosen_vertex("cpca", args.vertex, file.points())?;
     let mut found = Findings::new("Low-frequency transfer");
     found.fields(header_document(&file));
     found.fields(json!({
         "clusters": file.clustering.as_ref().map(clusters_document),
         "superclusters": file.superclusters,
         "made": file.provenance.as_deref().map(made_document),
-        "vertex": vertex.map(|vertex| vertex_document(&file, vertex)),
     }));
-    match vertex {
-        Some(vertex) => one(&file, vertex, &mut found),
-        None => all(&file, &mut found),
-    }
+    all(&file, &mut found);
     Ok(found)
 }
 
@@ -113,47 +101,6 @@ fn sizes(clustering: &Clustering) -> Vec<usize> {
     sizes
 }
 
-fn one(file: &PrtFile, vertex: usize, found: &mut Findings) {
-    found.introduce(format!("point     {vertex}"));
-    let approximation = file.clustering.as_ref().map(|clustering| approximation(clustering, vertex));
-    if let Some(clustering) = &file.clustering {
-        let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| measured(*weight)).collect();
-        found.introduce(format!("cluster   {}", clustering.of_point()[vertex]));
-        let weights = if weights.is_empty() { "none".to_owned() } else { weights.join(", ") };
-        found.introduce(format!("weights   {weights}"));
-    }
-    let original: Option<Vec<f64>> =
-        file.transfer.as_ref().map(|signal| signal.point(vertex).iter().map(|&value| f64::from(value)).collect());
-    for (title, values) in [("Transfer", original), ("Approximation", approximation)] {
-        if let Some(values) = values {
-            found.table(matrix(title, &file.meaning, &values));
-        }
-    }
-}
-
-fn approximation(clustering: &Clustering, vertex: usize) -> Vec<f64> {
-    let mut values = vec![0.0; clustering.dimension()];
-    clustering.approximation(vertex, &mut values);
-    values
-}
-
-/// A line per number: the columns of a matrix would not fit.
-fn matrix(title: &str, meaning: &PrtMeaning, values: &[f64]) -> Table {
-    let PrtMeaning::Transfer { exit_functions, light_order, .. } = meaning else {
-        let mut table = Table::new(title, &["number", "value"]);
-        values.iter().enumerate().for_each(|(at, &value)| table.push([at.into(), Cell::measured(value)]));
-        return table;
-    };
-    let (rows, columns) = (exit_functions.len(), (light_order * light_order) as usize);
-    let mut table = Table::new(title, &["channel", "row", "column", "value"]);
-    for (at, &value) in values.iter().enumerate() {
-        let (row, column) = (at / columns, at % columns);
-        let function = usize::from(exit_functions[row % rows]);
-        table.push([(row / rows).into(), function.into(), column.into(), Cell::measured(value)]);
-    }
-    table
-}
-
 fn header_document(file: &PrtFile) -> Value {
     let meaning = match &file.meaning {
         PrtMeaning::Numbers { dimension } => json!({ "numbers_per_point": dimension }),
@@ -183,13 +130,4 @@ fn clusters_document(clustering: &Clustering) -> Value {
         })
         .collect();
     json!({ "stored_numbers": clustering.stored_numbers(), "clusters": clusters })
-}
-
-fn vertex_document(file: &PrtFile, vertex: usize) -> Value {
-    let clustered = file.clustering.as_ref().map(|clustering| {
-        json!({ "cluster": clustering.of_point()[vertex], "weights": clustering.weights(vertex),
-                "approximation": approximation(clustering, vertex) })
-    });
-    let transfer = file.transfer.as_ref().map(|signal| signal.point(vertex));
-    json!({ "number": vertex, "transfer": transfer, "clustered": clustered })
 }

@@ -10,7 +10,7 @@ use serde_json::json;
 use super::executor::DeviceExecutor;
 use super::{Out, Problem, error, pixel, study, view};
 use crate::{
-    case::{self, CaseOutcome, Overrides, PixelTrace, ProbeResult, Setup, Traced},
+    case::{self, CaseOutcome, PixelTrace, ProbeResult, Setup, Traced},
     io::atomic::FileSet,
     report::{Cell, Findings, Table, Verdict},
 };
@@ -43,11 +43,6 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 
-    /// Instructions that a program may execute per pixel or vertex before the run ends with an error [default: what the
-    /// case says, or the device's `limits.pixel_step_budget`, or 65536]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    step_budget: Option<u32>,
-
     /// Show what every instruction writes at a pixel: column and row from the top left, from 0
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse, allow_hyphen_values = true)]
     trace: Option<[u32; 2]>,
@@ -55,8 +50,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let executor = args.executor.open()?;
-    let overrides = Overrides { step_budget: args.step_budget, ..Overrides::default() };
-    let setup = Setup::read_with(&args.case, &overrides)?;
+    let setup = Setup::read(&args.case)?;
     error::print_warnings(&setup.warnings, out.json());
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;

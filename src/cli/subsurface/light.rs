@@ -95,37 +95,3 @@ fn environment(light: &DistantLightArg) -> miette::Result<CubeLight> {
         None => Ok(cube),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lights_are_read_and_bad_ones_refused() {
-        let light = |text: &str| text.parse::<LightArg>();
-        let of_pass = |light| Ok(LightArg::OfPass(light));
-        assert_eq!(light("ambient:1,0.5,0"), of_pass(Light::Sky { radiance: [1.0, 0.5, 0.0] }));
-        let point = Light::Point { position: [0.0, -1.0, 2.0], intensity: [3.0; 3], attenuation: [0.0, 0.0, 1.0] };
-        assert_eq!(light("point:0,-1,2:3,3,3"), of_pass(point));
-        for map in ["probe.hdr", "disk:0,0,1:30", "constant", "sky:1,0,1", "red-and-blue"] {
-            assert!(matches!(light(map), Ok(LightArg::Environment(_))), "{map}");
-        }
-        let bad = [
-            "ambient",
-            "ambient:1,2",
-            "ambient:-1,0,0",
-            "ambient:inf,0,0",
-            "sky:1",
-            "directional:0,0,0:1,1,1",
-            "point:1,1,1:1,1,1:0,0,0",
-            "sun:1,1,1",
-            "disk:0,0,0:30",
-            "constant:-1,0,0",
-        ];
-        for text in bad {
-            assert!(light(text).is_err(), "{text}");
-        }
-        assert_eq!((coefficient("2"), coefficient("1,2,3")), (Ok([2.0; 3]), Ok([1.0, 2.0, 3.0])));
-        assert!(coefficient("-1").is_err() && coefficient("1,2").is_err() && coefficient("nan").is_err());
-    }
-}

@@ -13,6 +13,15 @@ use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
 
+/// Forms of light in harmonics, and those of light on the texels of a cube, for help.
+pub(in crate::cli) const HARMONIC_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
+     radius), sky:X,Y,Z (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture";
+pub(in crate::cli) const CUBE_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
+     radius), sky:X,Y,Z (towards the sun), red-and-blue, a lat-long, angular-probe or cube-cross picture, a table of a \
+     cube's texels (.csv) or of small sources (.sources.csv)";
+/// The light where none is named.
+pub(in crate::cli) const DEFAULT_LIGHT: &str = "sky:1,-1,1";
+
 const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z \
      (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture (EXR, HDR, PNG)";
 
@@ -52,59 +61,6 @@ impl FromStr for DistantLightArg {
     }
 }
 
-/// Light for transfer of all frequencies and bi-scale transfer: radiances of the texels of a cube.
-#[derive(Debug, clap::Args)]
-pub(in crate::cli) struct LightArgs {
-    /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
-    /// red-and-blue, a lat-long, angular-probe or cube-cross picture, a table of a cube's texels (.csv) or of small
-    /// sources (.sources.csv)
-    #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
-    light: DistantLightArg,
-}
-
-impl LightArgs {
-    /// Its name in a few words.
-    pub(in crate::cli) fn name(&self) -> String {
-        self.light.name()
-    }
-
-    /// The file that it is read from, if it is.
-    pub(in crate::cli) fn file(&self) -> Option<&Path> {
-        self.light.file()
-    }
-
-    /// The light.
-    pub(in crate::cli) fn distant(&self) -> miette::Result<DistantLight> {
-        self.light.distant()
-    }
-}
-
-/// Light in spherical harmonics.
-#[derive(Debug, clap::Args)]
-pub(in crate::cli) struct HarmonicLightArgs {
-    /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
-    /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
-    #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
-    light: DistantLightArg,
-}
-
-impl HarmonicLightArgs {
-    /// Its name in a few words.
-    pub(in crate::cli) fn name(&self) -> String {
-        self.light.name()
-    }
-
-    /// The picture that it is read from, if it is.
-    pub(in crate::cli) fn file(&self) -> Option<&Path> {
-        self.light.file()
-    }
-
-    /// The light at an order.
-    pub(in crate::cli) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
-        self.light.of_order(order)
-    }
-}
-
 impl DistantLightArg {
     fn disk(towards: DVec3, degrees: &str, radiance: [f64; 3]) -> Result<Self, String> {
         let degrees = number::positive(degrees)?;
@@ -123,7 +79,7 @@ impl DistantLightArg {
     }
 
     /// Its name in a few words.
-    fn name(&self) -> String {
+    pub(in crate::cli) fn name(&self) -> String {
         match self {
             Self::Constant(_) => "a constant light".to_owned(),
             Self::Disk { degrees, .. } => format!("a disk of {degrees} degrees"),
@@ -160,7 +116,7 @@ impl DistantLightArg {
     }
 
     /// The light at an order.
-    fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
+    pub(in crate::cli) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
         let made = match self {
             Self::Constant(radiance) => HarmonicLight::constant(order, *radiance),
             Self::Disk { towards, degrees, radiance } => {
@@ -187,22 +143,4 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 
 fn no_light(path: &Path, error: &dyn std::fmt::Display) -> Problem {
     Problem::usage(format!("{}: {error}", path.display()), "docs/papers/cpca.md says which pictures are lights")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lights_are_read_and_bad_ones_refused() {
-        assert_eq!("constant".parse(), Ok(DistantLightArg::Constant([1.0; 3])));
-        let disk = DistantLightArg::Disk { towards: DVec3::Z, degrees: 30.0, radiance: [2.0, 1.0, 0.0] };
-        assert_eq!("disk:0,0,1:30:2,1,0".parse(), Ok(disk));
-        assert_eq!("probe.hdr".parse(), Ok(DistantLightArg::Picture("probe.hdr".into())));
-        for text in
-            ["", "disk", "disk:0,0,0:30", "disk:0,0,1:181", "disk:0,0,1:0", "constant:-1,0,0", "sky:1", "sky:nan,0,1"]
-        {
-            assert!(text.parse::<DistantLightArg>().is_err(), "{text}");
-        }
-    }
 }

@@ -61,17 +61,3 @@ pub(in crate::cli) fn materials_of(path: &Path, model: &Model) -> miette::Result
     }
     Ok((with_materials.materials, with_materials.material_of))
 }
-
-/// The vertex of a file that `show` is asked for, below `count`.
-pub(in crate::cli) fn chosen_vertex(
-    command: &str,
-    vertex: Option<u32>,
-    count: usize,
-) -> Result<Option<usize>, Problem> {
-    let vertex = vertex.map(|vertex| vertex as usize);
-    if let Some(vertex) = vertex.filter(|&vertex| vertex >= count) {
-        let what = format!("expected a vertex below {count} (counted from 0), found {vertex}");
-        return Err(Problem::usage(what, format!("`crossbar {command} show` says how many there are")));
-    }
-    Ok(vertex)
-}

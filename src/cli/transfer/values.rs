@@ -62,19 +62,3 @@ impl FromStr for TangentsArg {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn brdfs_and_tangents_are_read_and_bad_ones_refused() {
-        let phong = Brdf::Phong { albedo: 0.1, specular: 0.5, exponent: 20.0 };
-        assert_eq!("phong:0.1,0.5,20".parse(), Ok(BrdfArg(phong)));
-        for text in ["lambert", "lambert:2", "lambert:0.1,0.2", "phong:0.1,0.5,nan", "ward:0,1,0,0.1", "mirror:1"] {
-            assert!(text.parse::<BrdfArg>().is_err(), "{text}");
-        }
-        assert_eq!("0,0,2".parse(), Ok(TangentsArg(Tangents::Along(DVec3::new(0.0, 0.0, 2.0)))));
-        assert!("0,0,0".parse::<TangentsArg>().is_err() && "some".parse::<TangentsArg>().is_err());
-    }
-}

@@ -44,14 +44,6 @@ pub enum CaseError {
         #[label("named here")]
         span: Option<SourceSpan>,
     },
-    /// The case is not text.
-    #[error("expected a case file in UTF-8, found byte {byte:#04x} at offset {offset}")]
-    #[diagnostic(code(crossbar::case::text), help("save the file as UTF-8"))]
-    NotText { byte: u8, offset: usize },
-    /// The case exceeds the maximum length.
-    #[error("expected a case file of at most {most} bytes, found a longer one")]
-    #[diagnostic(code(crossbar::case::length), help("keep texels in image files"))]
-    TooLong { most: u64 },
     /// The device cannot execute the case.
     #[error("the case cannot be drawn: {0}")]
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
@@ -71,10 +63,10 @@ pub enum CaseError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Device(#[from] DeviceError),
-    /// A picture of the result cannot be encoded.
+    /// The file is too long or not text, or a picture of the result cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Picture(#[from] InputError),
+    Input(#[from] InputError),
     /// A shader does not assemble or breaks a rule.
     #[error(transparent)]
     #[diagnostic(transparent)]

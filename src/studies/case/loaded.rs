@@ -88,13 +88,16 @@ impl<'s> Loaded<'s> {
         self.machine.draw(&call).map_err(|error| placed(self.setup, error))
     }
 
+    fn call(&self) -> DrawCall<'_> {
+        draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers)
+    }
+
     /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`].
     ///
     /// # Errors
     /// As [`Loaded::draw`], and if a pixel lies outside the targets.
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
-        let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
-        self.machine.trace_pixels(&call, pixels).map_err(|error| placed(self.setup, error))
+        self.machine.trace_pixels(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
     /// Encodes a trace of some pixels for another host of WebGPU: see [`Machine::trace_buffers`].
@@ -102,8 +105,7 @@ impl<'s> Loaded<'s> {
     /// # Errors
     /// As [`Loaded::trace`].
     pub fn trace_buffers(&self, pixels: &[(u32, u32)]) -> Result<TraceBuffers, CaseError> {
-        let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
-        self.machine.trace_buffers(&call, pixels).map_err(|error| placed(self.setup, error))
+        self.machine.trace_buffers(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
     /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`].
@@ -111,8 +113,7 @@ impl<'s> Loaded<'s> {
     /// # Errors
     /// As [`Loaded::draw`].
     pub fn corners(&self, instance: usize, triangle: usize) -> Result<Option<[Vertex; 3]>, CaseError> {
-        let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
-        self.machine.corners(&call, instance, triangle).map_err(|error| placed(self.setup, error))
+        self.machine.corners(&self.call(), instance, triangle).map_err(|error| placed(self.setup, error))
     }
 
     /// Returns the color targets.
@@ -152,8 +153,8 @@ fn placed(setup: &Setup, error: MachineError) -> CaseError {
     };
     let Some(text) = text else { return error.into() };
     let help = format!(
-        "let it end sooner, or allow more steps: `--step-budget`, or `step_budget` in the case; the budget of a device is \
-         its `limits.{key}_step_budget`, {DEFAULT_STEP_BUDGET} where it states none"
+        "let it end sooner, or allow more steps: `step_budget` in the case; the budget of a device is its \
+         `limits.{key}_step_budget`, {DEFAULT_STEP_BUDGET} where it states none"
     );
     let span = (span.start as usize, span.end.saturating_sub(span.start) as usize).into();
     CaseError::StepBudget { error: Box::new(error), help, source_code: text.named_source(), span }

@@ -26,6 +26,7 @@ use super::{
 };
 use crate::{
     compare,
+    error::{InputError, input_error},
     io::read_limited,
     shader::{ShaderError, ShaderText},
 };
@@ -100,10 +101,10 @@ impl Setup {
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
         // Reads no more than the limit: the path may name an endless device file.
         let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
-            return Err(CaseError::TooLong { most: MAX_BYTES });
+            return Err(too_long().into());
         };
         let folder = path.parent().unwrap_or_else(|| Path::new(""));
-        Self::bound(&path.display().to_string(), &bytes, folder, overrides)
+        Self::from_bytes_with(&path.display().to_string(), &bytes, folder, overrides)
     }
 
     /// The same case on another device, for which its programs are checked again.
@@ -132,26 +133,29 @@ impl Setup {
     /// # Errors
     /// As [`Setup::read`].
     pub fn from_bytes_with(name: &str, bytes: &[u8], folder: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
-        Self::bound(name, bytes, folder, overrides)
+        if bytes.len() as u64 > MAX_BYTES {
+            return Err(too_long().into());
+        }
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let offset = error.valid_up_to();
+            let byte = bytes.get(offset).copied().unwrap_or_default();
+            input_error!("crossbar::case::text" =>
+                "expected a case file in UTF-8, found byte {byte:#04x} at offset {offset}"; help "save the file as UTF-8")
+        })?;
+        let place = CaseText::new(name, text);
+        let case: Case = toml::from_str(text).map_err(|error| place.toml(&error))?;
+        Binder { place, name, folder, overrides }.bind(case)
     }
 
     /// Name of a component of a pixel register in program syntax.
     pub fn component(&self, register: &Register, component: usize) -> String {
         compare::component(&self.pixel, register, component)
     }
+}
 
-    fn bound(name: &str, bytes: &[u8], folder: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
-        if bytes.len() as u64 > MAX_BYTES {
-            return Err(CaseError::TooLong { most: MAX_BYTES });
-        }
-        let text = std::str::from_utf8(bytes).map_err(|error| {
-            let offset = error.valid_up_to();
-            CaseError::NotText { byte: bytes.get(offset).copied().unwrap_or_default(), offset }
-        })?;
-        let place = CaseText::new(name, text);
-        let case: Case = toml::from_str(text).map_err(|error| place.toml(&error))?;
-        Binder { place, name, folder, overrides }.bind(case)
-    }
+fn too_long() -> InputError {
+    input_error!("crossbar::case::length" => "expected a case file of at most {MAX_BYTES} bytes, found a longer one";
+        help "keep texels in image files")
 }
 
 /// Warnings on formats of instructions and storages that the device has for other programs.

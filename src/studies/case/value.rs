@@ -217,38 +217,3 @@ pub(super) fn vector(numbers: &[Number]) -> Option<[u32; 4]> {
     }
     Some(bits)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[derive(Debug, Deserialize)]
-    struct Holder {
-        n: Number,
-    }
-
-    fn single(text: &str) -> Result<u32, String> {
-        toml::from_str::<Holder>(&format!("n = {text}"))
-            .map(|holder| holder.n.single())
-            .map_err(|error| error.message().to_owned())
-    }
-
-    #[test]
-    fn numbers_become_singles() {
-        assert_eq!(single("1"), Ok(0x3f80_0000));
-        assert_eq!(single("-0.0"), Ok(0x8000_0000));
-        assert_eq!(single("0.1"), Ok(0x3dcc_cccd));
-        assert_eq!(single("1e300"), Ok(0x7f80_0000));
-        assert_eq!(single("-inf"), Ok(0xff80_0000));
-        assert_eq!(single("-nan"), Ok(0x7fc0_0000));
-        assert_eq!(single("\"0xffc12345\""), Ok(0xffc1_2345));
-    }
-
-    #[test]
-    fn other_texts_are_errors() {
-        for text in ["\"1.0\"", "\"0x\"", "\"0x123456789\"", "\"0x+1\"", "true", "[1]"] {
-            let message = single(text).expect_err("no number");
-            assert!(message.contains("0x3f800000"), "the message says what is wanted: {message}");
-        }
-    }
-}

@@ -63,24 +63,3 @@ pub fn place(text: &str) -> Result<[f64; 3], String> {
 fn wrong(error: NumberError, text: &str) -> String {
     format!("{error}, found `{text}`")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_wrong_is_said() {
-        let large = "expected a number that is not too large for a 32-bit float: at most 3.4028235e38, found `1e39`";
-        assert_eq!(point("0,1e39,0"), Err(large.to_owned()));
-        assert_eq!(point("0,1"), Err("expected three numbers X,Y,Z, found `0,1`".to_owned()));
-        assert_eq!(point("0,x,1"), Err("expected a number, found `x`".to_owned()));
-        assert_eq!(not_negative("-1"), Err("expected a number not below 0, found `-1`".to_owned()));
-        assert_eq!(share("1"), Err("expected a number above 0 and below 1, found `1`".to_owned()));
-        assert_eq!(not_negative_single("1e39"), Err(large.to_owned()));
-        assert_eq!(positive("nan"), Err("expected a finite number, found `nan`".to_owned()));
-        assert_eq!(
-            finite("1e400").unwrap_err(),
-            "expected a number that is not too large for a 64-bit float, found `1e400`"
-        );
-    }
-}

@@ -38,17 +38,3 @@ impl fmt::Display for Size {
         write!(f, "{}x{}", self.width, self.height)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes() {
-        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
-        assert_eq!("1X1".parse(), Ok(Size { width: 1, height: 1 }));
-        for text in ["", "640", "640x", "x480", "0x5", "5x0", "640x480x3", "-1x5", "+1x5", "640 x 480", "16385x1"] {
-            assert!(text.parse::<Size>().is_err(), "`{text}` is no size");
-        }
-    }
-}

@@ -95,38 +95,3 @@ fn significant(value: f64, digits: i32) -> String {
         scientific
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn digits_follow_from_what_a_number_is() {
-        let cases = [
-            (177_693.910_2, Quantity::Measured, "177,694"),
-            (99.225_1, Quantity::Measured, "99.23"),
-            (0.000_123_456, Quantity::Measured, "0.0001235"),
-            (1.234_56e-7, Quantity::Measured, "1.235e-7"),
-            (1.234_56e17, Quantity::Measured, "1.235e17"),
-            (7.0, Quantity::Measured, "7"),
-            (0.805_6, Quantity::Ratio, "0.806"),
-            (12.345, Quantity::Percent, "12.3"),
-            (0.004_56, Quantity::Percent, "0.0046"),
-            (-26.35, Quantity::Percent, "-26.4"),
-            (4.6e-5, Quantity::Error, "4.60e-5"),
-            (9.999_6, Quantity::Error, "10.0"),
-            (527.3, Quantity::Decimals(1), "527.3"),
-            (-0.04, Quantity::Decimals(1), "0.0"),
-            (206_905.0, Quantity::Decimals(0), "206,905"),
-            (1024.5, Quantity::Exact, "1,024.5"),
-            (1.5e-7, Quantity::Exact, "1.5e-7"),
-            (-1234.0, Quantity::Exact, "-1,234"),
-            (0.0, Quantity::Percent, "0"),
-            (f64::NEG_INFINITY, Quantity::Ratio, "-inf"),
-        ];
-        for (value, quantity, text) in cases {
-            assert_eq!(shown(value, quantity), text, "{value:e}, {quantity:?}");
-        }
-        assert_eq!([0, 999, 1000, u64::MAX].map(count), ["0", "999", "1,000", "18,446,744,073,709,551,615"]);
-    }
-}

@@ -44,26 +44,3 @@ fn with_bar(
     let gap = std::iter::repeat_n([255; 3], width as usize);
     rgb8(width, rows + 1 + bar.len() as u32 / width.max(1), values.iter().map(pixel).chain(gap).chain(bar))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn rgb(image: &RgbImage, x: u32, y: u32) -> [u8; 3] {
-        image.get_pixel(x, y).0
-    }
-
-    #[test]
-    fn darker_is_blue_brighter_red_and_the_bar_runs_the_same_way() {
-        let image = signed(4, &[-2.0, 0.0, 2.0, f64::NAN], 2.0);
-        let [[r0, _, b0], white, [r1, _, b1], none] = [0, 1, 2, 3].map(|x| rgb(&image, x, 0));
-        assert!(b0 > r0 && r1 > b1 && white.iter().all(|&channel| channel > 225) && none == NOT_FINITE);
-        let [[r0, _, b0], [r1, _, b1]] = [0, 3].map(|x| rgb(&image, x, 2));
-        assert!(b0 > r0 && r1 > b1, "the bar");
-        let image = magnitude(2, &[0.0, f64::INFINITY]);
-        assert!(rgb(&image, 0, 0) != rgb(&image, 1, 0), "infinity is not 0");
-        let image = magnitude(2, &[0.0, 1.0]);
-        let sum = |color: [u8; 3]| color.map(u32::from).iter().sum::<u32>();
-        assert!(sum(rgb(&image, 0, 0)) < sum(rgb(&image, 1, 0)) && sum(rgb(&image, 0, 2)) < sum(rgb(&image, 1, 2)));
-    }
-}

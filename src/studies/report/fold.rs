@@ -42,14 +42,3 @@ pub(super) fn groups(first: &[usize]) -> Vec<(usize, Vec<usize>)> {
         .map(|row| (row, if first[row] == row && folds(&row) { same(row) } else { Vec::new() }))
         .collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_that_found_the_same_stand_once() {
-        assert_eq!(groups(&[0, 0, 2, 0, 4]), [(0, vec![1, 3]), (2, vec![]), (4, vec![])]);
-        assert_eq!(groups(&[0, 0, 2]), [(0, vec![]), (1, vec![]), (2, vec![])], "one row more folds nothing");
-    }
-}

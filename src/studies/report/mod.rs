@@ -37,25 +37,11 @@ pub use source_text::SourceText;
 pub use summary::{SummaryLine, TallyEntry, Tone};
 pub use table::Table;
 
-use crate::error::InputError;
+use std::fmt::Display;
 
-/// Error of encoding a table, chart or picture.
-#[non_exhaustive]
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum ReportError {
-    /// A picture cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] InputError),
-    /// The encoder of `CSV`, `JSON` or `SVG` failed.
-    #[error("the {format} file cannot be encoded: {reason}")]
-    #[diagnostic(code(crossbar::report::encode))]
-    Encode { format: &'static str, reason: String },
-}
+use crate::error::{InputError, input_error};
 
-impl ReportError {
-    fn encode(format: &'static str) -> impl FnOnce(&dyn std::fmt::Display) -> Self {
-        move |reason| Self::Encode { format, reason: reason.to_string() }
-    }
+/// Error of an encoder of `CSV`, `JSON` or `SVG`.
+pub(crate) fn not_encoded(format: &str, reason: impl Display) -> InputError {
+    input_error!("crossbar::report::encode" => "the {format} file cannot be encoded: {reason}")
 }

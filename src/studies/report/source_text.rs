@@ -75,24 +75,3 @@ impl SourceCode for SourceText {
         Ok(Box::new(MietteSpanContents::new_named(self.name.clone(), data, at, first, column, lines)))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn places() {
-        let text = SourceText::new("x", "ab\nü = 1\r\n\nend");
-        assert_eq!([0, 2, 3, 4, 10, 11, 12, 15].map(|byte| text.line_of(byte)), [0, 0, 1, 1, 1, 2, 3, 3]);
-        assert_eq!([0, 2, 3, 5, 6, 12, 15].map(|byte| text.column_of(byte)), [0, 2, 0, 1, 2, 0, 3]);
-        assert_eq!((text.line_range(1), text.line_range(3), text.line_range(9)), (3..11, 12..15, 15..15));
-        assert!(text.read_span(&(15, 1).into(), 1, 1).is_err());
-        let read = |span: (usize, usize), around| {
-            let contents = text.read_span(&span.into(), around, around).expect("inside");
-            (String::from_utf8_lossy(contents.data()).into_owned(), contents.line(), contents.column())
-        };
-        assert_eq!(read((6, 1), 0), ("=".to_owned(), 1, 2));
-        assert_eq!(read((6, 1), 1), ("ab\nü = 1\r\n\n".to_owned(), 0, 0));
-        assert_eq!(read((15, 0), 1), ("\nend".to_owned(), 2, 0));
-    }
-}

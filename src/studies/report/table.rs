@@ -4,11 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value, json};
 
-use super::ReportError;
 use super::cell::Cell;
 use super::fold::{self, Folded};
 use super::layout::{Column, within};
+use super::not_encoded;
 use super::visible::visible_line;
+use crate::error::InputError;
 
 /// Table of rows under headings.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -152,8 +153,8 @@ impl Table {
     ///
     /// # Errors
     /// If the encoder fails.
-    pub fn csv(&self) -> Result<String, ReportError> {
-        let fail = |error: csv::Error| ReportError::encode("CSV")(&error);
+    pub fn csv(&self) -> Result<String, InputError> {
+        let fail = |error: csv::Error| not_encoded("CSV", error);
         let mut writer = csv::Writer::from_writer(Vec::new());
         let keys = self.keys();
         let marks: Vec<String> =
@@ -164,8 +165,8 @@ impl Table {
         for (row, mark) in self.rows.iter().zip(&marks) {
             writer.write_record(row.iter().map(Cell::machine_text).chain(last(mark))).map_err(fail)?;
         }
-        let bytes = writer.into_inner().map_err(|error| ReportError::encode("CSV")(&error))?;
-        String::from_utf8(bytes).map_err(|error| ReportError::encode("CSV")(&error))
+        let bytes = writer.into_inner().map_err(|error| not_encoded("CSV", error))?;
+        String::from_utf8(bytes).map_err(|error| not_encoded("CSV", error))
     }
 
     /// Converts the rows to a JSON array of objects by [`Table::keys`]; `marked` lists the columns whose numbers have a
@@ -182,85 +183,5 @@ impl Table {
             Value::Object(object)
         };
         Value::Array(self.rows.iter().map(row).collect())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn sample() -> Table {
-        let mut table = Table::new("Formats", &["format", "leaks", "error"]);
-        table.push(["s3.12".into(), 12_usize.into(), 0.125.into()]);
-        table.push(["fp,32".into(), 0_usize.into(), f64::INFINITY.into()]);
-        table
-    }
-
-    #[test]
-    fn csv_quotes_what_needs_it() {
-        assert_eq!(sample().csv().expect("a table of text"), "format,leaks,error\ns3.12,12,0.125\n\"fp,32\",0,inf\n");
-    }
-
-    #[test]
-    fn json_keeps_numbers_and_survives_infinity() {
-        assert_eq!(
-            sample().json().to_string(),
-            r#"[{"error":0.125,"format":"s3.12","leaks":12},{"error":"inf","format":"fp,32","leaks":0}]"#
-        );
-    }
-
-    #[test]
-    fn short_rows_are_filled() {
-        let mut table = Table::new("t", &["a", "b"]);
-        table.push(["x".into()]);
-        assert_eq!(table.rows()[0], [Cell::Text("x".to_owned()), Cell::Empty]);
-    }
-
-    #[test]
-    fn a_fold_keeps_the_first_row_and_names_the_others() {
-        let mut table = Table::of("t", "row leaks");
-        for (name, leaks) in [("a", 3_u32), ("b", 3), ("c", 4), ("d", 3)] {
-            table.push([name.into(), leaks.into()]);
-        }
-        let name = |row: usize| ["a", "b", "c", "d"][row].to_owned();
-        let folded = table.folded(&[0, 0, 2, 0], name, (["row", "rows"], "the same bits"));
-        assert_eq!(folded.rows().len(), 3);
-        assert_eq!(folded.rows()[1][0].text(), "2 rows: the same bits");
-        assert_eq!(folded.notes(), ["The same bits as a: b, d"]);
-        assert_eq!(table.folded(&[0, 1, 2, 3], name, (["row", "rows"], "the same bits")), table);
-    }
-
-    #[test]
-    fn marks_are_named_in_json_and_stand_behind_numbers() {
-        let mut table = Table::of("t", "what ours");
-        table.push(["a".into(), Cell::percent(23.456).marked("*")]);
-        assert_eq!(table.rows()[0][1].text(), "23.5 *");
-        assert_eq!(table.json().to_string(), r#"[{"marked":["ours"],"ours":23.456,"what":"a"}]"#);
-        table.push(["b".into(), Cell::percent(1.5)]);
-        assert_eq!(table.csv().expect("text"), "what,ours,marked\na,23.456,ours\nb,1.5,\n");
-    }
-
-    #[test]
-    fn columns_have_names_for_programs() {
-        let headings =
-            ["bandwidth_used_%", "of the signal (%)", "MFLOP/s_of_Gauss-Seidel", "sc+rec", "%", "rms_255ths"];
-        let keys = ["bandwidth_used_percent", "of_the_signal_percent", "MFLOP_s_of_Gauss_Seidel", "sc_rec", "percent"];
-        assert_eq!(Table::new("t", &headings).keys()[..5], keys);
-        assert_eq!(Table::new("t", &headings).keys()[5], headings[5]);
-    }
-
-    #[test]
-    fn parts_of_a_table_repeat_the_columns_that_tell_rows_apart() {
-        let mut table = Table::of("t", "way switch value rounds largest_relative_error");
-        for (way, switch, rounds) in [("fp16", "rounding", 1.5), ("fp16", "dot_order", 2.5), ("fp32", "rounding", 3.5)]
-        {
-            table.push([way.into(), switch.into(), "1".into(), rounds.into(), 1e-9.into()]);
-        }
-        let text = table.text_within(44);
-        let (first, second) = text.split_once("\n\n").expect("two parts");
-        for part in [first, second] {
-            assert!(part.lines().any(|line| line.contains("fp16") && line.contains("dot_order")), "{text}");
-        }
-        assert!(!second.contains("value"), "{text}");
     }
 }

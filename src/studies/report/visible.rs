@@ -61,31 +61,3 @@ fn escaped(text: &str, hidden: impl Fn(char) -> bool + Copy) -> Cow<'_, str> {
     }
     Cow::Owned(shown)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_acts_is_escaped_and_what_is_seen_stays() {
-        assert_eq!(visible("a\x1b[31mb\u{202e}c\nd\te"), "a\\u{1b}[31mb\\u{202e}c\nd\\te");
-        assert_eq!(visible_line("a\nb\r"), "a\\nb\\r");
-        for plain in ["Grüße, Größe", "\u{65e5}\u{672c}", "r0.xyz \\u{1b} 'x'", "e\u{301}", "\u{1f600}", ""] {
-            assert!(matches!(visible_line(plain), Cow::Borrowed(same) if same == plain), "{plain:?}");
-        }
-    }
-
-    #[test]
-    fn every_control_character_is_hidden() {
-        assert!(('\0'..=char::MAX).filter(|c| c.is_control()).all(is_hidden));
-    }
-
-    #[test]
-    fn json_reads_back_to_the_same_text() {
-        let said = "a\x1b\u{85}\u{202e}\u{e0041}\n\"\\";
-        let document = serde_json::to_string_pretty(&[said]).expect("text");
-        let shown = visible_json(&document);
-        assert!(!shown.contains(|c| c != '\n' && is_hidden(c)), "{shown}");
-        assert_eq!(serde_json::from_str::<Vec<String>>(&shown).expect("JSON"), [said]);
-    }
-}

@@ -21,27 +21,3 @@ pub fn listed(names: &[impl AsRef<str>]) -> String {
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn one_is_singular_and_nothing_else_is() {
-        let leaks = |count| counted(count, "leak", "leaks");
-        assert_eq!([0, 1, 2, 21].map(leaks), ["0 leaks", "1 leak", "2 leaks", "21 leaks"]);
-    }
-
-    #[test]
-    fn small_shares_keep_their_digits() {
-        let texts = [0.0, 0.24639, -0.05098, 0.00963, 1.9e-7].map(percent);
-        assert_eq!(texts, ["0 %", "24.6 %", "-5.1 %", "0.96 %", "1.9e-5 %"]);
-    }
-
-    #[test]
-    fn lists_end_with_and() {
-        assert_eq!(listed(&[""; 0]), "");
-        assert_eq!(listed(&["a"]), "a");
-        assert_eq!(listed(&["a", "b", "c"]), "a, b and c");
-    }
-}

@@ -1,7 +1,8 @@
 //! Encoding of findings as files: tables, pictures, charts, document and page.
 
 use super::findings::{Findings, NamedFile};
-use super::{NamedPicture, Provenance, ReportError, page};
+use super::{NamedPicture, Provenance, page};
+use crate::error::InputError;
 use crate::picture::{PictureNotes, exr_with_notes, png_with_notes};
 
 impl Findings {
@@ -10,7 +11,7 @@ impl Findings {
     ///
     /// # Errors
     /// If an encoder fails.
-    pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
+    pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, InputError> {
         let notes = PictureNotes { world_to_camera: self.world_to_camera, ..provenance.notes() };
         let encoded = |found: &NamedPicture| png_with_notes(&found.image, &notes);
         let pngs = self.pictures.iter().map(encoded).collect::<Result<Vec<_>, _>>()?;

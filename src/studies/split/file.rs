@@ -4,6 +4,7 @@
 //! the SHA-256 of all before it, 32 bytes. Numbers keep their bits.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io;
 use std::path::Path;
@@ -11,9 +12,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-use super::error::PartError;
 use super::number::PartNumber;
-use crate::io::{files_read, write_file};
+use crate::error::{InputError, ensure, input_error};
+use crate::io::{WriteError, files_read, write_file};
 use crate::report::sha256;
 
 /// The first line, without the version.
@@ -74,7 +75,7 @@ impl PartHeader {
     }
 
     /// Writes a part, whole or not at all, and returns the length of the file.
-    pub(super) fn write(mut self, results: &[u8], path: &Path) -> Result<u64, PartError> {
+    pub(super) fn write(mut self, results: &[u8], path: &Path) -> Result<u64, InputError> {
         self.bytes = results.len() as u64;
         let mut head = format!("{MAGIC}{VERSION}\n").into_bytes();
         // Text and numbers are always written.
@@ -85,35 +86,42 @@ impl PartHeader {
             file.write_all(&head)?;
             file.write_all(results)?;
             file.write_all(&digest)
-        })?;
+        })
+        .map_err(unwritable)?;
         Ok((head.len() + results.len() + DIGEST) as u64)
     }
 
     /// Reads a part, and checks that it is whole: its header, and its results as they are encoded.
     ///
     /// # Errors
-    /// [`PartError`] if it cannot be read, is no part, or is not as it was written.
-    pub(super) fn read(path: &Path) -> Result<(Self, Vec<u8>), PartError> {
+    /// If it cannot be read, is no part, or is not as it was written.
+    pub(super) fn read(path: &Path) -> Result<(Self, Vec<u8>), InputError> {
         let mut bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
-        let other = || PartError::NotAPart { path: path.into() };
+        let wrong = |found: String, help| InputError::new("crossbar::part::file", found).at(path).with_help(help);
+        let other = || {
+            let found = "expected a part that `--part` wrote, found another file".to_owned();
+            wrong(found, "name the files that `--part K/N --out FILE` wrote")
+        };
         let mut lines = bytes.splitn(3, |&byte| byte == b'\n');
         let (Some(first), Some(second)) = (lines.next(), lines.next()) else { return Err(other()) };
         let version = first.strip_prefix(MAGIC.as_bytes()).ok_or_else(other)?;
         if version != VERSION.to_string().as_bytes() {
-            let found = String::from_utf8_lossy(version).chars().take(20).collect();
-            return Err(PartError::Layout { path: path.into(), expected: VERSION, found });
+            let found: String = String::from_utf8_lossy(version).chars().take(20).collect();
+            let found = format!("expected a part file of version {VERSION}, found version {found}");
+            return Err(wrong(found, "compute the part again with this program"));
         }
         let digested = |bytes: &[u8]| {
             let (contents, digest) = bytes.split_at(bytes.len().saturating_sub(DIGEST));
             Sha256::digest(contents).as_slice() == digest
         };
-        let damaged = || PartError::Digest { path: path.into() };
+        let damaged = || damaged(path);
         // A damaged header says nothing of the length that can be relied on.
         let header: Self = serde_json::from_slice(second).map_err(|_| damaged())?;
         let start = (first.len() + second.len() + 2) as u64;
         let (expected, found) = (start.saturating_add(header.bytes).saturating_add(DIGEST as u64), bytes.len() as u64);
         if found != expected {
-            return Err(PartError::Length { path: path.into(), expected, found });
+            let help = "the file is truncated, or something was appended: copy it again, or compute the part again";
+            return Err(wrong(format!("expected {expected} bytes, found {found}"), help));
         }
         let part = header.part;
         if !digested(&bytes) || PartNumber::new(part.number(), part.of()).is_none() {
@@ -128,22 +136,41 @@ impl PartHeader {
 /// The digests of all files that were read so far, by their paths.
 ///
 /// # Errors
-/// [`PartError`] for what cannot be read a second time, and for names that are not UTF-8.
-pub(super) fn inputs_read() -> Result<BTreeMap<String, String>, PartError> {
+/// For what cannot be read a second time, and for names that are not UTF-8.
+pub(super) fn inputs_read() -> Result<BTreeMap<String, String>, InputError> {
     let digest = |path: std::path::PathBuf| {
-        let Some(name) = path.to_str() else {
-            return Err(PartError::Name { found: path.display().to_string() });
-        };
+        let name = path.to_str().ok_or_else(|| not_utf8(path.as_os_str()))?;
         // Opening a pipe would wait for who writes to it.
-        if !path.is_file() {
-            return Err(PartError::NotAFile { path });
-        }
+        ensure!(
+            path.is_file(), "crossbar::part::input" =>
+            "expected input from files, found {}, which cannot be read a second time", path.display();
+            help "save it to a file: a part holds the digests of its input"
+        );
         let digest = File::open(&path).and_then(sha256).map_err(|source| unreadable(&path, source))?;
         Ok((name.to_owned(), digest))
     };
     files_read().into_iter().map(digest).collect()
 }
 
-fn unreadable(path: &Path, source: io::Error) -> PartError {
-    PartError::Unreadable { path: path.into(), source }
+/// Error for an argument or a path that a part cannot hold.
+pub fn not_utf8(found: &OsStr) -> InputError {
+    input_error!("crossbar::part::input" => "expected names and values in UTF-8, found {}", found.display();
+        help "give the file another name")
+}
+
+/// Error for contents that do not have their digest.
+pub(super) fn damaged(path: &Path) -> InputError {
+    let found = "the contents do not have the SHA-256 at the end of the file";
+    let help = "the file was damaged or edited: copy it again, or compute the part again";
+    InputError::new("crossbar::part::file", found).at(path).with_help(help)
+}
+
+/// Error for a file that cannot be read.
+pub fn unreadable(path: &Path, source: io::Error) -> InputError {
+    input_error!("crossbar::part::unreadable" => "cannot read {}", path.display()).with_source(source)
+}
+
+/// Error for a part's file that cannot be written; nothing of it was left behind.
+pub(super) fn unwritable(error: WriteError) -> InputError {
+    InputError::of("crossbar::part::unwritable", error)
 }

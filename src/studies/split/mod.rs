@@ -7,15 +7,13 @@
 //!
 //! [`KeptResults`] are for work that is stopped and goes on, in files of the same layout.
 
-mod error;
 mod file;
 mod kept;
 mod number;
 mod run;
 mod set;
 
-pub use error::PartError;
-pub use file::{PartHeader, SplitCommand};
+pub use file::{PartHeader, SplitCommand, not_utf8, unreadable};
 pub use kept::{KeptResults, SpentTime};
 pub use number::PartNumber;
 pub use run::{Computed, Concatenate, SplitRun, WrittenPart};

@@ -60,32 +60,3 @@ impl FromStr for PartNumber {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_item_is_in_one_part() {
-        for count in [0, 1, 2, 3, 24, 1000, usize::MAX] {
-            for of in [1, 2, 3, 7, 24, 25, 1001] {
-                let ranges = (1..=of).map(|number| PartNumber::new(number, of).expect("a part").range(count));
-                let mut next = 0;
-                for range in ranges {
-                    assert_eq!(range.start, next, "{count} items in {of} parts");
-                    assert!(range.len().abs_diff(count / of as usize) <= 1, "{count} items in {of} parts: {range:?}");
-                    next = range.end;
-                }
-                assert_eq!(next, count);
-            }
-        }
-    }
-
-    #[test]
-    fn what_is_no_part_is_refused() {
-        for text in ["", "1", "0/2", "3/2", "-1/2", "1/0", "1/2/3", "a/b", "1/1000001", "1 / 2"] {
-            assert!(text.parse::<PartNumber>().is_err(), "{text}");
-        }
-        assert_eq!("2/8".parse(), Ok(PartNumber { number: 2, of: 8 }));
-    }
-}

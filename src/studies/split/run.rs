@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::error::PartError;
-use super::file::{PartHeader, SplitCommand, inputs_read};
+use super::file::{PartHeader, SplitCommand, damaged, inputs_read, unwritable};
 use super::number::PartNumber;
-use super::set::PartSet;
+use super::set::{self, PartSet};
+use crate::error::{InputError, input_error};
 use crate::io::FileSet;
 
 /// Results of consecutive items, which are stored with their bits and put together in order.
@@ -105,7 +105,7 @@ impl SplitRun {
     ///
     /// # Errors
     /// As [`Self::compute`].
-    pub fn known<T: Concatenate, E: From<PartError>>(
+    pub fn known<T: Concatenate, E: From<InputError>>(
         &self,
         items: &'static str,
         count: usize,
@@ -127,8 +127,8 @@ impl SplitRun {
     /// else. A command calls this once.
     ///
     /// # Errors
-    /// Those of `compute`, and [`PartError`] if a part cannot be written or parts do not fit.
-    pub fn compute<T: Concatenate, E: From<PartError>>(
+    /// Those of `compute`, and if a part cannot be written or parts do not fit.
+    pub fn compute<T: Concatenate, E: From<InputError>>(
         &self,
         items: &'static str,
         count: usize,
@@ -142,8 +142,7 @@ impl SplitRun {
                 require_writable(path)?;
                 let range = part.range(count);
                 let results = compute(range.clone())?;
-                let contents = || PartError::Contents { path: path.clone(), items, count: range.len() };
-                let bytes = postcard::to_stdvec(&results).map_err(|_| contents())?;
+                let bytes = postcard::to_stdvec(&results).map_err(|_| other_contents(path, items, range.len()))?;
                 drop(results);
                 let bytes = header.write(&bytes, path)?;
                 let written = WrittenPart { part: *part, items, count, range, path: path.clone(), bytes };
@@ -154,26 +153,26 @@ impl SplitRun {
 }
 
 /// Finds out before long work that a file cannot be written.
-fn require_writable(path: &Path) -> Result<(), PartError> {
+fn require_writable(path: &Path) -> Result<(), InputError> {
     match path.parent() {
         // A device or a pipe has no file beside it.
-        Some(folder) if path.is_file() || !path.exists() => FileSet::new(folder).map(drop).map_err(PartError::from),
+        Some(folder) if path.is_file() || !path.exists() => FileSet::new(folder).map(drop).map_err(unwritable),
         _ => Ok(()),
     }
 }
 
 /// The results of all parts.
-fn merged<T: Concatenate>(parts: &PartSet, items: &'static str, count: usize) -> Result<T, PartError> {
+fn merged<T: Concatenate>(parts: &PartSet, items: &'static str, count: usize) -> Result<T, InputError> {
     parts.check_inputs(&inputs_read()?)?;
     let mut whole: Option<T> = None;
     for (path, opened) in parts.parts() {
         let (header, bytes) = PartHeader::read(path)?;
         // The file may have been replaced since the set was opened.
         if header != *opened {
-            return Err(PartError::Digest { path: path.clone() });
+            return Err(damaged(path));
         }
         let range = header.part.range(count);
-        let contents = || PartError::Contents { path: path.clone(), items, count: range.len() };
+        let contents = || other_contents(path, items, range.len());
         if header.items != items || header.count != count as u64 {
             return Err(contents());
         }
@@ -186,5 +185,12 @@ fn merged<T: Concatenate>(parts: &PartSet, items: &'static str, count: usize) ->
             None => whole = Some(next),
         }
     }
-    whole.ok_or(PartError::Empty)
+    whole.ok_or_else(set::none)
+}
+
+/// Error for contents with a right digest that are not what the command computes.
+fn other_contents(path: &Path, items: &str, count: usize) -> InputError {
+    input_error!("crossbar::part::file" => "expected the results of {count} {items}, found something else";
+        help "compute the part again")
+    .at(path)
 }

@@ -7,9 +7,7 @@ use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
 use refsim::device::DeviceError;
 
 use crate::error::InputError;
-use crate::report::ReportError;
 use crate::shader::ShaderError;
-use crate::split::PartError;
 
 /// Error of a study: a sentence of its own or a library's error, with a code for programs and what to do.
 ///
@@ -166,8 +164,6 @@ pub(in crate::study) use library_errors;
 library_errors! {
     DeviceError;
     InputError;
-    PartError;
-    ReportError;
     ShaderError;
 }
 

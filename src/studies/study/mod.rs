@@ -38,7 +38,7 @@ pub trait Study {
     /// items, [`Self::findings`].
     ///
     /// # Errors
-    /// Those of [`Self::findings`], and [`PartError`](crate::split::PartError).
+    /// Those of [`Self::findings`], and [`InputError`](crate::error::InputError) of parts.
     fn findings_split(&self, _: &SplitRun, progress: &mut ProgressFn<'_>) -> Result<Computed<Findings>, StudyError> {
         self.findings(progress).map(Computed::Whole)
     }

@@ -7,7 +7,7 @@ use refsim::timing::timeline::{Segment, SpanKind, Timeline, Unit};
 use refsim::timing::{Level, Model, TimingError};
 use serde_json::{Map, Value, json};
 
-use crate::report::ReportError;
+use crate::report::not_encoded;
 use crate::report::trace::{Arrow, Slice, Trace};
 use crate::study::StudyError;
 use crate::study::error::library_errors;
@@ -27,7 +27,7 @@ pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u
     let replayed = replay(log, &model, &Options::of(Level::Pipeline))?;
     let mut bytes = Vec::new();
     let trace = trace(profile, "pipeline", what, &replayed.timeline);
-    trace.write(&mut bytes).map_err(|e| ReportError::Encode { format: "JSON", reason: e.to_string() })?;
+    trace.write(&mut bytes).map_err(|error| not_encoded("JSON", error))?;
     Ok(Some(bytes))
 }
 

@@ -9,13 +9,13 @@ mod cargo;
 mod prose;
 mod texts;
 
-use crate::environment::writes_files;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use rayon::prelude::*;
 
+use crate::generated::hold;
 use crate::{ProgramOutput, crossbar_in};
 use texts::Command;
 
@@ -160,16 +160,9 @@ fn outputs_on_pages_are_those_of_the_program() {
     for output in shown {
         let ran = run(root.path(), &output.arguments, "");
         assert_eq!(ran.stderr, "", "{}", output.place);
-        let found = ran.stdout.trim_end();
-        if writes_files() {
-            let page = fs::read_to_string(&output.page).expect("the page");
-            let heading = format!("{}\n```text\n", output.heading);
-            let blessed =
-                page.replace(&format!("{heading}{}\n```\n", output.text), &format!("{heading}{found}\n```\n"));
-            fs::write(&output.page, blessed).expect("written");
-        } else {
-            assert_eq!(output.text, found, "{}: run with INSTA_UPDATE=always to write it", output.place);
-        }
+        let page = fs::read_to_string(&output.page).expect("the page");
+        let block = |text: &str| format!("{}\n```text\n{text}\n```\n", output.heading);
+        hold(&output.page, &page.replace(&block(&output.text), &block(ran.stdout.trim_end())));
     }
 }
 

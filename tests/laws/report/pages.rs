@@ -187,7 +187,7 @@ fn every_wrong_pixel_is_shown() {
         model: None,
         listed: None,
         executor: ExecutorKind::Batch.into(),
-        options: LeakyTeapotOptions { rays_per_edge: 0, seed: 1, sides: Sides::Front, all_pairs: false },
+        options: LeakyTeapotOptions { rays_per_edge: 0, sides: Sides::Front, all_pairs: false },
     };
     let mut found = parameters.findings(&mut |_, _, _| ()).expect("the study runs");
     let files = found.take_files(&Provenance::new("crossbar leaky-teapot")).expect("files");

@@ -208,14 +208,3 @@ fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: S
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_break_in_the_middle() {
-        assert_eq!(halves("teapot, Monte Carlo"), ["teapot,", "Monte Carlo"]);
-        assert_eq!(halves("office"), ["office"]);
-    }
-}

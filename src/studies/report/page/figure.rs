@@ -5,7 +5,8 @@ use std::ops::Range;
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use maud::{Markup, PreEscaped, html};
 
-use super::super::{NamedPicture, ReportError};
+use super::super::NamedPicture;
+use crate::error::InputError;
 use crate::picture::png;
 
 /// Width of a page's text on a screen of 1280 pixels, and the gap between pictures, in pixels.
@@ -46,14 +47,14 @@ pub(super) fn drawing(svg: &str, caption: &str) -> Markup {
 
 /// Renders pictures side by side at their native resolution; larger ones are reduced by a whole factor. A click shows
 /// all pixels, enlarged by a whole factor. The script adds a slider between pictures of the same size.
-pub(super) fn pictures(all: &[NamedPicture], pngs: &[Vec<u8>], places: Range<usize>) -> Result<Markup, ReportError> {
+pub(super) fn pictures(all: &[NamedPicture], pngs: &[Vec<u8>], places: Range<usize>) -> Result<Markup, InputError> {
     let count = places.len();
     let figures: Vec<Markup> =
         places.map(|place| figure(&all[place], &pngs[place], (place, count))).collect::<Result<_, _>>()?;
     Ok(html! { div.figures { @for figure in figures { (figure) } } })
 }
 
-fn figure(picture: &NamedPicture, full: &[u8], (place, count): (usize, usize)) -> Result<Markup, ReportError> {
+fn figure(picture: &NamedPicture, full: &[u8], (place, count): (usize, usize)) -> Result<Markup, InputError> {
     let sizes = sizes(picture, full, count)?;
     let (id, caption) = (format!("picture-{place}"), format!("caption-{place}"));
     let width = picture.image.width();
@@ -74,7 +75,7 @@ fn figure(picture: &NamedPicture, full: &[u8], (place, count): (usize, usize)) -
 }
 
 /// Returns each size that some place requires, once; the last is the picture itself.
-fn sizes(picture: &NamedPicture, full: &[u8], count: usize) -> Result<Vec<SizedPicture>, ReportError> {
+fn sizes(picture: &NamedPicture, full: &[u8], count: usize) -> Result<Vec<SizedPicture>, InputError> {
     let wanted = widths(count).map(|(class, width)| (class, picture.reduction(width)));
     let mut sizes: Vec<SizedPicture> = Vec::new();
     for (class, factor) in wanted.into_iter().chain([("full", 1)]) {
@@ -112,34 +113,5 @@ fn notes(picture: &NamedPicture, sizes: &[SizedPicture]) -> Markup {
         @for SizedPicture { factor, classes, .. } in sizes.iter().filter(|size| size.factor > 1) {
             span class=(format!("note {classes}")) { "Of each " (factor) " x " (factor) " pixels " (which) " is shown; click for all." }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::picture::rgb8;
-
-    fn shown(width: u32, count: usize) -> Vec<(String, u32)> {
-        let picture = NamedPicture::new("p", rgb8(width, 1, vec![[0; 3]; width as usize]), "");
-        let sizes = sizes(&picture, &[], count).expect("sizes");
-        sizes.into_iter().map(|size| (size.classes, size.pixels.0)).collect()
-    }
-
-    #[test]
-    fn three_pictures_share_a_row_of_a_screen() {
-        let [_, _, (_, third)] = widths(3);
-        assert!(3 * third + 2 * GAP <= PAGE && widths(7) == widths(3));
-        let reduced = ("size narrow middle wide".to_owned(), 320);
-        assert_eq!(shown(640, 3), [reduced, ("size full".to_owned(), 640)]);
-        assert_eq!([20, 40, 160, 300].map(|width| enlarged((width, 1)).0), [160, 320, 320, 300]);
-        assert_eq!(shown(320, 3), [("size narrow middle wide full".to_owned(), 320)]);
-    }
-
-    #[test]
-    fn a_picture_alone_is_enlarged_by_a_whole_factor() {
-        let picture = NamedPicture::new("p", rgb8(160, 1, vec![[0; 3]; 160]), "a caption");
-        let html = figure(&picture, &[], (4, 1)).expect("a figure").into_string();
-        assert!(html.contains("id=\"picture-4\" style=\"--zoomed: 1120px\"") && html.contains("href=\"#caption-4\""));
     }
 }

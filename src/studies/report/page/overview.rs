@@ -95,30 +95,3 @@ pub(super) fn contents(findings: &Findings) -> Markup {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::super::summary::Tone;
-    use super::*;
-
-    #[test]
-    fn a_line_links_to_its_heading() {
-        let counted = |count, what: &str| TallyEntry { count, what: what.to_owned(), tone: Tone::Good };
-        let line = |heading: &str| SummaryLine {
-            title: "One".to_owned(),
-            heading: heading.to_owned(),
-            tally: vec![counted(3, "held"), counted(0, "missed")],
-            text: "A sentence.".to_owned(),
-        };
-        let mut found = Findings::new("t");
-        found.counted_heading("Section <1>", vec![counted(3, "held")]);
-        let html = summary_lines(&[line("Section <1>"), line("none")], &found).into_string();
-        assert_eq!(html.matches("<a href=\"#section-0\">One</a>").count(), 1, "{html}");
-        assert!(html.contains("<b>3</b> held") && !html.contains("missed"), "{html}");
-        let contents = contents(&found).into_string();
-        assert!(
-            contents.contains("Section &lt;1&gt;</a><ul class=\"tally\"><li class=\"good\"><b>3</b> held"),
-            "{contents}"
-        );
-    }
-}

@@ -35,32 +35,3 @@ fn variables(theme: &Theme, accents: Accents) -> String {
     let variable = |(name, [r, g, b]): (&str, Color)| format!("--{name}: #{r:02x}{g:02x}{b:02x};");
     all.chain(accents).map(variable).collect::<Vec<_>>().join(" ")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::super::palette::{contrast, least_distance};
-    use super::*;
-
-    #[test]
-    fn accents_stand_out_from_both_pages() {
-        for (theme, accents) in [(LIGHT, ON_LIGHT), (DARK, ON_DARK)] {
-            assert!(contrast(accents[0].1, theme.paper) >= 4.5, "links are text");
-            for (name, color) in &accents[1..] {
-                assert!(contrast(*color, theme.paper) >= 3.0, "{name}");
-            }
-            assert!(least_distance(&accents[1..].iter().map(|(_, color)| *color).collect::<Vec<_>>()) > 20.0);
-        }
-    }
-
-    /// Every color of the sheet is a variable, so that a dark page uses no color of a light one.
-    #[test]
-    fn the_sheet_has_no_colour_of_its_own() {
-        let css = include_str!("page.css");
-        assert!(!css.contains('#') && !css.contains("rgb("));
-        let names = css.split("var(--").skip(1).filter_map(|rest| rest.split(')').next());
-        // A picture sets its own width.
-        for name in names.filter(|name| *name != "zoomed") {
-            assert_eq!(sheet().matches(&format!("--{name}: #")).count(), 2, "{name}");
-        }
-    }
-}

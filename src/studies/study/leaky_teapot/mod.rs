@@ -31,6 +31,9 @@ use crate::study::StudyError;
 use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 
+/// Seed of the points on the edges.
+const SEED: u64 = 1;
+
 pub use format_limits::FormatLimits;
 pub use outcome::{LeakyTeapotOptions, Parameters, Tally, TeapotOutcome, TeapotRow};
 pub use pixel_verdict::PixelVerdict;
@@ -91,7 +94,7 @@ fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
     let eye = parameters.view.common_origin().filter(|_| parameters.options.rays_per_edge > 0);
     let rays = |aimed: Vec<Aimed>| aimed.into_iter().map(|aimed| aimed.ray).collect();
     let (mesh, count) = (&parameters.mesh, parameters.options.rays_per_edge);
-    let edges = eye.map(|eye| rays(aimed_at_edges(mesh, eye, count, parameters.options.seed)));
+    let edges = eye.map(|eye| rays(aimed_at_edges(mesh, eye, count, SEED)));
     let vertices = eye.map(|eye| rays(aimed_at_vertices(mesh, eye)));
     [edges, vertices].map(Option::unwrap_or_default)
 }
@@ -217,7 +220,7 @@ impl Study for Parameters {
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
-        provenance.seed = Some(self.options.seed);
+        provenance.seed = Some(SEED);
         for configuration in &self.configurations {
             if !provenance.profiles.contains(&configuration.profile.name) {
                 provenance.profiles.push(configuration.profile.name.clone());

@@ -39,16 +39,12 @@ pub struct LeakyTeapotOptions {
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub rays_per_edge: u32,
 
-    /// Seed of the points on the edges.
-    #[arg(long, value_name = "SEED", default_value_t = 1)]
-    pub seed: u64,
-
     /// Which faces can be hit.
     #[arg(long, default_value = "front", value_parser = sides())]
     pub sides: Sides,
 
     /// Every ray against every triangle; without it, buckets of 32 x 32 rays meet the triangles near them.
-    #[arg(long = "brute-force")]
+    #[arg(skip)]
     pub all_pairs: bool,
 }
 

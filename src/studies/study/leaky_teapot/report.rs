@@ -9,7 +9,7 @@ use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
 use crate::error::InputError;
 use crate::picture::{ChannelUnit, Picture, RgbImage, Samples};
 use crate::report::words::{counted, listed};
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 
 /// Name, format and switch of a row.
 fn head(row: &TeapotRow) -> [Cell; 4] {
@@ -160,7 +160,7 @@ fn pair(group: &Group<'_>, exact: &RgbImage) -> [NamedPicture; 2] {
     ]
 }
 
-pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Result<Findings, ReportError> {
+pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Result<Findings, InputError> {
     let title = parameters.model.as_ref().map(|model| format!("Leaks of {model}"));
     let mut found = Findings::new(title.as_deref().unwrap_or("The leaky teapot"));
     let unit = if parameters.listed.is_some() { ["ray", "rays"] } else { ["pixel", "pixels"] };

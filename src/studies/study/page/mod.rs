@@ -13,7 +13,7 @@ mod programs;
 mod teapot;
 
 use self::page_data::PageData;
-use crate::report::ReportError;
+use crate::report::not_encoded;
 use crate::study::{ProgressFn, StudyError};
 
 /// The first bytes of a WebAssembly module.
@@ -30,9 +30,8 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
         return Err(error.with_help("name the file that `refsim/web/build` writes"));
     }
     let emulator = emulator.map(encode::packed).transpose();
-    let emulator = emulator.map_err(|error| ReportError::Encode { format: "gzip", reason: error.to_string() })?;
+    let emulator = emulator.map_err(|error| not_encoded("gzip", error))?;
     let data = PageData::compute(progress)?;
-    let json = serde_json::to_string(&data)
-        .map_err(|error| ReportError::Encode { format: "JSON", reason: error.to_string() })?;
+    let json = serde_json::to_string(&data).map_err(|error| not_encoded("JSON", error))?;
     Ok(markup::html(&data, &json, emulator.as_deref()))
 }

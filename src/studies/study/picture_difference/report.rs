@@ -7,7 +7,7 @@ use crate::picture::metrics::ChannelDifference;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table, Verdict, false_color};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, Verdict, false_color};
 use crate::study::StudyError;
 
 const FLIP: &str = "FLIP is the difference that an observer notices who flips between the two pictures: 0 none, 1 the \
@@ -115,13 +115,13 @@ fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOut
     let mut layers = Picture::new(width, height);
     for (name, samples) in &outcome.signed {
         let samples = Samples::Float(samples.clone());
-        layers = layers.with(name, ChannelUnit::Unknown, samples).map_err(ReportError::from)?;
+        layers = layers.with(name, ChannelUnit::Unknown, samples)?;
     }
     if let Some(perceptual) = &outcome.perceptual {
         let caption = "FLIP: black 0, pale yellow 1";
         pictures.push(NamedPicture::new("flip", false_color::magnitude(width, &perceptual.flip.errors), caption));
         let samples = Samples::Float(perceptual.flip.errors.iter().map(|&error| error as f32).collect());
-        layers = layers.with("FLIP", ChannelUnit::Unknown, samples).map_err(ReportError::from)?;
+        layers = layers.with("FLIP", ChannelUnit::Unknown, samples)?;
     }
     found.heading("Pictures");
     found.pictures(pictures);

@@ -101,7 +101,7 @@ impl Precomputation<'_> {
     /// needs all vertices is not split: bounces, and light that scatters below the surface.
     ///
     /// # Errors
-    /// Those of [`Self::run`], and [`PartError`](crate::split::PartError).
+    /// Those of [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,
         split: &SplitRun,

@@ -77,7 +77,7 @@ impl SegmentedCompression<'_> {
     /// The same of all segments, of those of a part, or out of parts.
     ///
     /// # Errors
-    /// Those of [`Self::run`], and [`PartError`](crate::split::PartError).
+    /// Those of [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,
         split: &SplitRun,

@@ -70,7 +70,7 @@ impl SightOfModel<'_> {
     /// Casts the rays: the model's, then the ground's; or those of a part.
     ///
     /// # Errors
-    /// [`InputError`](crate::error::InputError) and [`PartError`](crate::split::PartError), in a study's.
+    /// [`InputError`](crate::error::InputError), in a study's.
     pub fn run(
         self,
         split: &SplitRun,

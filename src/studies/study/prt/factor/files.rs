@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::all_frequency::factor::{Factorization, ProductFactors};
 use crate::io::{NumberTable, write_npy};
-use crate::report::{Findings, ReportError};
+use crate::report::{Findings, not_encoded};
 use crate::sphere::ParabolicMap;
 use crate::study::StudyError;
 
@@ -38,7 +38,7 @@ pub(super) fn keep(found: &mut Findings, all: &Factorization, factors: &ProductF
         found.keep_file(format!("{name}.csv"), text.into_bytes());
         let mut bytes = Vec::new();
         write_npy(&NumberTable { columns: terms, values: numbers }, &mut bytes)
-            .map_err(|reason| ReportError::Encode { format: "NPY", reason: reason.to_string() })?;
+            .map_err(|reason| not_encoded("NPY", reason))?;
         found.keep_file(format!("{name}.npy"), bytes);
     }
     Ok(())

@@ -1,0 +1,38 @@
+//! Numbers of case files.
+
+use std::path::Path;
+
+use crossbar_studies::case::Setup;
+
+/// The first component of `c0` of a case that gives it as `text`, as an IEEE single.
+fn single(text: &str) -> Result<u32, String> {
+    let case = format!(
+        "device = \"ideal-fp32\"\n[pixel]\nsource = \"ps_2_0\\nmov oC0, c0\"\n[constants]\nc0 = [{text}, 0, 0, 0]\n\
+         [geometry]\nfull_screen = true\n[target]\nsize = [1, 1]\nformat = \"rgba32f\"\n"
+    );
+    let setup = Setup::from_bytes("case.toml", case.as_bytes(), Path::new("")).map_err(|error| error.to_string())?;
+    Ok(setup.pixel_constants.float[0][0])
+}
+
+#[test]
+fn numbers_become_singles() {
+    for (text, bits) in [
+        ("1", 0x3f80_0000),
+        ("-0.0", 0x8000_0000),
+        ("0.1", 0x3dcc_cccd),
+        ("1e300", 0x7f80_0000),
+        ("-inf", 0xff80_0000),
+        ("-nan", 0x7fc0_0000),
+        ("\"0xffc12345\"", 0xffc1_2345),
+    ] {
+        assert_eq!(single(text), Ok(bits), "{text}");
+    }
+}
+
+#[test]
+fn other_texts_are_errors() {
+    for text in ["\"1.0\"", "\"0x\"", "\"0x123456789\"", "\"0x+1\"", "true", "[1]"] {
+        let message = single(text).expect_err("no number");
+        assert!(message.contains("0x3f800000"), "{text}: the message says what is wanted: {message}");
+    }
+}

@@ -1,0 +1,5 @@
+//! Integration tests of the studies and of the rooms below them, through what the library offers.
+
+mod case;
+mod options;
+mod report;

@@ -1,0 +1,133 @@
+//! Parts of a run, and results that are kept while long work runs.
+
+use std::cell::Cell;
+use std::fs;
+
+use crossbar_base::error::InputError;
+use crossbar_studies::split::{KeptResults, PartNumber, SpentTime, SplitCommand};
+
+#[test]
+fn every_item_is_in_one_part() {
+    for count in [0, 1, 2, 3, 24, 1000, usize::MAX] {
+        for of in [1, 2, 3, 7, 24, 25, 1001] {
+            let ranges = (1..=of).map(|number| PartNumber::new(number, of).expect("a part").range(count));
+            let mut next = 0;
+            for range in ranges {
+                assert_eq!(range.start, next, "{count} items in {of} parts");
+                assert!(range.len().abs_diff(count / of as usize) <= 1, "{count} items in {of} parts: {range:?}");
+                next = range.end;
+            }
+            assert_eq!(next, count);
+        }
+    }
+}
+
+#[test]
+fn what_is_no_part_is_refused() {
+    for text in ["", "1", "0/2", "3/2", "-1/2", "1/0", "1/2/3", "a/b", "1/1000001", "1 / 2"] {
+        assert!(text.parse::<PartNumber>().is_err(), "{text}");
+    }
+    let part: PartNumber = "2/8".parse().expect("a part");
+    assert_eq!((part.number(), part.of()), (2, 8));
+}
+
+fn command(program: &str, entry: &str) -> SplitCommand {
+    SplitCommand { program: program.to_owned(), arguments: vec!["reproduce".to_owned(), entry.to_owned()] }
+}
+
+thread_local!(static NOW: Cell<f64> = const { Cell::new(0.0) });
+
+fn clock() -> SpentTime {
+    SpentTime { processor_s: Some(2.0 * NOW.get()), wall_s: NOW.get() }
+}
+
+/// Bits of what is taken are those of what was kept; each result is computed once.
+#[test]
+fn work_that_was_stopped_goes_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept = |program, entry| {
+        KeptResults::new(folder.path().join("kept"), command(program, entry), clock).expect("no inputs")
+    };
+    let computed = Cell::new(0);
+    let get = |kept: &KeptResults, name: &str| {
+        kept.get(name, || {
+            computed.set(computed.get() + 1);
+            Ok::<_, InputError>((computed.get(), [-0.0, f64::from_bits(1), 0.1_f64]))
+        })
+    };
+    let first = get(&kept("1", "a"), "one").expect("computed");
+    let again = get(&kept("1", "a"), "one").expect("kept");
+    assert_eq!((first.0, again.0, again.1.map(f64::to_bits)), (1, 1, first.1.map(f64::to_bits)));
+    assert_eq!(get(&kept("1", "a"), "two").expect("computed").0, 2);
+    fs::write(folder.path().join("kept/other"), "a file of its own").expect("written");
+    kept("1", "a").require_no_other_work().expect("work of its own");
+    for (program, entry) in [("1", "b"), ("2", "a")] {
+        let refused = kept(program, entry).require_no_other_work().expect_err("other work").to_string();
+        assert!(refused.contains("/one.part: expected a result of\n"), "{refused}");
+        let [expected, found] = match program {
+            "2" => ["crossbar 2", "crossbar 1"],
+            _ => ["crossbar reproduce b", "crossbar reproduce a"],
+        };
+        assert!(refused.ends_with(&format!("\n{expected}\nfound one of\n{found}")), "{refused}");
+        let before = computed.get();
+        assert_eq!(get(&kept(program, entry), "one").expect("computed").0, before + 1, "of other work");
+    }
+    let none = || InputError::new("", "no result");
+    let failed = kept("1", "a").get::<u8, _>("three", || Err(none()));
+    assert!(failed == Err(none()) && !folder.path().join("kept/three.part").exists());
+    kept("1", "a").remove().expect("removed");
+    assert!(!folder.path().join("kept").exists());
+    kept("1", "a").remove().expect("nothing to remove");
+}
+
+/// The time of a run that goes on has that of the runs before it until their last results, each once.
+#[test]
+fn time_is_that_of_all_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let open = || KeptResults::new(folder.path().to_owned(), command("1", "a"), clock).expect("no inputs");
+    let work = |kept: &KeptResults, name: &str, seconds: f64| {
+        let compute = || {
+            NOW.set(NOW.get() + seconds);
+            Ok::<_, InputError>(0)
+        };
+        kept.get(name, compute).expect("a result");
+    };
+    NOW.set(1000.0);
+    let first = open();
+    work(&first, "one", 10.0);
+    work(&first, "two", 5.0);
+    assert_eq!(first.spent(), SpentTime { processor_s: Some(30.0), wall_s: 15.0 });
+    // Stopped in the middle of the third.
+    NOW.set(5000.0);
+    let second = open();
+    for name in ["one", "two", "three"] {
+        work(&second, name, 7.0);
+    }
+    assert_eq!(second.spent(), SpentTime { processor_s: Some(44.0), wall_s: 22.0 });
+}
+
+#[test]
+fn a_damaged_result_is_computed_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept = KeptResults::new(folder.path().to_owned(), command("1", "a"), clock).expect("no inputs");
+    let get = |result: u32| kept.get("one", || Ok::<_, InputError>(result)).expect("a result");
+    assert_eq!([get(7), get(8)], [7, 7]);
+    let path = folder.path().join("one.part");
+    let whole = fs::read(&path).expect("a file");
+    for damaged in [whole[..whole.len() - 1].to_vec(), b"nothing".to_vec(), Vec::new()] {
+        fs::write(&path, damaged).expect("written");
+        assert_eq!([get(9), get(8)], [9, 9]);
+        fs::write(&path, &whole).expect("written");
+        assert_eq!(get(8), 7);
+    }
+    // Of another type.
+    assert_eq!(kept.get("one", || Ok::<_, InputError>(String::from("anew"))).expect("a result"), "anew");
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_said() {
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    let kept = KeptResults::new(file.path().join("folder"), command("1", "a"), clock).expect("no inputs");
+    let error = kept.get("one", || Ok::<_, InputError>(1)).expect_err("no folder").to_string();
+    assert!(error.starts_with("cannot write into the folder "), "{error}");
+}
