@@ -2,6 +2,7 @@
 #![cfg(unix)]
 
 use std::fs;
+use std::io::{BufRead as _, BufReader, Read as _};
 use std::os::unix::process::ExitStatusExt as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -88,23 +89,37 @@ fn what_is_lost_is_said() {
 /// plain lines how much of it is done; with `--quiet` it says nothing.
 #[test]
 fn long_work_is_announced() {
-    let said = [None, Some("--quiet")].map(|more| {
+    let [loud, quiet] = [None, Some("--quiet")].map(|more| {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let mut command = unignoring(crate::program::path());
         command.args(LONG).args(more).current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null());
         let mut child = command.stderr(Stdio::piped()).spawn().expect("the program that this test was built with");
         begun(&mut child, folder.path());
-        std::thread::sleep(Duration::from_secs(4));
-        signal(&child, "INT");
-        let output = child.wait_with_output().expect("a child");
-        String::from_utf8(output.stderr).expect("text")
+        (child, folder)
     });
-    let lines: Vec<&str> = said[0].lines().filter(|line| line.starts_with("progress: ")).collect();
-    let (announced, counted): (Vec<&str>, Vec<&str>) = lines.iter().partition(|line| line.contains("will take about"));
-    assert_eq!((announced.len(), counted.len()), (1, 1), "{said:?}");
-    assert!(announced[0].ends_with(" at this pace; quicker with fewer `--samples` or a smaller `--size`"), "{said:?}");
-    assert!(counted[0].contains(" of ") && counted[0].contains(" done, about ") && counted[0].ends_with(" left"));
-    assert!(!said[0].contains(['\x1b', '\r']) && !said[1].contains("progress"), "{said:?}");
+    let (mut child, _folder) = loud;
+    let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines().map(|line| line.expect("text"));
+    let is_announced = |line: &String| line.contains(" will take about ");
+    let is_counted = |line: &String| line.contains(" of ") && line.contains(" done, about ") && line.ends_with(" left");
+    let mut said = Vec::new();
+    while !(said.iter().any(is_announced) && said.iter().any(is_counted)) {
+        said.push(lines.next().expect("the work is long enough to be announced"));
+    }
+    let (mut silent, _folder) = quiet;
+    for child in [&child, &silent] {
+        signal(child, "INT");
+    }
+    said.extend(lines.filter(|line| line.starts_with("progress: ")));
+    let announced: Vec<&String> = said.iter().filter(|line| is_announced(line)).collect();
+    let quicker = " at this pace; quicker with fewer `--samples` or a smaller `--size`";
+    assert!(announced.len() == 1 && announced[0].ends_with(quicker), "{said:?}");
+    assert!(said.iter().all(|line| line.starts_with("progress: ") && !line.contains(['\x1b', '\r'])), "{said:?}");
+    let mut text = String::new();
+    silent.stderr.take().expect("a pipe").read_to_string(&mut text).expect("text");
+    assert!(!text.contains("progress"), "{text}");
+    for mut child in [child, silent] {
+        assert_eq!(child.wait().expect("a child").signal(), Some(2));
+    }
 }
 
 /// A reader that never empties its pipe does not keep the program running.
