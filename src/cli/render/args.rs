@@ -100,6 +100,14 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
+    /// The most surfaces that light meets between lamp and eye, but for eye rays [default: 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub(super) depth: Option<u32>,
+
+    /// Random seed [default: 1]
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u64>,
+
     /// A view of the scene, by its name [default: its first]
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
@@ -137,7 +145,11 @@ impl LightArgs {
         let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];
         let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
         given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
-        let of_light = [("--exposure", self.exposure.is_some()), ("--lens", self.lens.is_some())];
+        let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
+        let depth = [("--depth", self.depth.is_some() && is_eye)];
+        given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
+        let of_light =
+            [("--seed", self.seed.is_some()), ("--exposure", self.exposure.is_some()), ("--lens", self.lens.is_some())];
         let of_light = of_light.map(|(option, given)| (option, given && renderer.is_none()));
         given::refuse(of_light, "scenes with light", "add a `--renderer`, or leave it out")
     }

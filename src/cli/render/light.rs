@@ -21,6 +21,9 @@ use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
+/// The random seed where none is given.
+const SEED: u64 = 1;
+
 pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     args.light.refuse_others(Some(renderer))?;
@@ -41,7 +44,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
     findings.table(FoundTable::from(rays(&picture)).unprinted());
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
-    provenance.seed = Some(Settings::default().seed);
+    provenance.seed = Some(args.light.seed.unwrap_or(SEED));
     provenance.profiles.extend(device);
     report(args, &picture, engine.as_ref(), &mut findings);
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
@@ -102,8 +105,14 @@ fn trace(
         Renderer::Whitted => 4,
         _ => 16,
     };
-    let settings =
-        Settings { samples: light.samples.unwrap_or(usual), rounding, lens: light.lens, ..Settings::default() };
+    let settings = Settings {
+        samples: light.samples.unwrap_or(usual),
+        depth: light.depth.unwrap_or(8),
+        seed: light.seed.unwrap_or(SEED),
+        rounding,
+        lens: light.lens,
+        ..Settings::default()
+    };
     let mut photons = Photons::for_scene(scene);
     photons.global = light.photons.unwrap_or(photons.global);
     photons.caustic = light.photons.unwrap_or(photons.caustic);

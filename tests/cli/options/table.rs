@@ -116,6 +116,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--device=ideal-fp16 --executor=batch --out=other --renderer=eye@1,2,3,4,5,6 --samples=3 \
+             --depth=1@0,3,4,5,6 same:--depth=1@2 --seed=2@2,3,4,5,6 same:--seed=2@0,1 \
              --view=front@0,5,6 same:--view=front@1,2,3,4 --exposure=0.3 \
              --lens=0.1,1 --photons=100 --gather=1 --caster=engine --model-up=y --strict@6",
             eye!()
