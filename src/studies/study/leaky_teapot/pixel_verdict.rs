@@ -77,25 +77,3 @@ impl PixelVerdict {
         Self::VARIANTS.iter().rev().map(|verdict| (verdict.color(), verdict.words().to_owned())).collect()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::palette::{contrast, least_distance};
-
-    #[test]
-    fn colours_differ_for_every_reader() {
-        let colors: Vec<Color> = PixelVerdict::VARIANTS.iter().map(|verdict| verdict.color()).collect();
-        assert!(least_distance(&colors) > 20.0, "{}", least_distance(&colors));
-        // Errors are brighter than correct pixels, for readers without color vision.
-        for verdict in PixelVerdict::VARIANTS.iter().filter(|verdict| verdict.rank() > 0) {
-            assert!(contrast(verdict.color(), PixelVerdict::Right.color()) > 2.0, "{verdict:?}");
-        }
-    }
-
-    #[test]
-    fn the_worst_has_the_highest_rank() {
-        let ranks: Vec<u8> = PixelVerdict::VARIANTS.iter().map(|verdict| verdict.rank()).collect();
-        assert!(ranks.is_sorted() && ranks == [0, 0, 1, 2, 3, 4]);
-    }
-}

@@ -48,20 +48,3 @@ impl SolutionError {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lamps_and_dark_patches_do_not_count_for_the_bias() {
-        let reference = [[8.0, 8.0, 8.0], [1.0, 2.0, 0.0]];
-        let found = [[8.0, 2.0, 8.0], [0.5, 2.0, 0.0]];
-        let emittance = [[8.0; 3], [0.0; 3]];
-        let error = SolutionError::between(&found, &reference, &emittance);
-        let expected = SolutionError { largest: 0.75, relative: 0.75, relative_unlit: 0.5, bias: -0.25, not_finite: 0 };
-        assert_eq!(error, expected);
-        let error = SolutionError::between(&[[8.0; 3], [f64::NAN, f64::INFINITY, 0.0]], &reference, &emittance);
-        assert_eq!((error.not_finite, error.relative_unlit, error.bias), (2, f64::INFINITY, f64::INFINITY));
-    }
-}

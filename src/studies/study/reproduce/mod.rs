@@ -48,6 +48,16 @@ pub use row::{
     PaperRow, RowSource, RowVerdict, Setting, Sweep,
 };
 
+/// Parts that tests call themselves, because no run that ends in seconds reaches their cases.
+#[doc(hidden)]
+pub mod tested {
+    pub use super::all_frequency::bunny_in_pieces;
+    pub use super::cpca::{crossings, reaching};
+    pub use super::paper::parse_figures;
+    pub use super::record::compared;
+    pub use super::summary::summary_lines;
+}
+
 /// Parameters of the study.
 #[derive(Clone, Debug)]
 pub struct Parameters {

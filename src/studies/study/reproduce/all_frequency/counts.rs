@@ -167,24 +167,3 @@ fn below_horizon() -> (f64, f64) {
     let mean = dot(&counts, &weights) / weights.iter().sum::<f64>();
     (counts.into_iter().fold(f64::INFINITY, f64::min), mean)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Values of the text that other entries use or that are computed by hand.
-    #[test]
-    fn sizes_are_those_of_equation_12() {
-        assert!((ratio(200.0, 2560.0) - 11.594).abs() < 1e-3);
-        let columns = Column::all().expect("the printed columns");
-        let [clusters, vertices] = columns[0].multiplies().map(|count| count / 3e6);
-        assert!((clusters - 31.25).abs() < 0.01 && (vertices - 24.73).abs() < 0.01, "{clusters} {vertices}");
-        assert!((columns[1].raw_gigabytes() - 12.607).abs() < 1e-3);
-    }
-
-    #[test]
-    fn as_many_segments_are_below_as_the_laws_say() {
-        let (least, mean) = below_horizon();
-        assert!(least == 6.0 && (mean - 6.70).abs() < 0.03, "{least}, {mean}");
-    }
-}

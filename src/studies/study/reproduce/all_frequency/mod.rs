@@ -13,6 +13,7 @@ mod table_1;
 pub(super) use counts::findings as counts;
 pub(super) use factors::findings as factors;
 pub(super) use figures::findings as figures;
+pub use models::bunny_in_pieces;
 pub(super) use table_1::findings as table_1;
 
 use super::error::failed;

@@ -1,6 +1,7 @@
 //! Models of Table 1, or our stand-ins, compressed and encoded.
 
 use std::cell::OnceCell;
+use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +16,7 @@ use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::scene::built::ground::{GROUND_SIDE, on_ground};
 use crate::scene::built::transfer_models::TransferModel;
+use crate::split::KeptResults;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
@@ -249,42 +251,15 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
     Ok(cell.get_or_init(|| found))
 }
 
-#[cfg(test)]
-mod tests {
-    use std::rc::Rc;
-
-    use super::*;
-    use crate::split::{KeptResults, SpentTime, SplitCommand};
-
-    /// A run that goes on from another's segments, or takes its model, finds what a run without pieces finds.
-    #[test]
-    fn pieces_make_the_same_model() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let found = |seen: &SeenModel, keeps: bool| {
-            let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
-            let kept = || {
-                let kept = KeptResults::new(folder.path().to_owned(), command, SpentTime::default);
-                Rc::new(kept.expect("no inputs"))
-            };
-            let shared = &Shared::new(ModelSize::Reduced).keeping(keeps.then(kept));
-            let compress =
-                || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::Sampled, (shared, "bunny"));
-            format!("{:?}", shared.piece("bunny", compress).expect("compressed"))
-        };
-        let new = || SeenModel::new(TableModel::Bunny, ModelSize::Reduced);
-        let (seen, taken) = (new(), new());
-        let without = found(&seen, false);
-        assert_eq!(found(&seen, true), without, "computed and kept");
-        assert_eq!(found(&taken, true), without, "taken");
-        assert!(taken.alone.get().is_none(), "a model that is taken needs no visibility");
-        // Stopped before the last segment.
-        let path = |piece: &str| folder.path().join(format!("{piece}.part"));
-        for piece in ["bunny", "bunny-segment-21"] {
-            std::fs::remove_file(path(piece)).expect("a piece");
-        }
-        let first = std::fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
-        assert_eq!(found(&taken, true), without, "gone on");
-        let again = std::fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
-        assert_eq!(first, again, "taken, and not written again");
-    }
+/// Compresses the diffuse bunny of Table 1, reduced, in pieces that are kept if asked for. Returns the model as text, and
+/// whether its visibility was computed.
+///
+/// # Errors
+/// If the model cannot be compressed, or its pieces cannot be kept.
+pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
+    let (shared, seen) =
+        (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));
+    let compress = || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::Sampled, (&shared, "bunny"));
+    let model = shared.piece("bunny", compress)?;
+    Ok((format!("{model:?}"), seen.alone.get().is_some()))
 }

@@ -25,8 +25,10 @@ mod views;
 
 pub(super) use appendix::findings as appendix;
 pub(super) use coherence::findings as coherence;
+pub use figure_2::crossings;
 pub(super) use figure_2::findings as figure_2;
 pub(super) use figure_3::findings as figure_3;
+pub use figure_3::reaching;
 pub(super) use figure_6::findings as figure_6;
 pub(super) use figure_7::findings as figure_7;
 pub(super) use figure_8::findings as figure_8;

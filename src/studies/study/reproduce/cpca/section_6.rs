@@ -49,19 +49,3 @@ fn sizes() -> Table {
     }
     table
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Raw over stored numbers of Table 1's rows, and the bird's host work: 48,688 / (256 x 9) times less.
-    #[test]
-    fn ratios_of_table_1() {
-        let table = sizes();
-        let column = |name: &str| table.headings().iter().position(|heading| heading == name).expect("a column");
-        let of = |name: &str| table.rows().iter().map(|row| row[column(name)].text()).collect::<Vec<_>>();
-        assert_eq!(of("ratio")[..7], ["19.7", "16.8", "17.0", "16.5", "7.9", "19.7", "23.4"]);
-        assert_eq!(of("less_host_work")[3], "21.1");
-        assert_eq!(of("registers_per_cluster")[7..], ["18", "30", "78", "6", "126"]);
-    }
-}

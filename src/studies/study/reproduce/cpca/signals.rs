@@ -260,28 +260,3 @@ fn scatterer() -> Result<Scatterer, StudyError> {
     let dipoles = [red.map_err(|e| fail(&e))?, green.map_err(|e| fail(&e))?, blue.map_err(|e| fail(&e))?];
     Ok(Scatterer { dipoles, options: ScatteringOptions { mm_per_unit: MM_PER_UNIT, solid_angle: SOLID_ANGLE } })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Errors by section 4.1's formula, and those of the steps of one compression, equal those of compressions with the
-    /// same number of vectors.
-    #[test]
-    fn errors_by_vectors_are_those_of_compressions() {
-        let computed = ComputedSignal::new(&SIGNALS[DIFFUSE_BIRD], ModelSize::Reduced).expect("a signal");
-        let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected;
-        let (still, iterative) = (computed.static_errors(5, 4), computed.iterative_errors(5, 2));
-        let (still, iterative) = (still.expect("compressed"), iterative.expect("compressed"));
-        for (vectors, &error) in still.iter().enumerate() {
-            let options = options(5, vectors, (CpcaMethod::Static, VQ_ITERATIONS));
-            let clustering = compress(&computed.signal, &options, |_| ()).expect("compressed").clustering;
-            assert!(near(error, computed.error(&clustering)), "{vectors} vectors");
-        }
-        for (vectors, &error) in iterative.iter().enumerate() {
-            let clustering = computed.compressed_to(5, vectors, CpcaMethod::Iterative).expect("compressed");
-            assert!(near(error, computed.error(&clustering)), "{vectors} vectors");
-        }
-        assert_eq!((still.len(), iterative.len()), (5, 3));
-    }
-}

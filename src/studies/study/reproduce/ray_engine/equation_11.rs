@@ -78,18 +78,3 @@ fn line(id: &str, device: &str, ours: [f64; 2]) -> Result<[Cell; 5], StudyError>
     let [equation, pipeline] = ours.map(|value| figure.beside(value));
     Ok([figure.what.as_str().into(), device.into(), figure.cell(), equation, pipeline])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The implied fill rate is equation 11 solved for it.
-    #[test]
-    fn the_fill_rate_of_the_geforce4_is_implied() {
-        let value = |id: &str| printed(id).expect("a figure").value;
-        let tests = value("ray-engine/ten-triangles-geforce4") * MEGA;
-        let readback = value("ray-engine/read-back") * MEGA;
-        let implied = CostRates::implied_fill(tests, TEN, GAMMAS[0], readback) / MEGA;
-        assert_eq!(number(implied, 1), number(value("ray-engine/fill-geforce4"), 1));
-    }
-}
