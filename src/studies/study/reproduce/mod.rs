@@ -29,7 +29,7 @@ mod sky;
 mod subsurface;
 mod summary;
 
-use crate::report::{Findings, Provenance};
+use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
 use shared::Shared;
 
@@ -91,10 +91,5 @@ pub fn reproduce(
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         Ok(report::findings(&reproduce(&self.entries, self.full_size, progress)?))
-    }
-
-    /// Entries choose their devices themselves, and nothing is random.
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::forms::{Form, TERMS, cook_torrance, schlick};
 use super::segments::{SegmentShares, SegmentSums};
-use super::{HOST, Shared, StudyError, failed};
+use super::{HOST, RunResult, Shared, StudyError};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::Factorization;
@@ -65,7 +65,7 @@ impl TableModel {
             Self::Buddha => built(TransferModel::Buddha, 12),
             Self::Teapot => {
                 let rate = if size == ModelSize::Printed { 40 } else { 3 };
-                crate::geom::teapot::teapot(rate).map_err(|e| failed(HOST)(&e))?
+                crate::geom::teapot::teapot(rate).on(HOST)?
             }
         })
     }
@@ -79,9 +79,8 @@ impl TableMaterial {
             Self::Cook => cook_torrance()[0],
             Self::Schlick => schlick()[0],
         };
-        let fail = failed(HOST);
-        let table = sampling.table(&lobe, &mut |_, _| ()).map_err(|e| fail(&e))?;
-        let factors = Factorization::new(&table, TERMS).map_err(|e| fail(&e))?;
+        let table = sampling.table(&lobe, &mut |_, _| ()).on(HOST)?;
+        let factors = Factorization::new(&table, TERMS).on(HOST)?;
         Ok(Reflectance::Factored(factors.factors(TERMS)))
     }
 }
@@ -137,18 +136,16 @@ pub(super) struct CodedModel {
 impl ModelVisibility {
     /// Computes visibility by ray casting, of a model by itself.
     pub(super) fn alone(model: TableModel, size: ModelSize) -> Result<Self, StudyError> {
-        let fail = failed(HOST);
         let mesh = model.mesh(size)?;
-        let vertices = Vertices::new(&mesh, Tangents::default()).map_err(|e| fail(&e))?;
+        let vertices = Vertices::new(&mesh, Tangents::default()).on(HOST)?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
         Self::traced(&mesh, vertices, &all, size)
     }
 
     /// Computes visibility of a model on a ground, or of that ground.
     pub(super) fn on_ground(model: TableModel, of_ground: bool, size: ModelSize) -> Result<Self, StudyError> {
-        let fail = failed(HOST);
-        let (mesh, materials) = on_ground(&model.mesh(size)?, ground_side(size)).map_err(|e| fail(&e))?;
-        let vertices = Vertices::with_materials(&mesh, &materials, Tangents::default()).map_err(|e| fail(&e))?;
+        let (mesh, materials) = on_ground(&model.mesh(size)?, ground_side(size)).on(HOST)?;
+        let vertices = Vertices::with_materials(&mesh, &materials, Tangents::default()).on(HOST)?;
         let is_wanted = |&vertex: &u32| (vertices.materials()[vertex as usize] == 1) == of_ground;
         let wanted: Vec<u32> = (0..vertices.len() as u32).filter(is_wanted).collect();
         Self::traced(&mesh, vertices, &wanted, size)
@@ -157,12 +154,7 @@ impl ModelVisibility {
     fn traced(mesh: &Mesh, vertices: Vertices, wanted: &[u32], size: ModelSize) -> Result<Self, StudyError> {
         let mut tracer = HostTracer::new(mesh, Sides::Both);
         let maps = VisibilityMaps::trace(&vertices, wanted, &mut tracer, &mut |_, _| ());
-        Ok(Self {
-            maps: maps.map_err(|e| failed(HOST)(&e))?,
-            vertices,
-            hats: LinearBasis::new(BasisWidth::TwoTexels),
-            size,
-        })
+        Ok(Self { maps: maps.on(HOST)?, vertices, hats: LinearBasis::new(BasisWidth::TwoTexels), size })
     }
 
     /// Counts the segments that hold transfer.
@@ -186,7 +178,7 @@ impl ModelVisibility {
         };
         let (rows, vertices) = (reflectance.terms(), self.maps.len());
         let of_segment = |segment: usize| {
-            let found = transfer.segment(segment).map_err(|e| failed(HOST)(&e))?;
+            let found = transfer.segment(segment).on(HOST)?;
             found.map(|found| SegmentSums::new(found, iterations, (rows, vertices))).transpose()
         };
         let (mut sums, mut by_segment) = (SegmentSums::default(), Vec::new());

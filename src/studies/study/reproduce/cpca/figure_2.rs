@@ -41,13 +41,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let [worse, better] = crossings(&curves);
     let last = counts.last().copied().unwrap_or(1);
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
-        rows: vec![solved("curves-worse", worse as f64)?, solved("curves-better", better as f64)?],
-        questions: vec!["the axes of the figure, which the scan has lost."],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new(
+        [paragraph(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
+        [solved("curves-worse", worse as f64)?, solved("curves-better", better as f64)?],
+        ["the axes of the figure, which the scan has lost."],
+        [table],
+    ))
 }
 
 /// Number of curves that are above the previous one at the smallest common storage, and below it at the largest.

@@ -54,13 +54,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ];
     let points = computed.signal.points();
     let figures = [points as f64, 5.0, clusters as f64, ROUNDS as f64].map(|figure| number(figure, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, figures)],
-        rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
 }
 
 /// Row on a sentence that holds for several numbers of vectors or clusters: the first is ours, the others are readings.

@@ -1,7 +1,7 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{EntryFindings, REGISTERS, StudyError, number, paragraph};
+use super::{EntryFindings, REGISTERS, Shared, StudyError, number, paragraph};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
@@ -9,12 +9,8 @@ const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 
     ones, where the paper divides. The host multiplies every mean and vector by the light of three channels in each frame; \
     without compression, every vertex's matrix.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [number(4.0, 0)])],
-        tables: vec![sizes()],
-        ..EntryFindings::default()
-    })
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
+    Ok(EntryFindings::new([paragraph(HOW, [number(4.0, 0)])], [], [], [sizes()]))
 }
 
 /// Table of the sizes of Table 1's signals, and of the encodings of Figures 10 and 11 that are not among them.
