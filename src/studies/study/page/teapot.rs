@@ -14,15 +14,15 @@ use serde::Serialize;
 use strum::VariantArray as _;
 
 use super::encode::{base64, base64_words};
-use crate::geom::classify::{Candidate, HitVerdict, classify};
-use crate::geom::exact::{NearestHit, Sides, Tracer};
+use crate::geom::classify::HitVerdict;
+use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
 use crate::geom::{Hit, Mesh};
 use crate::picture::{png, rgb8};
 use crate::ray_engine::{Crossbar, Kernel, RayBatch};
 use crate::scene::Camera;
 use crate::study::StudyError;
-use crate::study::leaky_teapot::PixelVerdict;
+use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
 use crate::study::shade::TeapotShader;
 
 /// Quads along each side of each patch.
@@ -182,9 +182,10 @@ impl FixedView {
         let camera = Camera::new(eye, target, [0.0, 0.0, 1.0], TAN_HALF_HEIGHT, SIDE, SIDE)
             .map_err(|error| StudyError::new("page::view", error.to_string()))?;
         let rays = RayBatch::new(SIDE, SIDE, camera.rays()).map_err(crate::ray_engine::EngineError::from)?;
-        let nearest = tracer.nearest_all(rays.rays(), Sides::Front);
+        let judged = JudgedRays::new(tracer, rays.rays().to_vec(), Sides::Front);
+        let nearest = &judged.nearest;
         let ties = nearest.iter().enumerate().filter_map(|(at, hit)| Some((at, hit.as_ref()?.ties.clone())));
-        let pictures = FORMATS.map(|format| FixedPicture::draw(format, mesh, &rays, &nearest));
+        let pictures = FORMATS.map(|format| FixedPicture::draw(format, mesh, &rays, &judged));
         Ok(Self {
             name,
             eye,
@@ -197,22 +198,12 @@ impl FixedView {
 }
 
 impl FixedPicture {
-    fn draw(
-        format: &'static str,
-        mesh: &Mesh,
-        rays: &RayBatch,
-        nearest: &[Option<NearestHit>],
-    ) -> Result<Self, StudyError> {
+    fn draw(format: &'static str, mesh: &Mesh, rays: &RayBatch, judged: &JudgedRays) -> Result<Self, StudyError> {
         let profile = Profile::named(&format!("ideal-{format}"))?;
         let number_format = profile.rules.format;
         let hits = Crossbar::new(profile, ExecutorKind::Batch).intersect(mesh, rays, Sides::Front)?.hits;
         let words = hit_words(&hits);
-        let verdict = |(hit, nearest): (&Option<Hit>, &Option<NearestHit>)| {
-            let none = Candidate { triangle: None, t: 0.0 };
-            let candidate = hit.map_or(none, |h| Candidate { triangle: Some(h.triangle), t: h.t });
-            classify(mesh, nearest.as_ref(), candidate).verdict
-        };
-        let verdicts: Vec<HitVerdict> = hits.iter().zip(nearest).map(verdict).collect();
+        let (verdicts, _) = judged.judge(mesh, &hits);
         let triangles: Vec<Option<u32>> = hits.iter().map(|hit| hit.map(|hit| hit.triangle)).collect();
         let shaded = TeapotShader::new(mesh).picture(rays, &triangles);
         let color = |(verdict, pixel): (&HitVerdict, [u8; 3])| match verdict {

@@ -7,18 +7,18 @@ use crate::picture::metrics::{ErrorSums, value_error};
 /// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the
 /// direct one is, or the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SolutionError {
+pub(super) struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
-    pub largest: f64,
+    pub(super) largest: f64,
     /// Largest relative difference. Patches without any light are excluded.
-    pub relative: f64,
+    pub(super) relative: f64,
     /// Largest relative difference over patches that do not emit.
-    pub relative_unlit: f64,
+    pub(super) relative_unlit: f64,
     /// Mean signed relative difference over patches that do not emit, large and small alike: negative if they are too
     /// dark.
-    pub bias: f64,
+    pub(super) bias: f64,
     /// Number of radiosities that are not finite where the direct ones are, or the reverse.
-    pub not_finite: u64,
+    pub(super) not_finite: u64,
 }
 
 impl SolutionError {

@@ -15,26 +15,26 @@ const WIDTH: f64 = 180.0 / BINS as f64;
 
 /// Error of radiosities in a bin, relative to those over all pairs there; over all channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BinError {
+pub(super) struct BinError {
     /// The mean radiosity by area over that of all pairs, less 1.
-    pub mean: f64,
+    pub(super) mean: f64,
     /// Root of the mean squared difference by area over that of the squared radiosity of all pairs.
-    pub rms: f64,
+    pub(super) rms: f64,
 }
 
 /// Texels whose normals are at an angle of `degrees[0]` to `degrees[1]` from the direction towards the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AngleBin {
+pub(super) struct AngleBin {
     /// The bin's ends, in degrees.
-    pub degrees: [f64; 2],
+    pub(super) degrees: [f64; 2],
     /// Share of the model's area, above 0.
-    pub area: f64,
+    pub(super) area: f64,
     /// Mean of B by area and channel, over all pairs.
-    pub radiosity: f64,
+    pub(super) radiosity: f64,
     /// The links' own error: the host's sum over them.
-    pub links: BinError,
+    pub(super) links: BinError,
     /// Links and card together.
-    pub all: BinError,
+    pub(super) all: BinError,
 }
 
 /// The direction towards the light, if there is a single directional one and nothing else.
