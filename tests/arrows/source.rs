@@ -81,11 +81,9 @@ impl Crate {
         let texts = rust_files(&folder).into_iter().filter_map(|file| {
             let below = file.strip_prefix(&folder).expect("below the folder");
             let member = MEMBERS.iter().find_map(|member| below.strip_prefix(member).ok());
-            // The root of a member re-imports rooms of other members, which is no use of them.
-            let is_root = member.is_some_and(|below| below == Path::new("lib.rs"));
-            // Tests of a member use what they like.
-            let is_test = member.is_some_and(|below| below.starts_with("tests"));
-            (!is_root && !is_test).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
+            // The root of a member re-imports rooms of other members, which is no use of them; its tests are no room.
+            let is_left_out = member.is_some_and(|below| below == Path::new("lib.rs") || below.starts_with("tests"));
+            (!is_left_out).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
         });
         Self::of_texts(texts)
     }

@@ -137,29 +137,3 @@ fn seams(rows: &[TeapotRow]) -> Option<String> {
 fn label(row: &TeapotRow) -> &str {
     &row.configuration.label
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ray_engine::BitsLeft;
-
-    fn limits_of(below_step: u64, hits: u64, t_values: u64) -> FormatLimits {
-        let bits = BitsLeft { triangles: 100, below_step, fixed_point: true };
-        FormatLimits { bits, hits, t_values }
-    }
-
-    #[test]
-    fn few_warnings_are_said_each_and_many_by_their_range() {
-        let mut rows = vec![("a", limits_of(0, 1000, 9)), ("b", limits_of(0, 1000, 9)), ("c", limits_of(0, 1000, 900))];
-        assert_eq!(limits(&rows), ["a and b: no bits left: t of 1,000 hits has 9 different values."]);
-        rows.extend([("d", limits_of(30, 1100, 50)), ("e", limits_of(30, 1100, 900))]);
-        let said = limits(&rows);
-        assert_eq!(
-            said,
-            [
-                "d and e: no bits left: n of 30 triangles is below one step of the card's format.",
-                "a, b and d: no bits left: t of 1,000 to 1,100 hits has 9 to 50 different values.",
-            ]
-        );
-    }
-}

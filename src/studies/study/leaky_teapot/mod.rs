@@ -45,7 +45,7 @@ library_errors! {
 /// Rays with their exact hits.
 pub(super) struct JudgedRays {
     rays: Vec<Ray>,
-    nearest: Vec<Option<NearestHit>>,
+    pub(super) nearest: Vec<Option<NearestHit>>,
 }
 
 impl JudgedRays {

@@ -265,23 +265,3 @@ fn results() -> Markup {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The script fetches nothing and does not end its own element.
-    #[test]
-    fn the_script_stands_alone() {
-        for word in ["http", "fetch(", "import", "XMLHttp", "WebSocket", "eval", "innerHTML", "</", "<!--"] {
-            assert!(SCRIPT.iter().all(|part| !part.contains(word)), "{word}");
-        }
-    }
-
-    /// Every color of the sheet is a variable of the reports' sheet, so that a dark page uses no color of a light one.
-    #[test]
-    fn the_sheet_has_no_color_of_its_own() {
-        let css = include_str!("assets/page.css");
-        assert!(!css.contains("rgb(") && !css.contains(": #"));
-    }
-}

@@ -72,27 +72,3 @@ const fn mixed(word: u32) -> u32 {
     let permuted = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     permuted >> 22 ^ permuted
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Zeros, subnormals, infinities, NaN and neighbours are among the operands of every float format.
-    #[test]
-    fn operands_reach_the_corners_of_a_format() {
-        for format in [Format::FP16, Format::FP32] {
-            let bits = PatternBits::new(&format);
-            let all: Vec<u32> = (0..2048).flat_map(|counter| bits.set(counter)).collect();
-            for (what, found) in [
-                ("zero", all.iter().any(|&x| x & !bits.sign == 0)),
-                ("subnormal", all.iter().any(|&x| format.is_subnormal(x))),
-                ("infinity", all.iter().any(|&x| x & !bits.sign == bits.high)),
-                ("NaN", all.iter().any(|&x| format.is_nan(x))),
-                ("two neighbours", (0..2048).map(|counter| bits.set(counter)).any(|[a, b, _]| a != b && a ^ b <= 3)),
-            ] {
-                assert!(found, "{format}: {what}");
-            }
-            assert!(all.iter().all(|&x| u64::from(x) < 1 << format.width()), "{format}: no bit beyond the width");
-        }
-    }
-}

@@ -14,15 +14,15 @@ use serde::Serialize;
 use strum::VariantArray as _;
 
 use super::encode::{base64, base64_words};
-use crate::geom::classify::{Candidate, HitVerdict, classify};
-use crate::geom::exact::{NearestHit, Sides, Tracer};
+use crate::geom::classify::HitVerdict;
+use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
 use crate::geom::{Hit, Mesh};
 use crate::picture::{png, rgb8};
 use crate::ray_engine::{Crossbar, Kernel, RayBatch};
 use crate::scene::Camera;
 use crate::study::StudyError;
-use crate::study::leaky_teapot::PixelVerdict;
+use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
 use crate::study::shade::TeapotShader;
 
 /// Quads along each side of each patch.
@@ -182,9 +182,10 @@ impl FixedView {
         let camera = Camera::new(eye, target, [0.0, 0.0, 1.0], TAN_HALF_HEIGHT, SIDE, SIDE)
             .map_err(|error| StudyError::new("page::view", error.to_string()))?;
         let rays = RayBatch::new(SIDE, SIDE, camera.rays()).map_err(crate::ray_engine::EngineError::from)?;
-        let nearest = tracer.nearest_all(rays.rays(), Sides::Front);
+        let judged = JudgedRays::new(tracer, rays.rays().to_vec(), Sides::Front);
+        let nearest = &judged.nearest;
         let ties = nearest.iter().enumerate().filter_map(|(at, hit)| Some((at, hit.as_ref()?.ties.clone())));
-        let pictures = FORMATS.map(|format| FixedPicture::draw(format, mesh, &rays, &nearest));
+        let pictures = FORMATS.map(|format| FixedPicture::draw(format, mesh, &rays, &judged));
         Ok(Self {
             name,
             eye,
@@ -197,22 +198,12 @@ impl FixedView {
 }
 
 impl FixedPicture {
-    fn draw(
-        format: &'static str,
-        mesh: &Mesh,
-        rays: &RayBatch,
-        nearest: &[Option<NearestHit>],
-    ) -> Result<Self, StudyError> {
+    fn draw(format: &'static str, mesh: &Mesh, rays: &RayBatch, judged: &JudgedRays) -> Result<Self, StudyError> {
         let profile = Profile::named(&format!("ideal-{format}"))?;
         let number_format = profile.rules.format;
         let hits = Crossbar::new(profile, ExecutorKind::Batch).intersect(mesh, rays, Sides::Front)?.hits;
         let words = hit_words(&hits);
-        let verdict = |(hit, nearest): (&Option<Hit>, &Option<NearestHit>)| {
-            let none = Candidate { triangle: None, t: 0.0 };
-            let candidate = hit.map_or(none, |h| Candidate { triangle: Some(h.triangle), t: h.t });
-            classify(mesh, nearest.as_ref(), candidate).verdict
-        };
-        let verdicts: Vec<HitVerdict> = hits.iter().zip(nearest).map(verdict).collect();
+        let (verdicts, _) = judged.judge(mesh, &hits);
         let triangles: Vec<Option<u32>> = hits.iter().map(|hit| hit.map(|hit| hit.triangle)).collect();
         let shaded = TeapotShader::new(mesh).picture(rays, &triangles);
         let color = |(verdict, pixel): (&HitVerdict, [u8; 3])| match verdict {
@@ -243,43 +234,4 @@ fn fnv(words: &[u32]) -> u64 {
         .iter()
         .flat_map(|word| word.to_le_bytes())
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The page changes these words alone when the visitor chooses another format: the code of all fixed-point formats
-    /// of at most 24 bits is the same but for them, and so is that of all floats. The code of single precision leaves
-    /// out conversions from single precision to itself, which change nothing.
-    #[test]
-    fn one_program_serves_all_formats_of_its_kind() {
-        let (fixed, _) = MachineProgram::for_formats_like("s3.12", "s3.13").expect("a program");
-        for (format, one) in [("s1.10", 1 << 10), ("s7.16", 1 << 16), ("s3.4:rtz:wrap", 1 << 4), ("s0.15", 0x7fff)] {
-            let mut words = fixed.words.clone();
-            fixed.ones.iter().for_each(|&at| words[at] = one);
-            assert_eq!(words, microcode(format, 0.5).expect("a program").1.words, "{format}");
-        }
-        let (float, _) = MachineProgram::for_formats_like("e7m16", "e7m16").expect("a program");
-        assert!(float.ones.is_empty() && float.depth_scales.len() == 1);
-        for format in ["e5m10", "e8m23:rtz", "e8m22", "e5m2:rtz:ftz", "e4m3:rdn"] {
-            assert_eq!(float.words, microcode(format, 0.5).expect("a program").1.words, "{format}");
-        }
-        // First word of a conversion, which has two more.
-        const CONVERSION: u32 = 4 | (NumberOperation::Convert as u32) << 16;
-        let conversions = |words: &[u32]| words.iter().filter(|&&word| word == CONVERSION).count();
-        let single = microcode("e8m23", 0.5).expect("a program").1.words;
-        assert_eq!(conversions(&single), 0);
-        assert_eq!(single.len() + 3 * conversions(&float.words), float.words.len());
-    }
-
-    #[test]
-    fn the_digest_is_fnv_1a() {
-        assert_eq!(fnv(&[]), 0xcbf2_9ce4_8422_2325);
-        // "a" and three zeros.
-        let bytes = [0x61_u8, 0, 0, 0]
-            .into_iter()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(1_099_511_628_211));
-        assert_eq!(fnv(&[0x61]), bytes);
-    }
 }

@@ -149,17 +149,3 @@ fn worst_channel(outcome: &DifferenceOutcome) -> (String, Vec<f64>) {
         (format!("channel {name}"), values.iter().map(|&value| f64::from(value)).collect())
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_usual_scale_is_what_one_in_a_hundred_exceeds() {
-        let mut values: Vec<f64> = (1..=100).map(f64::from).collect();
-        values.extend([0.0, f64::NAN]);
-        assert_eq!(usual_scale(&values), 99.0);
-        assert_eq!(usual_scale(&[0.0, -0.5]), 0.5);
-        assert_eq!(usual_scale(&[0.0]), 1.0);
-    }
-}

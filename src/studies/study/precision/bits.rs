@@ -142,31 +142,3 @@ impl std::fmt::Display for FormatBits {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every layout is one that `refsim` reads by the same text.
-    #[test]
-    fn layouts_are_formats() {
-        for family in [FormatFamily::Float, FormatFamily::Fixed] {
-            for range in family.range_bits() {
-                for digits in family.digit_bits(range) {
-                    let bits = FormatBits { family, range, digits };
-                    let format: Format = bits.to_string().parse().expect("a format");
-                    assert_eq!((bits.format(format), bits.width()), (format, format.width()));
-                    assert!(bits.narrower().all(|less| less.width() + 1 == bits.width()));
-                }
-            }
-            assert_eq!(FormatBits::narrowest(family).narrower().count(), 0);
-        }
-    }
-
-    #[test]
-    fn rules_of_a_card_are_kept_within_its_family() {
-        let rules: Format = "e5m10:rtz:ftz:nvovf".parse().expect("a format");
-        assert_eq!(FormatBits::float(4, 3).format(rules).to_string(), "e4m3:rtz:nvovf:ftz");
-        assert_eq!(FormatBits::fixed(4, 3).format(rules).to_string(), "s4.3:rtz");
-    }
-}

@@ -103,33 +103,3 @@ impl FormatCosts {
         !self.by_width.is_empty()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_format_costs_as_the_narrowest_width_that_holds_it() {
-        let costs = FormatCosts::parse(b"bits,cost\n16,1.5\n8, 1\n32,4\n").expect("a table");
-        let of = |costs: &FormatCosts| {
-            [FormatBits::float(4, 3), FormatBits::fixed(3, 5), FormatBits::fixed(3, 12), FormatBits::float(8, 23)]
-                .map(|bits| costs.of(bits))
-        };
-        assert_eq!(of(&costs), [1.0, 1.5, 1.5, 4.0]);
-        assert_eq!(of(&FormatCosts::default()), [8.0, 9.0, 16.0, 32.0]);
-    }
-
-    #[test]
-    fn errors_say_where_and_what() {
-        let message =
-            |text: &str| FormatCosts::parse(text.as_bytes()).map_err(|(line, found)| format!("{line}: {found}"));
-        let error = |text: &str| message(text).expect_err("no table");
-        assert_eq!(error("bits,cost\n"), "1: expected rows, found a table without");
-        assert_eq!(error("bits,cost\n8,1\n"), "2: expected a row of 32 bits or more, found 8 at most");
-        assert_eq!(error("bits,cost\n8,1\n8,2\n"), "3: expected each width once, found 8 again");
-        assert_eq!(error("bits,cost\n8,-1\n"), "2: expected a finite cost of at least 0, found -1");
-        assert!(error("bits,cost\n8,2\n32,1\n").ends_with("found 2 for 8 bits and 1 for 32"));
-        assert!(error("bits,cost\n8,x\n").starts_with("2: expected a width in bits and its cost"));
-        assert!(error("bits,price\n8,1\n").starts_with("2: expected a width in bits and its cost"));
-    }
-}

@@ -26,8 +26,6 @@ mod subject;
 mod switches;
 mod systems;
 mod tables;
-#[cfg(test)]
-mod tests;
 mod ulps;
 
 use super::{ProgressFn, Study, StudyError};
@@ -45,6 +43,8 @@ pub use subject::{
     RefutingDevices, RoundedInstruction, SampledResults, StepResult, StudiedProgram, WorstPlace,
 };
 pub use systems::PaperSystem;
+#[doc(hidden)]
+pub use systems::spread;
 
 impl Study for Precision {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

@@ -87,32 +87,3 @@ pub(super) fn local_error(errors: impl Iterator<Item = f64>) -> Option<LocalErro
     let median = *errors.get(errors.len().checked_sub(1)? / 2)?;
     Some(LocalError { median, largest: *errors.last()? })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn results(values: &[f64]) -> FragmentResults {
-        (0..).zip(values).map(|(n, value)| ((n, 0), *value)).collect()
-    }
-
-    #[test]
-    fn ranges_are_binary_exponents() {
-        let range = range_of(&[0.0, -0.75, 8.0, 15.9, f64::NAN, f64::from(f32::from_bits(1))]);
-        assert_eq!(range, ResultRange { exponents: Some([-149, 3]), not_finite: true });
-        assert_eq!(range_of(&[0.0]), ResultRange { exponents: None, not_finite: false });
-    }
-
-    #[test]
-    fn errors_are_in_units_of_the_format() {
-        let error = |bits, exact: &[f64], rounded: &[f64]| {
-            local_error(errors_of(bits, &results(exact), &results(rounded))).map(|e| [e.median, e.largest])
-        };
-        assert_eq!(error(FormatBits::float(8, 2), &[1.0, 1.125, 8.0], &[1.0, 1.25, 12.0]), Some([0.5, 2.0]));
-        assert_eq!(error(FormatBits::fixed(3, 4), &[1.0, 7.5], &[1.0, 7.96875]), Some([0.0, 7.5]));
-        // e4m3 has exponents from -6, and 0 is as far from its neighbors as 2^-6.
-        assert_eq!(error(FormatBits::float(4, 3), &[0.0], &[1.0 / 512.0]), Some([1.0, 1.0]));
-        assert_eq!(error(FormatBits::float(8, 2), &[f64::INFINITY], &[2.0]), Some([f64::INFINITY; 2]));
-        assert_eq!(error(FormatBits::float(8, 2), &[], &[]), None);
-    }
-}

@@ -69,23 +69,3 @@ impl CompressionError {
         table
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::transfer::clustering::AffineSubspace;
-
-    #[test]
-    fn errors_are_those_of_the_means() {
-        let signal = Signal::new(2, vec![3.0, 4.0, 1.0, 0.0, 0.0, 0.0]).expect("a signal");
-        let mean = AffineSubspace { mean: vec![0.0, 0.0], vectors: Vec::new(), eigenvalues: Vec::new() };
-        let clustering = Clustering::new(vec![mean], vec![0; 3], Vec::new()).expect("one cluster");
-        let error = CompressionError::new(&signal, &clustering);
-        assert_eq!((&error.squared[..], error.total, error.energy), (&[25.0, 1.0, 0.0][..], 26.0, 26.0));
-        assert_eq!((error.relative(), error.largest()), (1.0, 0));
-        assert_eq!(error.root_mean_square(), (26.0_f64 / 6.0).sqrt());
-        // The mean is 26 / 3: 25 is above a tenth of it, 1 too, 0 below all.
-        let counts: Vec<String> = error.histogram().rows().iter().map(|row| row[2].text()).collect();
-        assert_eq!((counts[0].as_str(), counts[10].as_str(), counts.len()), ("1", "2", 11));
-    }
-}

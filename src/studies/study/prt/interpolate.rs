@@ -122,16 +122,3 @@ pub(super) fn weights(at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let sum = areas.element_sum();
     if sum > 0.0 { areas / sum } else { DVec3::splat(1.0 / 3.0) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn weights_are_barycentric_and_stay_inside() {
-        let corners = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 4.0, 0.0)];
-        assert_eq!(weights(DVec3::new(1.0, 1.0, 0.0), corners), DVec3::new(0.25, 0.5, 0.25));
-        assert_eq!(weights(corners[2], corners), DVec3::Z);
-        assert_eq!(weights(DVec3::new(1.0, -1e-9, 0.0), corners).z, 0.0);
-    }
-}

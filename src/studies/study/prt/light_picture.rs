@@ -47,35 +47,3 @@ pub(in crate::study) fn of_texels(texels: &[[f64; 3]]) -> impl Fn(DVec3) -> [f64
         texels[(face * LIGHT_SIDE + row) * LIGHT_SIDE + column]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sphere::EnvironmentPicture;
-    use crate::transfer::grid::texel_center;
-    use crate::transfer::light::{CubeLight, Decimation, DiskSource};
-    use glam::DMat3;
-
-    /// A disk lies where the picture, read as a light, has it.
-    #[test]
-    fn the_picture_read_as_a_light_comes_from_the_same_direction() {
-        let towards = DVec3::new(0.6, -0.5, 0.4).normalize();
-        let disk = DiskSource { towards, radius: 0.3, radiance: [5.0, 4.0, 3.0] };
-        let cube = CubeLight::from_disks(&[disk], &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
-        let shown = light_picture("light", "a disk", of_texels(cube.texels())).expect("a picture");
-        let pixels: Vec<[f32; 3]> =
-            shown.image.pixels().map(|pixel| pixel.0.map(|channel| f32::from(channel) / 255.0)).collect();
-        let picture = Picture::rgb(shown.image.width(), shown.image.height(), &pixels);
-        let read = EnvironmentPicture::new(&picture).expect("a lat-long picture");
-        let read = CubeLight::from_picture(&read, &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
-        let texels = read.texels().iter().enumerate();
-        let middle: DVec3 = texels.map(|(n, texel)| texel[0] * texel_center(n)).sum();
-        assert!(middle.normalize().dot(towards) > 0.999, "{towards} {}", middle.normalize());
-    }
-
-    #[test]
-    fn a_black_light_is_black() {
-        let shown = light_picture("light", "nothing", |_| [0.0; 3]).expect("a picture");
-        assert!(shown.image.pixels().all(|pixel| pixel.0 == [0; 3]));
-    }
-}

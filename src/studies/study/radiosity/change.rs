@@ -8,8 +8,7 @@ use crate::study::StudyError;
 
 /// Change of a material.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(missing_docs, reason = "the fields are what the variants name")]
-pub enum Change {
+pub(super) enum Change {
     /// New radiance.
     Emission { material: String, radiance: Color },
     /// New reflectance, in [0, 1).
@@ -18,13 +17,13 @@ pub enum Change {
 
 /// Solution after changes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Relit {
+pub(super) struct Relit {
     /// Radiosity of each patch.
-    pub radiosity: Vec<[f64; 3]>,
+    pub(super) radiosity: Vec<[f64; 3]>,
     /// Iterations from the previous solution; `None` if the tolerance was not reached.
-    pub from_last: Option<usize>,
+    pub(super) from_last: Option<usize>,
     /// Iterations from 0; `None` if the tolerance was not reached.
-    pub from_nothing: Option<usize>,
+    pub(super) from_nothing: Option<usize>,
 }
 
 /// Applies the changes to a system; `None` if there are none.

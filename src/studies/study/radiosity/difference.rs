@@ -7,18 +7,18 @@ use crate::picture::metrics::{ErrorSums, value_error};
 /// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the
 /// direct one is, or the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SolutionError {
+pub(super) struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
-    pub largest: f64,
+    pub(super) largest: f64,
     /// Largest relative difference. Patches without any light are excluded.
-    pub relative: f64,
+    pub(super) relative: f64,
     /// Largest relative difference over patches that do not emit.
-    pub relative_unlit: f64,
+    pub(super) relative_unlit: f64,
     /// Mean signed relative difference over patches that do not emit, large and small alike: negative if they are too
     /// dark.
-    pub bias: f64,
+    pub(super) bias: f64,
     /// Number of radiosities that are not finite where the direct ones are, or the reverse.
-    pub not_finite: u64,
+    pub(super) not_finite: u64,
 }
 
 impl SolutionError {
@@ -46,22 +46,5 @@ impl SolutionError {
             bias: unlit.mean(),
             not_finite: absolute.not_finite,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lamps_and_dark_patches_do_not_count_for_the_bias() {
-        let reference = [[8.0, 8.0, 8.0], [1.0, 2.0, 0.0]];
-        let found = [[8.0, 2.0, 8.0], [0.5, 2.0, 0.0]];
-        let emittance = [[8.0; 3], [0.0; 3]];
-        let error = SolutionError::between(&found, &reference, &emittance);
-        let expected = SolutionError { largest: 0.75, relative: 0.75, relative_unlit: 0.5, bias: -0.25, not_finite: 0 };
-        assert_eq!(error, expected);
-        let error = SolutionError::between(&[[8.0; 3], [f64::NAN, f64::INFINITY, 0.0]], &reference, &emittance);
-        assert_eq!((error.not_finite, error.relative_unlit, error.bias), (2, f64::INFINITY, f64::INFINITY));
     }
 }

@@ -29,7 +29,7 @@ pub enum SolveMethod {
 
 /// Reason why an iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum StopReason {
+pub(super) enum StopReason {
     /// The residual reached the tolerance.
     Tolerance,
     /// The iteration entered a cycle of repeating states.

@@ -31,19 +31,16 @@ use crate::split::{Computed, SplitRun};
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
-pub use change::{Change, Relit};
-pub use difference::SolutionError;
 pub(in crate::study) use error::no_card;
-pub use method::{CardMethod, SolveMethod, StopReason};
+pub use method::{CardMethod, SolveMethod};
 pub use options::{Factors, RadiosityOptions};
-pub use outcome::{MethodRow, RadiosityOutcome};
 pub use parameters::Parameters;
-pub use pictures::{IterationPicture, Pictures};
-pub use sweep::SweepRow;
-pub use time::{CardFacts, IterationTime};
 
+use difference::SolutionError;
+use method::StopReason;
+use outcome::{MethodRow, RadiosityOutcome};
 use pictures::PictureRenderer;
-use sweep::Sweep;
+use sweep::{Sweep, SweepRow};
 
 library_errors! {
     DrawError => "radiosity::display";

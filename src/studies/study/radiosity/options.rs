@@ -172,7 +172,7 @@ impl RadiosityOptions {
     }
 
     /// Changes after the first solution: lights first, then paint.
-    pub fn changes(&self) -> Vec<Change> {
+    pub(super) fn changes(&self) -> Vec<Change> {
         let emit = self.emissions.iter().cloned();
         let emit = emit.map(|c| Change::Emission { material: c.material, radiance: c.rgb });
         let paint = self.paints.iter().cloned();

@@ -11,44 +11,44 @@ use crate::radiosity::form_factor::RowSums;
 
 /// Results of one method.
 #[derive(Debug)]
-pub struct MethodRow {
+pub(super) struct MethodRow {
     /// Method.
-    pub method: SolveMethod,
+    pub(super) method: SolveMethod,
     /// Name of the method, unique in a study and valid as a file name.
-    pub label: String,
+    pub(super) label: String,
     /// Radiosity of each patch.
-    pub radiosity: Vec<[f64; 3]>,
+    pub(super) radiosity: Vec<[f64; 3]>,
     /// Figure 3's error initially and after each iteration: the mean squared residual, over all channels.
-    pub history: Vec<f64>,
+    pub(super) history: Vec<f64>,
     /// Final residual relative to the emittance, both in Euclidean norms.
-    pub residual: f64,
+    pub(super) residual: f64,
     /// Reason why it stopped.
-    pub stopped: StopReason,
+    pub(super) stopped: StopReason,
     /// Energy-balance error relative to the emitted power, the maximum over the channels.
-    pub energy_balance_error: f64,
+    pub(super) energy_balance_error: f64,
     /// Error against the direct solution, if that was requested.
-    pub error: Option<SolutionError>,
+    pub(super) error: Option<SolutionError>,
     /// Cost on a card; `None` on the host.
-    pub card: Option<CardFacts>,
+    pub(super) card: Option<CardFacts>,
     /// Solution after the changes, if there are any.
-    pub relit: Option<Relit>,
+    pub(super) relit: Option<Relit>,
     /// Pictures of the room.
-    pub pictures: Pictures,
+    pub(super) pictures: Pictures,
 }
 
 /// Results of all methods.
 #[derive(Debug)]
-pub struct RadiosityOutcome {
+pub(super) struct RadiosityOutcome {
     /// Patches.
-    pub patches: Patches,
+    pub(super) patches: Patches,
     /// Row sums before closure was enforced.
-    pub found_sums: RowSums,
+    pub(super) found_sums: RowSums,
     /// Exposure of the pictures: pixel value per radiance.
-    pub exposure: f64,
+    pub(super) exposure: f64,
     /// One row per method.
-    pub rows: Vec<MethodRow>,
+    pub(super) rows: Vec<MethodRow>,
     /// Pictures of the room after some iterations.
-    pub frames: Vec<IterationPicture>,
+    pub(super) frames: Vec<IterationPicture>,
     /// Rows of the sweep over numbers of patches and settings of the switches.
-    pub sweep: Vec<SweepRow>,
+    pub(super) sweep: Vec<SweepRow>,
 }

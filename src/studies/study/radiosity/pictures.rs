@@ -22,25 +22,25 @@ const TARGET: TexelFormat = TexelFormat::Rgba32f;
 
 /// Pictures of a solution.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pictures {
+pub(super) struct Pictures {
     /// Flat-shaded: each patch in its radiosity.
-    pub flat: RgbImage,
+    pub(super) flat: RgbImage,
     /// Smooth-shaded: interpolated between corners.
-    pub smooth: RgbImage,
+    pub(super) smooth: RgbImage,
     /// Smooth-shaded after the changes.
-    pub relit: Option<RgbImage>,
+    pub(super) relit: Option<RgbImage>,
     /// For a solution on the card, the luminance of each patch minus that of the direct solution, relative to the
     /// latter, per pixel.
-    pub error: Option<Vec<f64>>,
+    pub(super) error: Option<Vec<f64>>,
 }
 
 /// Picture of the room after some iterations on the card.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct IterationPicture {
+pub(super) struct IterationPicture {
     /// Number of iterations.
-    pub iteration: u32,
+    pub(super) iteration: u32,
     /// Flat-shaded picture.
-    pub flat: RgbImage,
+    pub(super) flat: RgbImage,
 }
 
 /// Computes the auto-exposure: surfaces that do not emit at 18 % grey on average over their area.

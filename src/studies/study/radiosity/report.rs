@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::conclusion::{conclude, least_accurate};
+use super::pictures::IterationPicture;
 use super::tables::{Tables, tables};
-use super::{IterationPicture, MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow};
+use super::{MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow};
 use crate::geom::vector::narrow;
 use crate::radiosity::display::SmoothVertex;
 use crate::report::digits::{Quantity, shown};

@@ -16,29 +16,29 @@ use crate::study::configuration::Configuration;
 
 /// Result for one number of patches, one method on the card, and one setting of its switches.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SweepRow {
+pub(super) struct SweepRow {
     /// Number of patches.
-    pub patches: usize,
+    pub(super) patches: usize,
     /// Name of the method.
-    pub method: String,
+    pub(super) method: String,
     /// Switch that was changed, and its value; `None` for the card as configured.
-    pub switch: Option<(String, String)>,
+    pub(super) switch: Option<(String, String)>,
     /// Index of the first row of the sweep with the same bits: this one, or an earlier one of the same patches and
     /// method.
-    pub same_as: usize,
+    pub(super) same_as: usize,
     /// Number of iterations.
-    pub iterations: u32,
+    pub(super) iterations: u32,
     /// Reason why it stopped.
-    pub stopped: StopReason,
+    pub(super) stopped: StopReason,
     /// Error against the direct solution.
-    pub error: SolutionError,
+    pub(super) error: SolutionError,
     /// First-order prediction of [`SolutionError::bias`]; `None` for formats without exponents.
-    pub predicted: Option<f64>,
+    pub(super) predicted: Option<f64>,
 }
 
 impl SweepRow {
     /// Formats the setting.
-    pub fn setting(&self) -> String {
+    pub(super) fn setting(&self) -> String {
         self.switch.as_ref().map_or_else(|| "as it is".to_owned(), |(name, value)| format!("{name}={value}"))
     }
 }

@@ -170,7 +170,7 @@ fn relit(outcome: &RadiosityOutcome) -> Table {
 
 impl MethodRow {
     /// Number of iterations.
-    pub fn iterations(&self) -> usize {
+    pub(super) fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)
     }
 }

@@ -19,32 +19,32 @@ const CHANNELS: f64 = 3.0;
 
 /// Time of an iteration of all three channels by the pipeline model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IterationTime {
+pub(super) struct IterationTime {
     /// Seconds per iteration.
-    pub seconds: f64,
+    pub(super) seconds: f64,
     /// Millions of operations per second: two per element and channel, indexing not counted.
-    pub mflops: f64,
+    pub(super) mflops: f64,
     /// Bottleneck of the longest draw.
-    pub bound_by: Bottleneck,
+    pub(super) bound_by: Bottleneck,
     /// Memory bandwidth in use, in [0, 1].
-    pub bandwidth: f64,
+    pub(super) bandwidth: f64,
 }
 
 /// Cost of a method on a card.
 #[derive(Clone, Debug)]
-pub struct CardFacts {
+pub(super) struct CardFacts {
     /// Passes per iteration, over all its systems.
-    pub passes: usize,
+    pub(super) passes: usize,
     /// Texels per block.
-    pub block: usize,
+    pub(super) block: usize,
     /// Instructions of the longest program.
-    pub instructions: usize,
+    pub(super) instructions: usize,
     /// Bytes of the matrices.
-    pub matrix_bytes: f64,
+    pub(super) matrix_bytes: f64,
     /// Time of an iteration by the pipeline model; `None` for devices without timing.
-    pub time: Option<IterationTime>,
+    pub(super) time: Option<IterationTime>,
     /// Log of changing the light, iterating and displaying the room.
-    pub log: Vec<Event>,
+    pub(super) log: Vec<Event>,
 }
 
 /// Changes the light, iterates and displays the room on the card, and measures the cost.

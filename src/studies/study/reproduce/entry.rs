@@ -24,6 +24,19 @@ pub struct EntryFindings {
     pub record: Option<RecordStatus>,
 }
 
+impl EntryFindings {
+    /// Findings without charts.
+    pub(super) fn new(
+        text: impl Into<Vec<String>>,
+        rows: impl Into<Vec<PaperRow>>,
+        questions: impl Into<Vec<&'static str>>,
+        tables: impl Into<Vec<Table>>,
+    ) -> Self {
+        let (text, rows, questions, tables) = (text.into(), rows.into(), questions.into(), tables.into());
+        Self { text, rows, questions, tables, ..Self::default() }
+    }
+}
+
 /// Table or figure of a paper.
 #[derive(Clone, Copy, Debug)]
 pub struct ReproduceEntry {

@@ -27,11 +27,18 @@ pub(super) fn papers_error(reason: &str) -> StudyError {
     StudyError::new("reproduce::papers", format!("printed figures of the papers: {reason}")).with_help(BUG)
 }
 
-/// Returns a function that converts the failure of a run to an entry's error: a machine refuses a draw, or a program
-/// does not assemble.
-pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> StudyError + '_ {
-    move |reason| {
-        StudyError::new("reproduce::run", format!("a run of this entry failed on `{device}`: {reason}")).with_help(BUG)
+/// Result of a run.
+pub(super) trait RunResult<T> {
+    /// Converts the failure on a device to an entry's error: a machine refuses a draw, or a program does not assemble.
+    fn on(self, device: &str) -> Result<T, StudyError>;
+}
+
+impl<T, E: Display> RunResult<T> for Result<T, E> {
+    fn on(self, device: &str) -> Result<T, StudyError> {
+        self.map_err(|reason| {
+            let what = format!("a run of this entry failed on `{device}`: {reason}");
+            StudyError::new("reproduce::run", what).with_help(BUG)
+        })
     }
 }
 

@@ -29,7 +29,7 @@ mod sky;
 mod subsurface;
 mod summary;
 
-use crate::report::{Findings, Provenance};
+use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
 use shared::Shared;
 
@@ -47,6 +47,16 @@ pub use row::{
     Bound, Contradiction, Dependence, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure,
     PaperRow, RowSource, RowVerdict, Setting, Sweep,
 };
+
+/// Parts that tests call themselves, because no run that ends in seconds reaches their cases.
+#[doc(hidden)]
+pub mod tested {
+    pub use super::all_frequency::bunny_in_pieces;
+    pub use super::cpca::{crossings, reaching};
+    pub use super::paper::parse_figures;
+    pub use super::record::compared;
+    pub use super::summary::summary_lines;
+}
 
 /// Parameters of the study.
 #[derive(Clone, Debug)]
@@ -81,10 +91,5 @@ pub fn reproduce(
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         Ok(report::findings(&reproduce(&self.entries, self.full_size, progress)?))
-    }
-
-    /// Entries choose their devices themselves, and nothing is random.
-    fn provenance(&self, provenance: Provenance) -> Provenance {
-        provenance
     }
 }

@@ -17,19 +17,3 @@ pub(super) fn paragraph(template: &str, numbers: impl IntoIterator<Item = String
     }
     text
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_stand_in_their_places() {
-        assert_eq!(paragraph("{} of {} rows", [number(2.0, 0), number(2.95, 1)]), "2 of 3.0 rows");
-        assert_eq!(paragraph("all rows", []), "all rows");
-    }
-
-    #[test]
-    fn nothing_reads_minus_zero() {
-        assert_eq!((number(-0.04, 1), number(1540.0, 0)), ("0.0".to_owned(), "1,540".to_owned()));
-    }
-}

@@ -182,7 +182,8 @@ const HOW: &str = "The papers' figures beside ours, each figure in one row. A fi
     where ours agrees with none, it is missed. Differences are shares of the paper's value. \
     The source of a row is this run (computed), a recorded run at full size (recorded), or both with the same bits.";
 
-pub(super) fn findings(found: &Reproduced) -> Findings {
+/// Findings of the study from those of its entries.
+pub fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
     overview(&mut all, found);
     all.summary_lines(summary_lines(found));
@@ -217,45 +218,4 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
     }
     all.conclude(Verdict::held(as_recorded(found)));
     all
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::row::tests::row;
-    use super::super::{EntryFindings, Paper, RowSource, RowVerdict};
-    use super::*;
-
-    fn found(values: &[(f64, RowSource)]) -> Reproduced {
-        let mut rows: Vec<PaperRow> = values.iter().map(|(value, _)| row(*value)).collect();
-        rows.iter_mut().zip(values).for_each(|(row, (_, source))| row.source = *source);
-        let entry = Paper::RayEngine.entry("ray-engine-figure-7", "Tests", |_| Ok(EntryFindings::default()));
-        vec![(entry, EntryFindings { rows, ..EntryFindings::default() })]
-    }
-
-    /// A missed figure is a finding; a value that is not as recorded fails the command.
-    #[test]
-    fn only_a_difference_from_the_record_fails() {
-        let missed = found(&[(20.0, RowSource::Computed), (30.0, RowSource::Confirmed)]);
-        assert!(as_recorded(&missed) && missed[0].1.rows.iter().all(|row| row.verdict() == RowVerdict::Missed));
-        assert!(!as_recorded(&found(&[(15.6, RowSource::Differs { recorded: 15.5 })])));
-    }
-
-    /// A figure, and more of another kind.
-    #[test]
-    fn sentences_agree_with_their_numbers() {
-        let of = |values: &[(f64, RowSource)]| {
-            let mut all = Findings::new("");
-            overview(&mut all, &found(values));
-            all.conclusions().join(" ")
-        };
-        assert_eq!(
-            of(&[(20.0, RowSource::Computed)]),
-            "1 figure chose no constant: 1 missed. Missed for what is in the way: model lost 1."
-        );
-        assert_eq!(
-            of(&[(15.6, RowSource::Confirmed), (15.7, RowSource::Recorded)]),
-            "2 figures chose no constant: 2 predicted within bounds in numbers. Recorded at full size: 2; computed anew \
-             with the same bits: 1."
-        );
-    }
 }

@@ -15,7 +15,7 @@ type Part = (ReproduceEntry, EntryFindings);
 const NAMED: usize = 3;
 
 /// One line per paper with an entry, each with the counts of its verdicts.
-pub(super) fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
+pub fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
     let line = |paper: &Paper| {
         let parts: Vec<&Part> = found.iter().filter(|(entry, _)| entry.paper == *paper).collect();
         let (first, _) = parts.first()?;
@@ -60,36 +60,4 @@ fn text(parts: &[&Part]) -> String {
 fn capital(text: &str) -> String {
     let mut rest = text.chars();
     rest.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(rest).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::row::tests::row;
-    use super::*;
-
-    /// Values that `row` judges to be predicted, and to be missed.
-    const HIT: f64 = 15.6;
-    const MISS: f64 = 20.0;
-
-    #[test]
-    fn a_line_counts_the_rows_of_its_paper_alone() {
-        let with = |values: &[f64]| EntryFindings {
-            rows: values.iter().map(|value| row(*value)).collect(),
-            ..EntryFindings::default()
-        };
-        let entry = |paper: Paper, id, title| paper.entry(id, title, |_| Ok(EntryFindings::default()));
-        let found = vec![
-            (entry(Paper::RayEngine, "ray-engine-figure-7", "Tests"), with(&[HIT, MISS, MISS])),
-            (entry(Paper::RayEngine, "ray-engine-equation-11", "Fill rate"), with(&[HIT])),
-            (entry(Paper::Cpca, "cpca-figure-2", "Error by storage"), with(&[HIT])),
-        ];
-        let [engine, cpca] = &summary_lines(&found)[..] else { panic!("two papers have entries") };
-        let count = |line: &SummaryLine, verdict: RowVerdict| {
-            line.tally.iter().find(|counted| counted.what == verdict.to_string()).map(|counted| counted.count)
-        };
-        assert_eq!([RowVerdict::Predicted, RowVerdict::Missed].map(|of| count(engine, of)), [Some(2), Some(2)]);
-        assert_eq!(engine.text, "No row is missed in 1 of 2 entries; missed in ray-engine-figure-7 (2 of 3).");
-        assert_eq!(engine.heading, found[0].0.title);
-        assert_eq!((count(cpca, RowVerdict::Missed), cpca.text.as_str()), (Some(0), "No row is missed."));
-    }
 }

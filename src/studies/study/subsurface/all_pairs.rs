@@ -14,11 +14,11 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 /// How far radiosities are from others, as shares of the others; infinite if some are not finite and the others are, or
 /// the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GatherError {
+pub(super) struct GatherError {
     /// Root of the mean squared difference, over that of the others' values; by area, over all channels.
-    pub rms: f64,
+    pub(super) rms: f64,
     /// The largest difference over the others' largest value.
-    pub largest: f64,
+    pub(super) largest: f64,
 }
 
 impl GatherError {

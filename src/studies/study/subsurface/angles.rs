@@ -15,26 +15,26 @@ const WIDTH: f64 = 180.0 / BINS as f64;
 
 /// Error of radiosities in a bin, relative to those over all pairs there; over all channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BinError {
+pub(super) struct BinError {
     /// The mean radiosity by area over that of all pairs, less 1.
-    pub mean: f64,
+    pub(super) mean: f64,
     /// Root of the mean squared difference by area over that of the squared radiosity of all pairs.
-    pub rms: f64,
+    pub(super) rms: f64,
 }
 
 /// Texels whose normals are at an angle of `degrees[0]` to `degrees[1]` from the direction towards the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AngleBin {
+pub(super) struct AngleBin {
     /// The bin's ends, in degrees.
-    pub degrees: [f64; 2],
+    pub(super) degrees: [f64; 2],
     /// Share of the model's area, above 0.
-    pub area: f64,
+    pub(super) area: f64,
     /// Mean of B by area and channel, over all pairs.
-    pub radiosity: f64,
+    pub(super) radiosity: f64,
     /// The links' own error: the host's sum over them.
-    pub links: BinError,
+    pub(super) links: BinError,
     /// Links and card together.
-    pub all: BinError,
+    pub(super) all: BinError,
 }
 
 /// The direction towards the light, if there is a single directional one and nothing else.
@@ -101,43 +101,5 @@ impl Sums {
         let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let squares = over(self.squares[of], self.truth_squares);
         BinError { mean: over(self.differences[of], self.truth), rms: squares.sqrt() }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::Mesh;
-
-    /// A cube's sides lie at 0, 90 and 180 degrees; an error on one of them is an error of its bin alone.
-    #[test]
-    fn errors_are_told_by_angle() {
-        let corners: Vec<[f32; 3]> = (0..8_u8).map(|i| [0, 1, 2].map(|axis| f32::from(i >> axis & 1))).collect();
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let outwards =
-            [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
-        // A vertex with the side's normal per corner of a side keeps the sides flat.
-        let flat = quads.iter().flatten().map(|&corner: &usize| corners[corner]).collect();
-        let normals: Vec<[f32; 3]> = outwards.iter().flat_map(|&normal| [normal; 4]).collect();
-        let faces = (0..6_u32)
-            .flat_map(|side| [[4 * side, 4 * side + 1, 4 * side + 2], [4 * side, 4 * side + 2, 4 * side + 3]]);
-        let cube = Mesh::new(flat, faces.collect()).and_then(|cube| cube.with_normals(normals)).expect("a cube");
-        let atlas = Atlas::new(&cube, 8).expect("an atlas");
-        let is_dark = |texel: &crate::atlas::Texel| texel.normal.z < -0.5;
-        let truth: Vec<[f64; 3]> = atlas.texels().iter().map(|_| [1.0, 2.0, 1.0]).collect();
-        let links: Vec<[f64; 3]> =
-            atlas.texels().iter().map(|t| if is_dark(t) { [1.5, 3.0, 1.5] } else { [1.0, 2.0, 1.0] }).collect();
-        let bins = by_angle(&atlas, DVec3::Z, &truth, [&links, &truth]);
-        let ends: Vec<[f64; 2]> = bins.iter().map(|bin| bin.degrees).collect();
-        assert_eq!(ends, [[0.0, 15.0], [90.0, 105.0], [165.0, 180.0]]);
-        let areas: Vec<f64> = bins.iter().map(|bin| (bin.area * 6.0).round()).collect();
-        assert_eq!(areas, [1.0, 4.0, 1.0]);
-        assert!((bins[2].links.mean - 0.5).abs() < 1e-12 && (bins[2].links.rms - 0.5).abs() < 1e-12, "{bins:?}");
-        assert_eq!([bins[0].links, bins[1].links, bins[2].all], [BinError::default(); 3]);
-        assert!(bins.iter().all(|bin| (bin.radiosity - 4.0 / 3.0).abs() < 1e-12));
-        let lights = |lights: &[Light]| direction(&Lighting::Lights(lights.to_vec()));
-        let sun = Light::Directional { towards: [0.0, 0.0, 2.0], irradiance: [1.0; 3] };
-        assert_eq!(lights(&[sun]), Some(DVec3::Z));
-        assert_eq!(lights(&[sun, Light::Sky { radiance: [1.0; 3] }]), None, "a sky shines from everywhere");
     }
 }

@@ -42,25 +42,3 @@ fn sources(light: &CubeLight) -> Vec<DistantSource> {
     let places = (0..6 * groups * groups).map(|k| (k / (groups * groups), k / groups % groups, k % groups));
     places.filter_map(|(face, row, column)| source(face, GROUP * row, GROUP * column)).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::PI;
-
-    /// Groups keep the light's flux: all of it, and what falls on a plane.
-    #[test]
-    fn sources_keep_the_flux() {
-        let all = sources(&CubeLight::constant([1.0, 2.0, 0.5]).expect("a light"));
-        assert_eq!(all.len(), 6 * 16 * 16);
-        let sum = |of: &dyn Fn(&DistantSource) -> f64| all.iter().map(of).sum::<f64>();
-        assert!((sum(&|s| s.irradiance[1]) - 8.0 * PI).abs() < 1e-9);
-        let onto_plane = sum(&|s| s.irradiance[0] * s.towards.dot(DVec3::new(0.0, 0.6, 0.8)).max(0.0));
-        assert!((onto_plane - PI).abs() < 5e-3 * PI, "{onto_plane}");
-        let mut texels = vec![[0.0; 3]; LIGHT_MAP.len()];
-        texels[5] = [1.0, 0.0, 0.0];
-        let one = sources(&CubeLight::new(texels).expect("a light"));
-        assert_eq!(one.len(), 1, "what is dark has no source");
-        assert!((one[0].towards - LIGHT_MAP.direction(0, 5, 0)).length() < 1e-12, "it shines from its own texel");
-    }
-}

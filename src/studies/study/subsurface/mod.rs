@@ -26,18 +26,18 @@ use crate::subsurface::links::{LinkBands, Links};
 use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
+use angles::{AngleBin, BinError};
 use bands::GatheredBands;
+use model::ModelLengths;
+use options::ALL_PAIRS_SIDE;
+use outcome::SubsurfaceOutcome;
+use way::WayRow;
 
-pub use all_pairs::GatherError;
-pub use angles::{AngleBin, BinError};
 pub use error::no_atlas;
 pub(in crate::study) use error::no_card;
 pub use gather_way::{GatherWay, MapBits};
-pub use model::ModelLengths;
-pub use options::{ALL_PAIRS_SIDE, MAX_ALL_PAIRS_SIDE, SubsurfaceOptions};
-pub use outcome::SubsurfaceOutcome;
+pub use options::SubsurfaceOptions;
 pub use parameters::{Lighting, Parameters};
-pub use way::WayRow;
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

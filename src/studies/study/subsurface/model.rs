@@ -8,21 +8,21 @@ use crate::subsurface::{Dipole, median_thickness};
 
 /// Lengths of the model beside those of the medium, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModelLengths {
+pub(super) struct ModelLengths {
     /// Side of a square of the mean area of texels.
-    pub texel: f64,
+    pub(super) texel: f64,
     /// Area of the surface whose texels are longer than the shortest mean free path of a channel, as a share.
-    pub coarse: f64,
+    pub(super) coarse: f64,
     /// The shortest mean free path of a channel.
-    pub mean_free_path: f64,
+    pub(super) mean_free_path: f64,
     /// The longest diffusion length of a channel; infinite if one does not absorb.
-    pub diffusion_length: f64,
+    pub(super) diffusion_length: f64,
     /// The diagonal of the bounds.
-    pub diagonal: f64,
+    pub(super) diagonal: f64,
     /// The shortest side of the bounds.
-    pub shortest_side: f64,
+    pub(super) shortest_side: f64,
     /// Median distance to the opposite surface along the inward normal; `None` for open models.
-    pub thickness: Option<f64>,
+    pub(super) thickness: Option<f64>,
 }
 
 impl ModelLengths {

@@ -10,9 +10,9 @@ use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::FloatTexels;
 
 /// Side of an atlas, in texels, up to which `crossbar subsurface` gathers over all pairs unless told otherwise.
-pub const ALL_PAIRS_SIDE: u32 = 32;
+pub(super) const ALL_PAIRS_SIDE: u32 = 32;
 /// Largest side of an atlas for all pairs, which take time by the square of its texels.
-pub const MAX_ALL_PAIRS_SIDE: u32 = 512;
+const MAX_ALL_PAIRS_SIDE: u32 = 512;
 
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]

@@ -7,19 +7,19 @@ use crate::subsurface::Dipole;
 
 /// Results of a study.
 #[derive(Debug)]
-pub struct SubsurfaceOutcome {
+pub(super) struct SubsurfaceOutcome {
     /// The model's atlas.
-    pub atlas: Atlas,
+    pub(super) atlas: Atlas,
     /// Lengths of model and medium.
-    pub lengths: ModelLengths,
+    pub(super) lengths: ModelLengths,
     /// Of red, green and blue.
-    pub dipoles: [Dipole; 3],
+    pub(super) dipoles: [Dipole; 3],
     /// E of equation 8 per texel, by the host.
-    pub irradiance: Vec<[f64; 3]>,
+    pub(super) irradiance: Vec<[f64; 3]>,
     /// Radiosities over all pairs, in f64, per texel, row by row, if asked for.
-    pub truth: Option<Vec<[f64; 3]>>,
+    pub(super) truth: Option<Vec<[f64; 3]>>,
     /// A row per way.
-    pub rows: Vec<WayRow>,
+    pub(super) rows: Vec<WayRow>,
 }
 
 impl SubsurfaceOutcome {

@@ -7,18 +7,13 @@ use crate::picture::{Picture, RgbImage, rgb8};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{NamedPicture, false_color};
 use crate::study::StudyError;
-
-/// Linear light seen as halfway between black and white.
-const MIDDLE_GREY: f64 = 0.18;
+use crate::study::prt::auto_exposure;
 
 /// Auto-exposure: the model at 18 % grey on average; pixels that show nothing do not count.
 pub(super) fn exposure(outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
     let Some(first) = outcome.rows.first() else { return Ok(1.0) };
-    let shown = first.picture.linear()?;
-    let lit: Vec<f64> =
-        shown.iter().map(|p| p.iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0).filter(|&l| l > 0.0).collect();
-    let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;
-    Ok(if mean > 0.0 { MIDDLE_GREY / mean } else { 1.0 })
+    let colors: Vec<[f64; 3]> = first.picture.linear()?.into_iter().map(|pixel| pixel.map(f64::from)).collect();
+    Ok(auto_exposure(&colors))
 }
 
 /// Figure 7: the first way with and without scattered light, and what is scattered alone.

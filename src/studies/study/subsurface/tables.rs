@@ -1,6 +1,7 @@
 //! The tables of the study.
 
-use super::{GatherError, Parameters, SubsurfaceOutcome, model};
+use super::all_pairs::GatherError;
+use super::{Parameters, SubsurfaceOutcome, model};
 use crate::report::{Cell, Table};
 use crate::subsurface::on_card::PassKind;
 

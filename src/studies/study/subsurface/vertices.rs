@@ -43,23 +43,3 @@ pub(super) fn table(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Tab
     }
     table
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Values that are linear over a square are met at its corners to half a texel, and a vertex of no face has none.
-    #[test]
-    fn corners_have_the_values_of_their_texels() {
-        let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [9.0; 3]];
-        let square = Mesh::new(corners.clone(), vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh");
-        let atlas = Atlas::new(&square, 64).expect("an atlas");
-        let texels: Vec<[f64; 3]> = atlas.texels().iter().map(|texel| texel.point.to_array()).collect();
-        let found = by_vertex(&atlas, &square, &texels);
-        for (found, corner) in found.iter().zip(&corners[..4]) {
-            let found = DVec3::from(found.expect("a vertex of a face"));
-            assert!((found - DVec3::from(corner.map(f64::from))).length() < 0.05, "{found} at {corner:?}");
-        }
-        assert_eq!(found[4], None);
-    }
-}

@@ -53,41 +53,41 @@ impl<'a> Scene<'a> {
 
 /// Results of a way of gathering.
 #[derive(Debug)]
-pub struct WayRow {
+pub(super) struct WayRow {
     /// Its name.
-    pub label: String,
+    pub(super) label: String,
     /// The way.
-    pub way: GatherWay,
+    pub(super) way: GatherWay,
     /// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
-    pub lookups: [usize; 2],
+    pub(super) lookups: [usize; 2],
     /// The card's memory: all of it, and of links alone, in bytes.
-    pub memory: [u64; 2],
+    pub(super) memory: [u64; 2],
     /// Instructions and samplers of each program of pass 2.
-    pub programs: Vec<[usize; 2]>,
+    pub(super) programs: Vec<[usize; 2]>,
     /// Factors that the format of the links loses.
-    pub lost: LostFactors,
+    pub(super) lost: LostFactors,
     /// Texel channels of the map at its largest value.
-    pub saturated: usize,
+    pub(super) saturated: usize,
     /// The links' own error: the host's sum over them against all pairs.
-    pub links_error: Option<GatherError>,
+    pub(super) links_error: Option<GatherError>,
     /// The same with means by number of texels.
-    pub plain_error: Option<GatherError>,
+    pub(super) plain_error: Option<GatherError>,
     /// The card's own error: against the host's sum over the same links.
-    pub card_error: GatherError,
+    pub(super) card_error: GatherError,
     /// Both together: the card against all pairs.
-    pub error: Option<GatherError>,
+    pub(super) error: Option<GatherError>,
     /// Errors by angle from the light; empty without all pairs, or unless a single directional light shines.
-    pub angles: Vec<AngleBin>,
+    pub(super) angles: Vec<AngleBin>,
     /// Modelled times of the passes; `None` for devices without time.
-    pub times: Option<[PassTime; 4]>,
+    pub(super) times: Option<[PassTime; 4]>,
     /// B of every texel, by the card.
-    pub radiosity: Vec<[f64; 3]>,
+    pub(super) radiosity: Vec<[f64; 3]>,
     /// Of the first way, E of every texel as the card's map has it.
-    pub irradiance: Vec<[f64; 3]>,
+    pub(super) irradiance: Vec<[f64; 3]>,
     /// Scattered and direct light.
-    pub picture: Picture,
+    pub(super) picture: Picture,
     /// Scattered light alone.
-    pub scattered: Picture,
+    pub(super) scattered: Picture,
     pub(super) log: Vec<Event>,
 }
 

@@ -13,8 +13,6 @@ mod ray_engine;
 mod run;
 mod sampler;
 mod subsurface;
-#[cfg(test)]
-mod tests;
 mod watchers;
 
 use refsim::device::Profile;
@@ -23,6 +21,10 @@ use super::subject::PrecisionSubject;
 use crate::study::StudyError;
 use picture_subject::SystemSubject;
 use ray_engine::RayEngineSubject;
+
+// No result of a study shows that a sample leaves nothing out.
+#[doc(hidden)]
+pub use sampler::spread;
 
 /// System of the papers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumString, strum::IntoStaticStr)]

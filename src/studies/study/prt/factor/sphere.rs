@@ -50,21 +50,3 @@ pub(super) fn exposure(radiance: &[f64]) -> f64 {
     let colors: Vec<[f64; 3]> = radiance.iter().map(|&value| [value; 3]).collect();
     crate::study::prt::auto_exposure(&colors)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_diffuse_sphere_is_lit_by_the_cosine() {
-        let lit = radiance(&|_, light| light.z / PI);
-        let (x, z) = (-0.3_f64, 0.4_f64);
-        let place = |along: f64| (((along / 1.05 + 1.0) * f64::from(SIZE) - 1.0) / 2.0).round() as u32;
-        let found = lit[(place(-z) * SIZE + place(x)) as usize];
-        let normal = DVec3::new(x, -(1.0 - x * x - z * z).sqrt(), z);
-        let of = |(light, irradiance): &(DVec3, f64)| irradiance / PI * light.normalize().dot(normal).max(0.0);
-        let expected: f64 = LIGHTS.iter().map(of).sum();
-        assert!((found - expected).abs() < 0.01, "{found} {expected}");
-        assert_eq!((lit[0], lit.len()), (0.0, (SIZE * SIZE) as usize));
-    }
-}

@@ -1,6 +1,6 @@
 //! Codings of Table 1's representatives: the readings of "16 bits".
 
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::all_frequency::code::{CodeOptions, CodedSegment, ScaleOf};
 use crate::all_frequency::compressed::CompressedSegment;
 use crate::elementary::pow;
@@ -45,7 +45,7 @@ impl Coding {
             Self::Filled(_) => CodedSegment::code(part, options),
             Self::Absolute(halves) => CodedSegment::code_in_steps(part, pow(2.0, -0.5 * f64::from(*halves)), options),
         };
-        coded.map_err(|e| failed(HOST)(&e))
+        coded.on(HOST)
     }
 
     pub(super) fn options(&self) -> CodeOptions {

@@ -4,8 +4,8 @@
 use refsim::timing::host::HostOperation;
 
 use super::{
-    Dependence, EntryFindings, HOST, Method, PaperRow, StudyError, failed, number, paper_row, paragraph, printed,
-    printed_value,
+    Dependence, EntryFindings, HOST, Method, PaperRow, RunResult, Shared, StudyError, number, paper_row, paragraph,
+    printed, printed_value,
 };
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::elementary::log10;
@@ -99,7 +99,7 @@ const HOW: &str = "Nothing is run: sizes as printed, by equation 12. Segments be
 const QUESTION: &str = "why fewer multiplications a second fit diffuse models and Buddha: sparse representatives, memory, or the host's share of the loop.";
 const RATE: &str = "Table 1: frames without drawing, which chose the constant together";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (least, mean) = below_horizon();
     let equation = |id: &str, ours: (f64, Dependence)| paper_row(id, (HOST, Method::Equation), ours);
     let count = |(id, ours): (&str, f64)| equation(&format!("all-frequency/{id}"), (ours, Dependence::Counted));
@@ -115,7 +115,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         let [clusters, vertices] = column.multiplies();
         (clusters + vertices) * fps
     };
-    let host = host_of_table_1().map_err(|error| failed(HOST)(&error))?;
+    let host = host_of_table_1().on(HOST)?;
     let rate = 1e9 / host.time_of(HostOperation::MultiplyAdd, 1_000_000_000).seconds();
     let mut table = Table::of(
         "Table 1, by sizes alone",
@@ -145,13 +145,12 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
             Cell::measured(1e-9 * per_second(column, of_print("fps-alone")?.value)),
         ]);
     }
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [number((6 * NORMALS * NORMALS) as f64, 0), number(1e-9 * rate, 2)])],
+    Ok(EntryFindings::new(
+        [paragraph(HOW, [number((6 * NORMALS * NORMALS) as f64, 0), number(1e-9 * rate, 2)])],
         rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+        [QUESTION],
+        [table],
+    ))
 }
 
 /// Minimum number of segments below the horizon of a normal, and the mean over all directions.
@@ -166,25 +165,4 @@ fn below_horizon() -> (f64, f64) {
     }
     let mean = dot(&counts, &weights) / weights.iter().sum::<f64>();
     (counts.into_iter().fold(f64::INFINITY, f64::min), mean)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Values of the text that other entries use or that are computed by hand.
-    #[test]
-    fn sizes_are_those_of_equation_12() {
-        assert!((ratio(200.0, 2560.0) - 11.594).abs() < 1e-3);
-        let columns = Column::all().expect("the printed columns");
-        let [clusters, vertices] = columns[0].multiplies().map(|count| count / 3e6);
-        assert!((clusters - 31.25).abs() < 0.01 && (vertices - 24.73).abs() < 0.01, "{clusters} {vertices}");
-        assert!((columns[1].raw_gigabytes() - 12.607).abs() < 1e-3);
-    }
-
-    #[test]
-    fn as_many_segments_are_below_as_the_laws_say() {
-        let (least, mean) = below_horizon();
-        assert!(least == 6.0 && (mean - 6.70).abs() < 0.03, "{least}, {mean}");
-    }
 }

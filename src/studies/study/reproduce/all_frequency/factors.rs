@@ -68,13 +68,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         number(inside, 0),
         number(ProductErrors::directions().len() as f64, 0),
     ];
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, figures)],
-        rows,
-        questions: vec![QUESTION],
-        tables,
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], tables))
 }
 
 impl PrintedReflectance {

@@ -1,6 +1,6 @@
 //! Interpretations of the paper's two reflectances, and their errors.
 
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::all_frequency::factor::{
     Denominators, DiscSamples, FacetDistribution, FactorSampling, Factorization, FresnelForm, HemisphereSamples, Lobe,
     ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
@@ -87,8 +87,8 @@ pub(super) fn at_equal_angles(forms: &[Form]) -> Vec<(String, Lobe)> {
 impl FormErrors {
     /// Computes the errors of an interpretation.
     pub(super) fn new((_, lobe, sampling): &Form) -> Result<Self, StudyError> {
-        let table = sampling.table(lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
-        let found = Factorization::new(&table, TERMS).map_err(|error| failed(HOST)(&error))?;
+        let table = sampling.table(lobe, &mut |_, _| ()).on(HOST)?;
+        let found = Factorization::new(&table, TERMS).on(HOST)?;
         let disc = DiscSamples::new(&table);
         Self::beside(disc.errors(&found.factors(TERMS)), disc.samples())
     }
@@ -96,12 +96,12 @@ impl FormErrors {
     /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are.
     pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, StudyError> {
         let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().limit);
-        let terms = samples.term_errors(TERMS).map_err(|error| failed(HOST)(&error))?;
+        let terms = samples.term_errors(TERMS).on(HOST)?;
         Self::beside(terms, &samples)
     }
 
     fn beside(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, StudyError> {
-        let of = |order: usize| harmonic_errors(samples, order).map_err(|error| failed(HOST)(&error));
+        let of = |order: usize| harmonic_errors(samples, order).on(HOST);
         let mut functions = MAX_ORDER * MAX_ORDER;
         for order in 1..=MAX_ORDER {
             if of(order)?.rms <= terms.rms {

@@ -1,21 +1,18 @@
 //! "All-Frequency Precomputed Radiance Transfer for Glossy Objects" (Liu, Sloan, Shum, Snyder 2004).
 
 mod codings;
-mod counts;
-mod factors;
-mod figures;
+pub(super) mod counts;
+pub(super) mod factors;
+pub(super) mod figures;
 mod forms;
 mod models;
 mod roughness;
 mod segments;
-mod table_1;
+pub(super) mod table_1;
 
-pub(super) use counts::findings as counts;
-pub(super) use factors::findings as factors;
-pub(super) use figures::findings as figures;
-pub(super) use table_1::findings as table_1;
+pub use models::bunny_in_pieces;
 
-use super::error::failed;
+use super::error::RunResult;
 use super::shared::Shared;
 use super::{
     Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row, paragraph, printed,

@@ -1,12 +1,13 @@
 //! Models of Table 1, or our stand-ins, compressed and encoded.
 
 use std::cell::OnceCell;
+use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
 use super::forms::{Form, TERMS, cook_torrance, schlick};
 use super::segments::{SegmentShares, SegmentSums};
-use super::{HOST, Shared, StudyError, failed};
+use super::{HOST, RunResult, Shared, StudyError};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::Factorization;
@@ -15,6 +16,7 @@ use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::scene::built::ground::{GROUND_SIDE, on_ground};
 use crate::scene::built::transfer_models::TransferModel;
+use crate::split::KeptResults;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
@@ -63,7 +65,7 @@ impl TableModel {
             Self::Buddha => built(TransferModel::Buddha, 12),
             Self::Teapot => {
                 let rate = if size == ModelSize::Printed { 40 } else { 3 };
-                crate::geom::teapot::teapot(rate).map_err(|e| failed(HOST)(&e))?
+                crate::geom::teapot::teapot(rate).on(HOST)?
             }
         })
     }
@@ -77,9 +79,8 @@ impl TableMaterial {
             Self::Cook => cook_torrance()[0],
             Self::Schlick => schlick()[0],
         };
-        let fail = failed(HOST);
-        let table = sampling.table(&lobe, &mut |_, _| ()).map_err(|e| fail(&e))?;
-        let factors = Factorization::new(&table, TERMS).map_err(|e| fail(&e))?;
+        let table = sampling.table(&lobe, &mut |_, _| ()).on(HOST)?;
+        let factors = Factorization::new(&table, TERMS).on(HOST)?;
         Ok(Reflectance::Factored(factors.factors(TERMS)))
     }
 }
@@ -135,18 +136,16 @@ pub(super) struct CodedModel {
 impl ModelVisibility {
     /// Computes visibility by ray casting, of a model by itself.
     pub(super) fn alone(model: TableModel, size: ModelSize) -> Result<Self, StudyError> {
-        let fail = failed(HOST);
         let mesh = model.mesh(size)?;
-        let vertices = Vertices::new(&mesh, Tangents::default()).map_err(|e| fail(&e))?;
+        let vertices = Vertices::new(&mesh, Tangents::default()).on(HOST)?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
         Self::traced(&mesh, vertices, &all, size)
     }
 
     /// Computes visibility of a model on a ground, or of that ground.
     pub(super) fn on_ground(model: TableModel, of_ground: bool, size: ModelSize) -> Result<Self, StudyError> {
-        let fail = failed(HOST);
-        let (mesh, materials) = on_ground(&model.mesh(size)?, ground_side(size)).map_err(|e| fail(&e))?;
-        let vertices = Vertices::with_materials(&mesh, &materials, Tangents::default()).map_err(|e| fail(&e))?;
+        let (mesh, materials) = on_ground(&model.mesh(size)?, ground_side(size)).on(HOST)?;
+        let vertices = Vertices::with_materials(&mesh, &materials, Tangents::default()).on(HOST)?;
         let is_wanted = |&vertex: &u32| (vertices.materials()[vertex as usize] == 1) == of_ground;
         let wanted: Vec<u32> = (0..vertices.len() as u32).filter(is_wanted).collect();
         Self::traced(&mesh, vertices, &wanted, size)
@@ -155,12 +154,7 @@ impl ModelVisibility {
     fn traced(mesh: &Mesh, vertices: Vertices, wanted: &[u32], size: ModelSize) -> Result<Self, StudyError> {
         let mut tracer = HostTracer::new(mesh, Sides::Both);
         let maps = VisibilityMaps::trace(&vertices, wanted, &mut tracer, &mut |_, _| ());
-        Ok(Self {
-            maps: maps.map_err(|e| failed(HOST)(&e))?,
-            vertices,
-            hats: LinearBasis::new(BasisWidth::TwoTexels),
-            size,
-        })
+        Ok(Self { maps: maps.on(HOST)?, vertices, hats: LinearBasis::new(BasisWidth::TwoTexels), size })
     }
 
     /// Counts the segments that hold transfer.
@@ -184,7 +178,7 @@ impl ModelVisibility {
         };
         let (rows, vertices) = (reflectance.terms(), self.maps.len());
         let of_segment = |segment: usize| {
-            let found = transfer.segment(segment).map_err(|e| failed(HOST)(&e))?;
+            let found = transfer.segment(segment).on(HOST)?;
             found.map(|found| SegmentSums::new(found, iterations, (rows, vertices))).transpose()
         };
         let (mut sums, mut by_segment) = (SegmentSums::default(), Vec::new());
@@ -249,42 +243,15 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
     Ok(cell.get_or_init(|| found))
 }
 
-#[cfg(test)]
-mod tests {
-    use std::rc::Rc;
-
-    use super::*;
-    use crate::split::{KeptResults, SpentTime, SplitCommand};
-
-    /// A run that goes on from another's segments, or takes its model, finds what a run without pieces finds.
-    #[test]
-    fn pieces_make_the_same_model() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let found = |seen: &SeenModel, keeps: bool| {
-            let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
-            let kept = || {
-                let kept = KeptResults::new(folder.path().to_owned(), command, SpentTime::default);
-                Rc::new(kept.expect("no inputs"))
-            };
-            let shared = &Shared::new(ModelSize::Reduced).keeping(keeps.then(kept));
-            let compress =
-                || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::Sampled, (shared, "bunny"));
-            format!("{:?}", shared.piece("bunny", compress).expect("compressed"))
-        };
-        let new = || SeenModel::new(TableModel::Bunny, ModelSize::Reduced);
-        let (seen, taken) = (new(), new());
-        let without = found(&seen, false);
-        assert_eq!(found(&seen, true), without, "computed and kept");
-        assert_eq!(found(&taken, true), without, "taken");
-        assert!(taken.alone.get().is_none(), "a model that is taken needs no visibility");
-        // Stopped before the last segment.
-        let path = |piece: &str| folder.path().join(format!("{piece}.part"));
-        for piece in ["bunny", "bunny-segment-21"] {
-            std::fs::remove_file(path(piece)).expect("a piece");
-        }
-        let first = std::fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
-        assert_eq!(found(&taken, true), without, "gone on");
-        let again = std::fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
-        assert_eq!(first, again, "taken, and not written again");
-    }
+/// Compresses the diffuse bunny of Table 1, reduced, in pieces that are kept if asked for. Returns the model as text, and
+/// whether its visibility was computed.
+///
+/// # Errors
+/// If the model cannot be compressed, or its pieces cannot be kept.
+pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
+    let (shared, seen) =
+        (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));
+    let compress = || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::Sampled, (&shared, "bunny"));
+    let model = shared.piece("bunny", compress)?;
+    Ok((format!("{model:?}"), seen.alone.get().is_some()))
 }

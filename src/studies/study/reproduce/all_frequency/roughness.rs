@@ -1,7 +1,7 @@
 //! Figure 3: ten terms of Cook and Torrance's model by roughness.
 
 use super::forms::{TERMS, bare};
-use super::{HOST, PaperRow, StudyError, failed, solved};
+use super::{HOST, PaperRow, RunResult, StudyError, solved};
 use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
 use crate::report::Table;
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
@@ -25,7 +25,7 @@ pub(super) fn sweep() -> Result<Figure3, StudyError> {
     let bare = swept("distribution alone", bare(lobe))?;
     let row = solved("roughness", threshold(&textbook.1))?;
     let centers = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
-    let table = centers.table(&lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
+    let table = centers.table(&lobe, &mut |_, _| ()).on(HOST)?;
     let [inside, _] = DiscSamples::new(&table).counts();
     Ok(Figure3 { row, tables: vec![textbook.0, bare.0], inside })
 }
@@ -37,7 +37,7 @@ fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), StudyEr
         sampling: FactorSampling::default(),
         terms: Some(TERMS),
     };
-    let rows = study.sweep(&ROUGHNESSES).map_err(|error| failed(HOST)(&error))?;
+    let rows = study.sweep(&ROUGHNESSES).on(HOST)?;
     let table = roughness_table(&rows, &format!("Errors of {TERMS} terms by roughness, {form}"));
     Ok((table, rows))
 }

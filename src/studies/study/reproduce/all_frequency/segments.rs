@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::codings::CODINGS;
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::TransferSegment;
@@ -61,7 +61,7 @@ impl SegmentSums {
         let options = SegmentOptions { iterations, ..SegmentOptions::default() };
         let mut steps: Vec<CpcaStep> = Vec::new();
         let compressed = CompressedSegment::new(segment, vertices, &signal, &options, |step| steps.push(*step));
-        let compressed = compressed.map_err(|e| failed(HOST)(&e))?;
+        let compressed = compressed.on(HOST)?;
         let mut found = Self {
             points: signal.points(),
             clusters: compressed.clustering.subspaces().len(),

@@ -7,7 +7,7 @@ use super::models::{
     CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, SegmentChoice, TableMaterial, TableModel,
     ground_side,
 };
-use super::{Dependence, EntryFindings, HOST, PaperRow, Shared, StudyError, failed, number, paragraph, solved};
+use super::{Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;
@@ -82,13 +82,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ];
     let met = nearest.map(|met| met.to_string());
     let range = [BITS.to_string(), TABLE_1.len().to_string()].into_iter().chain(met);
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, numbers), paragraph(GROUND, [side.clone(), side]), paragraph(RANGE, range)],
+    Ok(EntryFindings::new(
+        [paragraph(HOW, numbers), paragraph(GROUND, [side.clone(), side]), paragraph(RANGE, range)],
         rows,
-        questions: vec![QUESTION],
-        tables: vec![alone, on_ground, by_representatives(found), by_segment(found)],
-        ..EntryFindings::default()
-    })
+        [QUESTION],
+        [alone, on_ground, by_representatives(found), by_segment(found)],
+    ))
 }
 
 /// The columns without a ground and with it, and the ground of the bunny's scene.
@@ -124,10 +123,9 @@ impl ComputedTable {
             grounded.push(shared.piece(&name_on_ground, || compress(seen.on_ground()?, &name_on_ground))?);
         }
         let run = |name, columns| TableRun { name, columns };
-        let missing = || failed(HOST)(&"no model has a ground");
         Ok(Self {
             runs: [run("models by themselves", alone), run("models on a ground", grounded)],
-            ground: ground.ok_or_else(missing)?,
+            ground: ground.ok_or("no model has a ground").on(HOST)?,
         })
     }
 }

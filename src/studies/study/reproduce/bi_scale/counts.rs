@@ -1,7 +1,7 @@
 //! Values of both tables that follow from sizes. The rows are expressions in `src/studies/papers`.
 
 use super::scenes::{PrintedScene, SCENES};
-use super::{EntryFindings, StudyError, number, paragraph};
+use super::{EntryFindings, Shared, StudyError, number, paragraph};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
@@ -20,7 +20,7 @@ const WIDE: f64 = 8.0;
 /// Bytes of a texel: three channels.
 const TEXEL_BYTES: f64 = 3.0;
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of(
         "Tables I and II, by sizes alone",
         "scene vertices local_directions nonzeros_M dense_MB_printed dense_MB bytes_per_operation \
@@ -46,12 +46,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
         ]);
     }
     let bytes = [DENSE, PER_ROW, PER_ROW, PER_COLUMN, TEXEL_BYTES].map(|bytes| number(bytes, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, bytes)],
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, bytes)], [], [QUESTION], [table]))
 }
 
 impl PrintedScene {

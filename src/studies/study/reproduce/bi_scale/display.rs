@@ -5,7 +5,7 @@ use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates};
@@ -36,30 +36,28 @@ pub(super) fn display(
     side: usize,
     [width, height]: [u32; 2],
 ) -> Result<DisplayRun, StudyError> {
-    let fail = failed(CARD);
-    let directions = |side| LocalDirections::new(side).map_err(|error| fail(&error));
+    let directions = |side| LocalDirections::new(side).on(CARD);
     let (view, light) = (directions(VIEWS)?, directions(side)?);
     let lights = side * side;
     let samples = vec![[0.0; 3]; VIEWS * VIEWS * lights * PATCH * PATCH];
-    let texture = BidirectionalTexture::new(PATCH, view, light, samples).map_err(|error| fail(&error))?;
-    let coordinates = corner_coordinates(mesh, [1.0; 2]).map_err(|error| fail(&error))?;
+    let texture = BidirectionalTexture::new(PATCH, view, light, samples).on(CARD)?;
+    let coordinates = corner_coordinates(mesh, [1.0; 2]).on(CARD)?;
     let (textures, texture_of) = ([texture], vec![0; mesh.len()]);
     let textured = TexturedMesh { vertices, coordinates: &coordinates, textures: &textures, texture_of: &texture_of };
-    let profile = Profile::named(CARD).map_err(|error| fail(&error))?;
+    let profile = Profile::named(CARD).on(CARD)?;
     let options = DisplayOptions::default();
-    let mut card =
-        BiScaleCard::new(profile.clone(), ExecutorKind::Batch, textured, options).map_err(|error| fail(&error))?;
+    let mut card = BiScaleCard::new(profile.clone(), ExecutorKind::Batch, textured, options).on(CARD)?;
     let camera = Camera::new([3.0, -5.5, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.22, width, height);
-    let camera = camera.map_err(|error| fail(&error))?;
+    let camera = camera.on(CARD)?;
     let view = MeshView { camera, exposure: 1.0, format: TexelFormat::Rgba8 };
     let local = vec![[0.0; 3]; vertices.len() * lights];
-    let (texels, log) = card.logged_view(&local, &view).map_err(|error| fail(&error))?;
+    let (texels, log) = card.logged_view(&local, &view).on(CARD)?;
     let pixels = texels.texels.iter().filter(|texel| texel[3] != 0.0).count() as u64;
     Ok(DisplayRun { counts: card.counts(), time: time_of(&profile, &log)?, pixels })
 }
 
 /// Time of a log on the card. The host only submits draws.
 fn time_of(profile: &Profile, log: &[Event]) -> Result<FrameTime, StudyError> {
-    let host = host_of_table_1().map_err(|error| failed(HOST)(&error))?;
-    frame_time(profile, log, &host).map_err(|error| failed(CARD)(&error))
+    let host = host_of_table_1().on(HOST)?;
+    frame_time(profile, log, &host).on(CARD)
 }

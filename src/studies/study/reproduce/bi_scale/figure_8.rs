@@ -51,11 +51,5 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         paper_row("bi-scale/display-power", (CARD, Method::Pipeline), quadratic)?,
     ];
     let values = [vertices, of_paper, f64::from(PICTURE[0]), f64::from(PICTURE[1])].map(|value| number(value, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, values)],
-        rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table]))
 }

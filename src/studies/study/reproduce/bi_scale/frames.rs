@@ -84,13 +84,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         f64::from(others),
     ]);
     let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers.map(|value| number(value, 0)));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, values)],
-        rows,
-        questions: vec![QUESTION],
-        tables: vec![table(&printed, constant), of_display(&run)],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table(&printed, constant), of_display(&run)]))
 }
 
 fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Result<PaperRow, StudyError> {

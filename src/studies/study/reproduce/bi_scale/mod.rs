@@ -1,25 +1,17 @@
 //! The paper on real-time all-frequency bi-scale transfer by biclustering.
 
-mod counts;
+pub(super) mod counts;
 mod display;
-mod figure_6;
-mod figure_8;
-mod figures;
-mod frames;
+pub(super) mod figure_6;
+pub(super) mod figure_8;
+pub(super) mod figures;
+pub(super) mod frames;
 mod models;
 mod scenes;
-mod table_1;
-mod table_2;
+pub(super) mod table_1;
+pub(super) mod table_2;
 
-pub(super) use counts::findings as counts;
-pub(super) use figure_6::findings as figure_6;
-pub(super) use figure_8::findings as figure_8;
-pub(super) use figures::findings as figures;
-pub(super) use frames::findings as frames;
-pub(super) use table_1::findings as table_1;
-pub(super) use table_2::findings as table_2;
-
-use super::error::failed;
+use super::error::RunResult;
 use super::shared::Shared;
 use super::{
     Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, StudyError, number, paper_row,

@@ -1,7 +1,7 @@
 //! Stand-ins for the paper's models: visibility at their vertices, transfer to local directions, biclusters.
 
 use super::scenes::SCENES;
-use super::{HOST, Shared, StudyError, failed};
+use super::{HOST, RunResult, Shared, StudyError};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
@@ -53,25 +53,23 @@ impl SharedResult for ClusteredModel {
 
 impl ModelVisibility {
     pub(super) fn new(mesh: &Mesh, horizon: Horizon) -> Result<Self, StudyError> {
-        let vertices = Vertices::new(mesh, Tangents::Texture).map_err(|error| failed(HOST)(&error))?;
+        let vertices = Vertices::new(mesh, Tangents::Texture).on(HOST)?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
         let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon };
         let mut caster = HostTracer::new(mesh, Sides::Both);
-        let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut |_, _| ())
-            .map_err(|error| failed(HOST)(&error))?;
+        let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut |_, _| ()).on(HOST)?;
         Ok(Self { mesh: mesh.clone(), vertices, maps })
     }
 
     /// Transfer matrix T with `side` local directions along an edge.
     pub(super) fn matrix(&self, side: usize) -> Result<SparseMatrix, StudyError> {
-        let directions = LocalDirections::new(side).map_err(|error| failed(HOST)(&error))?;
-        transfer_matrix(&self.vertices, &self.maps, &directions).map_err(|error| failed(HOST)(&error))
+        let directions = LocalDirections::new(side).on(HOST)?;
+        transfer_matrix(&self.vertices, &self.maps, &directions).on(HOST)
     }
 
     pub(super) fn clustered(&self, side: usize) -> Result<ClusteredModel, StudyError> {
         let matrix = self.matrix(side)?;
-        let biclusters =
-            bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
+        let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).on(HOST)?;
         Ok(ClusteredModel { nonzeros: matrix.nonzeros(), biclusters })
     }
 }

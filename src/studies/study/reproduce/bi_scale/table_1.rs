@@ -50,13 +50,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             Cell::decimals(3e-6 * found.nonzeros as f64, 1),
         ]);
     }
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [number(f64::from(coarser), 0)])],
-        rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, [number(f64::from(coarser), 0)])], rows, [QUESTION], [table]))
 }
 
 /// Thousands of non-zero values per vertex.

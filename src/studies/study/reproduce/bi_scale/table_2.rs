@@ -24,13 +24,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let side = scene.side as f64;
     let samples = f64::from(1_u32 << LOG2_SAMPLES);
     let values = [number(side, 0), number(side, 0), number(samples, 0), number(samples, 0), number(fewer, 1)];
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, values)],
-        rows: rows(found)?,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, values)], rows(found)?, [QUESTION], [table]))
 }
 
 /// Rows of the small bunny. The rows of the larger ones are those of sizes.

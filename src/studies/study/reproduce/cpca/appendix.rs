@@ -1,6 +1,6 @@
 //! Section 9 and the related part of section 3.2: hemispherical projections.
 
-use super::{EntryFindings, HOST, PaperRow, StudyError, equation, failed};
+use super::{EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, equation};
 use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function_count, function_index};
 
 /// Order of the projected functions.
@@ -26,7 +26,7 @@ const HOW: &str = "The Gram matrix of the harmonics over the hemisphere, its spe
     taken by their formulas: the words in the paper's parentheses are exchanged. Errors are squared, over the hemisphere, of functions whose square \
     integrates to one over the sphere; section 3.2 prints the roots of two of them.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let hemisphere = Hemisphere::new(ORDER);
     let values = &hemisphere.spectrum().values;
     let [largest, second, least] = [values[0], values[values.len() - 2], values[values.len() - 1]];
@@ -40,11 +40,11 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     for projected in &PROJECTIONS {
         rows.extend(projection_rows(projected)?);
     }
-    Ok(EntryFindings { text: vec![HOW.into()], rows, ..EntryFindings::default() })
+    Ok(EntryFindings::new([HOW.into()], rows, [], []))
 }
 
 fn error(projection: HemisphereProjection, [signal, order]: [usize; 2]) -> Result<ProjectionErrors, StudyError> {
-    projection.error(signal, order).map_err(|e| failed(HOST)(&e))
+    projection.error(signal, order).on(HOST)
 }
 
 fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<Vec<PaperRow>, StudyError> {

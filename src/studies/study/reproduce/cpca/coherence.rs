@@ -53,13 +53,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let faster = by_coherence(&timed)?;
     rows.extend(timed);
     rows.extend(faster);
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, figures.map(|figure| number(figure, 0))), paragraph(TIMES, [CARD.to_owned()])],
+    Ok(EntryFindings::new(
+        [paragraph(HOW, figures.map(|figure| number(figure, 0))), paragraph(TIMES, [CARD.to_owned()])],
         rows,
-        questions: vec![QUESTION, ORDER],
-        tables: vec![table, frames],
-        ..EntryFindings::default()
-    })
+        [QUESTION, ORDER],
+        [table, frames],
+    ))
 }
 
 /// Rows on "a 15-20% increase in rendering speed": the rates with both optimisations over those with none. The paper's

@@ -2,7 +2,7 @@
 
 use super::mesh_cost::REGISTERS;
 use super::signals::ComputedSignal;
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
 use crate::transfer::clustering::Clustering;
 
@@ -30,10 +30,9 @@ impl DrawnClusters {
         let rows = computed.paper.size.rows;
         let registers =
             if rows == 1 { ConstantRegisters::diffuse(REGISTERS) } else { ConstantRegisters::glossy(REGISTERS, rows) };
-        let fail = failed(HOST);
-        let moved = reclassify(&computed.signal, clustering, triangles, BUDGET).map_err(|e| fail(&e))?;
+        let moved = reclassify(&computed.signal, clustering, triangles, BUDGET).on(HOST)?;
         let superclusters = |clustering: &Clustering| -> Result<(Vec<u32>, usize), StudyError> {
-            let made = Superclusters::new(clustering, triangles, registers).map_err(|e| fail(&e))?;
+            let made = Superclusters::new(clustering, triangles, registers).on(HOST)?;
             let of_vertex = clustering.of_point().iter().map(|&cluster| made.of_cluster()[cluster as usize]);
             Ok((of_vertex.collect(), made.count()))
         };

@@ -66,13 +66,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         number(size.stored_numbers() as f64 / 1e6, 2)
     });
     let sizes = [points, n].map(|count| number(count as f64, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, stored.into_iter().chain(sizes))],
-        rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, stored.into_iter().chain(sizes))], rows, [QUESTION], [table]))
 }
 
 fn encodings(clusterings: &[&Clustering; 3], errors: [f64; 3], rates: [f64; 3]) -> Result<Table, StudyError> {

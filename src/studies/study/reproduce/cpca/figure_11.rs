@@ -76,13 +76,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let bird = shared.get::<ComputedSignal>(BIRD)?;
     let printed = bird.paper.size.clusters;
     let figures = [printed, bird.clusters(printed)].map(|count| number(count as f64, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, figures)],
-        rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
 }
 
 /// Row on "more than a factor of 10", of both models, which the paper's own rates of the Buddha contradict.

@@ -41,17 +41,16 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let [worse, better] = crossings(&curves);
     let last = counts.last().copied().unwrap_or(1);
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
-        rows: vec![solved("curves-worse", worse as f64)?, solved("curves-better", better as f64)?],
-        questions: vec!["the axes of the figure, which the scan has lost."],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new(
+        [paragraph(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
+        [solved("curves-worse", worse as f64)?, solved("curves-better", better as f64)?],
+        ["the axes of the figure, which the scan has lost."],
+        [table],
+    ))
 }
 
 /// Number of curves that are above the previous one at the smallest common storage, and below it at the largest.
-fn crossings(curves: &[Curve]) -> [usize; 2] {
+pub fn crossings(curves: &[Curve]) -> [usize; 2] {
     let mut found = [0, 0];
     for pair in curves.windows(2) {
         let mut differences = pair[1].iter().filter_map(|&(storage, error)| Some(error - at(&pair[0], storage)?));
@@ -69,19 +68,4 @@ fn at(curve: &Curve, storage: f64) -> Option<f64> {
     let [(s0, e0), (s1, e1)] = [segment[0], segment[1]];
     let part = ln(storage / s0) / ln(s1 / s0);
     Some(if e1 > 0.0 { e0 * crate::elementary::exp(part * ln(e1 / e0)) } else { e0 * (1.0 - part) })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn curves_are_compared_at_equal_storage() {
-        let before = vec![(1.0, 16.0), (4.0, 4.0), (16.0, 1.0)];
-        assert!((at(&before, 2.0).expect("between") - 8.0).abs() < 1e-12);
-        assert_eq!(at(&before, 20.0), None);
-        assert_eq!(crossings(&[before.clone(), vec![(2.0, 9.0), (8.0, 1.0), (32.0, 0.1)]]), [1, 1]);
-        assert_eq!(crossings(&[before.clone(), vec![(2.0, 7.0), (8.0, 3.0)]]), [0, 0]);
-        assert_eq!(crossings(&[before, vec![(32.0, 0.1)]]), [0, 0], "nothing in common");
-    }
 }

@@ -54,13 +54,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ];
     let points = computed.signal.points();
     let figures = [points as f64, 5.0, clusters as f64, ROUNDS as f64].map(|figure| number(figure, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, figures)],
-        rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
 }
 
 /// Row on a sentence that holds for several numbers of vectors or clusters: the first is ours, the others are readings.
@@ -76,20 +70,8 @@ fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64
 }
 
 /// Number of vectors at which a curve falls to an error, interpolated logarithmically; the last for lower errors.
-fn reaching(curve: &[f64], error: f64) -> f64 {
+pub fn reaching(curve: &[f64], error: f64) -> f64 {
     let Some(at) = (1..curve.len()).find(|&at| curve[at] <= error) else { return (curve.len() - 1) as f64 };
     let [above, below] = [curve[at - 1], curve[at]];
     if above <= error { 0.0 } else { (at - 1) as f64 + ln(above / error) / ln(above / below) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn vectors_are_interpolated_by_logarithms() {
-        let curve = [16.0, 4.0, 1.0];
-        assert_eq!([16.0, 4.0, 1.0, 0.5, 20.0].map(|error| reaching(&curve, error)), [0.0, 1.0, 2.0, 2.0, 0.0]);
-        assert!((reaching(&curve, 2.0) - 1.5).abs() < 1e-12);
-    }
 }

@@ -30,10 +30,5 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         }
     }
     let figures = [computed.signal.points(), ORDER, CLUSTERS[0], CLUSTERS[1]].map(|count| number(count as f64, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, figures)],
-        rows: vec![over_readings("figure-6", &ratios)?],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, figures)], [over_readings("figure-6", &ratios)?], [], [table]))
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::signals::{BIRD, ComputedSignal, SIGNALS};
 use super::views::{ModelView, RIM};
-use super::{EntryFindings, HOST, Shared, StudyError, failed, number, paragraph, solved};
+use super::{EntryFindings, HOST, RunResult, Shared, StudyError, number, paragraph, solved};
 use crate::cpca::transfer::{Incident, TracedRays};
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
@@ -56,18 +56,17 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let [zero, least, zero_25] = [errors[0], errors[1], errors[2]];
     let directions = DirectionRule::hemisphere(DEGREE).len();
     let figures = [points, 16, 16, 25, directions].map(|count| number(count as f64, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, figures.into_iter().chain([number(RIM, 2)]))],
-        rows: vec![
+    Ok(EntryFindings::new(
+        [paragraph(HOW, figures.into_iter().chain([number(RIM, 2)]))],
+        [
             solved("figure-7-16", zero[0] / least[0])?,
             solved("figure-7-silhouettes", zero[1] / least[1])?,
             solved("figure-7-especially", zero[1] / least[1] * least[0] / zero[0])?,
             solved("figure-7-25", zero_25[0] / least[0])?,
         ],
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+        [QUESTION],
+        [table],
+    ))
 }
 
 /// Radiance of every vertex towards an eye from BRDF and light alone: section 3.1 without harmonics, direct light with
@@ -79,7 +78,7 @@ fn exit_radiance(
     let (vertices, brdf) = (&computed.vertices, computed.paper.material.brdf());
     let mut tracer = HostTracer::new(&computed.mesh, Sides::Both);
     let rays = TracedRays::trace(vertices, DirectionRule::hemisphere(DEGREE), &mut tracer, false);
-    let rays = rays.map_err(|e| failed(HOST)(&e))?;
+    let rays = rays.on(HOST)?;
     let of_vertex = |vertex: usize| {
         let frame = &vertices.frames()[vertex];
         let view = frame.to_local((eye - wide(vertices.positions()[vertex])).normalize_or_zero());

@@ -61,16 +61,15 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let size = SIGNALS[HEAD].size;
     let sizes = [size.rows, size.clusters, size.vectors].map(|count| number(count as f64, 0));
-    Ok(EntryFindings {
-        text: vec![
+    Ok(EntryFindings::new(
+        [
             paragraph(HOW, sizes.into_iter().chain([CARD.to_owned()])),
             paragraph(NEWER_CARD, [number(printed_value("cpca/newer-card")?, 0)]),
         ],
         rows,
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+        [QUESTION],
+        [table],
+    ))
 }
 
 fn of_rows(size: TransferSize, rows: usize) -> TransferSize {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::shared::iterative;
 use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA};
 use super::views::ModelView;
-use super::{EntryFindings, HOST, Shared, StudyError, failed, number, paragraph};
+use super::{EntryFindings, HOST, RunResult, Shared, StudyError, number, paragraph};
 use crate::report::{Cell, Table};
 use crate::sphere::{ClearSky, HarmonicLight};
 
@@ -25,7 +25,7 @@ const QUESTION: &str = "the model, its scale and its medium, and both environmen
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (computed, clustering) = iterative(shared, TRANSLUCENT_BUDDHA)?;
     let gloss = ComputedSignal::new(&GLOSS_OF_FIGURE_9, shared.models)?;
-    let sky = SKY.light(5).map_err(|e| failed(HOST)(&e))?;
+    let sky = SKY.light(5).on(HOST)?;
     let mut table = Table::of("The sum and its parts", "light share_below_the_surface_% error_of_picture_%");
     for (name, light) in [("red and blue", HarmonicLight::red_and_blue(5)), ("sky", sky)] {
         let sum = ModelView::new(computed, &light)?;
@@ -34,10 +34,5 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         table.push([Cell::from(name), Cell::percent(100.0 * below), Cell::percent(100.0 * error)]);
     }
     let counts = [computed.signal.points(), clustering.subspaces().len(), computed.paper.size.vectors];
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, counts.map(|count| number(count as f64, 0)))],
-        questions: vec![QUESTION],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new([paragraph(HOW, counts.map(|count| number(count as f64, 0)))], [], [QUESTION], [table]))
 }

@@ -7,7 +7,7 @@ use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters};
 use super::mesh_cost::{CARD, MeshCost};
 use super::signals::SIGNALS;
 use super::{
-    Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, Shared, StudyError, failed, paper_row, printed,
+    Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, RunResult, Shared, StudyError, paper_row, printed,
     printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
@@ -38,8 +38,8 @@ pub(super) fn modelled(
         groups: groups as u64,
         run_per_triangle: mesh.run_per_triangle,
     };
-    let host = host_of_section_7().map_err(|e| failed(HOST)(&e))?;
-    frame_time(card, &counts.log(), &host).map_err(|e| failed(CARD)(&e))
+    let host = host_of_section_7().on(HOST)?;
+    frame_time(card, &counts.log(), &host).on(CARD)
 }
 
 /// Time of a frame with both optimisations, with the overdraw of our own clusters.
@@ -56,7 +56,7 @@ pub(super) fn modelled_from_clusters(
 /// Frames per second without compression, where the host multiplies every matrix by the light: by equation, from
 /// printed sizes.
 pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
-    let host = host_of_section_7().map_err(|e| failed(HOST)(&e))?;
+    let host = host_of_section_7().on(HOST)?;
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 

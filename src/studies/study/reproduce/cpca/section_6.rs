@@ -1,7 +1,7 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{EntryFindings, REGISTERS, StudyError, number, paragraph};
+use super::{EntryFindings, REGISTERS, Shared, StudyError, number, paragraph};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
@@ -9,12 +9,8 @@ const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 
     ones, where the paper divides. The host multiplies every mean and vector by the light of three channels in each frame; \
     without compression, every vertex's matrix.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [number(4.0, 0)])],
-        tables: vec![sizes()],
-        ..EntryFindings::default()
-    })
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
+    Ok(EntryFindings::new([paragraph(HOW, [number(4.0, 0)])], [], [], [sizes()]))
 }
 
 /// Table of the sizes of Table 1's signals, and of the encodings of Figures 10 and 11 that are not among them.
@@ -48,20 +44,4 @@ fn sizes() -> Table {
         ]);
     }
     table
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Raw over stored numbers of Table 1's rows, and the bird's host work: 48,688 / (256 x 9) times less.
-    #[test]
-    fn ratios_of_table_1() {
-        let table = sizes();
-        let column = |name: &str| table.headings().iter().position(|heading| heading == name).expect("a column");
-        let of = |name: &str| table.rows().iter().map(|row| row[column(name)].text()).collect::<Vec<_>>();
-        assert_eq!(of("ratio")[..7], ["19.7", "16.8", "17.0", "16.5", "7.9", "19.7", "23.4"]);
-        assert_eq!(of("less_host_work")[3], "21.1");
-        assert_eq!(of("registers_per_cluster")[7..], ["18", "30", "78", "6", "126"]);
-    }
 }

@@ -75,13 +75,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.extend(timed);
     let [least, most] =
         [counts.iter().copied().fold(f64::INFINITY, f64::min), counts.iter().copied().fold(0.0, f64::max)];
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [number(least, 0), number(most, 0)]), paragraph(TIMES, [CARD.to_owned()])],
+    Ok(EntryFindings::new(
+        [paragraph(HOW, [number(least, 0), number(most, 0)]), paragraph(TIMES, [CARD.to_owned()])],
         rows,
-        questions: vec![QUESTION],
-        tables: vec![table, times],
-        ..EntryFindings::default()
-    })
+        [QUESTION],
+        [table, times],
+    ))
 }
 
 /// Rows on frame rates.

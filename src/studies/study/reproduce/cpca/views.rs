@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::signals::ComputedSignal;
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
@@ -32,7 +32,7 @@ impl<'a> ModelView<'a> {
     pub(super) fn new(computed: &'a ComputedSignal, light: &'a HarmonicLight) -> Result<Self, StudyError> {
         let (eye, tan_half_height) = EYE;
         let camera = Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], tan_half_height, SIDE, SIDE);
-        let camera = camera.map_err(|e| failed(HOST)(&e))?;
+        let camera = camera.on(HOST)?;
         let seen = SeenSurface::new(&computed.mesh, &computed.vertices, &camera);
         Ok(Self { computed, light, camera, seen })
     }
@@ -76,8 +76,7 @@ impl<'a> ModelView<'a> {
 
     /// Colors of pixels by a clustering, or by the transfer itself.
     pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, StudyError> {
-        let missing = || failed(HOST)(&"the signal is no transfer");
-        let lit = Lit::new(&self.computed.meaning, self.light).ok_or_else(missing)?;
+        let lit = Lit::new(&self.computed.meaning, self.light).ok_or("the signal is no transfer").on(HOST)?;
         let exit = clustering.map_or_else(|| lit.of_signal(&self.computed.signal), |c| lit.of_clusters(c));
         Ok(self.of_vertices(&lit.radiance(&exit, &self.computed.vertices, self.eye())))
     }

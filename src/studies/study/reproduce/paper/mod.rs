@@ -21,11 +21,19 @@ static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
     let mut figures = Vec::new();
     for &paper in Paper::VARIANTS {
         let in_file = |reason| format!("the file of `{}`: {reason}", paper.id());
-        statement::verify(paper.file()).map_err(in_file)?;
-        figures.extend(file::parse(paper, paper.file()).map_err(in_file)?);
+        figures.extend(parse_figures(paper, paper.file()).map_err(in_file)?);
     }
     Ok(figures)
 });
+
+/// Holds a paper's file against its statements, and parses its figures; errors are sentences.
+///
+/// # Errors
+/// If the file is malformed, or states other bounds than it did.
+pub fn parse_figures(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
+    statement::verify(text)?;
+    file::parse(paper, text)
+}
 
 /// Returns the printed, implied and inferred figures of all papers, in the order of their files.
 ///
@@ -76,51 +84,4 @@ pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
         rows.push(row.with_readings(equation.readings.iter().copied()).contradicted(contradiction));
     }
     Ok(rows)
-}
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use super::*;
-    use crate::study::reproduce::row::Judgement;
-
-    #[test]
-    fn every_figure_has_a_name_of_its_own_and_a_bound_or_a_reason() {
-        let figures = figures().expect("the files");
-        let names: BTreeSet<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-        assert_eq!(names.len(), figures.len());
-        for figure in figures {
-            assert!(figure.value.is_finite() && !figure.what.is_empty() && !figure.place.is_empty(), "{}", figure.id);
-            assert!(!matches!(&figure.judgement, Judgement::Not(reason) if reason.is_empty()), "{}", figure.id);
-        }
-    }
-
-    /// No figure of a paper stands twice: a second row with the same value, unit and words is the same figure.
-    #[test]
-    fn each_printed_figure_stands_once() {
-        let mut seen = BTreeSet::new();
-        for figure in figures().expect("the files") {
-            let key = (figure.paper.id(), figure.value.to_bits(), &figure.unit, &figure.what, &figure.place);
-            assert!(seen.insert(key), "{} stands twice", figure.id);
-        }
-    }
-
-    /// Every expression belongs to an entry of its paper.
-    #[test]
-    fn every_equation_has_its_entry() {
-        use crate::study::reproduce::ENTRIES;
-        let figures = figures().expect("the files");
-        let equations = figures.iter().filter_map(|figure| Some((figure, figure.equation.as_ref()?)));
-        for (figure, equation) in equations {
-            let entry = ENTRIES.iter().find(|entry| entry.id == equation.entry);
-            assert_eq!(entry.map(|entry| entry.paper), Some(figure.paper), "{}: {}", figure.id, equation.entry);
-        }
-    }
-
-    #[test]
-    fn an_unknown_name_is_an_error() {
-        let error = printed("ray-engine/host-alon").expect_err("a typo").to_string();
-        assert!(error.contains("no figure is named `ray-engine/host-alon`"), "{error}");
-    }
 }

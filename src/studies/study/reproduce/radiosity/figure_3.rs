@@ -1,6 +1,6 @@
 //! Figure 3: the residual of Jacobi and of Gauss-Seidel, iteration by iteration.
 
-use super::{EntryFindings, StudyError, failed};
+use super::{EntryFindings, RunResult, Shared, StudyError};
 use crate::elementary::ln;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::radiosity::solve::{Options, Solution, Solver};
@@ -26,7 +26,7 @@ const HOW: &str = "A closed Cornell box without blocks, its form factors in clos
     by the iterations down to {} of what the residual was, and late, by the slopes of the plot's lines over its last half. The row has \
     both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let system = closed_box()?;
     let mut table = Table::of(
         "Iterations until the residual is so small a share of what it was",
@@ -96,14 +96,14 @@ fn ratio(jacobi: &Solution, seidel: &Solution, share: f64) -> f64 {
 
 fn closed_box() -> Result<System, StudyError> {
     let scene = cornell(CornellBox { blocks: false, open: false });
-    let patches = Patches::new(&scene, Subdivision::AtMost(CUT)).map_err(|e| failed("the host")(&e))?;
-    let factors = FormFactors::unoccluded(&patches).map_err(|e| failed("the host")(&e))?;
-    System::new(factors, patches.reflectances(), patches.emittances()).map_err(|e| failed("the host")(&e))
+    let patches = Patches::new(&scene, Subdivision::AtMost(CUT)).on("the host")?;
+    let factors = FormFactors::unoccluded(&patches).on("the host")?;
+    System::new(factors, patches.reflectances(), patches.emittances()).on("the host")
 }
 
 fn solve(system: &System, channel: usize, solver: Solver) -> Result<Solution, StudyError> {
     let options = Options { tolerance: TOLERANCE, most_iterations: 1000 };
-    system.solve_channel(channel, solver, &options, None).map_err(|e| failed("the host")(&e))
+    system.solve_channel(channel, solver, &options, None).on("the host")
 }
 
 /// Iterations until the residual's norm falls to a fraction of its initial value.

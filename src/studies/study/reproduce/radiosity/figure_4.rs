@@ -1,6 +1,6 @@
 //! Figure 4: the time of an iteration by the size of the matrix, on the card and on the host.
 
-use super::{CARD, EntryFindings, PATCHES, PrintedRates, Storage, StudyError, host, iteration, printed_value};
+use super::{CARD, EntryFindings, PATCHES, PrintedRates, Shared, Storage, StudyError, host, iteration, printed_value};
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
 use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
@@ -38,7 +38,7 @@ impl Point {
     }
 }
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let points = SIZES.into_iter().map(Point::at).collect::<Result<Vec<_>, _>>()?;
     let line = |label: &str, of: fn(&Point) -> f64| Series {
         label: label.to_owned(),

@@ -36,18 +36,3 @@ pub(super) fn iteration(patches: u32) -> Result<f64, StudyError> {
     let n = f64::from(patches);
     Ok(n * n * (cached() + from_memory()? * missed(n)))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_abs_diff_eq;
-
-    #[test]
-    fn the_printed_rate_comes_back() {
-        let printed = PrintedRates::host().expect("printed rates").per_s;
-        assert_abs_diff_eq!(1.0 / iteration(PATCHES).expect("seconds"), printed, epsilon = 1e-9);
-        // 362 x 362 elements are the cache.
-        assert_eq!((missed(362.0), missed(64.0)), (0.0, 0.0));
-        assert!(missed(363.0) > 0.0);
-    }
-}

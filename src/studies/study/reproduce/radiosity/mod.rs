@@ -1,20 +1,16 @@
 //! Matrix radiosity, section 3.1: Figure 3, the printed rates, Figure 4.
 
-mod figure_3;
-mod figure_4;
+pub(super) mod figure_3;
+pub(super) mod figure_4;
 mod host;
-mod rates;
+pub(super) mod rates;
 
 use refsim::device::Profile;
 
-use super::{EntryFindings, StudyError, error::failed, printed_value};
+use super::{EntryFindings, StudyError, error::RunResult, printed_value, shared::Shared};
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};
-
-pub(super) use figure_3::findings as figure_3;
-pub(super) use figure_4::findings as figure_4;
-pub(super) use rates::findings as rates;
 
 /// Card of the paper.
 const CARD: &str = "nv35";
@@ -48,5 +44,5 @@ impl PrintedRates {
 /// Times an iteration of `patches` patches on the paper's card, by the pipeline model.
 fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<TimedIteration, StudyError> {
     let timing = Timing { patches: patches as usize, packing, storage, cache: false };
-    timed_iteration(&Profile::named(CARD)?, &timing).map_err(|e| failed(CARD)(&e))
+    timed_iteration(&Profile::named(CARD)?, &timing).on(CARD)
 }

@@ -1,7 +1,7 @@
 //! The printed rates: 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host. And their
 //! dependence on the number of patches.
 
-use super::{CARD, EntryFindings, PATCHES, PrintedRates, Storage, StudyError, host, iteration};
+use super::{CARD, EntryFindings, PATCHES, PrintedRates, Shared, Storage, StudyError, host, iteration};
 use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
@@ -26,7 +26,7 @@ const WHERE: &str = "Where the time goes: each of a texel's two reads is of {} b
     takes {} clocks for; and of each quad of fragments only {} % lie in the one row of the target. The unit's width and how registers slow the card \
     are guesses or measurements of others, as `crossbar devices` says.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;
     let printed = [PrintedRates::card()?, PrintedRates::host()?];
     let fits: Vec<u32> = (1..=2 * PATCHES).filter(|n| fits(*n, &printed)).collect();
@@ -34,8 +34,8 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let [least, most] = ends;
     let (sizes, texel) = (sizes(&printed)?, 16.0);
     let width = profile_width()?;
-    Ok(EntryFindings {
-        text: vec![
+    Ok(EntryFindings::new(
+        [
             paragraph(
                 HOW,
                 [
@@ -51,14 +51,13 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
                 [number(texel, 0), number(width, 0), number(texel / width, 0), number(100.0 * paper.filled, 0)],
             ),
         ],
-        rows: rows(&paper, &printed)?,
-        questions: vec![
+        rows(&paper, &printed)?,
+        [
             "how many patches the authors' scene had.",
             "what share of its bandwidth the card used: the text guesses, and of the card's texture cache nothing is documented.",
         ],
-        tables: vec![sizes, costs()?],
-        ..EntryFindings::default()
-    })
+        [sizes, costs()?],
+    ))
 }
 
 /// Bytes of a texel that a texture unit of the card fetches per clock.

@@ -9,7 +9,7 @@ use refsim::timing::replay::{Costs, Options, replay};
 use refsim::timing::{DrawCost, Level, Model, Picoseconds};
 
 use super::workload::{OCTREE, TIMES, Workload};
-use super::{failed, no_time};
+use super::{RunResult, no_time};
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crate::study::StudyError;
@@ -104,6 +104,6 @@ pub(super) fn rays_per_s(run: &Run, host: &HostModel, commands: Commands) -> Res
         Commands::Cost(figures) => figures,
     };
     let options = Options { queue, host: Some(host), ..Options::default() };
-    let found = replay(&run.log, &card, &options).map_err(|e| failed(TIMES)(&e))?;
+    let found = replay(&run.log, &card, &options).on(TIMES)?;
     Ok(run.counts.rays as f64 / found.timeline.makespan().seconds())
 }

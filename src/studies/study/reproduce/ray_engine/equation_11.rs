@@ -3,7 +3,9 @@
 use refsim::device::Profile;
 
 use super::pipeline::model;
-use super::{Dependence, EntryFindings, Method, StudyError, figure, number, paper_row, paragraph, pipeline, printed};
+use super::{
+    Dependence, EntryFindings, Method, Shared, StudyError, figure, number, paper_row, paragraph, pipeline, printed,
+};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Table};
 
@@ -30,7 +32,7 @@ pub(super) fn rates(device: &str) -> Result<CostRates, StudyError> {
 
 const READ_BACK: &str = "250 MB/s (read-back)";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let mut worked = Table::of("Worked numbers, M/s", "figure device printed equation pipeline");
     let mut rows = Vec::new();
     for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {
@@ -52,8 +54,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let pixel = pipeline::dual_textured("nv20")?;
     let bytes =
         model("nv20")?.clocks(&pixel.record).traffic.total() as f64 / pixel.record.counts.fragments.generated as f64;
-    Ok(EntryFindings {
-        text: vec![
+    Ok(EntryFindings::new([
             "Equation 11 is seconds = T R / fill + R gamma / readback. The GeForce3's fill and read-back rates are printed; the \
              GeForce4's fill rate follows from its tests a second at ten triangles, if it reads back as fast as the GeForce3. \
              A printed figure has one row: that of the pipeline where it is drawn, and of the equation where it is a quotient of \
@@ -65,11 +66,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
                  narrowest place: {} bytes a pixel.",
                 [pixel.cost.bottleneck.to_string(), number(bytes, 0)],
             ),
-        ],
-        rows,
-        tables: vec![worked, pipeline::cost_table(&CARDS)?],
-        ..EntryFindings::default()
-    })
+        ], rows, [], [worked, pipeline::cost_table(&CARDS)?]))
 }
 
 /// Line of a printed figure with the values of equation and pipeline.
@@ -77,19 +74,4 @@ fn line(id: &str, device: &str, ours: [f64; 2]) -> Result<[Cell; 5], StudyError>
     let figure = printed(id)?;
     let [equation, pipeline] = ours.map(|value| figure.beside(value));
     Ok([figure.what.as_str().into(), device.into(), figure.cell(), equation, pipeline])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The implied fill rate is equation 11 solved for it.
-    #[test]
-    fn the_fill_rate_of_the_geforce4_is_implied() {
-        let value = |id: &str| printed(id).expect("a figure").value;
-        let tests = value("ray-engine/ten-triangles-geforce4") * MEGA;
-        let readback = value("ray-engine/read-back") * MEGA;
-        let implied = CostRates::implied_fill(tests, TEN, GAMMAS[0], readback) / MEGA;
-        assert_eq!(number(implied, 1), number(value("ray-engine/fill-geforce4"), 1));
-    }
 }

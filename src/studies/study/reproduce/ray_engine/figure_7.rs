@@ -2,7 +2,7 @@
 //! host.
 
 use super::equation_11::{CARDS, GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
-use super::{EntryFindings, StudyError, pipeline, printed_value};
+use super::{EntryFindings, Shared, StudyError, pipeline, printed_value};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Chart, NamedChart, Series, Table};
 
@@ -13,7 +13,7 @@ const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
 /// Maximum number of triangles in the plot.
 const PLOTTED: u32 = 50;
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let mut tests = Table::of("Millions of ray-triangle tests a second", "device gamma_B triangles rates pipeline");
     let mut limits = Table::of(
         "Where a card pays: T_min by the host's tests a second",

@@ -8,35 +8,27 @@
 //! ([`sweeps::commands`]), and the definition of a ray on the card ([`shares`]).
 
 mod engine_run;
-mod equation_11;
-mod figure_7;
+pub(super) mod equation_11;
+pub(super) mod figure_7;
 mod pipeline;
-mod radeon_8500;
+pub(super) mod radeon_8500;
 mod shares;
 mod speed_ups;
 mod stated;
 mod sweeps;
-mod table_1;
-mod table_3;
-mod table_4;
-mod table_5;
+pub(super) mod table_1;
+pub(super) mod table_3;
+pub(super) mod table_4;
+pub(super) mod table_5;
 mod teapot;
-mod vertex_variant;
+pub(super) mod vertex_variant;
 mod workload;
 
-pub(super) use equation_11::findings as equation_11;
-pub(super) use figure_7::findings as figure_7;
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
-pub(super) use radeon_8500::findings as radeon_8500;
-pub(super) use table_1::findings as table_1;
-pub(super) use table_3::findings as table_3;
-pub(super) use table_4::findings as table_4;
-pub(super) use table_5::findings as table_5;
-pub(super) use vertex_variant::findings as vertex_variant;
 
 use stated::{QUESTION, RATE, commands, how, speed_up};
 
-use super::error::{failed, figure, no_time};
+use super::error::{RunResult, figure, no_time};
 use super::shared::{Shared, SharedResult};
 use super::{
     Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row, paragraph, printed,

@@ -11,7 +11,7 @@ use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{DrawCost, Level, Model};
 
-use super::{failed, no_time};
+use super::{RunResult, no_time};
 use crate::report::{Cell, Table};
 use crate::study::StudyError;
 
@@ -48,7 +48,7 @@ pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<TimedDraw, StudyErr
         Event::Draw(record) => Some(TimedDraw { cost: model.draw(&record), record: *record }),
         _ => None,
     });
-    draws.max_by_key(|draw| draw.cost.total).ok_or_else(|| failed(device)(&"no draw was recorded"))
+    draws.max_by_key(|draw| draw.cost.total).ok_or("no draw was recorded").on(device)
 }
 
 /// Times screen-filling quads with two textures of the screen's size, with depth test and write.
@@ -99,10 +99,9 @@ pub(super) fn cost_table(devices: &[&str]) -> Result<Table, StudyError> {
 
 /// Records the log of one draw of `quads` quads over the screen.
 fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, StudyError> {
-    let fail = failed(device);
     let profile = Profile::named(device)?;
-    let program = assemble(DUAL_TEXTURED).map_err(|e| fail(&e))?;
-    let program = check(program, &profile).map_err(|e| fail(&e))?;
+    let program = assemble(DUAL_TEXTURED).on(device)?;
+    let program = check(program, &profile).on(device)?;
     let mut machine = Machine::new(profile, ExecutorKind::Batch);
     machine.record(true);
     let draw = |machine: &mut Machine| -> Result<(), refsim::machine::MachineError> {
@@ -122,7 +121,7 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, StudyError> {
         machine.draw(&call)?;
         Ok(())
     };
-    draw(&mut machine).map_err(|e| fail(&e))?;
+    draw(&mut machine).on(device)?;
     Ok(machine.take_log())
 }
 

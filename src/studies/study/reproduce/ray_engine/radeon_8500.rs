@@ -6,7 +6,7 @@ use refsim::machine::ExecutorKind;
 use super::equation_11::MEGA;
 use super::pipeline::{TimedDraw, model, timed};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, StudyError, failed, figure, number, paper_row, paragraph,
+    Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, figure, number, paper_row, paragraph,
     printed_value,
 };
 use crate::geom::exact::Sides;
@@ -30,7 +30,7 @@ const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and 
     figure. So this row is a calibration, by a whole number; it has our program for rays of any origin, and the one for rays of one origin as \
     another reading. The printed figure is {} clocks of a pipeline a test.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (row, slots) = kernels()?;
     let profile = Profile::named(DEVICE)?;
     let rates = &profile.rates;
@@ -38,21 +38,20 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let clocks =
         pipes * figure(&profile, "rates.core_clock_hz", rates.core_clock_hz)? / (printed_value(PRINTED)? * MEGA);
     let side = || SIDE.to_string();
-    Ok(EntryFindings {
-        text: vec![paragraph(PAIRS, [side(), side(), number(pipes, 0), number(clocks, 2)])],
-        rows: vec![row],
-        questions: vec![
+    Ok(EntryFindings::new(
+        [paragraph(PAIRS, [side(), side(), number(pipes, 0), number(clocks, 2)])],
+        [row],
+        [
             "how long the authors' program was, and whether its rays shared an origin: it is not printed.",
             "at which rate the card issues pairs: no document that we found states it.",
         ],
-        tables: vec![slots],
-        ..EntryFindings::default()
-    })
+        [slots],
+    ))
 }
 
 fn kernels() -> Result<(PaperRow, Table), StudyError> {
     let mesh = mesh()?;
-    let camera = Camera::teapot(SIDE, SIDE).map_err(|e| failed(DEVICE)(&e))?;
+    let camera = Camera::teapot(SIDE, SIDE).on(DEVICE)?;
     let eye = camera.rays();
     // The same rays, each started a little further on, have no common origin any more.
     let moved = eye.iter().enumerate().map(|(i, ray)| moved(ray, 1e-3 * i as f32)).collect::<Result<Vec<_>, _>>()?;
@@ -87,7 +86,7 @@ fn kernels() -> Result<(PaperRow, Table), StudyError> {
 }
 
 fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), StudyError> {
-    let rays = RayBatch::new(SIDE, SIDE, rays).map_err(|e| failed(DEVICE)(&e))?;
+    let rays = RayBatch::new(SIDE, SIDE, rays).on(DEVICE)?;
     let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
     let answer = card.intersect_recorded(mesh, &rays, Sides::Front)?;
     Ok((answer.kernel, timed(DEVICE, answer.log)?))
@@ -95,12 +94,12 @@ fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), StudyEr
 
 /// Builds a part of the teapot.
 fn mesh() -> Result<Mesh, StudyError> {
-    let whole = teapot(8).map_err(|e| failed(DEVICE)(&e))?;
+    let whole = teapot(8).on(DEVICE)?;
     let triangles = whole.triangles().iter().take(TRIANGLES).copied().collect();
-    Mesh::new(whole.positions().to_vec(), triangles).map_err(|e| failed(DEVICE)(&e))
+    Mesh::new(whole.positions().to_vec(), triangles).on(DEVICE)
 }
 
 fn moved(ray: &Ray, by: f32) -> Result<Ray, StudyError> {
     let (o, d) = (ray.origin(), ray.direction());
-    Ray::new([o[0] + by * d[0], o[1] + by * d[1], o[2] + by * d[2]], d).map_err(|e| failed(DEVICE)(&e))
+    Ray::new([o[0] + by * d[0], o[1] + by * d[1], o[2] + by * d[2]], d).on(DEVICE)
 }

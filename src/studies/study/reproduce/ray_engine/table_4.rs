@@ -23,14 +23,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let order = paragraph(ORDER, speed_ups_of(SpeedUpRun::ours).chain(speed_ups_of(SpeedUpRun::printed)));
     let mut rows = found.rows(PLACE);
     rows.extend(share_rows);
-    Ok(EntryFindings {
-        text: vec![how(room), order],
+    Ok(EntryFindings::new(
+        [how(room), order],
         rows,
-        questions: vec![
-            QUESTION,
-            "by which rule the authors mark GPU cells: with ours the widest range can't have the fewest rays.",
-        ],
-        tables: vec![table(room, &lines, PLACE)?, readings],
-        ..EntryFindings::default()
-    })
+        [QUESTION, "by which rule the authors mark GPU cells: with ours the widest range can't have the fewest rays."],
+        [table(room, &lines, PLACE)?, readings],
+    ))
 }

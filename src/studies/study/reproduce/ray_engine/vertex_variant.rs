@@ -6,7 +6,8 @@ use refsim::machine::{ExecutorKind, Machine};
 use super::equation_11::MEGA;
 use super::pipeline::{model, timed};
 use super::{
-    Dependence, EntryFindings, Method, StudyError, failed, figure, number, paper_row, paragraph, printed_value,
+    Dependence, EntryFindings, Method, RunResult, Shared, StudyError, figure, number, paper_row, paragraph,
+    printed_value,
 };
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{RayBatch, VertexCrossbar};
@@ -23,19 +24,18 @@ const HOW: &str = "The road not taken: a ray as constants, a triangle as three v
     program for it (vertex_test.vsa) runs, finds what the pixel pipelines find, and has {} instructions; a test is {} vertices. The printed \
     figure has no card: on {} it would be {} clocks a test.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (mut rates, mut seen) = (Vec::new(), None);
     let mut table = Table::of(
         "A test in the vertex units",
         "device M_tests_per_s instructions_per_vertex vertices_per_test clocks_per_vertex_and_unit vertex_units bound_by",
     );
     for device in DEVICES {
-        let fail = failed(device);
         let profile = Profile::named(device)?;
         let units = profile.rates.vertex_units;
-        let mesh = teapot(4).map_err(|e| fail(&e))?;
-        let camera = Camera::teapot(2, 2).map_err(|e| fail(&e))?;
-        let rays = RayBatch::new(2, 2, camera.rays()).map_err(|e| fail(&e))?;
+        let mesh = teapot(4).on(device)?;
+        let camera = Camera::teapot(2, 2).on(device)?;
+        let rays = RayBatch::new(2, 2, camera.rays()).on(device)?;
         let mut machine = Machine::new(profile.clone(), ExecutorKind::Batch);
         machine.record(true);
         VertexCrossbar::new(profile.clone(), ExecutorKind::Batch).intersect_on(&mut machine, &mesh, &rays)?;
@@ -67,13 +67,12 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyErro
     let [first, others @ ..] = &rates[..] else { return Ok(EntryFindings::default()) };
     let ours = (*first, Dependence::Predicted { from: "" });
     let row = paper_row(PRINTED, (DEVICES[0], Method::Pipeline), ours)?.with_readings(others.iter().copied());
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, seen.into_iter().flatten())],
-        rows: vec![row],
-        questions: vec![
+    Ok(EntryFindings::new(
+        [paragraph(HOW, seen.into_iter().flatten())],
+        [row],
+        [
             "which card it was, how long the program was, and whether a test was one vertex (a point) or three (a triangle).",
         ],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+        [table],
+    ))
 }

@@ -2,7 +2,7 @@
 
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
 
-use super::{StudyError, failed};
+use super::{RunResult, StudyError};
 use crate::error::InputError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
@@ -86,19 +86,18 @@ impl Job {
         let (scene, camera) = self.scene_and_camera()?;
         let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
         let mut recording = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
-        self.render(&scene, &camera, &mut recording).map_err(|e| failed(TIMES)(&e))?;
+        self.render(&scene, &camera, &mut recording).on(TIMES)?;
         Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::new(&recording.cost) })
     }
 
     fn scene_and_camera(&self) -> Result<(Scene, Camera), StudyError> {
-        let fail = failed(TIMES);
-        let scene = built::build(self.scene).ok_or_else(|| fail(&format!("no scene `{}`", self.scene)))?;
+        let scene = built::build(self.scene).ok_or_else(|| format!("no scene `{}`", self.scene)).on(TIMES)?;
         let view = match self.view {
             Some(name) => scene.view(name),
             None => scene.views.first(),
         };
-        let view = view.ok_or_else(|| fail(&format!("scene `{}` lacks its view", self.scene)))?;
-        let camera = view.camera(self.side, self.side).map_err(|e| fail(&e))?;
+        let view = view.ok_or_else(|| format!("scene `{}` lacks its view", self.scene)).on(TIMES)?;
+        let camera = view.camera(self.side, self.side).on(TIMES)?;
         Ok((scene, camera))
     }
 
@@ -134,8 +133,7 @@ impl HostOnly {
 
     /// Calibrates the host so that this work takes the time of Table 3's first row: the only calibrated constant.
     pub(super) fn calibrate(&self, weights: HostWeights) -> Result<HostModel, StudyError> {
-        let model = HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND);
-        model.map_err(|e| failed(TIMES)(&e))
+        HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND).on(TIMES)
     }
 
     /// Rays per second on a host.

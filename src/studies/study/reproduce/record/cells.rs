@@ -56,36 +56,3 @@ pub(super) fn decoded(text: &str) -> Option<Cell> {
         }
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn cells_read_back() {
-        for cell in [
-            Cell::Empty,
-            "a text, of words | and bars".into(),
-            "".into(),
-            7_u64.into(),
-            (-7_i64).into(),
-            true.into(),
-            0.1.into(),
-            Cell::decimals(-0.0, 3).marked("*"),
-            Cell::measured(1.0 / 3.0),
-            Cell::ratio(1e300).marked("(implied)"),
-            Cell::percent(f64::INFINITY),
-            Cell::error(5e-324),
-        ] {
-            assert_eq!(decoded(&coded(&cell)), Some(cell.clone()), "{}", coded(&cell));
-        }
-        assert_eq!(coded(&Cell::decimals(0.125, 2).marked("*")), "decimals2 0.125 *");
-    }
-
-    #[test]
-    fn other_text_is_no_cell() {
-        for text in ["12", "counts 12", "count twelve", "decimals 1", "ratio 1 ?", "ratio"] {
-            assert_eq!(decoded(text), None, "{text}");
-        }
-    }
-}

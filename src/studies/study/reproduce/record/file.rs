@@ -113,7 +113,10 @@ impl EntryRecord {
     }
 
     /// Findings of the run. Rows that are expressions of printed values are of this program, and come first.
-    pub(super) fn findings(&'static self) -> Result<EntryFindings, StudyError> {
+    ///
+    /// # Errors
+    /// If a figure of the record is unknown or not judged.
+    pub fn findings(&'static self) -> Result<EntryFindings, StudyError> {
         let mut rows = equations(&self.entry)?;
         for row in &self.row {
             rows.push(row.row()?);

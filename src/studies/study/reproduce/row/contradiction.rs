@@ -40,17 +40,3 @@ impl Contradiction {
         self.value
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::tests::target;
-    use super::*;
-
-    #[test]
-    fn what_rounds_to_the_print_does_not_contradict_it() {
-        let rate = target(15.6, 1);
-        assert_eq!(Contradiction::between(&rate, 15.649, "a quotient"), None);
-        let found = Contradiction::between(&rate, 15.7, "a quotient").expect("another value");
-        assert_eq!(found.text(), "15.70 M/s: a quotient");
-    }
-}

@@ -14,11 +14,6 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// Name of the sweep.
-    pub const fn sweep(&self) -> &'static str {
-        self.sweep
-    }
-
     /// Setting at which the row lies within its bound.
     pub fn at(&self) -> &str {
         &self.at

@@ -2,10 +2,11 @@
 
 use super::gather::{EIGHT, GatherCost, VARIANTS, Variant};
 use super::{
-    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Setting, Shared, StudyError, Sweep, failed, number,
+    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, RunResult, Setting, Shared, StudyError, Sweep, number,
     paper_row, paragraph,
 };
 use crate::atlas::Atlas;
+use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::built::meshes;
 
@@ -45,20 +46,23 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (model, _, stand_in) in MODELS {
         rows.push(nodes(model, stand_in)?);
     }
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
+    Ok(EntryFindings::new(
+        [paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
-        tables: vec![storage(), programs(costs), held],
-        questions: vec!["how the authors cluster faces, and which of the two choices of links was timed."],
-        ..EntryFindings::default()
-    })
+        ["how the authors cluster faces, and which of the two choices of links was timed."],
+        [storage(), programs(costs), held],
+    ))
+}
+
+/// Stand-in for a model.
+pub(super) fn mesh(stand_in: &'static str) -> Result<Mesh, StudyError> {
+    meshes::build(stand_in).ok_or_else(|| format!("no stand-in `{stand_in}`")).on(CARD)
 }
 
 /// Row on the number of nodes of the clustering: 2 T - 1.
 fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
-    let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
-    let mesh = meshes::build(stand_in).ok_or_else(missing)?;
-    let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
+    let mesh = mesh(stand_in)?;
+    let atlas = Atlas::new(&mesh, 512).on(CARD)?;
     let ours = (atlas.tree().nodes().len() as f64, Dependence::Counted);
     let row = paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)?;
     let nodes = (2 * mesh.len() - 1) as f64;

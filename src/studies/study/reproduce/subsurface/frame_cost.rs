@@ -6,7 +6,7 @@ use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
 use super::gather::{EIGHT, LINKS};
-use super::{StudyError, failed, no_time};
+use super::{RunResult, StudyError, no_time};
 use crate::atlas::Atlas;
 use crate::card::{MeshView, Texels};
 use crate::geom::Mesh;
@@ -37,16 +37,16 @@ impl FrameCost {
 /// Cost of a model's frame on a card, with fixed links and a map of bytes.
 pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, StudyError> {
     let profile = Profile::named(card)?;
-    let atlas = Atlas::new(mesh, side).map_err(|e| failed(card)(&e))?;
+    let atlas = Atlas::new(mesh, side).on(card)?;
     let kernel = ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex };
-    let shown = MeshView { format: TexelFormat::Bgra8, ..camera(mesh).map_err(|e| failed(card)(&e))?.into() };
+    let shown = MeshView { format: TexelFormat::Bgra8, ..camera(mesh).on(card)?.into() };
     let shown = View { kernel, diffuse: [0.1; 3], ..View::scattered(shown) };
     let sun = Light::Directional { towards: [1.0, -2.0, 3.0], irradiance: [1.0; 3] };
     // Pass 3 begins with the state that pass 2 leaves.
-    let mut machine = model_on(profile.clone(), CardModel::new(&atlas)).map_err(|e| failed(card)(&e))?;
+    let mut machine = model_on(profile.clone(), CardModel::new(&atlas)).on(card)?;
     machine.record(true);
-    machine.light(&[sun]).map_err(|e| failed(card)(&e))?;
-    machine.view_texels(&shown).map_err(|e| failed(card)(&e))?;
+    machine.light(&[sun]).on(card)?;
+    machine.view_texels(&shown).on(card)?;
     let [light, levels, _, view] =
         pass_times(&profile, &machine.take_log()).map_err(no_time)?.map(|pass| pass.time.seconds());
     Ok(FrameCost { light, levels, view })

@@ -4,16 +4,14 @@
 //! Passes 1 and 3 draw the model, so they are drawn with as many faces as the paper's models have. Pass 2 is that of
 //! [`super::gather`]. The window is not printed; ours has as many pixels as the smaller atlas has texels.
 
-use super::counts::MODELS;
+use super::counts::{MODELS, mesh};
 use super::frame_cost::{FrameCost, WINDOW, cost};
 use super::gather::{self, GatherCost, VARIANTS};
 use super::table_1::{DISPLAY, PrintedFrame, SIDES, display_lock};
 use super::{
-    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, failed, number, paper_row, paragraph,
+    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph,
 };
-use crate::geom::Mesh;
 use crate::report::{Cell, Table};
-use crate::scene::built::meshes;
 
 /// Card of Figure 7.
 const OTHER_CARD: &str = "fx5800";
@@ -65,24 +63,18 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     )?);
     let dolphin = |at: usize| number(printed[2 + at].milliseconds(1), 1);
     let [width, height] = WINDOW.map(|pixels| pixels.to_string());
-    Ok(EntryFindings {
-        text: vec![
+    Ok(EntryFindings::new(
+        [
             paragraph(HOW, [width, height]),
             paragraph(LOCK, [number(DISPLAY, 0), number(1e3 / DISPLAY, 1), number(DISPLAY, 0), dolphin(0), dolphin(1)]),
             HOST.into(),
         ],
         rows,
-        tables: vec![table(&frames, &costs[OURS])],
-        questions: vec![
+        [
             "the size of the window, the model of Figure 7, and the host that computed links with what it evaluated for each.",
         ],
-        ..EntryFindings::default()
-    })
-}
-
-fn mesh(stand_in: &'static str) -> Result<Mesh, StudyError> {
-    let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
-    meshes::build(stand_in).ok_or_else(missing)
+        [table(&frames, &costs[OURS])],
+    ))
 }
 
 /// Dependence of values for which nothing printed was used.

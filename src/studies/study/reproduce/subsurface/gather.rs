@@ -8,7 +8,7 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 
-use super::{Shared, StudyError, failed, no_time};
+use super::{RunResult, Shared, StudyError, no_time};
 use crate::atlas::Atlas;
 use crate::card::Texels;
 use crate::geom::Mesh;
@@ -105,9 +105,9 @@ pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, S
     let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
         let profile = Profile::named(card)?;
-        let mut machine = square(profile.clone(), side, variant).map_err(|e| failed(card)(&e))?;
+        let mut machine = square(profile.clone(), side, variant).on(card)?;
         machine.record(true);
-        machine.light(&[Light::Sky { radiance: [1.0; 3] }]).map_err(|e| failed(card)(&e))?;
+        machine.light(&[Light::Sky { radiance: [1.0; 3] }]).on(card)?;
         let log = machine.take_log();
         *seconds = pass_times(&profile, &log).map_err(no_time)?[GATHER].time.seconds();
         found.lookups = lookups(&log);

@@ -81,8 +81,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let apart =
         rows.iter().map(target).fold(0.0, f64::max) / rows.iter().map(target).fold(f64::INFINITY, f64::min) - 1.0;
     let [factors, least, most] = locked(&printed);
-    Ok(EntryFindings {
-        text: vec![
+    Ok(EntryFindings::new(
+        [
             paragraph(
                 LOCKED,
                 [
@@ -98,12 +98,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             paragraph(OPEN, [number(spread, 1)]),
         ],
         rows,
-        tables: vec![variants(costs)?, frames(&printed)],
-        questions: vec![
-            "the format of the radiosity map, the choice of links, and whether waits for the display are in the times.",
-        ],
-        ..EntryFindings::default()
-    })
+        ["the format of the radiosity map, the choice of links, and whether waits for the display are in the times."],
+        [variants(costs)?, frames(&printed)],
+    ))
 }
 
 /// Contradiction of the times of the passes by the display: the rates are those of whole periods, and the shares of the

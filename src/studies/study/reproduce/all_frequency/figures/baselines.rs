@@ -59,12 +59,12 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
         ratios.push(harmonics / ours);
     }
     let sizes = [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, models::points_per_cluster(size), ORDER];
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, sizes.map(|size| number(size as f64, 0)))],
-        rows: vec![solved("harmonics-over-ours", ratios[0])?.with_readings(ratios[1..].iter().copied())],
-        tables: vec![table],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new(
+        [paragraph(HOW, sizes.map(|size| number(size as f64, 0)))],
+        [solved("harmonics-over-ours", ratios[0])?.with_readings(ratios[1..].iter().copied())],
+        [],
+        [table],
+    ))
 }
 
 /// All methods on a scene under the stand-in for the light of St. Peter's.

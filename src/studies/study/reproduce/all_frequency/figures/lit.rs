@@ -1,7 +1,7 @@
 //! Radiance of vertices by compressed factored transfer.
 
 use super::scene::FigureScene;
-use super::{HOST, Shared, StudyError, failed};
+use super::{HOST, RunResult, Shared, StudyError};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -35,13 +35,13 @@ impl Surface<'_> {
             code: CodeOptions::default(),
             kept: shared.kept().map(|kept| (kept, name.as_str())),
         };
-        compression.run(&mut |_, _, _| ()).map_err(|e| failed(HOST)(&e))
+        compression.run(&mut |_, _, _| ()).on(HOST)
     }
 
     /// Radiance of the maps' vertices towards the scene's eye, from encoded transfer.
     pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
         let shader = Shader::new(coded);
-        let transferred = shader.transferred(&light.singles()).map_err(|e| failed(HOST)(&e))?;
+        let transferred = shader.transferred(&light.singles()).on(HOST)?;
         Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
     }
 

@@ -10,7 +10,7 @@ mod terms;
 mod truncation;
 
 use super::{
-    Dependence, EntryFindings, HOST, PaperRow, Shared, StudyError, failed, number, paper_row, paragraph, solved,
+    Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paper_row, paragraph, solved,
 };
 use crate::study::reproduce::ModelSize;
 

@@ -1,6 +1,6 @@
 //! Models of the figures, in printed or reduced size.
 
-use super::{ModelSize, StudyError, failed};
+use super::{ModelSize, RunResult, StudyError};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
 use crate::geom::Mesh;
@@ -58,7 +58,6 @@ pub(super) fn ending(form: &str) -> String {
 
 /// Factors a reflectance by its singular vectors into `terms` terms.
 pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, StudyError> {
-    let table: ProductTable =
-        FactorSampling::default().table(lobe, &mut |_, _| ()).map_err(|e| failed(super::HOST)(&e))?;
-    Factorization::new(&table, terms).map_err(|e| failed(super::HOST)(&e))
+    let table: ProductTable = FactorSampling::default().table(lobe, &mut |_, _| ()).on(super::HOST)?;
+    Factorization::new(&table, terms).on(super::HOST)
 }

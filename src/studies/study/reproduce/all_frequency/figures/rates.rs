@@ -5,7 +5,9 @@ use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
 
 use super::scene::FigureScene;
-use super::{Dependence, EntryFindings, ModelSize, PaperRow, StudyError, failed, models, number, paper_row, paragraph};
+use super::{
+    Dependence, EntryFindings, ModelSize, PaperRow, RunResult, StudyError, models, number, paper_row, paragraph,
+};
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
 use crate::all_frequency::on_card::{ProductPlace, VertexColors};
 use crate::all_frequency::shade::Multiplies;
@@ -68,7 +70,7 @@ pub(super) fn buddha_without_drawing(share: f64) -> Multiplies {
 
 /// Seconds on the host of Table 1.
 pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, StudyError> {
-    let host = host_of_table_1().map_err(|e| failed(super::HOST)(&e))?;
+    let host = host_of_table_1().on(super::HOST)?;
     Ok(host.time_of(HostOperation::MultiplyAdd, steps.per_cluster + steps.per_vertex).seconds())
 }
 
@@ -89,8 +91,8 @@ fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, Study
         let (of_vertices, steps) = of_ground(omega);
         log.extend(frame(of_vertices, 1, steps).log(&place));
     }
-    let (profile, host) = (Profile::named(CARD)?, host_of_table_1().map_err(|e| failed(super::HOST)(&e))?);
-    frame_time(&profile, &log, &host).map_err(|e| failed(CARD)(&e))
+    let (profile, host) = (Profile::named(CARD)?, host_of_table_1().on(super::HOST)?);
+    frame_time(&profile, &log, &host).on(CARD)
 }
 
 fn rate_row(id: &str, time: &FrameTime) -> Result<PaperRow, StudyError> {
@@ -98,7 +100,7 @@ fn rate_row(id: &str, time: &FrameTime) -> Result<PaperRow, StudyError> {
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
-    let teapot = teapot(if size == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))?;
+    let teapot = teapot(if size == ModelSize::Printed { 40 } else { 4 }).on(super::HOST)?;
     let scene = FigureScene::new(&teapot, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
     let census = SegmentCensus::new(&scene.vertices, &scene.of_ground, &scene.hats);
     let omega = census.omega();
@@ -125,5 +127,5 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     let figures =
         [number(f64::from(GROUND_SIDE * GROUND_SIDE), 0), number(100.0 * omega, 0), number(RUN_PER_TRIANGLE, 1)];
     let text = vec![paragraph(HOW, figures)];
-    Ok(EntryFindings { text, rows, tables: vec![table], ..EntryFindings::default() })
+    Ok(EntryFindings::new(text, rows, [], [table]))
 }

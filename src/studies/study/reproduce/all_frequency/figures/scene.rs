@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::scene::Camera;
@@ -33,20 +33,18 @@ pub(super) struct FigureScene {
 impl FigureScene {
     /// Creates the scene, seen from an eye in units of the model's size, relative to its center.
     pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3) -> Result<Self, StudyError> {
-        let problem = |reason: &dyn std::fmt::Display| failed(HOST)(reason);
-        let (mesh, materials) = on_ground(model, ground).map_err(|e| problem(&e))?;
-        let vertices =
-            Vertices::with_materials(&mesh, &materials, Tangents::Along(DVec3::Z)).map_err(|e| problem(&e))?;
+        let (mesh, materials) = on_ground(model, ground).on(HOST)?;
+        let vertices = Vertices::with_materials(&mesh, &materials, Tangents::Along(DVec3::Z)).on(HOST)?;
         let is_ground = |&vertex: &u32| vertices.materials()[vertex as usize] == 1;
         let (ground, own): (Vec<u32>, Vec<u32>) = (0..vertices.len() as u32).partition(is_ground);
         let mut tracer = HostTracer::new(&mesh, Sides::Both);
         let mut maps = |of: &[u32]| VisibilityMaps::trace(&vertices, of, &mut tracer, &mut |_, _| ());
-        let (of_model, of_ground) = (maps(&own).map_err(|e| problem(&e))?, maps(&ground).map_err(|e| problem(&e))?);
+        let (of_model, of_ground) = (maps(&own).on(HOST)?, maps(&ground).on(HOST)?);
         let [low, high] = model.bounds().unwrap_or_default().map(|corner| DVec3::from(corner.map(f64::from)));
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
         let place = (middle + size * eye).as_vec3().to_array();
         let camera = Camera::new(place, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.3, SIDE, SIDE);
-        let camera = camera.map_err(|e| problem(&e))?;
+        let camera = camera.on(HOST)?;
         let seen = SeenSurface::new(&mesh, &vertices, &camera);
         Ok(Self { vertices, of_model, of_ground, hats: LinearBasis::new(BasisWidth::default()), camera, seen })
     }
@@ -78,5 +76,5 @@ impl FigureScene {
 /// Stand-in for the light of St. Peter's: [`HARD_SUN`].
 pub(super) fn stand_in() -> Result<CubeLight, StudyError> {
     let cube = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
-    cube.map_err(|e| failed(HOST)(&e))
+    cube.on(HOST)
 }

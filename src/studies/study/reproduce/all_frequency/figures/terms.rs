@@ -20,5 +20,5 @@ pub(super) fn figure() -> Result<EntryFindings, StudyError> {
     }
     let row = solved("one-term-over-ten", falls[0])?.with_readings(falls[1..].iter().copied());
     let row = row.confined([1.0, f64::INFINITY], "each term is a singular value, whose square leaves the error");
-    Ok(EntryFindings { text: vec![HOW.to_owned()], rows: vec![row], tables: vec![table], ..EntryFindings::default() })
+    Ok(EntryFindings::new([HOW.to_owned()], [row], [], [table]))
 }

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::rates::{buddha_without_drawing, seconds_of};
 use super::scene::FigureScene;
-use super::{EntryFindings, HOST, ModelSize, PaperRow, StudyError, failed, models, number, paragraph, solved};
+use super::{EntryFindings, HOST, ModelSize, PaperRow, RunResult, StudyError, models, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
@@ -45,12 +45,12 @@ fn sources() -> Vec<DiskSource> {
 
 /// Projects the light of the sources to coefficients on six faces.
 fn on_faces(turn: &DMat3) -> Result<HaarLight, StudyError> {
-    let cube = CubeLight::from_disks(&sources(), turn, Decimation::SolidAngle).map_err(|e| failed(HOST)(&e))?;
+    let cube = CubeLight::from_disks(&sources(), turn, Decimation::SolidAngle).on(HOST)?;
     Ok(HaarLight::new(&cube, Segmentation::Faces))
 }
 
 fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, StudyError> {
-    let cut = light.truncated(keep, TruncationPriority::Area).map_err(|e| failed(HOST)(&e))?;
+    let cut = light.truncated(keep, TruncationPriority::Area).on(HOST)?;
     Ok(cut.light.reprojected(Segmentation::Quarters))
 }
 
@@ -112,7 +112,7 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
     let hats: &LinearBasis = &scene.hats;
     let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
-    let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().map_err(|e| failed(HOST)(&e))?;
+    let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().on(HOST)?;
     let frames = FlickerFrames::new(&segments, scene.vertices.len())?;
     let flicker = frames.flicker();
     let faces = on_faces(&DMat3::IDENTITY)?;
@@ -137,7 +137,7 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
         number(f64::from(FRAMES - 1), 0),
     ];
     let text = vec![paragraph(HOW, figures)];
-    Ok(EntryFindings { text, rows, tables: vec![table], ..EntryFindings::default() })
+    Ok(EntryFindings::new(text, rows, [], [table]))
 }
 
 fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, StudyError> {

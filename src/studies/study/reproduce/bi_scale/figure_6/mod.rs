@@ -8,7 +8,7 @@ use glam::DMat3;
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
 use super::{
-    EntryFindings, HOST, ModelSize, PaperRow, Shared, StudyError, failed, number, paragraph, printed_value, solved,
+    EntryFindings, HOST, ModelSize, PaperRow, RunResult, Shared, StudyError, number, paragraph, printed_value, solved,
 };
 use crate::bi_scale::baselines::{HaarRowOptions, LocalTransfer, RowClusterOptions};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
@@ -40,39 +40,36 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         ModelSize::Printed => (FlatModel::Chair.model(1).mesh, 8192),
     };
     let (seen, directions) = (ModelVisibility::new(&mesh, Horizon::Normal)?, LocalDirections::new(SCENES[2].side));
-    let (matrix, directions) = (seen.matrix(SCENES[2].side)?, directions.map_err(|error| failed(HOST)(&error))?);
-    let biclusters =
-        bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
+    let (matrix, directions) = (seen.matrix(SCENES[2].side)?, directions.on(HOST)?);
+    let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).on(HOST)?;
     let transfer = LocalTransfer::new(&matrix, seen.vertices.frames(), &directions);
     let comparison = StoredComparison {
         matrix: &matrix,
         biclusters: &biclusters,
-        transfer: Some(transfer.map_err(|error| failed(HOST)(&error))?),
+        transfer: Some(transfer.on(HOST)?),
         clusters: RowClusterOptions { sample, ..RowClusterOptions::default() },
         wavelets: HaarRowOptions::default(),
         order: ORDER,
     };
     let lights = lights()?;
-    let ways = comparison.ways(&lights, &mut |_, _, _| (), &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
+    let ways = comparison.ways(&lights, &mut |_, _, _| (), &mut |_, _| ()).on(HOST)?;
     let RowClusterOptions { clusters, vectors, sample, rounds, .. } = comparison.clusters;
     let sizes = [SCENES[2].vertices()?, seen.vertices.len(), clusters, vectors, sample, rounds]
         .into_iter()
         .chain([comparison.wavelets.keep, ORDER])
         .map(|size| number(size as f64, 0));
-    Ok(EntryFindings {
-        text: vec![paragraph(HOW, sizes), CAPTIONS.into()],
-        rows: rows(&matrix, &biclusters)?,
-        questions: vec![QUESTION],
-        tables: vec![stored_ways_table("Ways to store transfer", &ways, &["sky", "disks"]), chair_sizes()?],
-        ..EntryFindings::default()
-    })
+    Ok(EntryFindings::new(
+        [paragraph(HOW, sizes), CAPTIONS.into()],
+        rows(&matrix, &biclusters)?,
+        [QUESTION],
+        [stored_ways_table("Ways to store transfer", &ways, &["sky", "disks"]), chair_sizes()?],
+    ))
 }
 
 /// Two lights: a clear sky with a small sun, and two disks in dim light.
 fn lights() -> Result<[LightChannels; 2], StudyError> {
     let of = |light: DistantLight| -> Result<LightChannels, StudyError> {
-        let cube: CubeLight =
-            light.cube(&DMat3::IDENTITY, Decimation::SolidAngle).map_err(|error| failed(HOST)(&error))?;
+        let cube: CubeLight = light.cube(&DMat3::IDENTITY, Decimation::SolidAngle).on(HOST)?;
         Ok(light_vectors(&cube).to_vec())
     };
     Ok([of(DistantLight::Sky(HARD_SUN))?, of(DistantLight::RedAndBlue)?])
@@ -81,7 +78,7 @@ fn lights() -> Result<[LightChannels; 2], StudyError> {
 /// Rows on sizes and on what is lost. That the artifacts of the other ways are severe is no figure: their errors stand
 /// in the table.
 fn rows(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Vec<PaperRow>, StudyError> {
-    let sum = biclusters.sum().map_err(|error| failed(HOST)(&error))?;
+    let sum = biclusters.sum().on(HOST)?;
     let given_back = (0..matrix.rows()).filter(|&row| matrix.row(row) == sum.row(row)).count();
     let share = 100.0 * given_back as f64 / matrix.rows() as f64;
     let lossless = solved("lossless", share)?.confined([100.0; 2], "Algorithm 1 moves values, and rounds none");

@@ -1,7 +1,7 @@
 //! Pictures of a figure: by transfer, by rays, by low-frequency light, and of the sources of error.
 
 use super::scene::{FigureSize, TexturedModel};
-use super::{HOST, StudyError, failed};
+use super::{HOST, RunResult, StudyError};
 use crate::bi_scale::baselines::{HarmonicRows, LocalTransfer, StoredTransfer};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
@@ -21,14 +21,13 @@ pub(super) struct DrawnFigure {
 impl DrawnFigure {
     /// Draws a model with `side` local directions along an edge.
     pub(super) fn new(model: &TexturedModel, side: usize, size: FigureSize) -> Result<Self, StudyError> {
-        let fail = failed(HOST);
         let rendering = model.rendering(side, size)?;
-        let drawing = BiScaleDrawing::new(&rendering).map_err(|e| fail(&e))?;
-        let cube = drawing.cube().map_err(|e| fail(&e))?;
-        let local = drawing.local(&cube).map_err(|e| fail(&e))?;
+        let drawing = BiScaleDrawing::new(&rendering).on(HOST)?;
+        let cube = drawing.cube().on(HOST)?;
+        let local = drawing.local(&cube).on(HOST)?;
         let drawn = drawing.shade(&local.rows);
-        let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).map_err(|e| fail(&e))?;
-        let matrix = rendering.file.matrix.as_ref().ok_or_else(|| fail(&"a rendering without its matrix"))?;
+        let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).on(HOST)?;
+        let matrix = rendering.file.matrix.as_ref().ok_or("a rendering without its matrix").on(HOST)?;
         let low = low_frequency(&rendering, matrix, side, &light_vectors(&cube))?;
         Ok(Self { causes, smooth: drawing.shade(&low) })
     }
@@ -46,10 +45,8 @@ fn low_frequency(
     side: usize,
     channels: &[Vec<f64>; 3],
 ) -> Result<Vec<[f64; 3]>, StudyError> {
-    let fail = failed(HOST);
-    let directions = LocalDirections::new(side).map_err(|e| fail(&e))?;
-    let transfer =
-        LocalTransfer::new(matrix, rendering.surface.vertices.frames(), &directions).map_err(|e| fail(&e))?;
-    let rows = HarmonicRows::of_both(&transfer, ORDER).map_err(|e| fail(&e))?;
+    let directions = LocalDirections::new(side).on(HOST)?;
+    let transfer = LocalTransfer::new(matrix, rendering.surface.vertices.frames(), &directions).on(HOST)?;
+    let rows = HarmonicRows::of_both(&transfer, ORDER).on(HOST)?;
     Ok(side_by_side(channels.each_ref().map(|channel| rows.multiply(channel))))
 }

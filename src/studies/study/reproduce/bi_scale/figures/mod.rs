@@ -4,7 +4,7 @@ mod drawn;
 mod scene;
 
 use super::models::ModelVisibility;
-use super::{EntryFindings, HOST, ModelSize, PaperRow, Shared, StudyError, failed, number, paragraph, solved};
+use super::{EntryFindings, HOST, ModelSize, PaperRow, RunResult, Shared, StudyError, number, paragraph, solved};
 use crate::bi_scale::texture::PatchKind;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
@@ -26,12 +26,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let size = FigureSize::new(shared.models);
     let FigureSize { picture: [width, height], texels, views, .. } = size;
     let sizes = [width as usize, height as usize, texels, texels, views, views, ORDER];
-    let mut found = EntryFindings {
-        text: vec![paragraph(HOW, sizes.map(|size| number(size as f64, 0)))],
-        rows: vec![nonzero_share(size.coarser)?],
-        questions: vec![QUESTION],
-        ..EntryFindings::default()
-    };
+    let mut found = EntryFindings::new(
+        [paragraph(HOW, sizes.map(|size| number(size as f64, 0)))],
+        [nonzero_share(size.coarser)?],
+        [QUESTION],
+        [],
+    );
     let mut smooth = Table::of(
         "Low frequency beside biclusters: off the picture by rays, and off that with the same textures",
         "figure biclusters_% low_frequency_% biclusters_with_textures_% low_frequency_with_textures_%",

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{HARD_SUN, HOST, Horizon, ModelSize, ModelVisibility, StudyError, failed};
+use super::{HARD_SUN, HOST, Horizon, ModelSize, ModelVisibility, RunResult, StudyError};
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
@@ -53,11 +53,10 @@ impl TexturedModel {
     /// Computes the transfer to `side` local directions along an edge as biclusters, the texture and a camera, under a
     /// clear sky with a sun.
     pub(super) fn rendering(&self, side: usize, size: FigureSize) -> Result<BiScaleRendering, StudyError> {
-        let fail = failed(HOST);
         let mesh = &self.mesh;
         let seen = ModelVisibility::new(mesh, Horizon::Normal)?;
         let matrix = seen.matrix(side)?;
-        let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|e| fail(&e))?;
+        let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).on(HOST)?;
         let meaning =
             BiScaleMeaning { mesh: MeshDigest::new(&seen.vertices), side: side as u32, horizon: Horizon::Normal };
         let file = BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters: Some(biclusters) };
@@ -69,7 +68,7 @@ impl TexturedModel {
                 camera: self.camera(size.picture)?,
                 exposure: None,
             },
-            surface: surface.map_err(|e| fail(&e))?,
+            surface: surface.on(HOST)?,
             file,
             textures: vec![self.texture(side, size)?],
             light: DistantLight::Sky(HARD_SUN),
@@ -78,12 +77,11 @@ impl TexturedModel {
     }
 
     fn texture(&self, side: usize, size: FigureSize) -> Result<SurfaceTexture, StudyError> {
-        let fail = failed(HOST);
-        let directions = |side| LocalDirections::new(side).map_err(|e| fail(&e));
+        let directions = |side| LocalDirections::new(side).on(HOST);
         let (view, light) = (directions(size.views)?, directions(side)?);
         let sampling = TextureSampling { size: size.texels, view, light, samples: 1 };
         let patch = self.patch.patch(1.0);
-        let samples = patch.texture(&sampling, &mut |_, _| ()).map_err(|e| fail(&e))?;
+        let samples = patch.texture(&sampling, &mut |_, _| ()).on(HOST)?;
         Ok(SurfaceTexture { name: self.patch.to_string(), samples, patch: Some(patch) })
     }
 
@@ -93,6 +91,6 @@ impl TexturedModel {
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
         let points: Vec<DVec3> = self.mesh.positions().iter().map(|&at| wide(at)).collect();
         let view = framed(middle + size * EYE, &points, f64::from(width) / f64::from(height));
-        view.camera(width, height).map_err(|e| failed(HOST)(&e))
+        view.camera(width, height).on(HOST)
     }
 }

@@ -1,0 +1,190 @@
+//! The page that compares a GPU with the emulator, by its data.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::LazyLock;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use crossbar_base::geom::exact::Sides;
+use crossbar_studies::study::page::page;
+use crossbar_systems::ray_engine::Kernel;
+use refsim::device::Profile;
+use refsim::exec::wgsl::program::PixelShader;
+use refsim::exec::{Constants, PixelBindings, SamplerBinding};
+use refsim::num::{Format, NumberOperation, to_f64};
+use refsim::texture::{Image, SamplerState, TexelFormat};
+use serde_json::Value;
+
+/// Operand sets of an operation in a format.
+const SETS: usize = 2048;
+
+/// The data of the page, as its script reads it.
+static DATA: LazyLock<Value> = LazyLock::new(|| {
+    let page = page(None, &mut |_, _, _| {}).expect("the page is written");
+    let (_, data) = page.split_once("type=\"application/json\">").expect("the data");
+    serde_json::from_str(data.split_once("</script>").expect("its end").0).expect("JSON")
+});
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("a list")
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().expect("a text")
+}
+
+fn words(value: &Value) -> Vec<u32> {
+    list(value).iter().map(|word| word.as_u64().expect("a number") as u32).collect()
+}
+
+fn assets(extension: &str) -> Vec<(PathBuf, String)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("study/page/assets");
+    let files = fs::read_dir(folder).expect("the assets").map(|file| file.expect("a file").path());
+    let files = files.filter(|path| path.extension().is_some_and(|found| found == extension));
+    files.map(|path| (path.clone(), fs::read_to_string(path).expect("text"))).collect()
+}
+
+/// The script fetches nothing and does not end its own element.
+#[test]
+fn the_script_stands_alone() {
+    let parts = assets("js");
+    assert!(parts.len() > 10);
+    for word in ["http", "fetch(", "import", "XMLHttp", "WebSocket", "eval", "innerHTML", "</", "<!--"] {
+        assert!(parts.iter().all(|(_, part)| !part.contains(word)), "{word}");
+    }
+}
+
+/// Every color of the sheet is a variable of the reports' sheet, so that a dark page uses no color of a light one.
+#[test]
+fn the_sheet_has_no_color_of_its_own() {
+    let [(_, css)] = &assets("css")[..] else { panic!("one sheet") };
+    assert!(!css.contains("rgb(") && !css.contains(": #"));
+}
+
+/// Results of an operation in a format, set by set.
+fn results(operation: &str, format: &str) -> Vec<u32> {
+    let arithmetic = &DATA["arithmetic"];
+    let at = |list_name: &str, name: &str| {
+        let found = list(&arithmetic[list_name]).iter().position(|entry| entry["name"] == name);
+        found.unwrap_or_else(|| panic!("no {name}"))
+    };
+    let bytes = STANDARD.decode(text(&arithmetic["expected"][at("operations", operation)][at("formats", format)]));
+    let bytes = bytes.expect("base64");
+    let size = bytes.len() / SETS;
+    bytes.chunks(size).map(|word| word.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte))).collect()
+}
+
+#[test]
+fn every_format_is_one_and_every_operation_has_results() {
+    let arithmetic = &DATA["arithmetic"];
+    for (column, entry) in list(&arithmetic["formats"]).iter().enumerate() {
+        let name = text(&entry["name"]);
+        let format: Format = name.parse().expect("a format");
+        assert_eq!(format.to_string(), name, "the canonical name");
+        for (row, operation) in list(&arithmetic["operations"]).iter().enumerate() {
+            let bytes = STANDARD.decode(text(&arithmetic["expected"][row][column])).expect("base64");
+            assert_eq!(bytes.len(), SETS * format.width().div_ceil(8) as usize, "{name} {operation}");
+            assert!(bytes.iter().any(|byte| *byte != 0), "{name} {operation}");
+            assert!(operation["shader"].as_u64() < Some(list(&arithmetic["shaders"]).len() as u64));
+        }
+    }
+}
+
+/// A page that made other operands would call a right GPU wrong: results are those of what the page's script makes.
+#[test]
+fn operands_are_those_of_the_script() {
+    let script = [
+        [0x8000_0001, 0x7fff_ffff, 0xc051_1094],
+        [0xc058_1d02, 0xc084_a859, 0x40ae_1611],
+        [0x7f80_0000, 0x7efe_b5a0, 0xd1f0_4361],
+        [0x70a2_6012, 0xc8ad_abe1, 0x60ed_0ff8],
+    ];
+    let expected = script
+        .map(|operands| NumberOperation::Sub.evaluate(Format::FP32, operands).expect("an operation of floats").bits);
+    assert_eq!(results("sub", "e8m23")[..4], expected);
+}
+
+/// Zeros, subnormals, infinities, NaN and neighbours are among the operands of float formats: the smaller and the larger
+/// of two operands is one of them, and only neighbours have quotients beside 1.
+#[test]
+fn operands_reach_the_corners_of_a_format() {
+    for (name, format) in [("e5m10", Format::FP16), ("e8m23", Format::FP32)] {
+        let sign = 1 << (format.width() - 1);
+        let operands = [results("min", name), results("max", name)].concat();
+        let infinity = results("rcp", name).into_iter().find(|bits| format.is_infinite(*bits)).expect("1 / 0") & !sign;
+        let one = results("exp2", name).into_iter().find(|bits| to_f64(&format, *bits) == 1.0).expect("2^0");
+        for (what, found) in [
+            ("zero", operands.iter().any(|&x| x & !sign == 0)),
+            ("subnormal", operands.iter().any(|&x| format.is_subnormal(x))),
+            ("infinity", operands.iter().any(|&x| x & !sign == infinity)),
+            ("NaN", results("add", name).iter().any(|&x| format.is_nan(x))),
+            ("two neighbours", results("div", name).iter().any(|&x| x != one && x.abs_diff(one) <= 3)),
+        ] {
+            assert!(found, "{name}: {what}");
+        }
+    }
+}
+
+/// The text of each shader has its own entry point and no operation of the others.
+#[test]
+fn shaders_hold_what_they_run() {
+    let shaders = list(&DATA["arithmetic"]["shaders"]);
+    assert_eq!(shaders.len(), 3);
+    for shader in shaders {
+        let (entry, text) = (text(&shader["entry"]), text(&shader["text"]));
+        assert_eq!(text.matches("@compute").count(), 1, "{entry}");
+        assert!(text.contains(&format!("fn {entry}(")));
+        assert_eq!(text.contains("fn n_circle("), entry == "circle_main", "{entry}");
+    }
+}
+
+/// The intersection program of a format in the machine's code.
+fn microcode(format: &str) -> Vec<u32> {
+    let profile = Profile::named(&format!("ideal-{format}")).expect("a device");
+    let kernel = Kernel::choose(&profile, true, Sides::Front).expect("a program");
+    let constants = Constants { float: vec![[0.5_f32.to_bits(), 0, 0, 0]], ..Constants::default() };
+    let image = Image::new_2d(TexelFormat::Rg16Snorm, 1, 1).expect("a texture");
+    let mut bindings = PixelBindings::new(&constants);
+    bindings.samplers[..3].fill(Some(SamplerBinding { image: &image, state: SamplerState::NEAREST_CLAMP }));
+    PixelShader::new(&kernel.pixel, &profile.rules, &bindings, false).microcode(None).expect("it fits").words
+}
+
+/// The page changes these words alone when the visitor chooses another format: the code of all fixed-point formats
+/// of at most 24 bits is the same but for them, and so is that of all floats. The code of single precision leaves
+/// out conversions from single precision to itself, which change nothing.
+#[test]
+fn one_program_serves_all_formats_of_its_kind() {
+    let [fixed, float] = ["fixed", "float"].map(|kind| &DATA["teapot"][kind]);
+    for (format, one) in [("s1.10", 1 << 10), ("s7.16", 1 << 16), ("s3.4:rtz:wrap", 1 << 4), ("s0.15", 0x7fff)] {
+        let mut changed = words(&fixed["words"]);
+        words(&fixed["ones"]).into_iter().for_each(|at| changed[at as usize] = one);
+        assert_eq!(changed, microcode(format), "{format}");
+    }
+    let code = words(&float["words"]);
+    assert!(list(&float["ones"]).is_empty() && list(&float["depth_scales"]).len() == 1);
+    for format in ["e5m10", "e8m23:rtz", "e8m22", "e5m2:rtz:ftz", "e4m3:rdn"] {
+        assert_eq!(code, microcode(format), "{format}");
+    }
+    // First word of a conversion, which has two more.
+    const CONVERSION: u32 = 4 | (NumberOperation::Convert as u32) << 16;
+    let conversions = |words: &[u32]| words.iter().filter(|&&word| word == CONVERSION).count();
+    let single = microcode("e8m23");
+    assert_eq!(conversions(&single), 0);
+    assert_eq!(single.len() + 3 * conversions(&code), code.len());
+}
+
+/// FNV-1a of 64 bits (Fowler, Noll and Vo), of the bytes that are stored beside each digest.
+#[test]
+fn digests_are_of_the_hits_beside_them() {
+    let fnv = |bytes: &[u8]| {
+        bytes
+            .iter()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(1_099_511_628_211))
+    };
+    let pictures = list(&DATA["teapot"]["views"]).iter().flat_map(|view| list(&view["pictures"]));
+    for picture in pictures {
+        let hits = STANDARD.decode(text(&picture["hits"])).expect("base64");
+        assert_eq!(text(&picture["digest"]), format!("{:016x}", fnv(&hits)));
+    }
+}

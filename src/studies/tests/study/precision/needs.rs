@@ -1,0 +1,269 @@
+//! What a format and an instruction need, of a subject whose values and results are chosen.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::fmt::Debug;
+use std::rc::Rc;
+
+use crossbar_studies::study::StudyError;
+use crossbar_studies::study::precision::{
+    FragmentResults, Goal, Measured, PrecisionMeasure, RoundedInstruction, SampledResults, StudiedProgram,
+};
+use proptest::prelude::*;
+
+use super::*;
+
+const MEASURE: &str = "largest_absolute";
+
+/// Values of the measure by the formats of the two instructions; `None` is exact.
+type Values = Box<dyn Fn([Option<Layout>; 2]) -> f64>;
+
+/// Case of two moves whose values and results are those that are told.
+pub(super) struct Told {
+    case: CaseSubject,
+    goal: String,
+    family: FormatFamily,
+    values: Values,
+    /// Results of each instruction: exact ones, and those in any other format.
+    results: [Vec<f64>; 2],
+    /// Formats of all runs.
+    seen: Rc<RefCell<BTreeSet<[Option<String>; 2]>>>,
+}
+
+impl Told {
+    fn new(family: FormatFamily, goal: &str, values: impl Fn([Option<Layout>; 2]) -> f64 + 'static) -> Self {
+        Self {
+            case: subject(&case("mov r0, c0", "c0 = [1, 1, 1, 1]")),
+            goal: format!("{MEASURE}{goal}"),
+            family,
+            values: Box::new(values),
+            results: [Vec::new(), Vec::new()],
+            seen: Rc::default(),
+        }
+    }
+
+    /// Subject that needs a format of at least this many bits of range and of precision everywhere.
+    pub(super) fn minimum(text: &str) -> Self {
+        let least = Layout::of(text);
+        let misses = move |format: Layout| format.range < least.range || format.digits < least.digits;
+        Self::new(least.family, "=0", move |formats| f64::from(u8::from(formats.into_iter().flatten().any(misses))))
+    }
+
+    /// Subject whose exact value meets the goal; with both instructions in a format of less than 8 digits the value is
+    /// `both`, and with one alone that of the instruction.
+    fn shares(goal: &str, exact: f64, both: f64, alone: [f64; 2]) -> Self {
+        Self::new(FormatFamily::Float, goal, move |formats| {
+            match formats.map(|format| format.is_some_and(|format| format.digits < 8)) {
+                [false, false] => exact,
+                [true, false] => alone[0],
+                [false, true] => alone[1],
+                [true, true] => both,
+            }
+        })
+    }
+
+    /// Subject of values by the number of digits, from 1 on, and the last value for all more.
+    fn curve(values: &'static [f64]) -> Self {
+        Self::new(FormatFamily::Float, "<=1", move |formats| {
+            let value = |format: Layout| values[usize::from(format.digits).min(values.len()) - 1];
+            formats.into_iter().flatten().map(value).fold(0.0, f64::max)
+        })
+    }
+
+    pub(super) fn study(self) -> Precision {
+        let (goal, family) = (self.goal.clone(), self.family);
+        study_of(Box::new(self), &goal, &[family])
+    }
+}
+
+impl PrecisionSubject for Told {
+    fn title(&self) -> String {
+        self.case.title()
+    }
+
+    fn profile(&self) -> &Profile {
+        self.case.profile()
+    }
+
+    fn programs(&self) -> Vec<StudiedProgram<'_>> {
+        self.case.programs()
+    }
+
+    fn measures(&self) -> &[PrecisionMeasure] {
+        self.case.measures()
+    }
+
+    fn default_goal(&self) -> Goal {
+        self.case.default_goal()
+    }
+
+    fn content(&self) -> &dyn Debug {
+        self.case.content()
+    }
+
+    fn measure(&self, profile: &Profile, _: ExecutorKind, _: Option<&str>) -> Result<Measured, StudyError> {
+        let formats: Vec<_> = profile.instruction_formats().iter().flat_map(|(_, formats)| formats).collect();
+        let text = |at: usize| {
+            let (_, format) = formats.iter().find(|(index, _)| **index == at)?;
+            Some(format.to_string().split(':').next().expect("a layout").to_owned())
+        };
+        let texts = [text(0), text(1)];
+        let value = (self.values)(texts.each_ref().map(|text| text.as_deref().map(Layout::of)));
+        self.seen.borrow_mut().insert(texts);
+        Ok(Measured { values: vec![(MEASURE, value)], ..Measured::default() })
+    }
+
+    fn results(&self, _: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
+        let [exact, other] = self.results.each_ref().map(|values| {
+            (0..).zip(values).map(|(fragment, value)| ((fragment, 0), *value)).collect::<FragmentResults>()
+        });
+        let all = (0..2).map(|at| (at, exact.clone())).collect();
+        Ok(SampledResults { exact: vec![all], rounded: vec![other; rounded.len()] })
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Whatever the fewest bits of a family are, they are found, as a format of the emulator and its device file; each
+    /// format that is refuted has one bit less, and nothing is narrower than the narrowest. Fixed point keeps two
+    /// integer bits to spare.
+    #[test]
+    fn the_fewest_bits_are_found((is_float, range, digits) in (any::<bool>(), 0..=8_u8, 0..=23_u8)) {
+        let minimum = if is_float {
+            Layout { family: FormatFamily::Float, range: range.max(2), digits: digits.max(1) }
+        } else {
+            Layout { family: FormatFamily::Fixed, range, digits: digits.min(29 - range).max(u8::from(range == 0)) }
+        };
+        let text = minimum.to_string();
+        let study = Told::minimum(&text).study();
+        let document = document(&study);
+        prop_assert_eq!(&document["families"][0]["minimum"], &text);
+        let name = if is_float { "float" } else { "fixed" };
+        let format: Format = text.parse().expect("a format");
+        prop_assert_eq!(texts(&document, &format!("mixed_{name}"), "format"), [&*text; 2]);
+        prop_assert_eq!(column(&document, &format!("mixed_{name}"), "bits"), [format.width(); 2]);
+        for (_, formats) in mixed_device(&study).instruction_formats().iter() {
+            prop_assert!(formats.values().all(|own| *own == format));
+        }
+        let points = texts(&document, "curve", "format").into_iter().zip(column(&document, "curve", "bits"));
+        for (point, width) in points {
+            prop_assert_eq!(point.parse::<Format>().expect("a format").width(), width.as_u64().expect("bits") as u32);
+        }
+        let less = minimum.narrower();
+        prop_assert_eq!(texts(&document, &format!("refuted_{name}"), "format"), [&*less, &*less].concat());
+        for less in less {
+            prop_assert_eq!(less.parse::<Format>().expect("a format").width() + 1, format.width());
+        }
+    }
+}
+
+#[test]
+fn the_narrowest_formats_tell_nothing() {
+    for minimum in ["e2m1", "s0.1"] {
+        let said = findings(&Told::minimum(minimum).study()).conclusions().join(" ");
+        assert!(said.contains(&format!("down to {minimum}: it tells nothing")), "{said}");
+    }
+}
+
+#[test]
+fn rules_of_a_card_are_kept_within_its_family() {
+    for (minimum, expected) in [("e4m3", "e4m3:rtz:nvovf:ftz"), ("s4.3", "s4.3:rtz")] {
+        let text = case("mov r0, c0", "c0 = [1, 1, 1, 1]").replace("fp32", "e5m10:rtz:ftz:nvovf");
+        let study = Told { case: subject(&text), ..Told::minimum(minimum) }.study();
+        let device = mixed_device(&study);
+        let found: Vec<String> =
+            device.instruction_formats().iter().flat_map(|(_, own)| own.values()).map(Format::to_string).collect();
+        assert_eq!(found, [expected; 2]);
+    }
+}
+
+/// The fewest bits of all instructions are found with few runs, and those of one with a bisection.
+#[test]
+fn a_falling_error_is_bisected() {
+    for smallest in 1..=23_u8 {
+        let told = Told::new(FormatFamily::Float, "<=1", move |formats| {
+            let value = |format: Layout| 1.5 * (f64::from(smallest) - f64::from(format.digits) - 1.0).exp2();
+            formats.into_iter().flatten().map(value).fold(0.0, f64::max)
+        });
+        let seen = Rc::clone(&told.seen);
+        let document = document(&told.study());
+        let family = &document["families"][0];
+        assert_eq!((digits(&family["minimum"]), &family["counterexample"]), (Some(smallest), &Value::Null));
+        assert!(column(&document, "curve", "format").len() <= 13);
+        assert_eq!(column(&document, "instructions_float", "alone"), [smallest; 2]);
+        // One run more is for the blame.
+        let alone = seen.borrow().iter().filter(|formats| formats[0].is_some() && formats[1].is_none()).count();
+        assert!(alone <= 7 + 1, "{alone} runs");
+    }
+    assert_eq!(document(&Told::curve(&[4.0, 3.0, 2.0]).study())["families"][0]["minimum"], Value::Null);
+}
+
+#[test]
+fn a_rising_error_is_scanned_and_named() {
+    let family = |values: &'static [f64]| {
+        let document = document(&Told::curve(values).study());
+        let family = &document["families"][0];
+        let points = column(&document, "curve", "format").len();
+        (digits(&family["minimum"]), family["counterexample"].clone(), points)
+    };
+    assert_eq!(family(&[9.0, 0.5, 3.0, 0.5, 0.25, 0.0]), (Some(4), serde_json::json!([2, 3]), 23));
+    // All bits from 2 on meet the goal, although one is worse.
+    assert_eq!(family(&[9.0, 0.5, 0.75, 0.5]).0, Some(2));
+    // The most bits are worse than all others.
+    const LAST: [f64; 23] = {
+        let mut values = [0.0; 23];
+        values[22] = 9.0;
+        values
+    };
+    assert_eq!(family(&LAST).0, None);
+}
+
+#[test]
+fn ranges_are_binary_exponents() {
+    let least = f64::from(f32::from_bits(1));
+    let told = Told { results: [vec![0.0, -0.75, 8.0, 15.9, f64::NAN, least], Vec::new()], ..Told::minimum("e8m3") };
+    let found = document(&told.study());
+    assert_eq!(column(&found, "instructions_float", "exponents"), ["-149 to 3"; 2]);
+    assert_eq!(column(&found, "instructions_float", "note"), ["infinite or NaN"; 2]);
+    let found = document(&Told { results: [vec![0.0], Vec::new()], ..Told::minimum("e8m3") }.study());
+    assert_eq!(column(&found, "instructions_float", "exponents"), [&Value::Null; 2]);
+    assert_eq!(column(&found, "instructions_float", "note"), [&Value::Null; 2]);
+}
+
+#[test]
+fn errors_are_in_units_of_the_format() {
+    let error = |minimum: &str, exact: &[f64], rounded: &[f64]| {
+        let told = Told { results: [exact.to_vec(), rounded.to_vec()], ..Told::minimum(minimum) };
+        let document = document(&told.study());
+        let table = if minimum.starts_with('e') { "instructions_float" } else { "instructions_fixed" };
+        ["median_ulp", "largest_ulp"].map(|key| column(&document, table, key)[0].clone())
+    };
+    assert_eq!(error("e8m2", &[1.0, 1.125, 8.0], &[1.0, 1.25, 12.0]), [0.5, 2.0]);
+    assert_eq!(error("s3.4", &[1.0, 7.5], &[1.0, 7.96875]), [0.0, 7.5]);
+    // e4m3 has exponents from -6, and 0 is as far from its neighbors as 2^-6.
+    assert_eq!(error("e4m3", &[0.0], &[1.0 / 512.0]), [1.0, 1.0]);
+    assert_eq!(error("e8m2", &[f64::INFINITY], &[2.0]), ["inf"; 2]);
+    assert_eq!(error("e8m2", &[], &[]), [Value::Null, Value::Null]);
+}
+
+/// Losses are against the exact run, and shares of the loss of both together.
+#[test]
+fn losses_are_against_the_exact_run() {
+    let blame = |told: Told| {
+        let document = document(&told.study());
+        assert_eq!(document["families"][0]["minimum"], "e2m8");
+        ["blame_percent", "regained_percent"]
+            .map(|key| column(&document, "instructions_float", key).into_iter().map(Value::as_f64).collect::<Vec<_>>())
+    };
+    let some = |shares: [f64; 2]| shares.map(Some).to_vec();
+    assert_eq!(blame(Told::shares("<=1", 0.25, 1.25, [0.5, 0.0])), [some([25.0, 0.0]), some([100.0, 75.0])]);
+    assert_eq!(blame(Told::shares(">=1", 1.0, 0.0, [0.5, 1.0])), [some([50.0, 0.0]), some([100.0, 50.0])]);
+    assert_eq!(blame(Told::shares("=1", 1.0, 3.0, [0.5, 1.5])), [some([25.0, 25.0]), some([75.0, 75.0])]);
+    // Only one is not finite: it has all of the loss, and the other a share that is not known.
+    let nan = blame(Told::shares("<=1", 0.0, f64::NAN, [f64::NAN, 0.5]));
+    assert_eq!(nan, [vec![Some(100.0), None], some([100.0, 0.0])]);
+    // What is infinite in the exact run is no loss.
+    let infinite = blame(Told::shares(">=1", f64::INFINITY, 0.0, [f64::INFINITY, f64::INFINITY]));
+    assert_eq!(infinite[0], some([0.0, 0.0]));
+}

@@ -1,0 +1,82 @@
+//! What entries on compression rely on: interpolations of their curves, errors by the number of vectors, and pieces of
+//! long work.
+
+use std::fs;
+use std::rc::Rc;
+
+use crossbar_studies::split::{KeptResults, SpentTime, SplitCommand};
+use crossbar_studies::study::reproduce::tested::{bunny_in_pieces, crossings, reaching};
+use crossbar_systems::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar_systems::transfer::synthetic::signal_at;
+
+/// Halfway between storages 1 and 4 by logarithms, 2, the first curve has the error 8.
+#[test]
+fn curves_are_compared_at_equal_storage() {
+    let before = vec![(1.0, 16.0), (4.0, 4.0), (16.0, 1.0)];
+    for (curve, expected) in [
+        (vec![(2.0, 9.0), (8.0, 1.0), (32.0, 0.1)], [1, 1]),
+        (vec![(2.0, 7.0), (8.0, 3.0)], [0, 0]),
+        (vec![(2.0, 8.000_000_001), (8.0, 1.999_999_999)], [1, 1]),
+        (vec![(2.0, 7.999_999_999), (8.0, 2.000_000_001)], [0, 0]),
+        // Nothing in common.
+        (vec![(32.0, 0.1)], [0, 0]),
+    ] {
+        assert_eq!(crossings(&[before.clone(), curve.clone()]), expected, "{curve:?}");
+    }
+}
+
+#[test]
+fn vectors_are_interpolated_by_logarithms() {
+    let curve = [16.0, 4.0, 1.0];
+    assert_eq!([16.0, 4.0, 1.0, 0.5, 20.0].map(|error| reaching(&curve, error)), [0.0, 1.0, 2.0, 2.0, 0.0]);
+    assert!((reaching(&curve, 2.0) - 1.5).abs() < 1e-12);
+}
+
+/// Errors with fewer vectors by section 4.1's formula, in which a vector that is dropped adds its squared singular
+/// value, and those of the steps of one compression equal those of compressions with so many vectors.
+#[test]
+fn errors_by_vectors_are_those_of_compressions() {
+    let signal = signal_at(300, 12, 7, |at| [0.1 * at as f64, (at % 7) as f64, (at % 11) as f64]);
+    let of = |vectors: usize, method| {
+        let (form, start) = (CpcaForm::Affine, StartPoints::Seed(1));
+        let options = CpcaOptions { clusters: 5, vectors, vq_iterations: 20, iterations: 20, method, form, start };
+        compress(&signal, &options, |_| ()).expect("compressed")
+    };
+    let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.max(1.0);
+    let most = of(4, CpcaMethod::Static).clustering;
+    for vectors in 0..4 {
+        let subspaces = most.subspaces().iter();
+        let dropped: f64 = subspaces.flat_map(|subspace| subspace.eigenvalues.iter().skip(vectors)).sum();
+        let error = of(vectors, CpcaMethod::Static).clustering.squared_error(&signal);
+        assert!(near(most.squared_error(&signal) + dropped, error), "{vectors} vectors");
+    }
+    let steps = of(2, CpcaMethod::Iterative).steps;
+    for vectors in 0..=2 {
+        let last = steps.iter().rev().find(|step| step.vectors == vectors).expect("a step");
+        let error = of(vectors, CpcaMethod::Iterative).clustering.squared_error(&signal);
+        assert!(near(last.squared_error, error), "{vectors} vectors");
+    }
+}
+
+/// A run that goes on from another's segments, or takes its model, finds what a run without pieces finds.
+#[test]
+fn pieces_make_the_same_model() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept = || {
+        let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
+        let kept = KeptResults::new(folder.path().to_owned(), command, SpentTime::default);
+        Some(Rc::new(kept.expect("no inputs")))
+    };
+    let [without, first, taken] = [None, kept(), kept()].map(|kept| bunny_in_pieces(kept).expect("compressed"));
+    assert_eq!((&first.0, &taken.0), (&without.0, &without.0), "computed and kept, and taken");
+    assert_eq!([first.1, taken.1], [true, false], "a model that is taken needs no visibility");
+    // Stopped before the last segment.
+    let path = |piece: &str| folder.path().join(format!("{piece}.part"));
+    for piece in ["bunny", "bunny-segment-21"] {
+        fs::remove_file(path(piece)).expect("a piece");
+    }
+    let written = || fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
+    let before = written();
+    assert_eq!(bunny_in_pieces(kept()).expect("compressed").0, without.0, "gone on");
+    assert_eq!(written(), before, "taken, and not written again");
+}
