@@ -43,11 +43,11 @@ pub use number_table::{NumberTable, TableNumber, parse_number_table};
 pub use numbers::{load_npy_array, load_numbers, parse_numbers};
 pub use obj::{load_obj, parse_obj, write_obj};
 pub use picture::{PictureFile, load_picture};
-pub use ply::{load_ply, parse_ply};
+pub use ply::parse_ply;
 pub use rays::{load_rays, parse_rays, write_hits};
 pub use scene_file::{scene_files, write_scene_file};
 pub use scene_obj::{parse_mtl, parse_scene, write_mtl, write_scene};
-pub use stl::{load_stl, parse_stl};
+pub use stl::parse_stl;
 
 use std::fs::File;
 use std::io::{self, Read};

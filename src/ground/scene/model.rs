@@ -167,21 +167,3 @@ impl Scene {
         self.views.iter().find(|view| view.name == name)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lists_that_do_not_fit_are_refused() {
-        let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).expect("a triangle");
-        let white = vec![Material::diffuse("white", [0.5; 3])];
-        let scene = |material_of, normals| Scene::new(mesh.clone(), white.clone(), material_of, normals);
-        assert!(scene(vec![0], Vec::new()).is_ok());
-        let count = count_error("materials", 1, 2);
-        assert_eq!(scene(vec![0, 0], Vec::new()), Err(count));
-        let wrong = input_error!("triangle 0 has material 1, expected one below 1 (counted from 0)");
-        assert_eq!(scene(vec![1], Vec::new()), Err(wrong));
-        assert!(scene(vec![0], vec![[[0.0; 3]; 3]; 2]).is_err());
-    }
-}

@@ -50,25 +50,3 @@ fn legendre(degree: usize, x: f64) -> Vec<f64> {
     values.truncate(degree + 1);
     values
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn any_phase_integrates_polynomials_with_weights_above_zero() {
-        for (count, degree) in [(3, 0), (4, 1), (11, 8), (21, 18), (23, 18), (200, 18)] {
-            for phase in [1e-3, 0.1, 0.37, 0.5, 0.9, 0.999] {
-                let column = column(count, phase, degree).expect("heights enough");
-                assert!(column.iter().all(|&(z, weight)| z > 0.0 && z < 1.0 && weight > 0.0), "{count} {phase}");
-                let mut powers: Vec<f64> = vec![1.0; count];
-                for k in 0..=degree {
-                    let integral: f64 = column.iter().zip(&powers).map(|((_, weight), power)| weight * power).sum();
-                    assert!((integral - 1.0 / (k + 1) as f64).abs() < 4e-15, "{count} {phase}: {integral} of z^{k}");
-                    powers.iter_mut().zip(&column).for_each(|(power, (z, _))| *power *= z);
-                }
-            }
-        }
-        assert_eq!(column(20, 0.5, 18), None);
-    }
-}

@@ -1,7 +1,7 @@
 //! Functions on the sphere, in f64.
 //!
 //! - [`harmonics`], [`evaluate`]: real spherical harmonics, orthonormal over the sphere; [`HarmonicRotation`];
-//!   [`BandWindow`] to reduce ringing and [`Extremes`] to detect it;
+//!   [`Extremes`] to detect ringing;
 //! - [`Hemisphere`], [`HemisphereProjection`]: harmonics over z >= 0, where they are not orthogonal;
 //! - [`DirectionRule`]: directions and weights, exact for polynomials of a degree;
 //! - [`CubeMap`], [`ParabolicMap`], [`EnvironmentLayout`]: texels of maps of the sphere, and their solid angles;
@@ -27,7 +27,6 @@ mod rule;
 mod singular;
 mod sky;
 mod texels;
-mod window;
 
 pub use cube::{CUBE_FACES, CubeMap, FaceAxes};
 pub use extremes::Extremes;
@@ -44,4 +43,3 @@ pub use projection::{HemisphereProjection, ProjectionErrors};
 pub use rotation::{HarmonicRotation, MAX_SKEW, check_rotation, turn_around_z};
 pub use rule::{DirectionRule, MAX_DEGREE};
 pub use sky::{ClearSky, SUN_RADIUS};
-pub use window::BandWindow;

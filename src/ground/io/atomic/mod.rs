@@ -228,6 +228,3 @@ fn missing_folders(folder: &Path) -> Vec<PathBuf> {
     let missing = folder.ancestors().take_while(|path| *path != Path::new("") && !path.exists());
     missing.map(Path::to_path_buf).collect()
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,6 +1,7 @@
-//! Contents of a folder after failures and commits.
-
-use super::*;
+use crossbar_ground::io::{FileSet, WriteError, write_file};
+use std::fs::File;
+use std::path::Path;
+use std::{fs, io};
 
 fn listing(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
