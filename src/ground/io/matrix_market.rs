@@ -34,17 +34,11 @@ pub struct CoordinateMatrix {
 }
 
 /// Reads a matrix from a file.
-///
-/// # Errors
-/// [`InputError`].
 pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, InputError> {
     parse_matrix_market(&read_file(path, "matrix", MAX_BYTES)?, path)
 }
 
 /// Reads a matrix from bytes; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix, InputError> {
     let mut lines = lines(unmarked(bytes));
     let banner = lines.next().map_or(&[][..], |(_, banner)| banner);
@@ -102,9 +96,6 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
 
 /// The text of a matrix of entries `(row, column, value)`, counted from 0, row by row.
 /// Values have the shortest digits that read back to the same numbers.
-///
-/// # Errors
-/// Those of `out`.
 pub fn write_matrix_market(
     [rows, columns, count]: [usize; 3],
     comment: &str,

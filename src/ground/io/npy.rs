@@ -44,9 +44,6 @@ impl<T> From<NumberArray<T>> for NumberTable<T> {
 }
 
 /// Reads an array from bytes as a table; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_npy<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
     parse_npy_array(bytes, name).map(NumberTable::from)
 }
@@ -99,9 +96,6 @@ pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, Inpu
 }
 
 /// Reads an array from bytes; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberArray<T>, InputError> {
     let NpyView { descr, shape, data, .. } = view(bytes, name)?;
     if data.is_empty() {
@@ -229,9 +223,6 @@ fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
 
 /// Writes a table as an array of little-endian f4, in version 1.
 ///
-/// # Errors
-/// Those of `out`.
-///
 /// # Panics
 /// If the number of values is no multiple of the columns.
 pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
@@ -241,9 +232,6 @@ pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes numbers of any shape as an array of little-endian f4, in version 1.
-///
-/// # Errors
-/// Those of `out`.
 ///
 /// # Panics
 /// If the number of values differs from the shape's product, or a header cannot hold all axes.

@@ -40,9 +40,6 @@ impl PictureFile {
     }
 
     /// The picture.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn decode(&self) -> Result<Picture, InputError> {
         Picture::decode(&self.bytes).map_err(|reason| decode_error(&self.path, reason))
     }

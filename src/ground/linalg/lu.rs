@@ -33,9 +33,6 @@ pub(super) fn singular(column: usize) -> InputError {
 impl Lu {
     /// Factors a matrix.
     ///
-    /// # Errors
-    /// [`InputError`].
-    ///
     /// # Panics
     /// If the matrix is not square.
     pub fn new(matrix: &Matrix) -> Result<Self, InputError> {

@@ -39,9 +39,6 @@ impl Matrix {
     }
 
     /// Creates a matrix of zeros.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn zeros([rows, columns]: [usize; 2]) -> Result<Self, InputError> {
         Ok(Self { rows, columns, values: vec![0.0; elements([rows, columns])?] })
     }
@@ -110,9 +107,6 @@ impl Matrix {
     }
 
     /// Product with a matrix, one [`dot`] per element.
-    ///
-    /// # Errors
-    /// [`InputError`].
     ///
     /// # Panics
     /// If the other does not have as many rows as this one has columns.
