@@ -8,6 +8,8 @@ use refsim::{
 };
 use serde::Serialize;
 
+use super::single::shortest;
+
 /// Bit pattern with its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number {
@@ -61,7 +63,7 @@ impl Number {
 
     /// Formats in decimal, with enough digits to distinguish all numbers of all formats.
     pub fn decimal(&self) -> String {
-        plain(self.double())
+        shortest(self.double())
     }
 
     /// Formats all bits of the format, hexadecimal.
@@ -119,16 +121,6 @@ pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
     (known.then(|| (a - b).abs() / unit), format)
 }
 
-/// Formats a double: plain near one, with an exponent far from it.
-pub(super) fn plain(real: f64) -> String {
-    let magnitude = real.abs();
-    if real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&magnitude) {
-        format!("{real}")
-    } else {
-        format!("{real:e}")
-    }
-}
-
 impl Compared {
     /// Pair of register values.
     pub fn registers(name: impl Into<String>, left: &Number, right: &Number) -> Self {
@@ -167,9 +159,9 @@ impl Compared {
         let hex = |bits: u32| format!("0x{bits:0digits$x}", digits = usize::from(channel.bits).div_ceil(4));
         Self {
             name: name.into(),
-            left: plain(channel_double(channel, left)),
+            left: shortest(channel_double(channel, left)),
             left_bits: hex(left),
-            right: plain(channel_double(channel, right)),
+            right: shortest(channel_double(channel, right)),
             right_bits: hex(right),
             ulps: Some(channel_steps(channel, left, right)),
             unit: format!("{} bits", channel.bits),

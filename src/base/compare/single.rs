@@ -1,4 +1,4 @@
-//! Distance of two f32 numbers.
+//! Distance of two f32 numbers, and the text of a number.
 
 /// Number of f32 steps from one number to the other: both zeros are one number, and two NaN are 0 steps apart. `None`
 /// if one of them is not finite, or NaN, and they are not equal.
@@ -19,4 +19,10 @@ pub fn f32_ulps(left: f32, right: f32) -> Option<u64> {
         if x.is_sign_negative() { -magnitude } else { magnitude }
     };
     (left.is_finite() && right.is_finite()).then(|| step(left).abs_diff(step(right)))
+}
+
+/// Shortest text that reads back to the same number: plain near one, with an exponent far from it.
+pub(crate) fn shortest(real: f64) -> String {
+    let plain = real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&real.abs());
+    if plain { format!("{real}") } else { format!("{real:e}") }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::mesh::Mesh;
-use super::vector::{narrow, unit, wide};
+use super::vector::{area_vector, narrow, place_bits, unit, wide};
 use glam::DVec3;
 
 impl Mesh {
@@ -12,15 +12,8 @@ impl Mesh {
     /// several normals are repeated; triangles keep their order, vertices their texture coordinates.
     #[must_use]
     pub fn creased(&self, cosine: f64) -> Self {
-        let areas: Vec<DVec3> = self
-            .iter_corners()
-            .map(|corners| {
-                let [a, b, c] = corners.map(wide);
-                (b - a).cross(c - a)
-            })
-            .collect();
-        // -0 and +0 are the same position.
-        let place = |vertex: u32| self.positions()[vertex as usize].map(|value| (value + 0.0).to_bits());
+        let areas: Vec<DVec3> = self.iter_corners().map(|corners| area_vector(corners.map(wide))).collect();
+        let place = |vertex: u32| place_bits(self.positions()[vertex as usize]);
         let mut around: BTreeMap<[u32; 3], Vec<usize>> = BTreeMap::new();
         for (triangle, corners) in self.triangles().iter().enumerate() {
             corners.iter().for_each(|&corner| around.entry(place(corner)).or_default().push(triangle));
@@ -47,9 +40,10 @@ impl Mesh {
         let triangles = triangles.collect();
         let positions = of.iter().map(|&vertex| self.positions()[vertex]).collect();
         let mesh = Self::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
-        let texture = self.texcoords().map(|texture| of.iter().map(|&vertex| texture[vertex]).collect());
-        let mesh = match texture {
-            Some(texture) => mesh.and_then(|mesh| mesh.with_texcoords(texture)),
+        let mesh = match self.texcoords() {
+            Some(texture) => {
+                mesh.and_then(|mesh| mesh.with_texcoords(of.iter().map(|&vertex| texture[vertex]).collect()))
+            }
             None => mesh,
         };
         mesh.expect("places and normals of a mesh are finite")

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::vector::{unit, wide};
+use super::vector::{area_vector, place_bits, unit, wide};
 use crate::error::{InputError, ensure, input_error};
 
 /// Triangles that share vertices. [`Mesh::new`] guarantees that every index is in range and every coordinate finite.
@@ -190,7 +190,7 @@ impl Mesh {
 
     /// Area of a triangle; 0 for an id that does not exist.
     pub fn area(&self, triangle: u32) -> f64 {
-        self.corners(triangle).map_or(0.0, |corners| area_vector(corners).length() / 2.0)
+        self.corners(triangle).map_or(0.0, |corners| area_vector(corners.map(wide)).length() / 2.0)
     }
 
     /// Computes normals per vertex: the mean of the adjoining triangles, weighted by area, at length 1; zero where the
@@ -198,7 +198,7 @@ impl Mesh {
     pub fn vertex_normals(&self) -> Vec<DVec3> {
         let mut normals = vec![DVec3::ZERO; self.positions.len()];
         for (corners, indices) in self.iter_corners().zip(&self.triangles) {
-            let normal = area_vector(corners);
+            let normal = area_vector(corners.map(wide));
             indices.iter().for_each(|&index| normals[index as usize] += normal);
         }
         normals.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::ZERO)).collect()
@@ -226,12 +226,6 @@ impl Mesh {
     }
 }
 
-/// Normal of a triangle, with twice its area as length.
-fn area_vector(corners: [[f32; 3]; 3]) -> DVec3 {
-    let [a, b, c] = corners.map(wide);
-    (b - a).cross(c - a)
-}
-
 /// Builder that merges vertices with bit-identical positions.
 #[derive(Debug, Default)]
 pub struct Welder {
@@ -242,11 +236,10 @@ pub struct Welder {
 impl Welder {
     /// Returns the index of the vertex at a position, new or known. -0 and +0 are equal.
     pub fn vertex(&mut self, position: [f32; 3]) -> u32 {
-        let position = position.map(|value| value + 0.0);
         let next = self.positions.len() as u32;
-        let index = *self.index.entry(position.map(f32::to_bits)).or_insert(next);
+        let index = *self.index.entry(place_bits(position)).or_insert(next);
         if index == next {
-            self.positions.push(position);
+            self.positions.push(position.map(|value| value + 0.0));
         }
         index
     }

@@ -3,7 +3,7 @@
 use super::{Camera, Color, Material};
 use crate::error::{InputError, input_error};
 use crate::geom::Mesh;
-use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::vector::{area_vector, narrow, unit, wide};
 
 /// Point light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,10 +125,7 @@ impl Scene {
             return self.mesh.clone();
         }
         let positions: Vec<_> = self.mesh.iter_corners().flatten().collect();
-        let own = |[a, b, c]: [[f32; 3]; 3]| {
-            let [a, b, c] = [a, b, c].map(wide);
-            [unit((b - a).cross(c - a)).map_or([0.0; 3], narrow); 3]
-        };
+        let own = |corners: [[f32; 3]; 3]| [unit(area_vector(corners.map(wide))).map_or([0.0; 3], narrow); 3];
         let normals = (0..).zip(self.mesh.iter_corners());
         let normals =
             normals.flat_map(|(at, corners)| self.corner_normals(at).unwrap_or_else(|| own(corners))).collect();

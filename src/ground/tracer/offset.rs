@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::vector::{area_vector, narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 
 /// Unit roundoff of single precision.
@@ -53,10 +53,9 @@ impl SurfacePoint {
     /// Like [`Self::new`], for a triangle given by its corners.
     #[must_use]
     pub fn of([a, b, c]: [DVec3; 3], weights: DVec3, rounding: f64) -> Option<Self> {
-        let (ab, ac) = (b - a, c - a);
-        let across = ab.cross(ac);
+        let across = area_vector([a, b, c]);
         let normal = unit(across)?;
-        let (ab, ac) = (ab.length(), ac.length());
+        let (ab, ac) = ((b - a).length(), (c - a).length());
         let at = weights.x * a + weights.y * b + weights.z * c;
         let sine = (across.length() / (ab * ac)).max(MIN_SINE);
         Some(Self { at, normal, size: ab.max(ac), thinness: 1.0 / sine, rounding })

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::error::InputError;
 use crate::geom::Mesh;
-use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::vector::{area_vector, narrow, unit, wide};
 
 /// Vertices along an edge of the ground of the paper on all-frequency transfer (its section 7): 36,864 in all.
 pub const GROUND_SIDE: u32 = 192;
@@ -53,7 +53,7 @@ fn has_flat_base(model: &Mesh, height: f64) -> bool {
     model
         .iter_corners()
         .map(|corners| corners.map(wide))
-        .any(|[a, b, c]| [a, b, c].iter().all(|corner| corner.z == height) && unit((b - a).cross(c - a)).is_some())
+        .any(|corners| corners.iter().all(|corner| corner.z == height) && unit(area_vector(corners)).is_some())
 }
 
 /// Combines a model and its ground ([`ground_of`]) in one mesh, with a material per triangle: 0 for the model and 1 for

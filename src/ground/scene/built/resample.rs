@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use glam::DVec3;
 
-use crate::geom::vector::unit;
+use crate::geom::vector::{area_vector, unit};
 
 /// Cosine of the angle by which a triangle's normal may turn when an edge is drawn together.
 const TURN: f64 = 0.3;
@@ -26,7 +26,7 @@ impl ClosedSurface {
     pub(super) fn normals(&self) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for triangle in &self.triangles {
-            let normal = normal(triangle.map(|corner| self.positions[corner as usize]));
+            let normal = area_vector(triangle.map(|corner| self.positions[corner as usize]));
             triangle.iter().for_each(|&corner| sums[corner as usize] += normal);
         }
         sums.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::Z)).collect()
@@ -81,11 +81,6 @@ impl ClosedSurface {
         }
         found
     }
-}
-
-/// Normal of a triangle, twice as long as its area is large.
-fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
 }
 
 /// Vertices with their normals.
@@ -254,9 +249,9 @@ impl Coarsening {
         let is_moved = |corner: u32| corner == a || corner == b;
         let holds = |&at: &usize| {
             let corners = self.triangles[at];
-            let before = normal(corners.map(|corner| self.vertices.positions[corner as usize]));
+            let before = area_vector(corners.map(|corner| self.vertices.positions[corner as usize]));
             let moved = corners.map(|at| if is_moved(at) { position } else { self.vertices.positions[at as usize] });
-            let after = normal(moved);
+            let after = area_vector(moved);
             corners.iter().filter(|&&corner| is_moved(corner)).count() == 2
                 || after.dot(before) > TURN * after.length() * before.length()
         };
