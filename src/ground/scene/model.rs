@@ -31,6 +31,11 @@ pub struct View {
 }
 
 impl View {
+    /// Creates a view with z up.
+    pub(super) fn upright(name: &str, eye: [f32; 3], target: [f32; 3], tan_half_height: f32) -> Self {
+        Self { name: name.into(), eye, target, up: [0.0, 0.0, 1.0], tan_half_height }
+    }
+
     /// Creates the camera of this view for a picture of `width` x `height` pixels.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::parts::{grid_triangles, with_attributes};
 use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::vector::{area_vector, narrow, unit, wide};
@@ -23,15 +24,9 @@ pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
     let along = |at: u32| f64::from(at) / f64::from(side - 1);
     let grid = || (0..side).flat_map(move |row| (0..side).map(move |column| [along(column), along(row)]));
     let place = |[u, v]: [f64; 2]| narrow(middle + half_width * DVec3::new(2.0 * u - 1.0, 2.0 * v - 1.0, 0.0));
-    let quads = (0..side - 1).flat_map(|row| (0..side - 1).map(move |column| row * side + column));
-    let triangles = quads.flat_map(|a| {
-        let [b, c, d] = [a + 1, a + side + 1, a + side];
-        [[a, b, c], [a, c, d]]
-    });
-    let mesh = Mesh::new(grid().map(place).collect(), triangles.collect());
-    let mesh = mesh.and_then(|mesh| mesh.with_normals(vec![[0.0, 0.0, 1.0]; (side * side) as usize]));
+    let normals = vec![[0.0, 0.0, 1.0]; (side * side) as usize];
     let texture = grid().map(|at| at.map(|at| at as f32)).collect();
-    mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite coordinates of a grid")
+    with_attributes(grid().map(place).collect(), grid_triangles(0, [side - 1; 2]).collect(), normals, texture)
 }
 
 /// Builds a ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along

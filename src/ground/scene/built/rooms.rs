@@ -52,7 +52,7 @@ impl RoomBuilder {
     fn scene(self, eye: [f32; 3], target: [f32; 3], tan_half_height: f32) -> Scene {
         let mesh = Mesh::new(self.positions, self.triangles).expect("corners of our own");
         let mut scene = Scene::new(mesh, self.materials, self.material_of, Vec::new()).expect("a material a triangle");
-        scene.views = vec![View { name: "front".to_owned(), eye, target, up: [0.0, 0.0, 1.0], tan_half_height }];
+        scene.views = vec![View::upright("front", eye, target, tan_half_height)];
         scene
     }
 }
