@@ -4,7 +4,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::number_table::{NumberTable, TableNumber};
+use super::error::read_file;
+use super::number_table::{NumberTable, TableNumber, parse_number_table};
 use super::{NumberError, quoted};
 use crate::error::{InputError, input_error};
 
@@ -219,6 +220,21 @@ fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
     let numbers = inside.split(',').map(str::trim).filter(|_| !inside.is_empty());
     // Python 2 writes long integers with the suffix L.
     Some((numbers.map(|n| n.strip_suffix('L').unwrap_or(n).parse().ok()).collect::<Option<_>>()?, rest))
+}
+
+/// The numbers of a NumPy array or of comma-separated values; `name` is the file's name in messages.
+pub fn parse_numbers<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
+    if bytes.starts_with(MAGIC) { parse_npy(bytes, name) } else { parse_number_table(bytes, name) }
+}
+
+/// [`parse_numbers`] from a file of at most `limit` bytes, which is a `what`.
+pub fn load_numbers<T: TableNumber>(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<T>, InputError> {
+    parse_numbers(&read_file(path, what, limit)?, path)
+}
+
+/// The numbers of an array of NumPy's with its shape, from a file of at most `limit` bytes, which is a `what`.
+pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<NumberArray, InputError> {
+    parse_npy_array(&read_file(path, what, limit)?, path)
 }
 
 /// Writes a table as an array of little-endian f4, in version 1.

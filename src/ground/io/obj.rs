@@ -37,14 +37,6 @@ pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), InputError> 
     if fits { Ok(()) } else { Err(too_long_error("model", name, MAX_BYTES)) }
 }
 
-/// Reads a mesh from a file.
-///
-/// # Errors
-/// [`InputError`], with the path, and the line where there is one.
-pub fn load_obj(path: &Path) -> Result<Mesh, InputError> {
-    parse_obj(&load_model(path)?, path)
-}
-
 /// Reads a mesh from bytes; `name` is the file's name in messages. Never panics.
 ///
 /// # Errors

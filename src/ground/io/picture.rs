@@ -44,11 +44,3 @@ impl PictureFile {
         Picture::decode(&self.bytes).map_err(|reason| decode_error(&self.path, reason))
     }
 }
-
-/// Reads a picture; its first bytes say in which format, whatever the file's name.
-///
-/// # Errors
-/// [`InputError`], with the path.
-pub fn load_picture(path: &Path) -> Result<Picture, InputError> {
-    PictureFile::open(path)?.decode()
-}

@@ -4,7 +4,7 @@
 //! rotations are recorded and applied only to the requested columns, so `count` vectors of n cost O(n^2 count) beside
 //! the 4/3 n^3 operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
 
-use super::reflection::{NEGLIGIBLE_SQUARE, Reflection, inverse_power_of_two};
+use super::reflection::{Reflection, inverse_power_of_two, largest};
 use super::tridiagonal::{diagonalise, rotated};
 use super::{Matrix, dot};
 use crate::error::InputError;
@@ -103,8 +103,8 @@ impl Lower {
         if found > 0 {
             return Err(not_finite_error(found));
         }
-        let largest = lower().flatten().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        let scale = inverse_power_of_two(largest);
+        let most = lower().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let scale = inverse_power_of_two(most);
         Ok(Self { rows: lower().map(|row| row.iter().map(|value| value * scale).collect()).collect(), scale })
     }
 
@@ -135,9 +135,7 @@ impl Lower {
     /// Infinity norm of A v - lambda v.
     fn residual(&self, vector: &[f64], value: f64) -> f64 {
         let product = self.times(vector);
-        // Not f64::max, which ignores NaN.
-        let differences = product.iter().zip(vector).map(|(product, v)| (product - value * v).abs());
-        differences.fold(0.0, |largest, difference| if difference <= largest { largest } else { difference })
+        largest(product.iter().zip(vector).map(|(product, v)| (product - value * v).abs()))
     }
 
     #[inline(always)]
@@ -145,18 +143,9 @@ impl Lower {
         let size = self.rows.len();
         let (mut beside, mut reflections) = (vec![0.0; size.saturating_sub(1)], Vec::new());
         for i in (1..size).rev() {
-            let mut axis = self.rows[i][..i].to_vec();
-            let rest = dot(&axis[..i - 1], &axis[..i - 1]);
-            let last = axis[i - 1];
-            let square = rest + last * last;
-            if rest == 0.0 || square < NEGLIGIBLE_SQUARE {
-                beside[i - 1] = if rest == 0.0 { last } else { 0.0 };
-                continue;
-            }
-            let length = square.sqrt().copysign(last);
-            beside[i - 1] = -length;
-            axis[i - 1] += length;
-            let half = length * axis[i - 1];
+            let (reflection, value) = Reflection::onto(self.rows[i][..i].to_vec(), i - 1);
+            beside[i - 1] = value;
+            let Some(Reflection { axis, half }) = reflection else { continue };
             let mut into = self.times(&axis);
             let along = dot(&axis, &into) / (2.0 * half * half);
             into.iter_mut().zip(&axis).for_each(|(value, axis)| *value = *value / half - along * axis);

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::bidiagonal::Bidiagonal;
 use super::leading::{MAX_RESIDUAL, make_largest_positive};
-use super::reflection::inverse_power_of_two;
+use super::reflection::{inverse_power_of_two, largest};
 use super::tridiagonal::{diagonalise, rotated};
 use super::{Matrix, dot};
 use crate::error::InputError;
@@ -53,11 +53,11 @@ impl LeadingSvd {
             return Err(not_finite_error(found));
         }
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
-        let largest = matrix.rows().flatten().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        if largest == 0.0 {
+        let most = matrix.rows().flatten().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        if most == 0.0 {
             return Ok(Self { values: vec![0.0; columns], rank: 0, left: none(rows), right: none(columns) });
         }
-        let scale = inverse_power_of_two(largest);
+        let scale = inverse_power_of_two(most);
         let mut scaled = matrix.clone();
         scaled.par_rows_mut().for_each(|row| row.iter_mut().for_each(|value| *value *= scale));
         let bidiagonal = Bidiagonal::new(scaled);
@@ -105,9 +105,7 @@ impl LeadingSvd {
             if dot(&product, &left) < 0.0 {
                 left.iter_mut().for_each(|value| *value = -*value);
             }
-            let differences = product.iter().zip(&left).map(|(product, left)| (product - value * left).abs());
-            let residual =
-                differences.fold(0.0, |most: f64, difference| if difference <= most { most } else { difference });
+            let residual = largest(product.iter().zip(&left).map(|(product, left)| (product - value * left).abs()));
             if residual.is_nan() || residual > MAX_RESIDUAL * self.values[0] {
                 return Err(residual_error(rows.max(columns)));
             }

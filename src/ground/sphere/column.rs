@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use crate::elementary;
 use crate::linalg::{Lu, Matrix};
+use crate::quadrature::legendre_polynomials;
 
 /// Heights more than the degree plus one that a column has: with so many, every weight is more than 0.8 of that of the
 /// plain sum.
@@ -26,7 +27,8 @@ pub(super) fn column(count: usize, phase: f64, degree: usize) -> Option<Vec<(f64
             (half * half, elementary::sin_cos(angle).0 * PI / (2 * count) as f64)
         })
         .collect();
-    let values: Vec<Vec<f64>> = plain.iter().map(|&(z, _)| legendre(degree, 2.0 * z - 1.0)).collect();
+    let polynomials = |z: f64| legendre_polynomials(2.0 * z - 1.0).take(degree + 1).map(|[value, _]| value).collect();
+    let values: Vec<Vec<f64>> = plain.iter().map(|&(z, _)| polynomials(z)).collect();
     let sum = |term: &dyn Fn(&[f64]) -> f64| -> f64 {
         plain.iter().zip(&values).map(|(&(_, weight), values)| weight * term(values)).sum()
     };
@@ -38,15 +40,4 @@ pub(super) fn column(count: usize, phase: f64, degree: usize) -> Option<Vec<(f64
     let factors = Lu::new(&products).ok()?.solve(&missing);
     let change = |values: &[f64]| -> f64 { values.iter().zip(&factors).map(|(value, factor)| value * factor).sum() };
     Some(plain.iter().zip(&values).map(|(&(z, weight), values)| (z, weight * (1.0 + change(values)))).collect())
-}
-
-/// The Legendre polynomials up to a degree at x.
-fn legendre(degree: usize, x: f64) -> Vec<f64> {
-    let mut values = vec![1.0, x];
-    for l in 1..degree {
-        let l_real = l as f64;
-        values.push(((2.0 * l_real + 1.0) * x * values[l] - l_real * values[l - 1]) / (l_real + 1.0));
-    }
-    values.truncate(degree + 1);
-    values
 }

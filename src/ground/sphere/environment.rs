@@ -1,4 +1,6 @@
-//! Distant light from pictures of the whole sphere.
+//! Distant light from pictures of the whole sphere, and lookups in them.
+
+use glam::DVec3;
 
 use super::layout::{EnvironmentLayout, LayoutGrid};
 use super::light::HarmonicLight;
@@ -21,8 +23,31 @@ impl HarmonicLight {
     }
 }
 
+/// Picture of the whole sphere for lookups of radiance by direction: constant over each pixel.
+#[derive(Debug)]
+pub struct EnvironmentPicture {
+    grid: LayoutGrid,
+    pixels: Vec<[f32; 3]>,
+}
+
+impl EnvironmentPicture {
+    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read.
+    ///
+    /// # Errors
+    /// [`InputError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
+    pub fn new(picture: &Picture) -> Result<Self, InputError> {
+        let (grid, pixels) = read(picture)?;
+        Ok(Self { grid, pixels })
+    }
+
+    /// Radiance in a unit direction: red, green and blue.
+    pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
+        self.pixels[self.grid.pixel(direction)].map(f64::from)
+    }
+}
+
 /// Reads the pixels of a picture of the whole sphere, and its layout.
-pub(super) fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), InputError> {
+fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), InputError> {
     let [width, height] = [picture.width(), picture.height()];
     let layout = EnvironmentLayout::of(width, height).ok_or_else(|| {
         input_error!("crossbar::sphere::shape" =>

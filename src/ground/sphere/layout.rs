@@ -43,6 +43,7 @@ impl EnvironmentLayout {
 }
 
 /// Texels of a picture in a layout that its shape fits.
+#[derive(Debug)]
 pub(super) struct LayoutGrid {
     layout: EnvironmentLayout,
     width: usize,
@@ -128,9 +129,7 @@ impl LayoutGrid {
     fn cross_side(&self) -> usize {
         self.width.max(self.height) / 4
     }
-}
 
-impl LayoutGrid {
     /// Number of columns and rows.
     pub(super) fn size(&self) -> [usize; 2] {
         [self.width, self.height]

@@ -9,6 +9,7 @@ use super::harmonics::{MAX_ORDER, function_count, harmonics, order_of};
 use super::rotation::HarmonicRotation;
 use crate::elementary::sin_cos;
 use crate::error::{InputError, ensure, input_error};
+use crate::quadrature::legendre_polynomials;
 
 /// Distant radiance as coefficients of an order: red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,13 +158,7 @@ pub(super) fn unit(direction: DVec3) -> Result<DVec3, InputError> {
 fn cap_integrals(order: usize, radius: f64) -> Vec<f64> {
     let (sin, x) = sin_cos(radius);
     let (half, _) = sin_cos(radius / 2.0);
-    let ([mut before, mut now], [mut slope_before, mut slope]) = ([1.0, x], [0.0, 1.0]);
-    let mut integrals = vec![2.0 * half * half];
-    for l in 1..order {
-        let (n, odd) = (l as f64, (2 * l + 1) as f64);
-        integrals.push(sin * sin * slope / (n * (n + 1.0)));
-        [slope_before, slope] = [slope, slope_before + odd * now];
-        [before, now] = [now, (odd * x * now - n * before) / (n + 1.0)];
-    }
-    integrals
+    let of_band = |(l, [_, slope]): (f64, [f64; 2])| sin * sin * slope / (l * (l + 1.0));
+    let others = (1_u8..).map(f64::from).zip(legendre_polynomials(x).skip(1)).map(of_band);
+    std::iter::once(2.0 * half * half).chain(others).take(order).collect()
 }

@@ -19,7 +19,6 @@ mod harmonics;
 mod hemisphere;
 mod layout;
 mod light;
-mod lookup;
 mod parabolic;
 mod projection;
 mod rotation;
@@ -29,6 +28,7 @@ mod sky;
 mod texels;
 
 pub use cube::{CUBE_FACES, CubeMap, FaceAxes};
+pub use environment::EnvironmentPicture;
 pub use extremes::Extremes;
 pub use harmonics::{
     MAX_ORDER, evaluate, function_band, function_count, function_index, harmonics, order_of, order_with,
@@ -37,7 +37,6 @@ pub use harmonics::{
 pub use hemisphere::Hemisphere;
 pub use layout::EnvironmentLayout;
 pub use light::HarmonicLight;
-pub use lookup::EnvironmentPicture;
 pub use parabolic::ParabolicMap;
 pub use projection::{HemisphereProjection, ProjectionErrors};
 pub use rotation::{HarmonicRotation, MAX_SKEW, check_rotation, turn_around_z};

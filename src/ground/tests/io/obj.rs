@@ -55,7 +55,7 @@ fn errors_say_where_and_what() {
         assert_eq!(message(&format!("{triangle}f {corners}")), format!("m.obj:4: {expected}"));
     }
     let missing = Path::new("/no/such/file.obj");
-    assert_eq!(load_obj(missing).unwrap_err().to_string(), "cannot read the model /no/such/file.obj");
+    assert_eq!(load_mesh(missing).unwrap_err().to_string(), "cannot read the model /no/such/file.obj");
 }
 
 #[test]
