@@ -11,7 +11,6 @@
 //! Function y_lm has index l (l + 1) + m. There is no Condon-Shortley sign: for l = 1 the functions are y, z and x
 //! times sqrt(3 / (4 pi)). *Order* n means n bands, l = 0 to n - 1, n^2 functions.
 
-mod column;
 mod cube;
 mod environment;
 mod extremes;
@@ -25,7 +24,6 @@ mod rotation;
 mod rule;
 mod singular;
 mod sky;
-mod texels;
 
 pub use cube::{CUBE_FACES, CubeMap, FaceAxes};
 pub use environment::EnvironmentPicture;

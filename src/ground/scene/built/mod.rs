@@ -28,7 +28,6 @@ mod office_floor;
 mod palette;
 mod parts;
 mod resample;
-mod rng;
 pub mod rooms;
 mod solids;
 pub mod stand_ins;
@@ -44,7 +43,7 @@ use office_floor::office_floor;
 use teapot_room::teapot_room;
 use white_box::white_box;
 
-pub use rng::SEED;
+pub use parts::SEED;
 
 /// Name, one-line description and builder of each scene.
 const SCENES: &[(&str, &str, fn() -> Scene)] = &[

@@ -17,8 +17,7 @@ use super::super::{PointLight, Scene, View};
 use super::desktop::{keyboard, monitor, mouse, mug, papers, pencils, telephone};
 use super::furniture::{basket, bookshelf, chair, desk, desk_lamp, plant, radiator};
 use super::palette::{Palette, lamp};
-use super::parts::{MaterialId, Parts, Placement};
-use super::rng::SceneRng;
+use super::parts::{MaterialId, Parts, Placement, SceneRng};
 
 /// Dimensions of the room, in metres.
 const WIDTH: f64 = 9.6;

@@ -19,8 +19,7 @@
 
 use super::super::{PointLight, Scene, View};
 use super::palette::Palette;
-use super::parts::{MaterialId, Parts, Placement};
-use super::rng::SceneRng;
+use super::parts::{MaterialId, Parts, Placement, SceneRng};
 
 /// Height of the walls, in metres.
 const HEIGHT: f64 = 2.8;

@@ -1,10 +1,11 @@
-//! Assembly of scenes from pieces: placement, materials, triangles.
+//! Assembly of scenes from pieces: placement, materials, triangles, and random numbers for positions and angles.
 
 use glam::DVec3;
 
 use super::super::{Material, PointLight, Scene, View};
 use crate::elementary::on_circle;
 use crate::geom::mesh::{Mesh, Welder};
+use crate::geom::random::CounterRng;
 use crate::geom::vector::{narrow, unit};
 
 /// Index of a material of the [`Parts`] that created it.
@@ -164,4 +165,33 @@ pub(super) fn with_attributes(
 ) -> Mesh {
     let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
     mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices")
+}
+
+/// Seed of all scenes.
+pub const SEED: u64 = 2002;
+
+/// Random number generator with the seed [`SEED`]; its numbers depend on the order of calls.
+pub(super) struct SceneRng {
+    random: CounterRng,
+    drawn: u64,
+}
+
+impl Default for SceneRng {
+    fn default() -> Self {
+        Self { random: CounterRng::new(SEED), drawn: 0 }
+    }
+}
+
+impl SceneRng {
+    /// Returns a number in [`low`, `high`).
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.drawn += 1;
+        low + (high - low) * self.random.unit(self.drawn, 0, 0)
+    }
+
+    /// Chooses one of several items.
+    pub(super) fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
+        let place = self.between(0.0, things.len() as f64) as usize;
+        things[place.min(things.len() - 1)]
+    }
 }

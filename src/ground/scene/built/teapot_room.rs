@@ -15,8 +15,7 @@ use glam::DVec3;
 
 use super::super::{Material, PointLight, Scene, Surface, View};
 use super::palette::{glossy, lamp};
-use super::parts::{MaterialId, Parts, Placement};
-use super::rng::SEED;
+use super::parts::{MaterialId, Parts, Placement, SEED};
 use crate::geom::random::CounterRng;
 use crate::geom::teapot::{TeapotPart, part_of_patch, tessellate};
 use crate::geom::vector::wide;
