@@ -9,7 +9,7 @@ mod watertight;
 use std::sync::LazyLock;
 
 use crossbar::geom::vector::wide;
-use crossbar::geom::{Adjacency, Hit, Mesh, Ray, Sides, exact};
+use crossbar::geom::{Adjacency, Contact, Hit, Mesh, Ray, Sides, exact};
 use crossbar::oracle::{Aim, Disagreement, DisagreementKind, HardRay, Oracle, Report, Tolerance, hard_rays};
 use watertight::{TriangleTest, closed_surface, moeller_trumbore, nearest, tables, woop};
 
@@ -75,7 +75,7 @@ fn touching_rays_prove_what_is_said() {
         let by = wrong.touched_by.expect("a ray");
         let truth = exact::nearest(mesh, &by, Sides::Both).expect("a hit");
         let found = wrong.found.expect("a hit").triangle;
-        let adjacent = truth.ties.iter().any(|&first| mesh.are_adjacent(first, found));
+        let adjacent = truth.ties.iter().any(|&first| mesh.contact(first, found) != Contact::None);
         let along = wide(by.direction());
         let depths = mesh
             .corners(found)

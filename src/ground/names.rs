@@ -30,35 +30,3 @@ pub fn did_you_mean_field(message: &str) -> String {
     let mut quoted = message.split('`').skip(1).step_by(2);
     quoted.next().map(|found| did_you_mean(found, quoted)).unwrap_or_default()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const CARDS: [&str; 5] = ["nv20", "r200", "nv25", "r300", "gt200"];
-
-    #[test]
-    fn a_slip_is_understood() {
-        for (found, meant) in
-            [("r2000", "r200"), ("R200", "r200"), ("nv2", "nv20"), ("tg200", "gt200"), ("r20", "r200")]
-        {
-            assert_eq!(nearest(found, CARDS), Some(meant), "{found}");
-        }
-    }
-
-    #[test]
-    fn what_is_far_from_all_names_means_none() {
-        for found in ["", "x", "radeon", "9800", "r2", &"r200".repeat(100_000)] {
-            assert_eq!(nearest(found, CARDS), None);
-        }
-        assert_eq!(did_you_mean("radeon", CARDS), "");
-    }
-
-    #[test]
-    fn fields_are_read_out_of_the_message() {
-        let said = did_you_mean_field("unknown field `fullscreen`, expected one of `primitive`, `full_screen`, `cull`");
-        assert_eq!(said, "did you mean `full_screen`? ");
-        assert_eq!(did_you_mean_field("missing field `mesh`"), "");
-        assert_eq!(did_you_mean_field("unknown field `x`, there are no fields"), "");
-    }
-}

@@ -82,8 +82,8 @@ impl Crate {
             let below = file.strip_prefix(&folder).expect("below the folder");
             let member = MEMBERS.iter().find_map(|member| below.strip_prefix(member).ok());
             // The root of a member re-imports rooms of other members, which is no use of them; its tests are no room.
-            let is_left_out = member.is_some_and(|below| below == Path::new("lib.rs") || below.starts_with("tests"));
-            (!is_left_out).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
+            let is_no_room = member.is_some_and(|below| below == Path::new("lib.rs") || below.starts_with("tests"));
+            (!is_no_room).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
         });
         Self::of_texts(texts)
     }

@@ -26,6 +26,7 @@ pub use operands::Operand;
 #[cfg(feature = "refsim")]
 pub use side::{TraceSide, component};
 pub use single::f32_ulps;
+pub(crate) use single::shortest;
 #[cfg(feature = "refsim")]
 pub use surface::{Largest, SurfaceDifference, depths, images};
 #[cfg(feature = "refsim")]

@@ -8,6 +8,8 @@ use refsim::{
 };
 use serde::Serialize;
 
+use super::single::shortest;
+
 /// Bit pattern with its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number {
@@ -61,7 +63,7 @@ impl Number {
 
     /// Formats in decimal, with enough digits to distinguish all numbers of all formats.
     pub fn decimal(&self) -> String {
-        plain(self.double())
+        shortest(self.double())
     }
 
     /// Formats all bits of the format, hexadecimal.
@@ -119,16 +121,6 @@ pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
     (known.then(|| (a - b).abs() / unit), format)
 }
 
-/// Formats a double: plain near one, with an exponent far from it.
-pub(super) fn plain(real: f64) -> String {
-    let magnitude = real.abs();
-    if real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&magnitude) {
-        format!("{real}")
-    } else {
-        format!("{real:e}")
-    }
-}
-
 impl Compared {
     /// Pair of register values.
     pub fn registers(name: impl Into<String>, left: &Number, right: &Number) -> Self {
@@ -167,9 +159,9 @@ impl Compared {
         let hex = |bits: u32| format!("0x{bits:0digits$x}", digits = usize::from(channel.bits).div_ceil(4));
         Self {
             name: name.into(),
-            left: plain(channel_double(channel, left)),
+            left: shortest(channel_double(channel, left)),
             left_bits: hex(left),
-            right: plain(channel_double(channel, right)),
+            right: shortest(channel_double(channel, right)),
             right_bits: hex(right),
             ulps: Some(channel_steps(channel, left, right)),
             unit: format!("{} bits", channel.bits),
@@ -190,53 +182,4 @@ pub(super) fn channel_steps(channel: Channel, left: u32, right: u32) -> f64 {
         _ => i64::from((bits << spare).cast_signed() >> spare),
     };
     whole(left).abs_diff(whole(right)) as f64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn number(format: &str, bits: u32) -> Number {
-        Number { format: format.parse().expect("a format"), bits }
-    }
-
-    #[test]
-    fn one_layout_counts_steps() {
-        let apart = |format: &str, a, b| ulps(&number(format, a), &number(format, b)).0;
-        assert_eq!(apart("fp32", 0x3f80_0000, 0x3f80_0001), Some(1.0));
-        assert_eq!(apart("fp32", 0x8000_0001, 0x0000_0001), Some(2.0), "over both zeros");
-        assert_eq!(apart("fp32", 0x8000_0000, 0), Some(0.0));
-        assert_eq!(apart("s3.12", 0xffff, 0x0001), Some(2.0));
-        assert_eq!(apart("fp16", 0x7bff, 0x7c00), None, "infinity is no number of steps away");
-        assert_eq!(apart("fp16", 0x7c00, 0x7c00), Some(0.0));
-    }
-
-    #[test]
-    fn zeros_of_two_signs_differ_in_one_layout_only() {
-        assert!(!number("fp32", 0).equals(&number("fp32:rtz", 0x8000_0000)));
-        assert!(number("fp32", 0x8000_0000).equals(&number("s3.12", 0)));
-        assert!(number("fp32", 0x7fc0_0000).equals(&number("fp16", 0x7e00)), "NaN");
-    }
-
-    #[test]
-    fn two_layouts_count_in_the_coarser_one() {
-        // 1 + 2^-12 against 1 + 2^-11: half of fp16's last place, 2^-10, is 2^-11 and a half more.
-        let (apart, unit) = ulps(&number("fp32", 0x3f80_0800), &number("fp16", 0x3c01));
-        assert_eq!((apart, unit.to_string().as_str()), (Some(0.75), "e5m10"));
-        // Near 0.001 the last place of s3.12 is larger than that of fp16.
-        let (apart, unit) = ulps(&number("s3.12", 4), &number("fp16", 0x1400));
-        assert_eq!((apart, unit.to_string().as_str()), (Some(0.0), "s3.12"));
-        let (apart, unit) = ulps(&number("s3.12", 4), &number("fp16", 0x1401));
-        assert_eq!(unit.to_string(), "s3.12");
-        // 2^-10 (1 + 2^-10) - 2^-10 = 2^-20, in units of 2^-12.
-        assert_eq!(apart, Some(1.0 / 256.0));
-    }
-
-    #[test]
-    fn doubles_are_exact() {
-        assert_eq!(number("fp32", 1).double(), f64::from(f32::from_bits(1)));
-        assert_eq!(number("s15.16", 0x8000_0000).double(), -32768.0);
-        assert_eq!(number("s3.12", 0x0555).double(), 1365.0 / 4096.0);
-        assert_eq!(number("fp16:ftz", 1).double(), f64::from(f32::from_bits(0x3380_0000)), "as stored");
-    }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::vector::{unit, wide};
+use super::vector::{area_vector, place_bits, unit, wide};
 use crate::error::{InputError, ensure, input_error};
 
 /// Triangles that share vertices. [`Mesh::new`] guarantees that every index is in range and every coordinate finite.
@@ -190,7 +190,7 @@ impl Mesh {
 
     /// Area of a triangle; 0 for an id that does not exist.
     pub fn area(&self, triangle: u32) -> f64 {
-        self.corners(triangle).map_or(0.0, |corners| area_vector(corners).length() / 2.0)
+        self.corners(triangle).map_or(0.0, |corners| area_vector(corners.map(wide)).length() / 2.0)
     }
 
     /// Computes normals per vertex: the mean of the adjoining triangles, weighted by area, at length 1; zero where the
@@ -198,7 +198,7 @@ impl Mesh {
     pub fn vertex_normals(&self) -> Vec<DVec3> {
         let mut normals = vec![DVec3::ZERO; self.positions.len()];
         for (corners, indices) in self.iter_corners().zip(&self.triangles) {
-            let normal = area_vector(corners);
+            let normal = area_vector(corners.map(wide));
             indices.iter().for_each(|&index| normals[index as usize] += normal);
         }
         normals.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::ZERO)).collect()
@@ -224,17 +224,6 @@ impl Mesh {
             _ => Contact::Edge,
         }
     }
-
-    /// Returns `true` if two triangles share an edge or a vertex.
-    pub fn are_adjacent(&self, a: u32, b: u32) -> bool {
-        self.contact(a, b) != Contact::None
-    }
-}
-
-/// Normal of a triangle, with twice its area as length.
-fn area_vector(corners: [[f32; 3]; 3]) -> DVec3 {
-    let [a, b, c] = corners.map(wide);
-    (b - a).cross(c - a)
 }
 
 /// Builder that merges vertices with bit-identical positions.
@@ -247,11 +236,10 @@ pub struct Welder {
 impl Welder {
     /// Returns the index of the vertex at a position, new or known. -0 and +0 are equal.
     pub fn vertex(&mut self, position: [f32; 3]) -> u32 {
-        let position = position.map(|value| value + 0.0);
         let next = self.positions.len() as u32;
-        let index = *self.index.entry(position.map(f32::to_bits)).or_insert(next);
+        let index = *self.index.entry(place_bits(position)).or_insert(next);
         if index == next {
-            self.positions.push(position);
+            self.positions.push(position.map(|value| value + 0.0));
         }
         index
     }
@@ -264,63 +252,5 @@ impl Welder {
     /// Vertex positions in the order of their first use.
     pub fn into_positions(self) -> Vec<[f32; 3]> {
         self.positions
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn square() -> Mesh {
-        let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [9.0, 9.0, 9.0]];
-        Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh")
-    }
-
-    #[test]
-    fn a_square_has_area_bounds_and_normals() {
-        let mesh = square();
-        assert_eq!((mesh.area(0), mesh.area(1), mesh.area(2)), (0.5, 0.5, 0.0));
-        assert_eq!(mesh.vertex_normals(), [DVec3::Z, DVec3::Z, DVec3::Z, DVec3::Z, DVec3::ZERO]);
-        assert_eq!(mesh.degenerate_count(), 0);
-        assert_eq!(mesh.contact(0, 1), Contact::Edge);
-        assert_eq!(mesh.bounds(), Some([[0.0; 3], [1.0, 1.0, 0.0]]), "unused vertices do not count");
-    }
-
-    #[test]
-    fn contact_is_by_place() {
-        let positions =
-            vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
-        let mesh = Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5], [1, 1, 2]]).expect("a mesh");
-        assert_eq!(mesh.contact(0, 1), Contact::Vertex);
-        assert_eq!(mesh.contact(1, 2), Contact::None);
-        assert_eq!(mesh.contact(0, 99), Contact::None);
-        assert_eq!(mesh.degenerate_count(), 1);
-    }
-
-    #[test]
-    fn bad_input_is_named() {
-        let found = Mesh::new(vec![[0.0; 3]], vec![[0, 0, 1]]).unwrap_err();
-        assert_eq!(found.to_string(), "triangle 0 uses vertex 1, expected an index below 1 (counted from 0)");
-        let found = Mesh::new(vec![[0.0; 3], [0.0, f32::INFINITY, 0.0]], vec![]).unwrap_err();
-        assert_eq!(found.to_string(), "vertex 1 (counted from 0) has the coordinate inf, expected a finite number");
-    }
-
-    #[test]
-    fn attributes_are_one_per_vertex() {
-        let found = square().with_normals(vec![[0.0, 0.0, 1.0]; 4]).unwrap_err();
-        assert_eq!(found.to_string(), "found 4 normals, expected one per vertex: 5");
-        let found = square().with_texcoords(vec![[0.0, f32::NAN]; 5]).unwrap_err().to_string();
-        let expected = "among the texture coordinates of vertex 0 (counted from 0) is NaN, expected finite numbers";
-        assert_eq!(found, expected);
-        let mesh = square().with_texcoords(vec![[0.5, 1.0]; 5]).expect("a pair per vertex");
-        assert_eq!((mesh.normals(), mesh.texcoords()), (None, Some(&[[0.5, 1.0]; 5][..])));
-    }
-
-    #[test]
-    fn welding_joins_what_is_at_one_place() {
-        let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-0.0, 1.0, 0.0]];
-        let torn = Mesh::new(vec![a, b, c, a, c, d], vec![[0, 1, 2], [3, 4, 5]]).expect("a mesh");
-        assert_eq!(torn.boundary_edge_count(), 6);
-        assert_eq!((torn.welded().triangles(), torn.welded().boundary_edge_count()), (&[[0, 1, 2], [0, 2, 3]][..], 4));
     }
 }

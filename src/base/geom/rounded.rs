@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::vector::wide;
+use super::vector::{area_vector, wide};
 
 /// Largest distance of a corner from its place before it was rounded: each coordinate is off by at most 2^-24 of the
 /// largest one.
@@ -16,7 +16,7 @@ fn reach(corners: &[DVec3]) -> f64 {
 pub fn has_certain_area(triangle: &[[f32; 3]; 3]) -> bool {
     let corners @ [a, b, c] = triangle.map(wide);
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-    (b - a).cross(c - a).length() > 2.0 * reach(&corners) * longest
+    area_vector(corners).length() > 2.0 * reach(&corners) * longest
 }
 
 /// Returns `true` if the triangles `a`, `b`, `c` and `a`, `b`, `d` overlap: both are on the same side of their common

@@ -35,16 +35,3 @@ impl UnitFrame {
 fn power_of_two_above(length: f64) -> f64 {
     if length.is_normal() { f64::from_bits(((length.to_bits() >> 52) + 1) << 52) } else { 1.0 }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_unit_is_a_power_of_two_above() {
-        assert_eq!([0.0, 1.0, 1.5, 2.0, 0.3].map(power_of_two_above), [1.0, 2.0, 2.0, 4.0, 0.5]);
-        let frame = UnitFrame::new([DVec3::ZERO, DVec3::new(6.0, 0.0, 0.0), DVec3::new(3.0, 1.0, 8.0)]);
-        assert_eq!((frame.unit(), frame.of_scene(DVec3::new(3.0, 0.5, 12.0))), (8.0, DVec3::Z));
-        assert_eq!(UnitFrame::new([]).of_scene(DVec3::X), DVec3::X);
-    }
-}

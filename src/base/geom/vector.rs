@@ -20,6 +20,11 @@ pub fn unit(vector: DVec3) -> Option<DVec3> {
     (length > 0.0 && length.is_finite()).then(|| vector / length)
 }
 
+/// Normal of a triangle by the right-hand rule, with twice its area as length.
+pub fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
 /// Returns the coordinate axis along which a direction has its smallest component, the first of equals: far from
 /// parallel to it.
 pub fn least_axis(direction: DVec3) -> DVec3 {

@@ -6,6 +6,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::hard::Aim;
+use crate::compare::shortest;
 use crate::error::InputError;
 use crate::geom::{ExactT, Hit, Ray};
 
@@ -224,7 +225,7 @@ impl Disagreement {
         }
         match &self.met_at {
             Some(met) if self.kind != DisagreementKind::TOff => {
-                write!(f, " (the ray meets it at {})", short_double(met.to_f64()))
+                write!(f, " (the ray meets it at {})", shortest(met.to_f64()))
             }
             None if self.kind != DisagreementKind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
             _ => Ok(()),
@@ -239,7 +240,7 @@ impl Disagreement {
 }
 
 /// Vector displayed in parentheses; -0 shows its sign, and every f32 has enough digits to be read back.
-pub(super) struct ShownVector(pub(super) [f32; 3]);
+struct ShownVector([f32; 3]);
 
 impl fmt::Display for ShownVector {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -250,11 +251,6 @@ impl fmt::Display for ShownVector {
 
 /// Shortest text that reads back to the same f32: plain near one, with an exponent far from it.
 pub(super) fn short(x: f32) -> String {
-    let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
-    if plain { format!("{x}") } else { format!("{x:e}") }
-}
-
-fn short_double(x: f64) -> String {
     let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
     if plain { format!("{x}") } else { format!("{x:e}") }
 }
@@ -274,7 +270,7 @@ impl fmt::Display for Disagreement {
                 if triangles.len() > 4 {
                     names += &format!(" or {} more", triangles.len() - 4);
                 }
-                write!(f, "triangle {names} at t = {}", short_double(t.to_f64()))?;
+                write!(f, "triangle {names} at t = {}", shortest(t.to_f64()))?;
             }
         }
         self.write_found(f)?;

@@ -9,7 +9,7 @@
 //! - [`texel`]: attributes of texels and clusters;
 //! - [`part`]: the part of the surface under a rectangle of texels, as polygons;
 //! - [`drawn`]: triangles as a card draws them into the atlas, and from it;
-//! - [`tree`]: the binary tree of clusters; `graph`, `measures`, `split`, `sweep` and `small` build it;
+//! - [`tree`]: the binary tree of clusters; `graph`, `measures`, `sweep` and `small` build it;
 //! - [`census`]: irregularities of a mesh;
 //! - [`quality`]: evenness, connectivity and compactness of an atlas.
 
@@ -23,7 +23,6 @@ pub mod part;
 pub mod place;
 pub mod quality;
 mod small;
-mod split;
 mod surface;
 mod sweep;
 pub mod texel;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::geom::Mesh;
-use crate::geom::vector::{unit, wide};
+use crate::geom::vector::{area_vector, unit, wide};
 
 /// Faces of a mesh, in its order.
 #[derive(Debug, Clone)]
@@ -62,8 +62,7 @@ impl AtlasSurface {
 
     /// Normal of a face, with twice its area as length.
     pub(super) fn area_vector(&self, face: u32) -> DVec3 {
-        let [a, b, c] = self.corners(face);
-        (b - a).cross(c - a)
+        area_vector(self.corners(face))
     }
 
     pub(super) fn centroid(&self, face: u32) -> DVec3 {
@@ -84,8 +83,7 @@ fn corner_normals(mesh: &Mesh, welded: &Mesh) -> Vec<[DVec3; 3]> {
     let given = mesh.normals();
     let faces = mesh.triangles().iter().zip(welded.triangles()).zip(mesh.iter_corners());
     let normals = faces.map(|((own, shared), corners)| {
-        let [a, b, c] = corners.map(wide);
-        let flat = unit((b - a).cross(c - a)).unwrap_or(DVec3::ZERO);
+        let flat = unit(area_vector(corners.map(wide))).unwrap_or(DVec3::ZERO);
         std::array::from_fn(|corner| {
             let given = given.and_then(|normals| unit(wide(normals[own[corner] as usize])));
             let known = given.unwrap_or(computed[shared[corner] as usize]);

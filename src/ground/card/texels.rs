@@ -44,7 +44,7 @@ impl Texels {
     ///
     /// # Errors
     /// If the extents are 0 or too large, or the texels do not fill them.
-    pub fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
+    fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
         let extents = extents([self.width, self.height]);
         if format == TexelFormat::Rgba32f {
             // The bits are stored as they are, which is the fast path for large matrices.
@@ -56,7 +56,7 @@ impl Texels {
     }
 
     /// The texels of an image with one level; components that the format lacks have the values that the card reads.
-    pub fn from_image(image: &Image) -> Self {
+    fn from_image(image: &Image) -> Self {
         let [width, height] = [image.width(), image.height()].map(|side| side as usize);
         let value = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
         match image.format() {
@@ -139,23 +139,4 @@ pub fn new_texture(
 fn extents([width, height]: [usize; 2]) -> [u32; 3] {
     let extent = |size| u32::try_from(size).unwrap_or(u32::MAX);
     [extent(width), extent(height), 1]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn floats_come_back_as_the_format_holds_them() {
-        let texels = Texels::vector(vec![[1.0, -0.0, 1.0 / 3.0, 65504.0], [0.1, 2.0, 3.0, 4.0]]);
-        let image = texels.to_image(TexelFormat::Rgba32f).expect("an image");
-        assert_eq!(Texels::from_image(&image), texels);
-        let image = texels.to_image(TexelFormat::Rgba16f).expect("an image");
-        assert_eq!(Texels::from_image(&image).texels[0], [1.0, -0.0, 0.333_251_95, 65504.0]);
-        let image = texels.to_image(TexelFormat::R32f).expect("an image");
-        let read = image.texel(0, 0, 0, 1, SignedTexelMinimum::Clamp).to_format(Format::FP32);
-        assert_eq!(Texels::from_image(&image).texels[1].map(f32::to_bits), read);
-        assert!(Texels { height: 2, ..texels }.to_image(TexelFormat::Rgba32f).is_err(), "too few texels");
-        assert!(Texels::default().to_image(TexelFormat::Rgba32f).is_err());
-    }
 }

@@ -17,7 +17,6 @@ pub mod npy;
 pub mod npz;
 mod number;
 pub mod number_table;
-mod numbers;
 pub mod obj;
 pub mod picture;
 pub mod ply;
@@ -36,18 +35,19 @@ pub use light_sources::{LightSourceRow, load_light_sources, parse_light_sources}
 pub use matrix_market::{CoordinateMatrix, load_matrix_market, parse_matrix_market, write_matrix_market};
 pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, load_scene_with};
 pub use model_note::ModelNote;
-pub use npy::{NumberArray, parse_npy, parse_npy_array, write_npy, write_npy_array};
+pub use npy::{
+    NumberArray, load_npy_array, load_numbers, parse_npy, parse_npy_array, parse_numbers, write_npy, write_npy_array,
+};
 pub use npz::{NpzReader, NpzWriter};
 pub use number::{NumberError, parse_f32, parse_f64, to_f32};
 pub use number_table::{NumberTable, TableNumber, parse_number_table};
-pub use numbers::{load_npy_array, load_numbers, parse_numbers};
-pub use obj::{load_obj, parse_obj, write_obj};
-pub use picture::{PictureFile, load_picture};
-pub use ply::{load_ply, parse_ply};
+pub use obj::{parse_obj, write_obj};
+pub use picture::PictureFile;
+pub use ply::parse_ply;
 pub use rays::{load_rays, parse_rays, write_hits};
 pub use scene_file::{scene_files, write_scene_file};
 pub use scene_obj::{parse_mtl, parse_scene, write_mtl, write_scene};
-pub use stl::{load_stl, parse_stl};
+pub use stl::parse_stl;
 
 use std::fs::File;
 use std::io::{self, Read};

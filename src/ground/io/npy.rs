@@ -4,7 +4,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::number_table::{NumberTable, TableNumber};
+use super::error::read_file;
+use super::number_table::{NumberTable, TableNumber, parse_number_table};
 use super::{NumberError, quoted};
 use crate::error::{InputError, input_error};
 
@@ -44,9 +45,6 @@ impl<T> From<NumberArray<T>> for NumberTable<T> {
 }
 
 /// Reads an array from bytes as a table; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_npy<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
     parse_npy_array(bytes, name).map(NumberTable::from)
 }
@@ -99,9 +97,6 @@ pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, Inpu
 }
 
 /// Reads an array from bytes; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberArray<T>, InputError> {
     let NpyView { descr, shape, data, .. } = view(bytes, name)?;
     if data.is_empty() {
@@ -227,10 +222,22 @@ fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
     Some((numbers.map(|n| n.strip_suffix('L').unwrap_or(n).parse().ok()).collect::<Option<_>>()?, rest))
 }
 
+/// The numbers of a NumPy array or of comma-separated values; `name` is the file's name in messages.
+pub fn parse_numbers<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
+    if bytes.starts_with(MAGIC) { parse_npy(bytes, name) } else { parse_number_table(bytes, name) }
+}
+
+/// [`parse_numbers`] from a file of at most `limit` bytes, which is a `what`.
+pub fn load_numbers<T: TableNumber>(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<T>, InputError> {
+    parse_numbers(&read_file(path, what, limit)?, path)
+}
+
+/// The numbers of an array of NumPy's with its shape, from a file of at most `limit` bytes, which is a `what`.
+pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<NumberArray, InputError> {
+    parse_npy_array(&read_file(path, what, limit)?, path)
+}
+
 /// Writes a table as an array of little-endian f4, in version 1.
-///
-/// # Errors
-/// Those of `out`.
 ///
 /// # Panics
 /// If the number of values is no multiple of the columns.
@@ -241,9 +248,6 @@ pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes numbers of any shape as an array of little-endian f4, in version 1.
-///
-/// # Errors
-/// Those of `out`.
 ///
 /// # Panics
 /// If the number of values differs from the shape's product, or a header cannot hold all axes.
@@ -264,96 +268,4 @@ pub(super) fn beginning(descr: &str, shape: &[usize]) -> Vec<u8> {
     let padding = (MAGIC.len() + 4 + header.len() + 1).next_multiple_of(64) - (MAGIC.len() + 4 + header.len() + 1);
     header.extend(std::iter::repeat_n(' ', padding).chain(['\n']));
     [MAGIC, &[1, 0], &(header.len() as u16).to_le_bytes(), header.as_bytes()].concat()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn file(version: u8, header: &str, data: &[u8]) -> Vec<u8> {
-        let length = (header.len() as u32).to_le_bytes();
-        let length = if version == 1 { &length[..2] } else { &length[..] };
-        [MAGIC, &[version, 0], length, header.as_bytes(), data].concat()
-    }
-
-    fn parse(bytes: &[u8]) -> Result<NumberTable, String> {
-        parse_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
-    }
-
-    #[test]
-    fn all_versions_and_types_are_read() {
-        let values = [1.5_f32, -2.0, 0.1, 3e38, 0.0, -0.0];
-        let bytes = |descr: &str| -> Vec<u8> {
-            let one = |&value: &f32| match descr {
-                "<f4" => value.to_le_bytes().to_vec(),
-                ">f4" => value.to_be_bytes().to_vec(),
-                "<f8" => f64::from(value).to_le_bytes().to_vec(),
-                _ => f64::from(value).to_be_bytes().to_vec(),
-            };
-            values.iter().flat_map(one).collect()
-        };
-        for (version, shape, columns) in [(1, "(2, 3)", 3), (2, "(3, 1, 2L)", 2), (3, "(6,)", 1)] {
-            for descr in ["<f4", ">f4", "<f8", ">f8"] {
-                let header = format!(" {{\"descr\": '{descr}', 'shape': {shape}, 'fortran_order': False}}  \n");
-                let expected = NumberTable { columns, values: values.to_vec() };
-                let file = file(version, &header, &bytes(descr));
-                assert_eq!(parse(&file), Ok(expected), "{version} {descr}");
-                let wide = parse_npy::<f64>(&file, Path::new("a.npy")).expect("a table");
-                assert_eq!(wide.values, values.map(f64::from), "{version} {descr}");
-            }
-        }
-    }
-
-    #[test]
-    fn what_is_written_is_read() {
-        let table = NumberTable { columns: 3, values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0] };
-        let mut bytes = Vec::new();
-        write_npy(&table, &mut bytes).expect("written");
-        assert_eq!((bytes.len() - 24) % 64, 0);
-        assert_eq!(parse(&bytes), Ok(table));
-        for length in 0..bytes.len() {
-            assert!(parse(&bytes[..length]).is_err(), "{length} bytes");
-        }
-        assert!(parse(&[&bytes[..], &[0]].concat()).is_err());
-    }
-
-    #[test]
-    fn shapes_are_kept() {
-        for shape in [&[6][..], &[2, 3], &[1, 2, 1, 3]] {
-            let values = vec![0.5, -1.0, 2.0, 3.0, 4.0, 5.0];
-            let mut bytes = Vec::new();
-            write_npy_array(shape, &values, &mut bytes).expect("written");
-            let found = parse_npy_array(&bytes, Path::new("a.npy")).expect("an array");
-            assert_eq!(found, NumberArray { shape: shape.to_vec(), values });
-        }
-    }
-
-    #[test]
-    fn what_is_not_read_is_named() {
-        let error = |header: &str, data: &[u8]| parse(&file(1, header, data)).expect_err("no table");
-        let with = |descr: &str, order: &str, shape: &str| {
-            format!("{{'descr': {descr}, 'fortran_order': {order}, 'shape': {shape}}}")
-        };
-        let order = error(&with("'<f4'", "True", "(1, 1)"), &[0; 4]);
-        assert_eq!(order, "a.npy: expected an array in C order, found Fortran order");
-        let integers = error(&with("'<i4'", "False", "(1, 1)"), &[0; 4]);
-        assert_eq!(integers, "a.npy: expected numbers of type <f4, <f8, >f4 or >f8, found `<i4`");
-        let short = error(&with("'<f4'", "False", "(2, 3)"), &[0; 20]);
-        assert_eq!(short, "a.npy: expected 6 x 4 bytes of numbers, found 20 bytes");
-        for shape in ["()", "(0, 3)", "(3, 0)", "(9999999999999, 9999999999999)"] {
-            assert!(error(&with("'<f4'", "False", shape), &[]).starts_with("a.npy: expected"), "{shape}");
-        }
-        let range = error(&with("'<f8'", "False", "(1,)"), &1e39_f64.to_le_bytes());
-        assert_eq!(range, "a.npy: number 0 (counted from 0) is too large for a 32-bit float: 1e39");
-        let header = with("'<f8'", "False", "(1,)");
-        let wide = parse_npy::<f64>(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
-        assert_eq!(wide.values, [1e39], "f64 holds it");
-        let twice = error("{'shape': (1,), 'shape': (1,)}", &[]);
-        assert!(twice.contains("`shape`: expected a tuple of whole numbers, once"), "{twice}");
-        for header in ["", "{", "{'descr'}", "{'x': 1}", "{'shape': (-1,)}", "[1]", "{'shape': (1,) 'descr': '<f4'}"] {
-            assert!(error(header, &[]).contains("expected"), "{header}");
-        }
-        assert_eq!(parse(b"PK").expect_err("no table"), "a.npy: the first bytes: expected \\x93NUMPY, found `PK`");
-        assert_eq!(parse(&file(4, "", &[])).expect_err("none"), "a.npy: its version: expected 1, 2 or 3, found 4");
-    }
 }

@@ -30,9 +30,6 @@ pub struct NpzReader<'a> {
 impl<'a> NpzReader<'a> {
     /// Reads the archive, the checksums of all members, and the headers of all arrays; `name` is the file's name in
     /// messages.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(bytes: &'a [u8], name: &'a Path) -> Result<Self, InputError> {
         let refused = |reason: String| {
             input_error!("crossbar::npz::archive" =>
@@ -84,9 +81,6 @@ impl<'a> NpzReader<'a> {
     }
 
     /// Takes out the bytes of an array of one axis.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn bytes(&mut self, field: &str) -> Result<&'a [u8], InputError> {
         let length = self.arrays.get(field).map_or(0, |array| array.data.len());
         Ok(self.take(field, &[length], &["|u1"])?.data)
@@ -108,26 +102,17 @@ impl<'a> NpzReader<'a> {
     }
 
     /// Takes out an array of 64-bit words of this shape.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn words(&mut self, field: &str, shape: &[usize]) -> Result<Vec<u64>, InputError> {
         Ok(self.take(field, shape, &["<u8"])?.elements().collect())
     }
 
     /// Takes out an array of finite f32 of this shape.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn singles(&mut self, field: &str, shape: &[usize]) -> Result<Vec<f32>, InputError> {
         let values = self.take(field, shape, &["<f4"])?.elements().map(|bits| f32::from_bits(bits as u32)).collect();
         self.finite(field, values, |value| value.is_finite())
     }
 
     /// Takes out an array of finite f64 of this shape.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn doubles(&mut self, field: &str, shape: &[usize]) -> Result<Vec<f64>, InputError> {
         let values = self.take(field, shape, &["<f8"])?.elements().map(f64::from_bits).collect();
         self.finite(field, values, |value| value.is_finite())
@@ -141,9 +126,6 @@ impl<'a> NpzReader<'a> {
     }
 
     /// Says that no array is left.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn finish(self) -> Result<(), InputError> {
         match self.arrays.keys().next() {
             Some(left) => Err(self.refuse("arrays", "no others", quoted(left.as_bytes()))),
@@ -182,17 +164,11 @@ impl<'a> NpzWriter<'a> {
     }
 
     /// Writes bytes as an array of one axis.
-    ///
-    /// # Errors
-    /// Those of the output.
     pub fn bytes(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         self.put(name, ('u', 1), &[bytes.len()], bytes.iter().map(|&byte| byte.into()))
     }
 
     /// Writes integers in the least type that holds all of them.
-    ///
-    /// # Errors
-    /// Those of the output.
     pub fn integers<T: Into<i64>>(
         &mut self,
         name: &str,
@@ -211,17 +187,11 @@ impl<'a> NpzWriter<'a> {
     }
 
     /// Writes 64-bit words.
-    ///
-    /// # Errors
-    /// Those of the output.
     pub fn words(&mut self, name: &str, shape: &[usize], words: &[u64]) -> io::Result<()> {
         self.put(name, ('u', 8), shape, words.iter().copied())
     }
 
     /// Writes f32.
-    ///
-    /// # Errors
-    /// Those of the output.
     pub fn singles(
         &mut self,
         name: &str,
@@ -232,9 +202,6 @@ impl<'a> NpzWriter<'a> {
     }
 
     /// Writes f64.
-    ///
-    /// # Errors
-    /// Those of the output.
     pub fn doubles(
         &mut self,
         name: &str,
@@ -245,9 +212,6 @@ impl<'a> NpzWriter<'a> {
     }
 
     /// Ends the archive.
-    ///
-    /// # Errors
-    /// Those of the output.
     pub fn finish(self) -> io::Result<()> {
         self.zip.finish()?;
         Ok(())

@@ -40,18 +40,7 @@ impl PictureFile {
     }
 
     /// The picture.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn decode(&self) -> Result<Picture, InputError> {
         Picture::decode(&self.bytes).map_err(|reason| decode_error(&self.path, reason))
     }
-}
-
-/// Reads a picture; its first bytes say in which format, whatever the file's name.
-///
-/// # Errors
-/// [`InputError`], with the path.
-pub fn load_picture(path: &Path) -> Result<Picture, InputError> {
-    PictureFile::open(path)?.decode()
 }

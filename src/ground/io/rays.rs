@@ -103,16 +103,6 @@ fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, InputError> {
     Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|reason| reason.at(FilePlace::line(name, line)))
 }
 
-/// Writes rays in the form that [`parse_rays`] reads back bit for bit.
-pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "{}", HEADER.join(","))?;
-    for ray in rays {
-        let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin(), ray.direction());
-        writeln!(out, "{ox},{oy},{oz},{dx},{dy},{dz}")?;
-    }
-    Ok(())
-}
-
 /// Writes one line per ray: its number from 0, the triangle or -1, and t or `inf`.
 pub fn write_hits(hits: &[Option<(u32, f64)>], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "ray,triangle,t")?;
@@ -126,48 +116,4 @@ pub fn write_hits(hits: &[Option<(u32, f64)>], out: &mut dyn Write) -> io::Resul
         }
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn message(text: &str) -> String {
-        parse_rays(text.as_bytes(), Path::new("r.csv")).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn reads_what_it_writes() {
-        let rays = vec![
-            Ray::new([0.1, -0.0, 1e-45], [3.0e38, 1.0 / 3.0, -2.0]).expect("a ray"),
-            Ray::new([0.0; 3], [0.0, 0.0, -1.0]).expect("a ray"),
-        ];
-        let mut text = Vec::new();
-        write_rays(&rays, &mut text).expect("written");
-        let back = parse_rays(&text, Path::new("r.csv")).expect("rays");
-        assert_eq!(back, rays);
-        assert_eq!(back[0].origin()[1].to_bits(), (-0.0_f32).to_bits());
-    }
-
-    #[test]
-    fn errors_say_where_and_what() {
-        assert_eq!(message(""), "r.csv:1: expected the header `ox,oy,oz,dx,dy,dz`, found ``");
-        assert_eq!(message("ox,oy,oz\n"), "r.csv:1: expected the header `ox,oy,oz,dx,dy,dz`, found `ox,oy,oz`");
-        let with = |line: &str| message(&format!("ox,oy,oz,dx,dy,dz\r\n0,0,0, 0,0,1\n{line}\n"));
-        assert_eq!(with("1,2,3"), "r.csv:3: expected 6 numbers (ox,oy,oz,dx,dy,dz), found 3 fields");
-        assert_eq!(with("1,2,3,4,five,6"), "r.csv:3: expected a number for dy, found `five`");
-        assert_eq!(with("1,2,3,0,0,0"), "r.csv:3: expected a direction, found (0, 0, 0)");
-        assert_eq!(with("1,nan,3,0,0,1"), "r.csv:3: expected a finite number for oy, found `nan`");
-        let large = "a number that is not too large for a 32-bit float: at most 3.4028235e38";
-        assert_eq!(with("1,2,3,0,0,1e39"), format!("r.csv:3: expected {large} for dz, found `1e39`"));
-        assert!(load_rays(Path::new("/no/such.csv")).unwrap_err().to_string().eq("cannot read the rays /no/such.csv"));
-    }
-
-    #[test]
-    fn hits_read_back_to_the_same_bits() {
-        let hits = [Some((7, f64::from(0.1_f32))), None, Some((8, 1e39)), Some((9, f64::INFINITY))];
-        let mut text = Vec::new();
-        write_hits(&hits, &mut text).expect("written");
-        assert_eq!(text, b"ray,triangle,t\n0,7,0.1\n1,-1,inf\n2,8,1e39\n3,9,inf\n");
-    }
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::lines::{lines, not_utf_16, single, unmarked, words};
 use super::model_note::ModelNote;
-use super::obj::{load_model, within_limit};
+use super::obj::within_limit;
 use super::quoted;
 use crate::error::{FilePlace, InputError};
 use crate::geom::mesh::{Mesh, Welder};
@@ -21,14 +21,6 @@ const HEAD: usize = 84;
 const TRIANGLE: usize = 50;
 
 type Corners = [[f32; 3]; 3];
-
-/// Reads a mesh from a file.
-///
-/// # Errors
-/// [`InputError`], with the path, and the line or triangle where there is one.
-pub fn load_stl(path: &Path) -> Result<Mesh, InputError> {
-    parse_stl(&load_model(path)?, path)
-}
 
 /// Reads a mesh from bytes; `name` is the file's name in messages. Never panics, and allocates memory in proportion to
 /// the file's length only.

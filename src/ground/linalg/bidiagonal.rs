@@ -33,7 +33,7 @@ impl Bidiagonal {
         let mut found = Self { diagonal: Vec::new(), above: Vec::new(), left: Vec::new(), right: Vec::new() };
         let (mut update, mut column) = (None, rest.column(0));
         for k in 0..columns {
-            let (left, diagonal) = Reflection::onto_first(column);
+            let (left, diagonal) = Reflection::onto(column, 0);
             found.diagonal.push(diagonal);
             // Applies the update of the last step, fused with the product of this step's reflection.
             let product = rest.updated_product(k, update.take(), left.as_ref());
@@ -44,7 +44,7 @@ impl Bidiagonal {
             let beside = product.iter().skip(1).copied().collect::<Vec<f64>>();
             let first = left.as_ref().map_or(0.0, |left| left.axis[0]);
             let row = rest.row(k)[k + 1..].iter().zip(&beside).map(|(value, w)| value - first * w).collect();
-            let (right, above) = Reflection::onto_first(row);
+            let (right, above) = Reflection::onto(row, 0);
             found.above.push(above);
             let step = rest.update(k, left.as_ref(), beside, right.as_ref());
             column = rest.next_column(k, &step);

@@ -4,7 +4,7 @@
 //! rotations are recorded and applied only to the requested columns, so `count` vectors of n cost O(n^2 count) beside
 //! the 4/3 n^3 operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
 
-use super::reflection::{NEGLIGIBLE_SQUARE, Reflection, inverse_power_of_two};
+use super::reflection::{Reflection, inverse_power_of_two, largest};
 use super::tridiagonal::{diagonalise, rotated};
 use super::{Matrix, dot};
 use crate::error::InputError;
@@ -103,8 +103,8 @@ impl Lower {
         if found > 0 {
             return Err(not_finite_error(found));
         }
-        let largest = lower().flatten().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        let scale = inverse_power_of_two(largest);
+        let most = lower().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let scale = inverse_power_of_two(most);
         Ok(Self { rows: lower().map(|row| row.iter().map(|value| value * scale).collect()).collect(), scale })
     }
 
@@ -135,9 +135,7 @@ impl Lower {
     /// Infinity norm of A v - lambda v.
     fn residual(&self, vector: &[f64], value: f64) -> f64 {
         let product = self.times(vector);
-        // Not f64::max, which ignores NaN.
-        let differences = product.iter().zip(vector).map(|(product, v)| (product - value * v).abs());
-        differences.fold(0.0, |largest, difference| if difference <= largest { largest } else { difference })
+        largest(product.iter().zip(vector).map(|(product, v)| (product - value * v).abs()))
     }
 
     #[inline(always)]
@@ -145,18 +143,9 @@ impl Lower {
         let size = self.rows.len();
         let (mut beside, mut reflections) = (vec![0.0; size.saturating_sub(1)], Vec::new());
         for i in (1..size).rev() {
-            let mut axis = self.rows[i][..i].to_vec();
-            let rest = dot(&axis[..i - 1], &axis[..i - 1]);
-            let last = axis[i - 1];
-            let square = rest + last * last;
-            if rest == 0.0 || square < NEGLIGIBLE_SQUARE {
-                beside[i - 1] = if rest == 0.0 { last } else { 0.0 };
-                continue;
-            }
-            let length = square.sqrt().copysign(last);
-            beside[i - 1] = -length;
-            axis[i - 1] += length;
-            let half = length * axis[i - 1];
+            let (reflection, value) = Reflection::onto(self.rows[i][..i].to_vec(), i - 1);
+            beside[i - 1] = value;
+            let Some(Reflection { axis, half }) = reflection else { continue };
             let mut into = self.times(&axis);
             let along = dot(&axis, &into) / (2.0 * half * half);
             into.iter_mut().zip(&axis).for_each(|(value, axis)| *value = *value / half - along * axis);
@@ -170,88 +159,5 @@ impl Lower {
         reflections.reverse();
         let diagonal = self.rows.iter().enumerate().map(|(i, row)| row[i]).collect();
         Tridiagonal { diagonal, beside, reflections }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::linalg::SymmetricEigen;
-    use approx::assert_abs_diff_eq;
-
-    /// Symmetric matrix of integers from a rule.
-    fn matrix(size: usize, rule: impl Fn(usize, usize) -> f64) -> Matrix {
-        let values = (0..size * size).map(|at| rule((at / size).max(at % size), (at / size).min(at % size)));
-        Matrix::new([size; 2], values.collect()).expect("a matrix")
-    }
-
-    #[test]
-    fn pairs_are_those_of_the_full_factorisation() {
-        for size in [1, 2, 3, 7, 40, 90] {
-            let m = matrix(size, |i, j| ((i * 31 + j * 17 + i * j) % 23) as f64 - 11.0);
-            let (all, leading) = (SymmetricEigen::new(&m).expect("all"), LeadingEigen::new(&m, 5).expect("five"));
-            for (a, b) in all.values.iter().zip(&leading.values) {
-                assert_abs_diff_eq!(a, b, epsilon = 1e-11 * size as f64);
-            }
-            assert_eq!(leading.vectors.row_count(), size.min(5));
-            for (i, vector) in leading.vectors.rows().enumerate() {
-                assert_abs_diff_eq!(dot(vector, all.vectors.row(i)), 1.0, epsilon = 1e-10);
-            }
-        }
-    }
-
-    #[test]
-    fn repeated_and_vanishing_eigenvalues_have_orthonormal_vectors() {
-        let same = |size| matrix(size, |i, j| if i == j { 3.0 } else { 0.0 });
-        let ones = |size| matrix(size, |_, _| 1.0);
-        // Eigenvalues of a ring of neighbours come in pairs.
-        let ring = |size| matrix(size, move |i, j| if i - j == 1 || i - j == size - 1 { 1.0 } else { 0.0 });
-        for m in [same(6), ones(33), ring(33), matrix(20, |i, j| if i == j && i < 3 { 1e-300 } else { 0.0 })] {
-            let eigen = LeadingEigen::new(&m, 12).expect("pairs");
-            for (i, a) in eigen.vectors.rows().enumerate() {
-                for (j, b) in eigen.vectors.rows().enumerate() {
-                    assert_abs_diff_eq!(dot(a, b), f64::from(u8::from(i == j)), epsilon = 1e-13);
-                }
-            }
-        }
-        assert_eq!(LeadingEigen::new(&same(6), 1).expect("pairs").values, [3.0; 6]);
-        assert_abs_diff_eq!(LeadingEigen::new(&ones(33), 1).expect("pairs").values[0], 33.0, epsilon = 1e-12);
-        let zero = LeadingEigen::new(&matrix(4, |_, _| 0.0), 2).expect("pairs");
-        assert_eq!((zero.values, zero.vectors.row(1)), (vec![0.0; 4], &[0.0, 1.0, 0.0, 0.0][..]));
-        assert_eq!(LeadingEigen::new(&matrix(0, |_, _| 0.0), 2).expect("none").values, [0.0; 0]);
-    }
-
-    #[test]
-    fn graded_matrices_are_solved_in_any_order_of_their_grades() {
-        for seed in 0..200_usize {
-            let size = 2 + seed % 30;
-            // Rows from 1 down to a power of 1/2, in an order that changes with the seed.
-            let graded = |power: usize| {
-                let at = |i: usize| (i * (seed + 3)) % size;
-                let grade = |i: usize| (0..at(i) * power / size).fold(1.0, |grade, _| grade * 0.5);
-                matrix(size, |i, j| grade(i) * grade(j) * (((i * 31 + j * 17 + seed) % 23) as f64 - 11.0))
-            };
-            // Squares of squares of these vanish; the pairs are checked where they are found.
-            assert!(LeadingEigen::new(&graded(600), size).is_ok());
-            let m = graded(60);
-            let (all, leading) = (SymmetricEigen::new(&m).expect("all"), LeadingEigen::new(&m, size).expect("pairs"));
-            for (a, b) in all.values.iter().zip(&leading.values) {
-                assert_abs_diff_eq!(a, b, epsilon = 1e-13 * all.values[0].abs().max(all.values[size - 1].abs()));
-            }
-        }
-    }
-
-    #[test]
-    fn any_magnitude_is_taken_and_no_number_refused() {
-        for scale in [1e-290, 1.0, 1e290] {
-            let m = matrix(9, |i, j| scale * ((i * 5 + j) % 7) as f64);
-            let (all, leading) = (SymmetricEigen::new(&m).expect("all"), LeadingEigen::new(&m, 2).expect("two"));
-            assert_abs_diff_eq!(all.values[0] / scale, leading.values[0] / scale, epsilon = 1e-12);
-        }
-        let nan = matrix(3, |i, j| if i == 2 && j == 1 { f64::NAN } else { 1.0 });
-        assert_eq!(
-            LeadingEigen::new(&nan, 1).unwrap_err().to_string(),
-            "expected finite elements, found 1 that are not"
-        );
     }
 }

@@ -39,9 +39,6 @@ impl Matrix {
     }
 
     /// Creates a matrix of zeros.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn zeros([rows, columns]: [usize; 2]) -> Result<Self, InputError> {
         Ok(Self { rows, columns, values: vec![0.0; elements([rows, columns])?] })
     }
@@ -111,9 +108,6 @@ impl Matrix {
 
     /// Product with a matrix, one [`dot`] per element.
     ///
-    /// # Errors
-    /// [`InputError`].
-    ///
     /// # Panics
     /// If the other does not have as many rows as this one has columns.
     pub fn product(&self, other: &Self) -> Result<Self, InputError> {
@@ -158,35 +152,4 @@ fn elements([rows, columns]: [usize; 2]) -> Result<usize, InputError> {
          {rows} x {columns}"
         )
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_columns_and_products() {
-        let m = Matrix::new([2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).expect("a matrix");
-        assert_eq!((m.times(&[1.0, 10.0, 100.0]), m.diagonal()), (vec![321.0, 654.0], vec![1.0, 5.0]));
-        let squares = Matrix::new([2, 2], vec![14.0, 32.0, 32.0, 77.0]).expect("a matrix");
-        assert_eq!(m.product(&m.transposed()), Ok(squares));
-        assert_eq!(Matrix::from_nalgebra(&m.to_nalgebra()), m);
-        assert_eq!(Matrix::zeros([0, 0]).expect("a matrix").times(&[]), Vec::<f64>::new());
-    }
-
-    #[test]
-    fn what_makes_no_matrix_is_refused() {
-        let [rows, columns] = [2, 2];
-        assert_eq!(Matrix::new([2, 2], vec![0.0; 3]), Err(count_error(rows, columns, 3)));
-        for size in [[MAX_SQUARE + 1, MAX_SQUARE], [usize::MAX, 2]] {
-            assert_eq!(
-                Matrix::zeros(size),
-                Err(input_error!(
-                    "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found {} x {}",
-                    size[0],
-                    size[1]
-                ))
-            );
-        }
-    }
 }

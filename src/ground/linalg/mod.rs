@@ -1,7 +1,7 @@
 //! Dense linear algebra in f64, with the same bits on every processor, number of threads and set of cargo features.
 //!
 //! - [`Matrix`]: a dense matrix by rows, and its products; [`dot`]: the inner product;
-//! - [`Lu`], blocked and parallel; [`Qr`], [`SymmetricEigen`], [`Svd`]: factorisations, by nalgebra;
+//! - [`Lu`], blocked and parallel; [`SymmetricEigen`], by nalgebra;
 //! - [`LeadingEigen`], [`LeadingSvd`]: all eigenvalues or singular values, and only the vectors of the largest.
 //!
 //! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its
@@ -18,7 +18,7 @@ mod reflection;
 mod tridiagonal;
 
 pub use dot::dot;
-pub use factor::{Qr, Svd, SymmetricEigen};
+pub use factor::SymmetricEigen;
 pub use leading::{LeadingEigen, make_largest_positive};
 pub use leading_svd::LeadingSvd;
 pub use lu::Lu;

@@ -4,7 +4,7 @@ use super::dot;
 
 /// Squared length below which part of a vector counts as 0 relative to a largest element of at least 1: far below all
 /// rounding errors, and far above underflow of its square.
-pub(super) const NEGLIGIBLE_SQUARE: f64 = 1e-60;
+const NEGLIGIBLE_SQUARE: f64 = 1e-60;
 
 /// Householder reflection I - axis axis^T / half, on the first components.
 pub(super) struct Reflection {
@@ -18,20 +18,26 @@ impl Reflection {
         vector.iter_mut().zip(&self.axis).for_each(|(value, axis)| *value -= along * axis);
     }
 
-    /// Returns the reflection that maps a vector to a multiple of the first unit vector, and that multiple; `None` if
-    /// the other components are 0, or the whole vector counts as 0.
-    pub(super) fn onto_first(mut axis: Vec<f64>) -> (Option<Self>, f64) {
-        let Some((&first, others)) = axis.split_first() else { return (None, 0.0) };
+    /// Returns the reflection that maps a vector to a multiple of the unit vector of component `at`, its first or its
+    /// last, and that multiple; `None` if the other components are 0, or the whole vector counts as 0.
+    pub(super) fn onto(mut axis: Vec<f64>, at: usize) -> (Option<Self>, f64) {
+        let Some(&kept) = axis.get(at) else { return (None, 0.0) };
+        let others = if at == 0 { &axis[1..] } else { &axis[..at] };
         let rest = dot(others, others);
-        let square = rest + first * first;
+        let square = rest + kept * kept;
         if rest == 0.0 || square < NEGLIGIBLE_SQUARE {
-            return (None, if rest == 0.0 { first } else { 0.0 });
+            return (None, if rest == 0.0 { kept } else { 0.0 });
         }
-        let length = square.sqrt().copysign(first);
-        axis[0] += length;
-        let half = length * axis[0];
+        let length = square.sqrt().copysign(kept);
+        axis[at] += length;
+        let half = length * axis[at];
         (Some(Self { axis, half }), -length)
     }
+}
+
+/// The largest of some magnitudes; NaN, which `f64::max` ignores, if one is.
+pub(super) fn largest(magnitudes: impl Iterator<Item = f64>) -> f64 {
+    magnitudes.fold(0.0, |most, value| if most.is_nan() || value <= most { most } else { value })
 }
 
 /// Power of two that scales a magnitude into [1, 2); 1 for 0.

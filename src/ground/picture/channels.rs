@@ -52,7 +52,7 @@ pub struct Picture {
 }
 
 impl Samples {
-    /// Number of channels.
+    /// Number of samples.
     pub const fn len(&self) -> usize {
         match self {
             Self::Float(samples) => samples.len(),
@@ -60,7 +60,7 @@ impl Samples {
         }
     }
 
-    /// Returns `true` if there are no channels.
+    /// Returns `true` if there are no samples.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }

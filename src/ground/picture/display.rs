@@ -19,23 +19,3 @@ pub fn curve(linear: f64) -> f64 {
 pub fn decode(value: f64) -> f64 {
     if value <= 0.040_45 { value / 12.92 } else { crate::elementary::pow((value + 0.055) / 1.055, 2.4) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_curve_at_points_that_are_known() {
-        let known = [(0.0, 0), (1.0, 255), (7.0, 255), (-1.0, 0), (f64::NAN, 0), (0.215_860_5, 128), (0.5, 188)];
-        for (linear, byte) in known {
-            assert_eq!(encode(linear), byte, "{linear}");
-        }
-    }
-
-    #[test]
-    fn every_byte_comes_back() {
-        for byte in 0..=255 {
-            assert_eq!(encode(decode(f64::from(byte) / 255.0)), byte);
-        }
-    }
-}

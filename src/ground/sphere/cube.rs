@@ -110,30 +110,3 @@ fn rectangle_solid_angle([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
     };
     triangle(a, b, c) + triangle(a, c, d)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::PI;
-
-    #[test]
-    fn centers_fall_into_their_texels() {
-        let map = CubeMap::new(5);
-        for (face, column, row) in (0..150).map(|at| (at / 25, at % 5, at / 5 % 5)) {
-            assert_eq!(map.texel_of(3.0 * map.direction(face, column, row)), [face, column, row]);
-        }
-        assert_eq!(map.texel_of(DVec3::new(1.0, 1.0, 0.0))[0], 0, "the lower of two faces");
-        assert_eq!(map.texel_of(DVec3::new(1.0, -1.0, -1.0)), [0, 4, 4], "a corner");
-    }
-
-    #[test]
-    fn a_face_of_a_cube_covers_a_sixth_and_its_parts_add_up() {
-        let whole = 2.0 / 3.0 * PI;
-        assert!((rectangle_solid_angle([-1.0; 2], [1.0; 2]) - whole).abs() < 1e-15);
-        let at = |i: i32| f64::from(i) / 8.0 - 1.0;
-        let parts = (0..256).map(|i| rectangle_solid_angle([at(i % 16), at(i / 16)], [at(i % 16 + 1), at(i / 16 + 1)]));
-        assert!((parts.sum::<f64>() - whole).abs() < 1e-14);
-        let tiny = rectangle_solid_angle([0.0; 2], [1e-9; 2]);
-        assert!((tiny / 1e-18 - 1.0).abs() < 1e-15, "no digit is lost: {tiny:e}");
-    }
-}

@@ -98,37 +98,3 @@ fn climb(coefficients: &[f64], sign: f64, start: DVec3, mut longest: f64) -> (f6
     }
     (sign * value, at)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sphere::{function_count, function_index, harmonics};
-
-    #[test]
-    fn a_linear_function_is_largest_along_its_vector() {
-        let Extremes { least, least_at, largest, largest_at } = Extremes::of(&[2.0, 2.0, 3.0, 6.0]);
-        let direction = DVec3::new(6.0, 2.0, 3.0) / 7.0;
-        assert!(largest_at.distance(direction) < 1e-7 && least_at.distance(-direction) < 1e-7);
-        let [constant, linear] = [2.0 / (4.0 * PI).sqrt(), 7.0 * (3.0 / (4.0 * PI)).sqrt()];
-        assert!((largest - constant - linear).abs() < 1e-14 && (least - constant + linear).abs() < 1e-14);
-    }
-
-    #[test]
-    fn a_delta_is_largest_at_its_place() {
-        for order in 1..=10 {
-            let mut delta = vec![0.0; function_count(order)];
-            let place = DVec3::new(1.0, -2.0, 2.0) / 3.0;
-            harmonics(order, place, &mut delta);
-            let found = Extremes::of(&delta);
-            // The addition theorem: the square sum of harmonics is n^2 / (4 pi).
-            let expected = (order * order) as f64 / (4.0 * PI);
-            assert!((found.largest - expected).abs() < 1e-13 * expected, "{order}: {found:?}");
-            assert!(order == 1 || found.largest_at.distance(place) < 1e-6, "{order}: {found:?}");
-        }
-        // P_2 = (3 z^2 - 1) / 2 is least on the equator.
-        let mut zonal = [0.0; 9];
-        zonal[function_index(2, 0)] = (4.0 * PI / 5.0).sqrt();
-        let found = Extremes::of(&zonal);
-        assert!((found.least + 0.5).abs() < 1e-15 && (found.largest - 1.0).abs() < 1e-15, "{found:?}");
-    }
-}

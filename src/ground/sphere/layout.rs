@@ -43,6 +43,7 @@ impl EnvironmentLayout {
 }
 
 /// Texels of a picture in a layout that its shape fits.
+#[derive(Debug)]
 pub(super) struct LayoutGrid {
     layout: EnvironmentLayout,
     width: usize,
@@ -128,9 +129,7 @@ impl LayoutGrid {
     fn cross_side(&self) -> usize {
         self.width.max(self.height) / 4
     }
-}
 
-impl LayoutGrid {
     /// Number of columns and rows.
     pub(super) fn size(&self) -> [usize; 2] {
         [self.width, self.height]
@@ -224,76 +223,4 @@ fn cut(offset: f64, a: f64, b: f64) -> Option<[f64; 2]> {
     let square = (1.0 - offset) * (1.0 + offset);
     let half = (square >= 0.0).then(|| square.sqrt())?;
     (a <= half && b >= -half).then(|| [a.max(-half), b.min(half)])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use strum::IntoEnumIterator;
-
-    fn shapes(layout: EnvironmentLayout) -> Vec<[usize; 2]> {
-        match layout {
-            EnvironmentLayout::LatLong => vec![[2, 1], [64, 32], [200, 100]],
-            EnvironmentLayout::AngularProbe => vec![[1, 1], [2, 2], [3, 3], [7, 7], [32, 32], [101, 101]],
-            EnvironmentLayout::CubeCross => vec![[4, 3], [3, 4], [64, 48], [75, 100]],
-        }
-    }
-
-    #[test]
-    fn solid_angles_add_up_to_the_sphere() {
-        for layout in EnvironmentLayout::iter() {
-            for [width, height] in shapes(layout) {
-                let grid = LayoutGrid::new(layout, width, height);
-                let row = |row| (0..width).map(|column| grid.solid_angle(column, row)).sum::<f64>();
-                let sum: f64 = (0..height).map(row).sum();
-                assert!((sum - 4.0 * PI).abs() < 4e-14, "{layout} {width}x{height}: {sum}");
-                assert_eq!(EnvironmentLayout::of(width as u32, height as u32), Some(layout));
-            }
-        }
-    }
-
-    #[test]
-    fn a_pixel_is_found_in_its_directions() {
-        for layout in EnvironmentLayout::iter() {
-            for [width, height] in shapes(layout) {
-                let grid = LayoutGrid::new(layout, width, height);
-                for at in 0..width * height {
-                    for [u, v] in [[0.5, 0.5], [0.02, 0.9], [0.97, 0.03]] {
-                        let (direction, density) = grid.at([at % width, at / width], u, v);
-                        if density > 0.0 {
-                            assert_eq!(grid.pixel(direction), at, "{layout} {width}x{height}: {direction}");
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn each_texel_has_the_integral_of_its_density() {
-        let rule = gauss_legendre(12);
-        for (layout, [width, height], scale) in [
-            (EnvironmentLayout::LatLong, [16, 8], TAU / 16.0 * PI / 8.0),
-            (EnvironmentLayout::AngularProbe, [16, 16], 1.0 / 64.0),
-            (EnvironmentLayout::CubeCross, [16, 12], 0.25),
-        ] {
-            let grid = LayoutGrid::new(layout, width, height);
-            for texel in [[7, 5], [5, 6]] {
-                let sum: f64 = rule
-                    .iter()
-                    .flat_map(|v| rule.iter().map(move |u| (u, v)))
-                    .map(|(u, v)| u.1 * v.1 * grid.at(texel, u.0, v.0).1)
-                    .sum();
-                let expected = grid.solid_angle(texel[0], texel[1]);
-                assert!((sum * scale - expected).abs() < 1e-14, "{layout}: {} {expected}", sum * scale);
-            }
-        }
-    }
-
-    #[test]
-    fn shapes_that_fit_nothing_have_no_layout() {
-        for [width, height] in [[0, 0], [3, 2], [5, 4], [8, 7], [1, 2]] {
-            assert_eq!(EnvironmentLayout::of(width, height), None, "{width}x{height}");
-        }
-    }
 }

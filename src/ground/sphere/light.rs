@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::extremes::Extremes;
 use super::harmonics::{MAX_ORDER, function_count, harmonics, order_of};
 use super::rotation::HarmonicRotation;
-use super::window::BandWindow;
 use crate::elementary::sin_cos;
 use crate::error::{InputError, ensure, input_error};
+use crate::quadrature::legendre_polynomials;
 
 /// Distant radiance as coefficients of an order: red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,16 +139,6 @@ impl HarmonicLight {
         Self { channels: self.channels.each_ref().map(turned) }
     }
 
-    /// Applies a window with a width in bands.
-    ///
-    /// # Panics
-    /// If the width is not positive.
-    #[must_use]
-    pub fn windowed(mut self, window: BandWindow, width: f64) -> Self {
-        self.channels.iter_mut().for_each(|channel| window.apply(width, channel));
-        self
-    }
-
     /// Minimum and maximum radiance of each channel.
     pub fn extremes(&self) -> [Extremes; 3] {
         self.channels.each_ref().map(|channel| Extremes::of(channel))
@@ -168,77 +158,7 @@ pub(super) fn unit(direction: DVec3) -> Result<DVec3, InputError> {
 fn cap_integrals(order: usize, radius: f64) -> Vec<f64> {
     let (sin, x) = sin_cos(radius);
     let (half, _) = sin_cos(radius / 2.0);
-    let ([mut before, mut now], [mut slope_before, mut slope]) = ([1.0, x], [0.0, 1.0]);
-    let mut integrals = vec![2.0 * half * half];
-    for l in 1..order {
-        let (n, odd) = (l as f64, (2 * l + 1) as f64);
-        integrals.push(sin * sin * slope / (n * (n + 1.0)));
-        [slope_before, slope] = [slope, slope_before + odd * now];
-        [before, now] = [now, (odd * x * now - n * before) / (n + 1.0)];
-    }
-    integrals
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_whole_sphere_is_a_disk_and_two_caps_are_the_whole() {
-        let near = |a: &HarmonicLight, b: &HarmonicLight| {
-            let pairs = a.channels.iter().flatten().zip(b.channels.iter().flatten());
-            pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
-        };
-        let color = [1.0, 0.5, 2.0];
-        let white = HarmonicLight::constant(10, color).expect("a light");
-        let v = DVec3::new(0.2, -3.0, 1.0);
-        let disk = |direction, radius| HarmonicLight::disk(10, direction, radius, color).expect("a light");
-        assert!(near(&disk(v, PI), &white) < 1e-14);
-        assert!(near(&disk(v, 1.0).plus(&disk(-v, PI - 1.0)), &white) < 1e-14);
-        // A disk of radius 1e-6 is pi 1e-12 (1 - l (l + 1) 1e-12 / 8) times the harmonics at its center.
-        let mut y = [0.0; 100];
-        harmonics(10, v.normalize(), &mut y);
-        let tiny = disk(v, 1e-6);
-        for (found, y) in tiny.channels()[0].iter().zip(y) {
-            assert!((found / (PI * 1e-12) - y).abs() < 1e-10, "{found:e} {y}");
-        }
-    }
-
-    #[test]
-    fn what_is_no_light_is_refused() {
-        let disk = |direction, radius, color| HarmonicLight::disk(3, direction, radius, color).expect_err("refused");
-        assert!(
-            disk(DVec3::ZERO, 1.0, [1.0; 3])
-                .to_string()
-                .contains("expected a direction of finite length above 0, found ")
-        );
-        assert!(
-            disk(DVec3::NAN, 1.0, [1.0; 3])
-                .to_string()
-                .contains("expected a direction of finite length above 0, found ")
-        );
-        for radius in [0.0, 3.2, f64::NAN] {
-            assert!(
-                disk(DVec3::Z, radius, [1.0; 3])
-                    .to_string()
-                    .contains("expected an angular radius above 0 and up to pi radians, found ")
-            );
-        }
-        assert!(disk(DVec3::Z, 1.0, [f64::NAN; 3]).to_string().contains("expected finite red, green and blue, found "));
-        let ragged = HarmonicLight::new([vec![0.0; 4], vec![0.0; 4], vec![0.0; 9]]);
-        assert_eq!(
-            ragged,
-            Err(input_error!(
-                "expected n^2 coefficients in each of three channels, n from 1 to {MAX_ORDER}, found {:?}",
-                [4, 4, 9]
-            ))
-        );
-    }
-
-    #[test]
-    fn the_light_of_figure_7_is_red_on_one_side_and_blue_on_the_other() {
-        let light = HarmonicLight::red_and_blue(5);
-        let [right, left] = [1.0, -1.0].map(|x| light.radiance(DVec3::new(0.8 * x, 0.6, 0.0)));
-        assert!(right[0] > 2.0 * right[2] && left[2] > 2.0 * left[0], "{right:?} {left:?}");
-    }
+    let of_band = |(l, [_, slope]): (f64, [f64; 2])| sin * sin * slope / (l * (l + 1.0));
+    let others = (1_u8..).map(f64::from).zip(legendre_polynomials(x).skip(1)).map(of_band);
+    std::iter::once(2.0 * half * half).chain(others).take(order).collect()
 }

@@ -1,7 +1,7 @@
 //! Functions on the sphere, in f64.
 //!
 //! - [`harmonics`], [`evaluate`]: real spherical harmonics, orthonormal over the sphere; [`HarmonicRotation`];
-//!   [`BandWindow`] to reduce ringing and [`Extremes`] to detect it;
+//!   [`Extremes`] to detect ringing;
 //! - [`Hemisphere`], [`HemisphereProjection`]: harmonics over z >= 0, where they are not orthogonal;
 //! - [`DirectionRule`]: directions and weights, exact for polynomials of a degree;
 //! - [`CubeMap`], [`ParabolicMap`], [`EnvironmentLayout`]: texels of maps of the sphere, and their solid angles;
@@ -11,7 +11,6 @@
 //! Function y_lm has index l (l + 1) + m. There is no Condon-Shortley sign: for l = 1 the functions are y, z and x
 //! times sqrt(3 / (4 pi)). *Order* n means n bands, l = 0 to n - 1, n^2 functions.
 
-mod column;
 mod cube;
 mod environment;
 mod extremes;
@@ -19,17 +18,15 @@ mod harmonics;
 mod hemisphere;
 mod layout;
 mod light;
-mod lookup;
 mod parabolic;
 mod projection;
 mod rotation;
 mod rule;
 mod singular;
 mod sky;
-mod texels;
-mod window;
 
 pub use cube::{CUBE_FACES, CubeMap, FaceAxes};
+pub use environment::EnvironmentPicture;
 pub use extremes::Extremes;
 pub use harmonics::{
     MAX_ORDER, evaluate, function_band, function_count, function_index, harmonics, order_of, order_with,
@@ -38,10 +35,8 @@ pub use harmonics::{
 pub use hemisphere::Hemisphere;
 pub use layout::EnvironmentLayout;
 pub use light::HarmonicLight;
-pub use lookup::EnvironmentPicture;
 pub use parabolic::ParabolicMap;
 pub use projection::{HemisphereProjection, ProjectionErrors};
 pub use rotation::{HarmonicRotation, MAX_SKEW, check_rotation, turn_around_z};
 pub use rule::{DirectionRule, MAX_DEGREE};
 pub use sky::{ClearSky, SUN_RADIUS};
-pub use window::BandWindow;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crossbar::geom::{Mesh, Ray, Sides, exact, teapot};
 use crossbar::io::{
-    ModelOptions, load_mesh, load_mesh_with, load_obj, load_rays, load_scene, load_scene_with, parse_obj, parse_rays,
-    write_hits, write_obj,
+    ModelOptions, load_mesh, load_mesh_with, load_rays, load_scene, load_scene_with, parse_obj, parse_rays, write_hits,
+    write_obj,
 };
 use proptest::prelude::*;
 
@@ -118,7 +118,7 @@ fn the_fixture_is_the_teapot_at_rate_two() {
 #[test]
 fn the_square_is_hit_as_its_fixture_says() {
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
-    let mesh = load_obj(&fixtures.join("models/square.obj")).expect("a mesh");
+    let mesh = load_mesh(&fixtures.join("models/square.obj")).expect("a mesh");
     let rays = load_rays(&fixtures.join("rays/square.csv")).expect("rays");
     let hits: Vec<Option<(u32, f64)>> = exact::nearest_all(&mesh, &rays, Sides::Front)
         .into_iter()

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crossbar::error::InputError;
-use crossbar::io::load_picture;
+use crossbar::io::PictureFile;
 use crossbar::picture::metrics::{ErrorSums, relative_error, value_error};
 use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png, rgb8};
 use proptest::prelude::*;
@@ -118,7 +118,8 @@ fn exposures_of_hdr_files_are_undone() {
 }
 
 fn fixture(name: &str) -> Result<Picture, InputError> {
-    load_picture(&Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/pictures").join(name))
+    PictureFile::open(&Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/pictures").join(name))
+        .and_then(|file| file.decode())
 }
 
 /// A picture is what an EXR file displays: 4 x 3 pixels from (-1, 10). Red is 1 + column + 10 row where the data window
@@ -217,11 +218,11 @@ fn what_is_wrong_is_said() {
     let ids = Picture::new(1, 1).with("id", ChannelUnit::Id, Samples::Uint(vec![0])).expect("one sample");
     let refused = ids.display(1.0).map(|_| ()).unwrap_err().to_string();
     assert_eq!(refused, "expected channels R, G and B, or Y; found id");
-    let missing = load_picture(Path::new("no/such.exr")).expect_err("no file");
+    let missing = PictureFile::open(Path::new("no/such.exr")).expect_err("no file");
     assert_eq!(missing.to_string(), "cannot read the picture no/such.exr");
     let shader = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
     assert!(
-        load_picture(&shader)
+        PictureFile::open(&shader)
             .is_err_and(|error| error.to_string().contains(": expected a PNG, Radiance HDR or OpenEXR picture, "))
     );
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::error::InputError;
 use crossbar::geom::Mesh;
-use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, load_obj, parse_ply};
+use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, parse_ply};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
@@ -140,7 +140,7 @@ fn faces_with_a_fault_are_named() {
 fn the_fixture_is_the_square() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
     let ply = load_mesh(&models.join("square.ply")).expect("a mesh");
-    let obj = load_obj(&models.join("square.obj")).expect("a mesh");
+    let obj = load_mesh(&models.join("square.obj")).expect("a mesh");
     assert!(ply.iter_corners().eq(obj.iter_corners()));
     assert_eq!(ply.normals(), Some(&[[0.0, 0.0, 1.0]; 4][..]));
     assert_eq!(ply.texcoords().map(|uv| uv[2]), Some([ply.positions()[2][0], ply.positions()[2][1]]));

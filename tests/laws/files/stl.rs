@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::error::InputError;
 use crossbar::geom::Mesh;
-use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, load_obj, parse_stl};
+use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, parse_stl};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
@@ -69,7 +69,7 @@ fn stl_is_found_by_ending_and_content() {
     );
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
     let square = load_mesh(&models.join("square.stl")).expect("a mesh");
-    assert_eq!(square, load_obj(&models.join("square.obj")).expect("a mesh"));
+    assert_eq!(square, load_mesh(&models.join("square.obj")).expect("a mesh"));
 }
 
 /// Forms that programs write and readers accept: several solids, no names or names in Latin-1, keywords in capitals,

@@ -115,9 +115,11 @@ proptest! {
         let truth = integer::nearest(&mesh, &ray, sides);
         prop_assert_eq!(&exact::nearest(&mesh, &ray, sides), &truth);
         prop_assert_eq!(&Tracer::new(&mesh).nearest(&ray, sides), &truth);
-        let hits = exact::hits(&mesh, &ray, sides);
-        prop_assert_eq!(hits.first().map(|hit| hit.triangle), truth.as_ref().map(|hit| hit.triangle));
-        let ties = hits.iter().take_while(|hit| hit.t == hits[0].t).map(|hit| hit.triangle);
+        let hit = |(triangle, corners)| Some((exact::intersect(&ray, &corners, sides)?, triangle));
+        let mut hits: Vec<(ExactT, u32)> = (0..).zip(mesh.iter_corners()).filter_map(hit).collect();
+        hits.sort();
+        prop_assert_eq!(hits.first().map(|hit| hit.1), truth.as_ref().map(|hit| hit.triangle));
+        let ties = hits.iter().take_while(|hit| hit.0 == hits[0].0).map(|hit| hit.1);
         prop_assert_eq!(ties.collect::<Vec<_>>(), truth.map_or(Vec::new(), |hit| hit.ties));
     }
 }

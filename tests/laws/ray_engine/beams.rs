@@ -82,7 +82,7 @@ fn a_narrow_beam_reaches_few_cells_and_rays_of_many_ways_make_none() {
     let to = |d: [f32; 3]| Ray::new([0.0, -8.0, 0.5], d).expect("a ray");
     let rays: Vec<Ray> = (0..16).map(|i| to([0.01 * i as f32, 1.0, 0.0])).collect();
     let beam = Beam::of(&rays).expect("one face");
-    let (near, leaves) = (octree.reached(&beam, None, true), octree.counts().leaves);
+    let (near, leaves) = (octree.reached(&beam, None, true), octree.leaves());
     assert!(!near.cells.is_empty() && near.cells.len() * 4 < leaves, "{} of {leaves}", near.cells.len());
     let away: Vec<Ray> = rays.iter().map(|ray| to(ray.direction().map(|x| -x))).collect();
     let past = octree.reached(&Beam::of(&away).expect("one face"), None, true);

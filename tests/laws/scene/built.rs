@@ -1,6 +1,7 @@
 //! The scenes that the project builds: exact counts, sound triangles, and nothing but fronts to be seen.
 
 use approx::abs_diff_eq;
+use crossbar::geom::Contact;
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::wide;
 use crossbar::scene::{Scene, built};
@@ -56,7 +57,7 @@ fn views_see_fronts_only() {
                     let apart = hit
                         .ties
                         .iter()
-                        .find(|&&tie| !scene.mesh().are_adjacent(tie, hit.triangle) && tie != hit.triangle);
+                        .find(|&&tie| scene.mesh().contact(tie, hit.triangle) == Contact::None && tie != hit.triangle);
                     assert_eq!(apart, None, "{name}, {}: pixel {pixel} sees two faces in one plane", view.name);
                 }
                 if front == both {

@@ -154,28 +154,3 @@ pub(super) fn winding(corners: &[[f32; 2]]) -> Option<Ordering> {
         Sense::Unknown => None,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn clear_cases_need_no_integers() {
-        let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let ray = |origin, direction| Ray::new(origin, direction).expect("a ray");
-        let hit = guess(&ray([0.2, 0.3, 2.0], [0.0, 0.0, -1.0]), &triangle, Sides::Front);
-        let Guess::Hit { low, high } = hit else { panic!("expected a hit, found {hit:?}") };
-        assert!(low <= 2.0 && 2.0 <= high && high - low < 1e-13, "{low} {high}");
-        let miss = ray([0.7, 0.7, 2.0], [0.0, 0.0, -1.0]);
-        assert_eq!(guess(&miss, &triangle, Sides::Both), Guess::Miss);
-        let behind = ray([0.2, 0.3, -1.0], [0.0, 0.0, -1.0]);
-        assert_eq!(guess(&behind, &triangle, Sides::Both), Guess::Miss);
-    }
-
-    #[test]
-    fn a_ray_through_an_edge_is_unclear() {
-        let triangle = [[0.1, 0.1, 0.0], [0.7, 0.7, 0.3], [0.1, 0.9, 0.2]];
-        let ray = Ray::new([0.4, 0.4, 5.0], [0.0, 0.0, -1.0]).expect("a ray");
-        assert_eq!(guess(&ray, &triangle, Sides::Both), Guess::Unclear);
-    }
-}

@@ -73,15 +73,6 @@ impl PartialEq for ExactT {
 
 impl Eq for ExactT {}
 
-/// Hit of one triangle.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ExactHit {
-    /// The triangle's id.
-    pub triangle: u32,
-    /// Exact ray parameter.
-    pub t: ExactT,
-}
-
 /// First hit of a ray.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NearestHit {

@@ -21,7 +21,7 @@ use std::cmp::Ordering;
 
 use super::{Mesh, Ray};
 pub use filter::Guess;
-pub use hit::{ExactHit, ExactT, NearestHit, Sides};
+pub use hit::{ExactT, NearestHit, Sides};
 pub use tree::{Tracer, nearest_all};
 
 /// Intersects a ray with a triangle of finite corners: first by the filter, then by integers where it is uncertain.
@@ -30,16 +30,6 @@ pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<Ex
         Guess::Miss => None,
         Guess::Hit { .. } | Guess::Unclear => integer::intersect(ray, triangle, sides),
     }
-}
-
-/// Returns all hits of a ray, in ascending order of t and then of ids.
-pub fn hits(mesh: &Mesh, ray: &Ray, sides: Sides) -> Vec<ExactHit> {
-    let mut hits: Vec<ExactHit> = (0..)
-        .zip(mesh.iter_corners())
-        .filter_map(|(triangle, corners)| Some(ExactHit { triangle, t: intersect(ray, &corners, sides)? }))
-        .collect();
-    hits.sort_by(|a, b| a.t.cmp(&b.t).then(a.triangle.cmp(&b.triangle)));
-    hits
 }
 
 /// Returns the first hit of a ray by testing all triangles. For many rays use [`nearest_all`] or a [`Tracer`].

@@ -129,11 +129,8 @@ impl FileSet {
         self.staging.path().join(&self.rest).join(name)
     }
 
-    /// The path at which the file `name` (relative, without `..`) must be written now, for writers that need a path.
-    ///
-    /// # Errors
-    /// [`WriteError::Name`] for a name that leaves the folder, [`WriteError::File`] when its subfolder cannot be made.
-    pub fn stage(&mut self, name: &Path) -> Result<PathBuf, WriteError> {
+    /// The path at which the file `name`, relative and without `..`, is written now.
+    fn stage(&mut self, name: &Path) -> Result<PathBuf, WriteError> {
         let plain = name.components().all(|part| matches!(part, Component::Normal(_)));
         if !plain || name.file_name().is_none() {
             return Err(WriteError::Name { name: name.into() });
@@ -150,6 +147,9 @@ impl FileSet {
     }
 
     /// Writes the file `name` through `fill`.
+    ///
+    /// # Errors
+    /// [`WriteError::Name`] for a name that leaves the folder, [`WriteError::File`] when it cannot be written.
     pub fn write(
         &mut self,
         name: &Path,
@@ -228,6 +228,3 @@ fn missing_folders(folder: &Path) -> Vec<PathBuf> {
     let missing = folder.ancestors().take_while(|path| *path != Path::new("") && !path.exists());
     missing.map(Path::to_path_buf).collect()
 }
-
-#[cfg(test)]
-mod tests;

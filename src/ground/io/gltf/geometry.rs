@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use gltf::mesh::Mode;
-use gltf::{Accessor, Primitive, Semantic};
+use gltf::{Primitive, Semantic};
 
 use super::accessor::{AccessorReader, MAX_ELEMENTS};
 use super::material::Materials;
@@ -53,8 +53,9 @@ impl Geometry {
         let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(()) };
         let positions: Vec<[f32; 3]> = reader.vectors(&positions)?;
         let vertices = positions.len();
-        let normals = attribute(primitive.get(&Semantic::Normals), |accessor| reader.vectors::<3>(accessor))?;
-        let texcoords = attribute(primitive.get(&Semantic::TexCoords(0)), |accessor| reader.vectors::<2>(accessor))?;
+        let normals = primitive.get(&Semantic::Normals).map(|accessor| reader.vectors::<3>(&accessor)).transpose()?;
+        let texcoords =
+            primitive.get(&Semantic::TexCoords(0)).map(|accessor| reader.vectors::<2>(&accessor)).transpose()?;
         let indices: Vec<u32> = match primitive.indices() {
             Some(accessor) => reader.indices(&accessor, vertices)?,
             None => (0..vertices as u32).collect(),
@@ -109,13 +110,6 @@ impl Geometry {
         }
         Ok(mesh)
     }
-}
-
-fn attribute<T>(
-    accessor: Option<Accessor<'_>>,
-    read: impl Fn(&Accessor<'_>) -> Result<Vec<T>, InputError>,
-) -> Result<Option<Vec<T>>, InputError> {
-    accessor.map(|accessor| read(&accessor)).transpose()
 }
 
 /// The triangles of a primitive's indices. Degenerate connecting triangles of strips and fans are omitted.

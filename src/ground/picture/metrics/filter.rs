@@ -49,17 +49,3 @@ pub(super) fn normalized(weights: &[f64]) -> Vec<f64> {
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|weight| weight / sum).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn borders_go_on_and_weights_of_sum_one_keep_what_is_constant() {
-        let weights = normalized(&taps(3, |x| 1.0 / (1.0 + x * x)));
-        let plane = PixelPlane { width: 2, values: vec![0.5; 6] };
-        assert!(plane.filtered(&weights, &weights).values.iter().all(|value| (value - 0.5).abs() < 1e-15));
-        let step = PixelPlane { width: 3, values: vec![0.0, 1.0, 1.0] };
-        assert_eq!(step.filtered(&[0.0, 0.0, 1.0], &[1.0]).values, [1.0, 1.0, 1.0], "the neighbour to the right");
-    }
-}

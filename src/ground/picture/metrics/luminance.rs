@@ -30,19 +30,3 @@ fn luminance(picture: &Picture) -> Result<Vec<f64>, InputError> {
     let of = |pixel: [f32; 3]| [0, 1, 2].iter().map(|&c| WEIGHTS[c] * f64::from(pixel[c])).sum();
     Ok(picture.linear()?.into_iter().map(of).collect())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tenth_darker_is_a_tenth_darker() {
-        let first = Picture::rgb(3, 1, &[[2.0; 3], [0.0; 3], [0.0; 3]]);
-        let second = Picture::rgb(3, 1, &[[1.5; 3], [0.0; 3], [1.0; 3]]);
-        let near = |found: f64, want: f64| (found - want).abs() < 1e-12;
-        let found = luminance_differences(&first, &second, 2.0).expect("color");
-        assert!(near(found[0], -1.0) && near(found[1], 0.0) && near(found[2], 2.0), "{found:?}");
-        let found = relative_luminance_differences(&first, &second).expect("color");
-        assert!(near(found[0], -0.25) && near(found[1], 0.0) && found[2].is_infinite(), "{found:?}");
-    }
-}

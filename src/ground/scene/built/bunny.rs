@@ -37,24 +37,3 @@ fn scanned() -> ClosedSurface {
         triangles: triangles.chunks_exact(BYTES[1]).map(triangle).collect(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::Mesh;
-    use crate::geom::vector::narrow;
-
-    /// The bunny is closed at any number of vertices, of one part without a handle, and as large as stand-ins are.
-    #[test]
-    fn the_bunny_is_closed_at_every_size() {
-        for vertices in [365, 722, COUNTS[0], 3_286, 12_380] {
-            let found = bunny(vertices);
-            let positions = found.positions.iter().map(|&at| narrow(at)).collect();
-            let mesh = Mesh::new(positions, found.triangles).expect("a mesh");
-            assert_eq!((mesh.positions().len(), mesh.len()), (vertices, 2 * vertices - 4));
-            assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts(), mesh.degenerate_count()), (0, 0, 0));
-            let [low, high] = mesh.bounds().expect("a box");
-            assert!((0..3).all(|axis| (low[axis] + high[axis]).abs() < 1e-5), "{low:?} {high:?}");
-        }
-    }
-}

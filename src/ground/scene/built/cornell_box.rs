@@ -3,7 +3,7 @@
 //! The published coordinates are in millimetres, x to the left and y up; here x runs to the right and z up, in metres.
 //! The ceiling has a hole where the light is, so that no two faces lie in one plane.
 
-use super::super::{Material, PointLight, Scene, Surface, View};
+use super::super::{Material, PointLight, Scene, View};
 use super::parts::{MaterialId, Parts, Placement};
 
 /// Builds the box with its two blocks and its light.
@@ -12,24 +12,14 @@ pub(super) fn cornell_box() -> Scene {
     let white = parts.paint("white", [0.73, 0.73, 0.73]);
     let red = parts.paint("red", [0.61, 0.06, 0.06]);
     let green = parts.paint("green", [0.12, 0.43, 0.10]);
-    let light = parts.material(Material {
-        name: "light".into(),
-        surface: Surface::Diffuse { albedo: [0.78; 3] },
-        emission: [17.0, 12.0, 4.0],
-    });
+    let light = parts.material(Material { emission: [17.0, 12.0, 4.0], ..Material::diffuse("light", [0.78; 3]) });
     walls(&mut parts, white, [red, green], light);
     let short = [[130.0, 65.0], [82.0, 225.0], [240.0, 272.0], [290.0, 114.0]];
     let tall = [[423.0, 247.0], [265.0, 296.0], [314.0, 456.0], [472.0, 406.0]];
     block(&mut parts, short, 165.0, white);
     block(&mut parts, tall, 330.0, white);
-    let view = View {
-        name: "front".into(),
-        eye: [0.278, -0.8, 0.273],
-        target: [0.278, 0.0, 0.273],
-        up: [0.0, 0.0, 1.0],
-        // A film of 25 mm behind a lens of 35 mm.
-        tan_half_height: 0.357_142_87,
-    };
+    // A film of 25 mm behind a lens of 35 mm.
+    let view = View::upright("front", [0.278, -0.8, 0.273], [0.278, 0.0, 0.273], 0.357_142_87);
     let lamp = PointLight { position: [0.278, 0.2795, 0.53], intensity: [0.23, 0.165, 0.055] };
     parts.scene(vec![view], vec![lamp])
 }

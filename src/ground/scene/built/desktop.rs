@@ -1,8 +1,7 @@
 //! Objects on a desk. Each stands at its placement's origin and faces -y.
 
 use super::palette::Palette;
-use super::parts::{MaterialId, Parts, Placement};
-use super::rng::SceneRng;
+use super::parts::{MaterialId, Parts, Placement, SceneRng};
 
 /// Adds a cathode-ray monitor. 60 triangles.
 pub(super) fn monitor(parts: &mut Parts, place: Placement, palette: &Palette) {

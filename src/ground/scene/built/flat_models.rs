@@ -13,6 +13,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use super::super::Material;
+use super::parts::{grid_triangles, with_attributes};
 use crate::elementary::on_circle;
 use crate::geom::Mesh;
 use crate::geom::vector::{least_axis, narrow, unit};
@@ -62,8 +63,7 @@ impl FlatModel {
         let mut parts = FlatParts::finest(wanted, build);
         parts.divide_largest(wanted.saturating_sub(parts.distinct_vertices()));
         let FlatParts { positions, normals, texture, triangles, material_of, .. } = parts;
-        let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
-        let mesh = mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices");
+        let mesh = with_attributes(positions, triangles, normals, texture);
         let materials = materials.iter().map(|&(name, albedo)| Material::diffuse(name, albedo)).collect();
         MaterialMesh { mesh, materials, material_of }
     }
@@ -205,14 +205,8 @@ impl FlatParts {
             self.normals.push(narrow(normal));
             self.texture.push(texture.map(|length| length as f32));
         }
-        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
-            let a = first + row * (columns + 1) + column;
-            let [b, c, d] = [a + 1, a + columns + 2, a + columns + 1];
-            for triangle in [[a, b, c], [a, c, d]] {
-                self.triangles.push(triangle);
-                self.material_of.push(material);
-            }
-        }
+        self.triangles.extend(grid_triangles(first, [columns, rows]));
+        self.material_of.resize(self.triangles.len(), material);
     }
 
     /// Adds the four upright faces of a block between two corners.

@@ -1,8 +1,7 @@
 //! Furniture of many small triangles. Each piece stands at its placement's origin and faces -y.
 
 use super::palette::Palette;
-use super::parts::{Parts, Placement};
-use super::rng::SceneRng;
+use super::parts::{Parts, Placement, SceneRng};
 
 /// Adds a desk of 1.6 x 0.8 m, 0.74 m high, with a box of drawers. 132 triangles.
 pub(super) fn desk(parts: &mut Parts, place: Placement, palette: &Palette) {

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
+use super::parts::{grid_triangles, with_attributes};
 use crate::error::InputError;
 use crate::geom::Mesh;
-use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::vector::{area_vector, narrow, unit, wide};
 
 /// Vertices along an edge of the ground of the paper on all-frequency transfer (its section 7): 36,864 in all.
 pub const GROUND_SIDE: u32 = 192;
@@ -23,15 +24,9 @@ pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
     let along = |at: u32| f64::from(at) / f64::from(side - 1);
     let grid = || (0..side).flat_map(move |row| (0..side).map(move |column| [along(column), along(row)]));
     let place = |[u, v]: [f64; 2]| narrow(middle + half_width * DVec3::new(2.0 * u - 1.0, 2.0 * v - 1.0, 0.0));
-    let quads = (0..side - 1).flat_map(|row| (0..side - 1).map(move |column| row * side + column));
-    let triangles = quads.flat_map(|a| {
-        let [b, c, d] = [a + 1, a + side + 1, a + side];
-        [[a, b, c], [a, c, d]]
-    });
-    let mesh = Mesh::new(grid().map(place).collect(), triangles.collect());
-    let mesh = mesh.and_then(|mesh| mesh.with_normals(vec![[0.0, 0.0, 1.0]; (side * side) as usize]));
+    let normals = vec![[0.0, 0.0, 1.0]; (side * side) as usize];
     let texture = grid().map(|at| at.map(|at| at as f32)).collect();
-    mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite coordinates of a grid")
+    with_attributes(grid().map(place).collect(), grid_triangles(0, [side - 1; 2]).collect(), normals, texture)
 }
 
 /// Builds a ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along
@@ -53,7 +48,7 @@ fn has_flat_base(model: &Mesh, height: f64) -> bool {
     model
         .iter_corners()
         .map(|corners| corners.map(wide))
-        .any(|[a, b, c]| [a, b, c].iter().all(|corner| corner.z == height) && unit((b - a).cross(c - a)).is_some())
+        .any(|corners| corners.iter().all(|corner| corner.z == height) && unit(area_vector(corners)).is_some())
 }
 
 /// Combines a model and its ground ([`ground_of`]) in one mesh, with a material per triangle: 0 for the model and 1 for
@@ -76,36 +71,4 @@ pub fn on_ground(model: &Mesh, side: u32) -> Result<(Mesh, Vec<u32>), InputError
     let normals = of_model.into_iter().chain(std::iter::repeat_n([0.0, 0.0, 1.0], ground.positions().len())).collect();
     let materials = (0..triangles.len()).map(|triangle| u32::from(triangle >= model.len())).collect();
     Ok((Mesh::new(positions, triangles)?.with_normals(normals)?, materials))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_ground_of_the_paper_has_36_864_vertices_and_looks_up() {
-        let ground = ground(GROUND_SIDE, DVec3::new(1.0, 2.0, -3.0), 4.0);
-        assert_eq!((ground.positions().len(), ground.len()), (36_864, 2 * 191 * 191));
-        assert_eq!(ground.bounds(), Some([[-3.0, -2.0, -3.0], [5.0, 6.0, -3.0]]));
-        assert!(ground.vertex_normals().iter().all(|normal| *normal == DVec3::Z));
-    }
-
-    /// No triangle of a box lies in the plane of its ground, which is too near to be seen.
-    #[test]
-    fn a_flat_base_lies_above_its_ground() {
-        let model = crate::scene::built::white_box().mesh().clone();
-        let [low, high] = model.bounds().expect("bounds");
-        let [below, _] = ground_of(&model, 4).bounds().expect("bounds");
-        assert_eq!(f64::from(low[2] - below[2]), f64::from(high[0] - low[0]) / 1024.0);
-    }
-
-    #[test]
-    fn a_model_stands_on_its_ground() {
-        let model = crate::geom::teapot::teapot(2).expect("a teapot");
-        let (both, materials) = on_ground(&model, GROUND_SIDE).expect("a mesh");
-        assert_eq!(materials.iter().filter(|&&material| material == 0).count(), model.len());
-        assert_eq!(both.positions().len(), model.positions().len() + 36_864);
-        assert_eq!(both.bounds().map(|[low, _]| low[2]), model.bounds().map(|[low, _]| low[2]));
-        assert_eq!(both.normals().map(<[_]>::len), Some(both.positions().len()));
-    }
 }

@@ -250,29 +250,3 @@ impl Cut<'_> {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two balls joined and carved: closed, as many vertices as wanted, all of them on the surface.
-    #[test]
-    fn a_body_has_a_closed_surface_of_as_many_vertices_as_wanted() {
-        let mut body = RoundedBody::default();
-        body.add(RoundedPiece::Ball([0.0; 3], [0.9, 0.7, 0.8]), 0.0);
-        body.add_both(RoundedPiece::Limb([0.5, 0.0, 0.4], [0.8, 0.2, 0.9], [0.3, 0.1]), 0.2);
-        body.carve(RoundedPiece::Ball([0.0, -0.7, 0.0], [0.3; 3]), 0.05);
-        for vertices in [200, 3_000] {
-            let surface = body.surface(1.2, vertices);
-            assert_eq!((surface.positions.len(), surface.triangles.len()), (vertices, 2 * vertices - 4));
-            assert!(surface.positions.iter().all(|&at| body.distance(at).abs() < 0.002), "{vertices}");
-            let volume: f64 = surface
-                .triangles
-                .iter()
-                .map(|corners| corners.map(|corner| surface.positions[corner as usize]))
-                .map(|[a, b, c]| a.dot(b.cross(c)) / 6.0)
-                .sum();
-            assert!((1.9..2.6).contains(&volume), "{volume}");
-        }
-    }
-}

@@ -6,82 +6,28 @@ use super::stand_ins;
 use super::transfer_models::TransferModel;
 use crate::geom::Mesh;
 
-/// Mesh with its name.
-struct BuiltMesh {
-    name: &'static str,
-    what: &'static str,
-    build: fn() -> Mesh,
-}
-
 const CHAIR: &str = "bi-scale-chair";
 const TEMPLE: &str = "bi-scale-temple";
 
-const MESHES: &[BuiltMesh] = &[
-    BuiltMesh {
-        name: "all-frequency-buddha",
-        what: "54,100 vertices, closed, a standing Buddha",
-        build: || TransferModel::Buddha.mesh(1),
-    },
-    BuiltMesh {
-        name: "all-frequency-bunny",
-        what: "11,556 vertices, closed, the Stanford bunny refined",
-        build: || TransferModel::Bunny.mesh(1),
-    },
-    BuiltMesh { name: "all-frequency-teapot", what: "51,361 vertices, 32 patches of 40 x 40 quads", build: teapot },
-    BuiltMesh {
-        name: "all-frequency-tweety",
-        what: "32,768 vertices, closed, a bird",
-        build: || TransferModel::Tweety.mesh(1),
-    },
-    BuiltMesh {
-        name: "bi-scale-armor",
-        what: "10,652 vertices, closed, a suit of armor",
-        build: || TransferModel::BiScaleArmor.mesh(1),
-    },
-    BuiltMesh {
-        name: "bi-scale-bunny",
-        what: "3,286 vertices, closed, the Stanford bunny refined",
-        build: || TransferModel::BiScaleBunny.mesh(1),
-    },
-    BuiltMesh {
-        name: "bi-scale-bunny-fine",
-        what: "the same with 47,960 vertices",
-        build: || TransferModel::BiScaleBunnyFine.mesh(1),
-    },
-    BuiltMesh {
-        name: "bi-scale-bunny-middle",
-        what: "the same with 12,380 vertices",
-        build: || TransferModel::BiScaleBunnyMiddle.mesh(1),
-    },
-    BuiltMesh {
-        name: CHAIR,
-        what: "16,101 vertices, curved parts of three materials",
-        build: || FlatModel::Chair.model(1).mesh,
-    },
-    BuiltMesh {
-        name: TEMPLE,
-        what: "32,409 vertices, parts of five materials",
-        build: || FlatModel::Temple.model(1).mesh,
-    },
-    BuiltMesh {
-        name: "stand-in-bunny",
-        what: "69,451 faces, the Stanford bunny refined, one face open at the bottom",
-        build: stand_ins::bunny,
-    },
-    BuiltMesh { name: "stand-in-dolphin", what: "21,952 faces, closed, a dolphin", build: stand_ins::dolphin },
-    BuiltMesh { name: "stand-in-head", what: "7,232 faces, closed, a head", build: stand_ins::head },
-    BuiltMesh { name: "transfer-bird", what: "48,688 vertices, closed, a bird", build: || TransferModel::Bird.mesh(1) },
-    BuiltMesh {
-        name: "transfer-buddha",
-        what: "49,990 vertices, closed, a standing Buddha",
-        build: || TransferModel::FoldedBuddha.mesh(1),
-    },
-    BuiltMesh { name: "transfer-head", what: "50,060 vertices, closed, a head", build: || TransferModel::Head.mesh(1) },
-    BuiltMesh {
-        name: "transfer-polygons",
-        what: "58,624 vertices, a ground and a blocker",
-        build: || TransferModel::Polygons.mesh(1),
-    },
+/// Name, one-line description and builder of each mesh.
+const MESHES: &[(&str, &str, fn() -> Mesh)] = &[
+    ("all-frequency-buddha", "54,100 vertices, closed, a standing Buddha", || TransferModel::Buddha.mesh(1)),
+    ("all-frequency-bunny", "11,556 vertices, closed, the Stanford bunny refined", || TransferModel::Bunny.mesh(1)),
+    ("all-frequency-teapot", "51,361 vertices, 32 patches of 40 x 40 quads", teapot),
+    ("all-frequency-tweety", "32,768 vertices, closed, a bird", || TransferModel::Tweety.mesh(1)),
+    ("bi-scale-armor", "10,652 vertices, closed, a suit of armor", || TransferModel::BiScaleArmor.mesh(1)),
+    ("bi-scale-bunny", "3,286 vertices, closed, the Stanford bunny refined", || TransferModel::BiScaleBunny.mesh(1)),
+    ("bi-scale-bunny-fine", "the same with 47,960 vertices", || TransferModel::BiScaleBunnyFine.mesh(1)),
+    ("bi-scale-bunny-middle", "the same with 12,380 vertices", || TransferModel::BiScaleBunnyMiddle.mesh(1)),
+    (CHAIR, "16,101 vertices, curved parts of three materials", || FlatModel::Chair.model(1).mesh),
+    (TEMPLE, "32,409 vertices, parts of five materials", || FlatModel::Temple.model(1).mesh),
+    ("stand-in-bunny", "69,451 faces, the Stanford bunny refined, one face open at the bottom", stand_ins::bunny),
+    ("stand-in-dolphin", "21,952 faces, closed, a dolphin", stand_ins::dolphin),
+    ("stand-in-head", "7,232 faces, closed, a head", stand_ins::head),
+    ("transfer-bird", "48,688 vertices, closed, a bird", || TransferModel::Bird.mesh(1)),
+    ("transfer-buddha", "49,990 vertices, closed, a standing Buddha", || TransferModel::FoldedBuddha.mesh(1)),
+    ("transfer-head", "50,060 vertices, closed, a head", || TransferModel::Head.mesh(1)),
+    ("transfer-polygons", "58,624 vertices, a ground and a blocker", || TransferModel::Polygons.mesh(1)),
 ];
 
 /// Builds the teapot with about as many vertices as in the paper on all-frequency transfer (its Table 1).
@@ -91,17 +37,17 @@ fn teapot() -> Mesh {
 
 /// Names of all meshes, in alphabetical order.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    MESHES.iter().map(|entry| entry.name)
+    MESHES.iter().map(|entry| entry.0)
 }
 
 /// One-line description of a mesh.
 pub fn description(name: &str) -> Option<&'static str> {
-    MESHES.iter().find(|entry| entry.name == name).map(|entry| entry.what)
+    MESHES.iter().find(|entry| entry.0 == name).map(|entry| entry.1)
 }
 
 /// Builds the mesh with this name.
 pub fn build(name: &str) -> Option<Mesh> {
-    MESHES.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
+    MESHES.iter().find(|entry| entry.0 == name).map(|entry| entry.2())
 }
 
 /// Builds the mesh with this name and its materials; a mesh without materials gets one, `plain`, with a reflectance of

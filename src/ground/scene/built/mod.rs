@@ -28,7 +28,6 @@ mod office_floor;
 mod palette;
 mod parts;
 mod resample;
-mod rng;
 pub mod rooms;
 mod solids;
 pub mod stand_ins;
@@ -44,60 +43,42 @@ use office_floor::office_floor;
 use teapot_room::teapot_room;
 use white_box::white_box;
 
-pub use rng::SEED;
+pub use parts::SEED;
 
-/// Scene with its name.
-struct BuiltScene {
-    name: &'static str,
-    what: &'static str,
-    build: fn() -> Scene,
-}
-
-const SCENES: &[BuiltScene] = &[
-    BuiltScene { name: "cornell-box", what: "the Cornell box with its two blocks", build: cornell_box },
-    BuiltScene {
-        name: "cornell-room",
-        what: "a Cornell box closed in front, without blocks: the radiosity paper's scene",
-        build: || rooms::cornell(rooms::CornellBox { blocks: false, open: false }),
-    },
-    BuiltScene {
-        name: "cornell-room-blocks",
-        what: "the same with its two blocks",
-        build: || rooms::cornell(rooms::CornellBox { blocks: true, open: false }),
-    },
-    BuiltScene {
-        name: "office",
-        what: "an office with eight desks and much on them: Figure 6 c of the Ray Engine",
-        build: office,
-    },
-    BuiltScene {
-        name: "office-floor",
-        what: "one floor of an office building without its ceiling: Figure 6 d and e of the Ray Engine",
-        build: office_floor,
-    },
-    BuiltScene {
-        name: "teapot-room",
-        what: "a small room with a metal teapot, a glass sphere and two blocks: Figure 6 a and b of the Ray Engine",
-        build: teapot_room,
-    },
-    BuiltScene {
-        name: "white-box",
-        what: "a closed box that shines inwards everywhere: a white furnace",
-        build: white_box,
-    },
+/// Name, one-line description and builder of each scene.
+const SCENES: &[(&str, &str, fn() -> Scene)] = &[
+    ("cornell-box", "the Cornell box with its two blocks", cornell_box),
+    ("cornell-room", "a Cornell box closed in front, without blocks: the radiosity paper's scene", || {
+        rooms::cornell(rooms::CornellBox { blocks: false, open: false })
+    }),
+    ("cornell-room-blocks", "the same with its two blocks", || {
+        rooms::cornell(rooms::CornellBox { blocks: true, open: false })
+    }),
+    ("office", "an office with eight desks and much on them: Figure 6 c of the Ray Engine", office),
+    (
+        "office-floor",
+        "one floor of an office building without its ceiling: Figure 6 d and e of the Ray Engine",
+        office_floor,
+    ),
+    (
+        "teapot-room",
+        "a small room with a metal teapot, a glass sphere and two blocks: Figure 6 a and b of the Ray Engine",
+        teapot_room,
+    ),
+    ("white-box", "a closed box that shines inwards everywhere: a white furnace", white_box),
 ];
 
 /// Names of all scenes, in alphabetical order.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    SCENES.iter().map(|entry| entry.name)
+    SCENES.iter().map(|entry| entry.0)
 }
 
 /// One-line description of a scene.
 pub fn description(name: &str) -> Option<&'static str> {
-    SCENES.iter().find(|entry| entry.name == name).map(|entry| entry.what)
+    SCENES.iter().find(|entry| entry.0 == name).map(|entry| entry.1)
 }
 
 /// Builds the scene with this name.
 pub fn build(name: &str) -> Option<Scene> {
-    SCENES.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
+    SCENES.iter().find(|entry| entry.0 == name).map(|entry| entry.2())
 }

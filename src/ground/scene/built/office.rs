@@ -17,8 +17,7 @@ use super::super::{PointLight, Scene, View};
 use super::desktop::{keyboard, monitor, mouse, mug, papers, pencils, telephone};
 use super::furniture::{basket, bookshelf, chair, desk, desk_lamp, plant, radiator};
 use super::palette::{Palette, lamp};
-use super::parts::{MaterialId, Parts, Placement};
-use super::rng::SceneRng;
+use super::parts::{MaterialId, Parts, Placement, SceneRng};
 
 /// Dimensions of the room, in metres.
 const WIDTH: f64 = 9.6;
@@ -46,19 +45,17 @@ pub(super) fn office() -> Scene {
     for (x, y) in [(2.4, 1.3), (4.8, 1.3), (7.2, 1.3), (2.4, 4.4), (4.8, 4.4), (7.2, 4.4)] {
         ceiling_light(&mut parts, Placement::at(x, y, HEIGHT), &palette);
     }
+    let views = vec![
+        View::upright("front", [0.55, 0.5, 1.7], [4.6, 4.0, 0.7], 0.52),
+        View::upright("desk", [2.9, 2.35, 1.35], [2.2, 3.55, 0.8], 0.5),
+    ];
     parts.scene(
-        views(),
+        views,
         vec![
             PointLight { position: [2.4, 2.6, 2.2], intensity: [4.2, 4.2, 3.9] },
             PointLight { position: [7.2, 2.6, 2.2], intensity: [4.2, 4.2, 3.9] },
         ],
     )
-}
-
-fn views() -> Vec<View> {
-    let up = [0.0, 0.0, 1.0];
-    let view = |name: &str, eye, target, tan_half_height| View { name: name.into(), eye, target, up, tan_half_height };
-    vec![view("front", [0.55, 0.5, 1.7], [4.6, 4.0, 0.7], 0.52), view("desk", [2.9, 2.35, 1.35], [2.2, 3.55, 0.8], 0.5)]
 }
 
 /// Adds floor, ceiling and walls, all facing inwards. 20 triangles.

@@ -19,8 +19,7 @@
 
 use super::super::{PointLight, Scene, View};
 use super::palette::Palette;
-use super::parts::{MaterialId, Parts, Placement};
-use super::rng::SceneRng;
+use super::parts::{MaterialId, Parts, Placement, SceneRng};
 
 /// Height of the walls, in metres.
 const HEIGHT: f64 = 2.8;
@@ -76,18 +75,13 @@ pub(super) fn office_floor() -> Scene {
     sides(&mut parts, &shell, &palette, &mut rng);
     core(&mut parts, &shell, &palette, &mut rng);
     corridor(&mut parts, &palette);
-    parts.scene(views(), vec![PointLight { position: [10.0, -14.0, 46.0], intensity: [5200.0, 5000.0, 4600.0] }])
-}
-
-fn views() -> Vec<View> {
-    let view =
-        |name: &str, eye, target, up, tan_half_height| View { name: name.into(), eye, target, up, tan_half_height };
-    let up = [0.0, 0.0, 1.0];
-    vec![
-        view("top", [18.0, 12.0, 46.0], [18.0, 12.0, 0.0], [0.0, 1.0, 0.0], 0.43),
-        view("side", [-7.0, -6.5, 8.5], [14.5, 11.0, 0.0], up, 0.42),
-        view("corridor", [5.9, 6.4, 1.7], [18.0, 6.55, 1.4], up, 0.6),
-    ]
+    let top = View::upright("top", [18.0, 12.0, 46.0], [18.0, 12.0, 0.0], 0.43);
+    let views = vec![
+        View { up: [0.0, 1.0, 0.0], ..top },
+        View::upright("side", [-7.0, -6.5, 8.5], [14.5, 11.0, 0.0], 0.42),
+        View::upright("corridor", [5.9, 6.4, 1.7], [18.0, 6.55, 1.4], 0.6),
+    ];
+    parts.scene(views, vec![PointLight { position: [10.0, -14.0, 46.0], intensity: [5200.0, 5000.0, 4600.0] }])
 }
 
 /// Adds the grounds and the floors, all at height 0 without overlap. 36 triangles.

@@ -1,10 +1,11 @@
-//! Assembly of scenes from pieces: placement, materials, triangles.
+//! Assembly of scenes from pieces: placement, materials, triangles, and random numbers for positions and angles.
 
 use glam::DVec3;
 
 use super::super::{Material, PointLight, Scene, View};
 use crate::elementary::on_circle;
 use crate::geom::mesh::{Mesh, Welder};
+use crate::geom::random::CounterRng;
 use crate::geom::vector::{narrow, unit};
 
 /// Index of a material of the [`Parts`] that created it.
@@ -143,4 +144,54 @@ impl Parts {
 /// Rounds to f32 and turns -0 into 0, so that equal points have equal bits.
 fn positive_zeros(vector: DVec3) -> [f32; 3] {
     narrow(vector).map(|value| value + 0.0)
+}
+
+/// Triangles of a grid of `columns` x `rows` quads whose vertices are numbered row by row from `first`; of each quad
+/// the two at its diagonal from the first corner.
+pub(super) fn grid_triangles(first: u32, [columns, rows]: [u32; 2]) -> impl Iterator<Item = [u32; 3]> {
+    let quads = (0..rows).flat_map(move |row| (0..columns).map(move |column| first + row * (columns + 1) + column));
+    quads.flat_map(move |a| {
+        let [b, c, d] = [a + 1, a + columns + 2, a + columns + 1];
+        [[a, b, c], [a, c, d]]
+    })
+}
+
+/// A mesh with an attribute of each kind per vertex, all finite.
+pub(super) fn with_attributes(
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    normals: Vec<[f32; 3]>,
+    texture: Vec<[f32; 2]>,
+) -> Mesh {
+    let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
+    mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices")
+}
+
+/// Seed of all scenes.
+pub const SEED: u64 = 2002;
+
+/// Random number generator with the seed [`SEED`]; its numbers depend on the order of calls.
+pub(super) struct SceneRng {
+    random: CounterRng,
+    drawn: u64,
+}
+
+impl Default for SceneRng {
+    fn default() -> Self {
+        Self { random: CounterRng::new(SEED), drawn: 0 }
+    }
+}
+
+impl SceneRng {
+    /// Returns a number in [`low`, `high`).
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.drawn += 1;
+        low + (high - low) * self.random.unit(self.drawn, 0, 0)
+    }
+
+    /// Chooses one of several items.
+    pub(super) fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
+        let place = self.between(0.0, things.len() as f64) as usize;
+        things[place.min(things.len() - 1)]
+    }
 }

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use glam::DVec3;
 
-use crate::geom::vector::unit;
+use crate::geom::vector::{area_vector, unit};
 
 /// Cosine of the angle by which a triangle's normal may turn when an edge is drawn together.
 const TURN: f64 = 0.3;
@@ -26,7 +26,7 @@ impl ClosedSurface {
     pub(super) fn normals(&self) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for triangle in &self.triangles {
-            let normal = normal(triangle.map(|corner| self.positions[corner as usize]));
+            let normal = area_vector(triangle.map(|corner| self.positions[corner as usize]));
             triangle.iter().for_each(|&corner| sums[corner as usize] += normal);
         }
         sums.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::Z)).collect()
@@ -81,11 +81,6 @@ impl ClosedSurface {
         }
         found
     }
-}
-
-/// Normal of a triangle, twice as long as its area is large.
-fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
 }
 
 /// Vertices with their normals.
@@ -254,9 +249,9 @@ impl Coarsening {
         let is_moved = |corner: u32| corner == a || corner == b;
         let holds = |&at: &usize| {
             let corners = self.triangles[at];
-            let before = normal(corners.map(|corner| self.vertices.positions[corner as usize]));
+            let before = area_vector(corners.map(|corner| self.vertices.positions[corner as usize]));
             let moved = corners.map(|at| if is_moved(at) { position } else { self.vertices.positions[at as usize] });
-            let after = normal(moved);
+            let after = area_vector(moved);
             corners.iter().filter(|&&corner| is_moved(corner)).count() == 2
                 || after.dot(before) > TURN * after.length() * before.length()
         };
@@ -278,48 +273,5 @@ impl Coarsening {
         both.iter().for_each(|&end| self.changes[end] += 1);
         self.neighbors(a).into_iter().for_each(|other| self.push([a, other]));
         true
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::Mesh;
-    use crate::geom::vector::narrow;
-
-    /// Sphere of about radius 1 by refining an octahedron.
-    fn sphere(vertices: usize) -> ClosedSurface {
-        let positions = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).collect();
-        let faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
-        ClosedSurface { positions, triangles: faces.to_vec() }.resampled(vertices)
-    }
-
-    /// Any number of vertices gives a closed surface with exactly these, as round as before, whose edges are alike.
-    #[test]
-    fn a_sphere_of_any_number_of_vertices_is_a_sphere() {
-        for vertices in [30, 100, 161, 162, 163, 500, 1_500] {
-            let found = sphere(162).resampled(vertices);
-            let lengths = || found.positions.iter().map(|at| at.length());
-            let [low, high] = [lengths().fold(9.0, f64::min), lengths().fold(0.0, f64::max)];
-            let edges = || {
-                let of = |triangle: &[u32; 3]| edges(*triangle).map(|edge| edge.map(|at| found.positions[at as usize]));
-                found.triangles.iter().flat_map(of).map(|[a, b]| a.distance(b))
-            };
-            let [short, long] = [edges().fold(9.0, f64::min), edges().fold(0.0, f64::max)];
-            let positions = found.positions.iter().map(|&at| narrow(at)).collect();
-            let mesh = Mesh::new(positions, found.triangles.clone()).expect("a mesh");
-            assert_eq!((found.positions.len(), found.triangles.len()), (vertices, 2 * vertices - 4));
-            assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts()), (0, 0), "{vertices}");
-            assert!(low > 0.8 && high < 1.1 && long < 4.0 * short, "{vertices}: {low} to {high}, {short} to {long}");
-        }
-    }
-
-    /// Triangles stay where they were in the order: neighbors in it are near each other.
-    #[test]
-    fn the_order_of_triangles_is_kept() {
-        let found = sphere(642).resampled(5_000);
-        let middle = |triangle: &[u32; 3]| triangle.iter().map(|&at| found.positions[at as usize]).sum::<DVec3>() / 3.0;
-        let far = found.triangles.windows(2).filter(|pair| middle(&pair[0]).distance(middle(&pair[1])) > 0.3).count();
-        assert!(far < found.triangles.len() / 20, "{far}");
     }
 }

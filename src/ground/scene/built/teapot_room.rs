@@ -14,8 +14,8 @@
 use glam::DVec3;
 
 use super::super::{Material, PointLight, Scene, Surface, View};
-use super::parts::{MaterialId, Parts, Placement};
-use super::rng::SEED;
+use super::palette::{glossy, lamp};
+use super::parts::{MaterialId, Parts, Placement, SEED};
 use crate::geom::random::CounterRng;
 use crate::geom::teapot::{TeapotPart, part_of_patch, tessellate};
 use crate::geom::vector::wide;
@@ -34,13 +34,7 @@ pub(super) fn teapot_room() -> Scene {
     let mut parts = Parts::default();
     walls(&mut parts);
     things(&mut parts, CounterRng::new(SEED));
-    let view = View {
-        name: "front".into(),
-        eye: [0.02, -0.74, 0.7],
-        target: [0.01, 0.3, 0.34],
-        up: [0.0, 0.0, 1.0],
-        tan_half_height: 0.6,
-    };
+    let view = View::upright("front", [0.02, -0.74, 0.7], [0.01, 0.3, 0.34], 0.6);
     let lamp = PointLight { position: [0.0, 0.05, 1.0], intensity: [0.75, 0.7, 0.6] };
     let fill = PointLight { position: [-0.3, -0.65, 0.85], intensity: [0.16, 0.17, 0.2] };
     parts.scene(vec![view], vec![lamp, fill])
@@ -61,11 +55,7 @@ fn walls(parts: &mut Parts) {
     parts.quad(room, [[w, -d, 0.0], [-2.0 * w, 0.0, 0.0], [0.0, 0.0, h]], white);
     parts.quad(room, [[-w, -d, 0.0], [0.0, 2.0 * d, 0.0], [0.0, 0.0, h]], red);
     parts.quad(room, [[w, d, 0.0], [0.0, -2.0 * d, 0.0], [0.0, 0.0, h]], green);
-    let lamp = parts.material(Material {
-        name: "lamp".into(),
-        surface: Surface::Diffuse { albedo: [0.0; 3] },
-        emission: [12.0, 11.0, 9.0],
-    });
+    let lamp = parts.material(lamp("lamp", [12.0, 11.0, 9.0]));
     ceiling(parts, [[-w, -d], [w, d]], [[-LIGHT, -LIGHT], [LIGHT, LIGHT]], h, white, lamp);
 }
 
@@ -92,26 +82,12 @@ pub(super) fn ceiling(
 fn things(parts: &mut Parts, random: CounterRng) {
     // A number from -1 to 1 for each movable object.
     let wobble = |thing: u64| 2.0 * random.unit(thing, 0, 0) - 1.0;
-    let copper = parts.material(Material {
-        name: "copper".into(),
-        surface: Surface::Mirror { reflectance: [0.90, 0.66, 0.48] },
-        emission: [0.0; 3],
-    });
-    let glass = parts.material(Material {
-        name: "glass".into(),
-        surface: Surface::Glass { index: 1.5, transmittance: [0.97, 0.98, 0.98] },
-        emission: [0.0; 3],
-    });
-    let mirror = parts.material(Material {
-        name: "mirror".into(),
-        surface: Surface::Mirror { reflectance: [0.88; 3] },
-        emission: [0.0; 3],
-    });
-    let lacquer = parts.material(Material {
-        name: "lacquer".into(),
-        surface: Surface::Glossy { albedo: [0.08, 0.16, 0.42], specular: [0.35; 3], exponent: 60.0 },
-        emission: [0.0; 3],
-    });
+    let mut material =
+        |name: &str, surface| parts.material(Material { name: name.into(), surface, emission: [0.0; 3] });
+    let copper = material("copper", Surface::Mirror { reflectance: [0.90, 0.66, 0.48] });
+    let glass = material("glass", Surface::Glass { index: 1.5, transmittance: [0.97, 0.98, 0.98] });
+    let mirror = material("mirror", Surface::Mirror { reflectance: [0.88; 3] });
+    let lacquer = parts.material(glossy("lacquer", [0.08, 0.16, 0.42], [0.35; 3], 60.0));
     let stone = parts.paint("stone", [0.62, 0.60, 0.56]);
     let picture = parts.paint("picture", [0.75, 0.52, 0.12]);
     parts.cylinder(Placement::at(0.0, 0.12, 0.0), 0.225, [0.0, 0.15], 20, stone);

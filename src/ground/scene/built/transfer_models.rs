@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use super::bodies;
 use super::bunny::bunny;
+use super::parts::{grid_triangles, with_attributes};
 use super::resample::ClosedSurface;
 use crate::elementary::{acos, atan2};
 use crate::geom::Mesh;
@@ -76,16 +77,12 @@ fn polygons(coarser: u32) -> Mesh {
                 let [u, v] = [column, row].map(|at| f64::from(at) / f64::from(counts - 1));
                 positions.push(narrow(DVec3::new(width * (u - 0.5), width * (v - 0.5), height)));
                 texture.push([u as f32, v as f32]);
-                if row + 1 < counts && column + 1 < counts {
-                    let a = first + row * counts + column;
-                    let [b, c, d] = [a + 1, a + counts + 1, a + counts];
-                    triangles.extend([[a, b, c], [a, c, d]]);
-                }
             }
         }
+        triangles.extend(grid_triangles(first, [counts - 1; 2]));
     }
     let normals = vec![[0.0, 0.0, 1.0]; positions.len()];
-    finished(positions, triangles, normals, texture)
+    with_attributes(positions, triangles, normals, texture)
 }
 
 /// Mesh of a surface around the origin with texture coordinates by direction: longitude, and latitude, whose sign
@@ -114,7 +111,7 @@ fn textured(surface: &ClosedSurface) -> Mesh {
     });
     let triangles = triangles.collect();
     let of = |values: &[DVec3]| of.iter().map(|&vertex| narrow(values[vertex])).collect();
-    finished(of(&surface.positions), triangles, of(&surface.normals()), texture)
+    with_attributes(of(&surface.positions), triangles, of(&surface.normals()), texture)
 }
 
 /// Longitudes of a face's corners, unwrapped to less than half a turn apart; the face around a pole, where that is
@@ -133,14 +130,4 @@ fn longitude_and_latitude(toward: DVec3) -> [f64; 2] {
     let x = unit(DVec3::X - DVec3::X.dot(axis) * axis).unwrap_or(DVec3::X);
     let turns = atan2(axis.cross(x).dot(toward), x.dot(toward)) / TAU;
     [if turns < 0.0 { turns + 1.0 } else { turns }, 1.0 - acos(axis.dot(toward).clamp(-1.0, 1.0)) / PI]
-}
-
-fn finished(
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    normals: Vec<[f32; 3]>,
-    texture: Vec<[f32; 2]>,
-) -> Mesh {
-    let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
-    mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices")
 }

@@ -1,14 +1,13 @@
 //! A closed box of grey emitting walls: 12 triangles. Inside it the radiance is emission / (1 - albedo) everywhere.
 
-use super::super::{Material, Scene, Surface, View};
+use super::super::{Material, Scene, View};
 use super::parts::{Parts, Placement};
 
 /// Builds a box from 0 to 1 whose walls face inwards, with emission and albedo of one half: the radiance is 1 in every
 /// direction.
 pub(super) fn white_box() -> Scene {
     let mut parts = Parts::default();
-    let surface = Surface::Diffuse { albedo: [0.5; 3] };
-    let wall = parts.material(Material { name: "wall".into(), surface, emission: [0.5; 3] });
+    let wall = parts.material(Material { emission: [0.5; 3], ..Material::diffuse("wall", [0.5; 3]) });
     for [corner, across, along] in [
         [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
@@ -19,12 +18,6 @@ pub(super) fn white_box() -> Scene {
     ] {
         parts.quad(Placement::ROOM, [corner, across, along], wall);
     }
-    let view = View {
-        name: "front".into(),
-        eye: [0.5, 0.1, 0.5],
-        target: [0.5, 1.0, 0.5],
-        up: [0.0, 0.0, 1.0],
-        tan_half_height: 0.75,
-    };
+    let view = View::upright("front", [0.5, 0.1, 0.5], [0.5, 1.0, 0.5], 0.75);
     parts.scene(vec![view], Vec::new())
 }

@@ -34,8 +34,7 @@ impl Octree {
             (widest * (1.0 + ROOT_MARGIN) + magnitude * ROOT_MARGIN * ROOT_MARGIN).max(f64::from(f32::MIN_POSITIVE));
         let corner = (low + high) / 2.0 - size / 2.0;
         let margin = MARGIN * (size + magnitude);
-        let octree =
-            Self { corner, size, margin, nodes: vec![OctreeNode::Leaf(0, 0)], triangles: Vec::new(), depth: 0 };
+        let octree = Self { corner, size, margin, nodes: vec![OctreeNode::Leaf(0, 0)], triangles: Vec::new() };
         let corners =
             (0..mesh.len() as u32).filter_map(|id| mesh.corners(id)).map(|corners| corners.map(wide)).collect();
         let mut builder = OctreeBuilder { corners, parameters, margin, octree };
@@ -50,7 +49,6 @@ impl OctreeBuilder {
     /// Makes `node` a leaf of these triangles, or splits it. `useless` counts the useless levels above.
     fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, useless: u32) {
         let deepest = self.parameters.most_depth.min(MAX_DEPTH);
-        self.octree.depth = self.octree.depth.max(depth);
         // Cells as small as the margin separate triangles no better than their parents.
         let small = half < 4.0 * self.margin;
         if inside.len() <= self.parameters.most_triangles || depth >= deepest || useless >= MAX_USELESS_LEVELS || small

@@ -59,24 +59,6 @@ pub struct Octree {
     margin: f64,
     nodes: Vec<OctreeNode>,
     triangles: Vec<u32>,
-    depth: u32,
-}
-
-/// Statistics of an octree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct OctreeCounts {
-    /// Cells that are split.
-    pub inner: usize,
-    /// Cells that are not split.
-    pub leaves: usize,
-    /// Leaves without a triangle.
-    pub empty_leaves: usize,
-    /// Entries of the lists: a triangle counts once per leaf.
-    pub entries: usize,
-    /// Maximum number of triangles in a leaf.
-    pub fullest: usize,
-    /// Splits between the root and the smallest cell.
-    pub depth: u32,
 }
 
 impl Octree {
@@ -85,20 +67,9 @@ impl Octree {
         self.margin
     }
 
-    /// Statistics of the octree.
-    pub fn counts(&self) -> OctreeCounts {
-        let mut out = OctreeCounts { depth: self.depth, entries: self.triangles.len(), ..OctreeCounts::default() };
-        for node in &self.nodes {
-            match node {
-                OctreeNode::Inner(_) => out.inner += 1,
-                OctreeNode::Leaf(_, count) => {
-                    out.leaves += 1;
-                    out.empty_leaves += usize::from(*count == 0);
-                    out.fullest = out.fullest.max(*count as usize);
-                }
-            }
-        }
-        out
+    /// Number of cells that are not split.
+    pub fn leaves(&self) -> usize {
+        self.nodes.iter().filter(|node| matches!(node, OctreeNode::Leaf(..))).count()
     }
 
     /// Triangles of a node's own list, in ascending order; empty for a cell that is split.

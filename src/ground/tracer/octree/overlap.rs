@@ -49,35 +49,3 @@ fn separates_across(axis: usize, edge: DVec3, corners: &[DVec3; 3], half: DVec3)
 fn apart(p: f64, q: f64, r: f64, reach: f64) -> bool {
     (p > reach && q > reach && r > reach) || (p < -reach && q < -reach && r < -reach)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Returns `true` if a triangle touches the cube from -1 to 1.
-    fn touches_cube(corners: [[f64; 3]; 3]) -> bool {
-        touches(&corners.map(DVec3::from), DVec3::ONE)
-    }
-
-    #[test]
-    fn a_triangle_that_holds_the_box_in_its_plane_touches() {
-        assert!(touches_cube([[-9.0, -9.0, 0.5], [9.0, -9.0, 0.5], [0.0, 9.0, 0.5]]));
-        assert!(touches_cube([[-9.0, -9.0, 1.0], [9.0, -9.0, 1.0], [0.0, 9.0, 1.0]]), "in the plane of a side");
-        assert!(!touches_cube([[-9.0, -9.0, 1.1], [9.0, -9.0, 1.1], [0.0, 9.0, 1.1]]));
-    }
-
-    #[test]
-    fn only_an_edge_direction_separates_a_corner_that_is_cut_past() {
-        // The plane x + y = 2.2, far away in z: its bounding box meets the cube, it does not.
-        let past = |s: f64| [[s, 0.0, -5.0], [0.0, s, -5.0], [s, 0.0, 5.0]];
-        assert!(!touches_cube(past(2.2)));
-        assert!(touches_cube(past(1.9)));
-    }
-
-    #[test]
-    fn points_and_needles_are_triangles_too() {
-        let point = |x: f64| [[x, 0.0, 0.0]; 3];
-        assert!(touches_cube(point(1.0)) && !touches_cube(point(1.0 + 1e-9)));
-        assert!(touches_cube([[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 0.0, 0.0]]), "a needle through the box");
-    }
-}

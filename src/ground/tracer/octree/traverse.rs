@@ -32,15 +32,12 @@ pub struct TraversalCounts {
     pub cells: u64,
     /// Leaves entered.
     pub leaves: u64,
-    /// GPU cells met.
-    pub gpu_cells: u64,
 }
 
 impl std::ops::AddAssign for TraversalCounts {
     fn add_assign(&mut self, other: Self) {
         self.cells += other.cells;
         self.leaves += other.leaves;
-        self.gpu_cells += other.gpu_cells;
     }
 }
 
@@ -183,7 +180,6 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
         self.counts.cells += 1;
         let visit = |triangles, gpu| Visit { cell: CellId(node), triangles, gpu, t: [latest(low), leave] };
         if let Some(triangles) = self.gpu.and_then(|gpu| gpu.triangles(CellId(node))) {
-            self.counts.gpu_cells += 1;
             return flow((self.visit)(&visit(triangles, true)));
         }
         match self.octree.nodes[node as usize] {

@@ -113,6 +113,3 @@ fn contrast_filtered(plane: &PixelPlane, gaussians: &[[f64; 2]], ppd: f64) -> Ve
     }
     filtered
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,8 +1,7 @@
-//! Properties of FLIP, and values of the authors' program (flip-evaluator 1.7, LDR, its own sRGB matrix).
-
-use super::*;
-use crate::picture::Picture;
-use crate::picture::display::decode;
+use crossbar_base::elementary::{hypot, pow};
+use crossbar_ground::picture::Picture;
+use crossbar_ground::picture::display::decode;
+use crossbar_ground::picture::metrics::{DEFAULT_PPD, FlipMap, ScreenPicture, flip};
 
 fn screen(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [f64; 3]) -> ScreenPicture {
     let pixels: Vec<[f32; 3]> =
@@ -43,6 +42,19 @@ fn green_against_blue_is_the_largest_difference() {
     let [green, blue] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|color| screen(8, 8, |_, _| color));
     let found = flip(&green, &blue, DEFAULT_PPD).expect("one size");
     assert!((found.mean - 1.0).abs() < 1e-9, "{}", found.mean);
+}
+
+/// Plain colors differ by their HyAB distance alone. Red of sRGB in CIELAB is (53.24, 80.09, 67.20) in the literature;
+/// the Hunt effect takes 0.5324 of its chroma.
+#[test]
+fn red_against_black_is_their_distance_in_cielab() {
+    let [black, red] = [[0.0; 3], [1.0, 0.0, 0.0]].map(|color| screen(8, 8, |_, _| color));
+    let found = flip(&black, &red, DEFAULT_PPD).expect("one size");
+    let distance = pow(53.24 + 0.5324 * hypot(80.09, 67.20), 0.7);
+    // The largest distance of the paper, of green and blue.
+    let (largest, knee) = (41.276, 0.4 * 41.276);
+    let expected = 0.95 + (distance - knee) / (largest - knee) * 0.05;
+    assert!((found.mean - expected).abs() < 2e-5, "{}, expected {expected}", found.mean);
 }
 
 #[test]

@@ -1,0 +1,5 @@
+#[cfg(feature = "refsim")]
+mod number;
+mod single;
+#[cfg(feature = "refsim")]
+mod surface;

@@ -1,0 +1,13 @@
+mod adjacency;
+mod aimed;
+mod classify;
+mod crease;
+mod filter;
+mod integer;
+mod mesh;
+mod orient;
+mod random;
+mod ratio;
+mod ray;
+mod teapot;
+mod unit_frame;

@@ -1,0 +1,6 @@
+//! Facts of the rooms, beside the laws of `tests/laws`.
+
+mod compare;
+mod elementary;
+mod geom;
+mod oracle;

@@ -1,0 +1,4 @@
+mod attributes;
+mod kernels;
+mod levels;
+mod texels;

@@ -1,0 +1,12 @@
+mod atomic;
+mod buffers;
+mod cube_map;
+mod light_sources;
+mod matrix_market;
+mod npy;
+mod number;
+mod number_table;
+mod numbers;
+mod obj;
+mod ply;
+mod rays;

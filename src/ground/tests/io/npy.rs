@@ -1,0 +1,90 @@
+use crossbar_ground::io::npy::MAGIC;
+use crossbar_ground::io::{NumberArray, NumberTable, parse_npy, parse_npy_array, write_npy, write_npy_array};
+use std::path::Path;
+
+fn file(version: u8, header: &str, data: &[u8]) -> Vec<u8> {
+    let length = (header.len() as u32).to_le_bytes();
+    let length = if version == 1 { &length[..2] } else { &length[..] };
+    [MAGIC, &[version, 0], length, header.as_bytes(), data].concat()
+}
+
+fn parse(bytes: &[u8]) -> Result<NumberTable, String> {
+    parse_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
+}
+
+#[test]
+fn all_versions_and_types_are_read() {
+    let values = [1.5_f32, -2.0, 0.1, 3e38, 0.0, -0.0];
+    let bytes = |descr: &str| -> Vec<u8> {
+        let one = |&value: &f32| match descr {
+            "<f4" => value.to_le_bytes().to_vec(),
+            ">f4" => value.to_be_bytes().to_vec(),
+            "<f8" => f64::from(value).to_le_bytes().to_vec(),
+            _ => f64::from(value).to_be_bytes().to_vec(),
+        };
+        values.iter().flat_map(one).collect()
+    };
+    for (version, shape, columns) in [(1, "(2, 3)", 3), (2, "(3, 1, 2L)", 2), (3, "(6,)", 1)] {
+        for descr in ["<f4", ">f4", "<f8", ">f8"] {
+            let header = format!(" {{\"descr\": '{descr}', 'shape': {shape}, 'fortran_order': False}}  \n");
+            let expected = NumberTable { columns, values: values.to_vec() };
+            let file = file(version, &header, &bytes(descr));
+            assert_eq!(parse(&file), Ok(expected), "{version} {descr}");
+            let wide = parse_npy::<f64>(&file, Path::new("a.npy")).expect("a table");
+            assert_eq!(wide.values, values.map(f64::from), "{version} {descr}");
+        }
+    }
+}
+
+#[test]
+fn what_is_written_is_read() {
+    let table = NumberTable { columns: 3, values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0] };
+    let mut bytes = Vec::new();
+    write_npy(&table, &mut bytes).expect("written");
+    assert_eq!((bytes.len() - 24) % 64, 0);
+    assert_eq!(parse(&bytes), Ok(table));
+    for length in 0..bytes.len() {
+        assert!(parse(&bytes[..length]).is_err(), "{length} bytes");
+    }
+    assert!(parse(&[&bytes[..], &[0]].concat()).is_err());
+}
+
+#[test]
+fn shapes_are_kept() {
+    for shape in [&[6][..], &[2, 3], &[1, 2, 1, 3]] {
+        let values = vec![0.5, -1.0, 2.0, 3.0, 4.0, 5.0];
+        let mut bytes = Vec::new();
+        write_npy_array(shape, &values, &mut bytes).expect("written");
+        let found = parse_npy_array(&bytes, Path::new("a.npy")).expect("an array");
+        assert_eq!(found, NumberArray { shape: shape.to_vec(), values });
+    }
+}
+
+#[test]
+fn what_is_not_read_is_named() {
+    let error = |header: &str, data: &[u8]| parse(&file(1, header, data)).expect_err("no table");
+    let with = |descr: &str, order: &str, shape: &str| {
+        format!("{{'descr': {descr}, 'fortran_order': {order}, 'shape': {shape}}}")
+    };
+    let order = error(&with("'<f4'", "True", "(1, 1)"), &[0; 4]);
+    assert_eq!(order, "a.npy: expected an array in C order, found Fortran order");
+    let integers = error(&with("'<i4'", "False", "(1, 1)"), &[0; 4]);
+    assert_eq!(integers, "a.npy: expected numbers of type <f4, <f8, >f4 or >f8, found `<i4`");
+    let short = error(&with("'<f4'", "False", "(2, 3)"), &[0; 20]);
+    assert_eq!(short, "a.npy: expected 6 x 4 bytes of numbers, found 20 bytes");
+    for shape in ["()", "(0, 3)", "(3, 0)", "(9999999999999, 9999999999999)"] {
+        assert!(error(&with("'<f4'", "False", shape), &[]).starts_with("a.npy: expected"), "{shape}");
+    }
+    let range = error(&with("'<f8'", "False", "(1,)"), &1e39_f64.to_le_bytes());
+    assert_eq!(range, "a.npy: number 0 (counted from 0) is too large for a 32-bit float: 1e39");
+    let header = with("'<f8'", "False", "(1,)");
+    let wide = parse_npy::<f64>(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
+    assert_eq!(wide.values, [1e39], "f64 holds it");
+    let twice = error("{'shape': (1,), 'shape': (1,)}", &[]);
+    assert!(twice.contains("`shape`: expected a tuple of whole numbers, once"), "{twice}");
+    for header in ["", "{", "{'descr'}", "{'x': 1}", "{'shape': (-1,)}", "[1]", "{'shape': (1,) 'descr': '<f4'}"] {
+        assert!(error(header, &[]).contains("expected"), "{header}");
+    }
+    assert_eq!(parse(b"PK").expect_err("no table"), "a.npy: the first bytes: expected \\x93NUMPY, found `PK`");
+    assert_eq!(parse(&file(4, "", &[])).expect_err("none"), "a.npy: its version: expected 1, 2 or 3, found 4");
+}

@@ -1,0 +1,70 @@
+use crossbar_base::error::InputError;
+use crossbar_base::geom::Mesh;
+use crossbar_ground::io::{load_mesh, parse_obj};
+use std::path::Path;
+
+fn parse(text: &str) -> Result<Mesh, InputError> {
+    parse_obj(text.as_bytes(), Path::new("m.obj"))
+}
+
+fn message(text: &str) -> String {
+    parse(text).unwrap_err().to_string()
+}
+
+#[test]
+fn reads_faces_in_file_order_across_groups() {
+    let text = "mtllib none.mtl\no a\nv 0 0 0\nv 1 0 0 # a comment\r\nv 1 1 0 1\nv 0 1 0 1 0 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n\
+                g b\nusemtl x\nv 0 0 1\nf -1 -2 \\\n -3\nl 1 2\nf 2 3 5";
+    let mesh = parse(text).expect("a mesh");
+    assert_eq!(mesh.len(), 4);
+    assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [4, 3, 2], [1, 2, 4]]);
+    assert_eq!(mesh.positions()[4], [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_byte_order_mark_hides_no_vertex() {
+    for end in ["\n", "\r\n", "\r"] {
+        let text = "\u{feff}v 5 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3".replace('\n', end);
+        assert_eq!(parse(&text).expect("a mesh").positions()[0], [5.0, 0.0, 0.0]);
+    }
+}
+
+#[test]
+fn errors_say_where_and_what() {
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let range = "expected 1 to 3 (or -1 to -3)";
+    let large = "a number that is not too large for a 32-bit float: at most 3.4028235e38";
+    for (text, expected) in [
+        ("v 0 0 0", ": expected at least one face (a line `f 1 2 3`), found none"),
+        ("v 0 nan 0\nf 1 1 1", ":1: expected a finite number, found `nan`"),
+        ("\nv 0 1e39 0", &format!(":2: expected {large}, found `1e39`")),
+        ("v 0 0", ":1: expected a vertex `v x y z`, found `v 0 0`"),
+        ("v 0 0 0 2", ":1: expected a vertex without a weight other than 1, found `2`"),
+    ] {
+        assert_eq!(message(text), format!("m.obj{expected}"));
+    }
+    for (corners, expected) in [
+        ("1 2", "expected a face of at least three corners `f 1 2 3`, found `f 1 2`"),
+        ("1 2 4", &format!("a face uses vertex 4, {range}")),
+        ("1 2 -4", &format!("a face uses vertex -4, {range}")),
+        ("0 1 2", &format!("a face uses vertex 0, {range}")),
+        ("1 2 9223372036854775807", &format!("a face uses vertex 9223372036854775807, {range}")),
+        ("1 2 -9223372036854775808", &format!("a face uses vertex -9223372036854775808, {range}")),
+        ("1 2 x", "expected a corner `1`, `1/1`, `1//1` or `1/1/1`, found `x`"),
+    ] {
+        assert_eq!(message(&format!("{triangle}f {corners}")), format!("m.obj:4: {expected}"));
+    }
+    let missing = Path::new("/no/such/file.obj");
+    assert_eq!(load_mesh(missing).unwrap_err().to_string(), "cannot read the model /no/such/file.obj");
+}
+
+#[test]
+fn a_face_may_come_before_its_vertices() {
+    assert_eq!(parse("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0").expect("a mesh").len(), 1);
+}
+
+#[test]
+fn degenerate_triangles_keep_their_place() {
+    let mesh = parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nf 1 2 3").expect("a mesh");
+    assert_eq!((mesh.len(), mesh.degenerate_count()), (2, 1));
+}

@@ -1,0 +1,66 @@
+use crossbar_ground::io::{load_mesh, parse_ply};
+use std::path::Path;
+
+fn message(text: &str) -> String {
+    parse_ply(text.as_bytes(), Path::new("m.ply")).unwrap_err().to_string()
+}
+
+const HEADER: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                      element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+#[test]
+fn polygons_become_fans_and_other_elements_are_passed_over() {
+    let text = "ply\nformat ascii 1.0\ncomment caf\u{e9}\nelement vertex 4\nproperty double x\nproperty float32 y\n\
+                property int z\nproperty uchar red\nproperty float s\nproperty float t\nelement material 1\n\
+                property list uchar float x\nelement face 2\nproperty list uint8 uint vertex_index\nend_header\n\
+                0 0 0 255 0 0\n1 0 0 0 1 0\n\n1 1 0 7 1 1\n0 1 0 8 0 1\n2 0.5 0.25\n4 0 1 2 3\n3 3 2 1\n";
+    let mesh = parse_ply(text.as_bytes(), Path::new("m.ply")).expect("a mesh");
+    let by_cr = parse_ply(text.replace('\n', "\r").as_bytes(), Path::new("m.ply")).expect("a mesh");
+    assert_eq!(by_cr, mesh);
+    assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [3, 2, 1]]);
+    assert_eq!(mesh.positions()[2], [1.0, 1.0, 0.0]);
+    assert_eq!((mesh.normals(), mesh.texcoords().map(|uv| uv[3])), (None, Some([0.0, 1.0])));
+}
+
+#[test]
+fn errors_say_where_and_what() {
+    assert_eq!(message("solid x\n"), "m.ply:1: expected the word `ply`, found `solid x`");
+    assert_eq!(message("ply\nx"), "m.ply:2: expected `end_header` at the end of the header, found the end of the file");
+    let header = "`format`, `element NAME COUNT`, `property TYPE NAME` or `comment`";
+    assert_eq!(
+        message("ply\nformat ascii 1.0\nelement vertex -1\nend_header\n"),
+        format!("m.ply:3: expected {header}, found `element vertex -1`")
+    );
+    let formats = "`format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`";
+    assert_eq!(message("ply\nend_header\n"), format!("m.ply:2: expected {formats}, found no such line"));
+    let no_vertex = "m.ply: expected an element `vertex` with the properties `x`, `y` and `z`, found none";
+    assert_eq!(message("ply\nformat ascii 1.0\nend_header\n"), no_vertex);
+    assert_eq!(
+        message(&format!("{HEADER}0 0 0\n1 0 0\n0 1 0\n2 0 1\n")),
+        "m.ply:13: expected three corners or more, found `2 0 1`"
+    );
+    assert_eq!(
+        message(&format!("{HEADER}0 0 0\n1 zero 0\n")),
+        "m.ply:11: expected a `vertex` of `x y z`, found `1 zero 0`"
+    );
+    assert_eq!(
+        message(&format!("{HEADER}0 0 0\n1 0 0\n")),
+        "m.ply:11: expected a `vertex` of `x y z`, found the end of the file"
+    );
+    let beyond = message(&format!("{HEADER}0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"));
+    assert_eq!(beyond, "m.ply:13: expected corners below 3, the number of vertices, found `3 0 1 3`");
+    let missing = Path::new("/no/such/file.ply");
+    assert_eq!(load_mesh(missing).unwrap_err().to_string(), "cannot read the model /no/such/file.ply");
+}
+
+#[test]
+fn counts_of_the_header_take_no_memory() {
+    let all = u64::MAX;
+    let huge = HEADER.replace("vertex 3", &format!("vertex {all}")).replace("ascii", "binary_little_endian");
+    assert_eq!(
+        message(&huge),
+        "m.ply: vertex 0 (counted from 0): expected a `vertex` of `x y z`, found the end of the file"
+    );
+    let empty = HEADER.replace("element face", &format!("element nothing {all}\nelement face"));
+    assert_eq!(message(&empty), "m.ply:10: expected properties of the element `nothing`, found none");
+}

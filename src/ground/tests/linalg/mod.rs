@@ -1,0 +1,5 @@
+mod dot;
+mod leading;
+mod leading_svd;
+mod lu;
+mod matrix;

@@ -1,0 +1,7 @@
+mod channel;
+mod display;
+mod exr;
+mod flip;
+mod luminance;
+mod png;
+mod ssim;

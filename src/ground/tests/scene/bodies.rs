@@ -1,0 +1,59 @@
+//! Surfaces put together from rounded pieces, and the scanned bunny, at any number of vertices.
+
+use crossbar_base::geom::Mesh;
+use crossbar_base::geom::vector::wide;
+use crossbar_ground::scene::built::stand_ins;
+use crossbar_ground::scene::built::transfer_models::TransferModel;
+use glam::DVec3;
+
+/// Refined and coarsened surfaces are closed, of one part without a handle, around the origin, and of exactly as many
+/// vertices as asked for, whose edges are alike: a body with its volume.
+#[test]
+fn bodies_are_closed_at_every_size_and_keep_their_volume() {
+    use TransferModel::{BiScaleArmor, BiScaleBunny, BiScaleBunnyMiddle, Bird, Buddha, Bunny, Head};
+    for (model, sizes, vertices) in [
+        (Bunny, [4, 2, 1], 11_556),
+        (BiScaleBunny, [3, 2, 1], 3_286),
+        (BiScaleBunnyMiddle, [9, 3, 1], 12_380),
+        (Bird, [8, 4, 3], 48_688),
+        (Head, [8, 4, 3], 50_060),
+        (Buddha, [4, 3, 2], 54_100),
+        (BiScaleArmor, [3, 2, 1], 10_652),
+    ] {
+        let mut volumes = Vec::new();
+        for coarser in sizes {
+            let vertices = (vertices / (coarser * coarser)) as usize;
+            let mesh = model.mesh(coarser).welded();
+            assert_eq!((mesh.positions().len(), mesh.len()), (vertices, 2 * vertices - 4), "{model:?}");
+            assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts(), mesh.degenerate_count()), (0, 0, 0));
+            let [low, high] = mesh.bounds().expect("a box").map(wide);
+            assert!((low + high).abs().max_element() < 1.0 && (2.0..3.3).contains(&(high - low).max_element()));
+            volumes.push(volume(&mesh));
+        }
+        let [coarse, middle, fine] = [0, 1, 2].map(|at| volumes[at] / volumes[2]);
+        assert!((coarse - fine).abs() < 0.05 && (middle - fine).abs() < 0.02, "{model:?}: {volumes:?}");
+    }
+}
+
+fn volume(mesh: &Mesh) -> f64 {
+    mesh.iter_corners().map(|corners| corners.map(wide)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
+}
+
+/// The bunny's box is 2.5 long and lies around the origin, whatever the number of vertices.
+#[test]
+fn the_bunny_is_as_large_as_stand_ins_are() {
+    for coarser in 1..=4 {
+        let [low, high] = TransferModel::Bunny.mesh(coarser).bounds().expect("a box").map(wide);
+        assert!((low + high).abs().max_element() < 1e-5 && ((high - low).max_element() - 2.5).abs() < 1e-5);
+    }
+}
+
+/// Triangles stay where they were in the order of the surface that is refined: neighbors in it are near each other.
+#[test]
+fn the_order_of_triangles_is_kept() {
+    let mesh = stand_ins::bunny();
+    let middles: Vec<DVec3> =
+        mesh.iter_corners().map(|corners| corners.map(wide).into_iter().sum::<DVec3>() / 3.0).collect();
+    let far = middles.windows(2).filter(|pair| pair[0].distance(pair[1]) > 0.2).count();
+    assert!(far < mesh.len() / 20, "{far}");
+}

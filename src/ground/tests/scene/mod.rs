@@ -1,0 +1,5 @@
+mod bodies;
+mod camera;
+mod ground;
+mod model;
+mod rooms;

@@ -1,0 +1,10 @@
+mod cube;
+mod extremes;
+mod harmonics;
+mod hemisphere;
+mod layout;
+mod light;
+mod parabolic;
+mod rotation;
+mod rule;
+mod sky;

@@ -1,0 +1,30 @@
+use crossbar_ground::sphere::HarmonicRotation;
+use glam::{DMat3, DVec3};
+
+#[test]
+fn what_is_no_rotation_is_refused() {
+    let error = |matrix: &DMat3| HarmonicRotation::new(3, matrix).expect_err("refused").to_string();
+    let mirrored = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
+    let reflection =
+        "expected a rotation matrix, found a reflection (determinant -1); exchange two columns, or negate one";
+    assert_eq!(error(&mirrored), reflection);
+    let skewed = DMat3::from_cols(DVec3::X, DVec3::new(0.5, 1.0, 0.0), DVec3::Z);
+    let skew = "expected a rotation matrix with orthonormal columns (to 0.000000001), found columns [1, 1] (counted from 0) \
+                with product 1.25; orthonormalize them in double precision";
+    assert_eq!(error(&skewed), skew);
+    assert!(HarmonicRotation::new(3, &DMat3::from_diagonal(DVec3::NAN)).is_err());
+}
+
+#[test]
+fn a_quarter_turn_around_z_moves_x_to_y() {
+    let turn = DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z);
+    let rotation = HarmonicRotation::new(2, &turn).expect("a rotation");
+    let mut found = [0.0; 4];
+    rotation.apply(&[1.0, 0.0, 5.0, 7.0], &mut found);
+    for (found, expected) in found.iter().zip([1.0, 7.0, 5.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+    }
+    let mut back = [0.0; 4];
+    rotation.inverse().apply(&found, &mut back);
+    assert!(back.iter().zip([1.0, 0.0, 5.0, 7.0]).all(|(a, b)| (a - b).abs() < 1e-14), "{back:?}");
+}

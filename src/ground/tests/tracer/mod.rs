@@ -1,0 +1,3 @@
+mod octree;
+mod offset;
+mod scale;
