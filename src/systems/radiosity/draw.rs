@@ -123,35 +123,3 @@ fn shared(corner: DVec3) -> DVec3 {
 pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
     vector.map(|x| (x as f32).to_bits())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::abs_diff_eq;
-
-    #[test]
-    fn a_camera_projects_as_it_casts() {
-        let camera = Camera::new([1.0, -2.0, 0.5], [1.5, 3.0, 0.0], [0.0, 0.0, 1.0], 0.5, 40, 20).expect("a camera");
-        let projection = Projection::of(&camera, DVec3::ZERO, 10.0);
-        let through = |x, y| projection.eye + 3.0 * camera.direction_at(x, y);
-        let outline = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0], [0.0, 20.0]].map(|[x, y]| through(x, y));
-        for (corner, want) in outline.iter().zip([[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]) {
-            let [x, y, w] = projection.clip(*corner);
-            assert!(
-                abs_diff_eq!(x / w, want[0], epsilon = 1e-12)
-                    && abs_diff_eq!(y / w, want[1], epsilon = 1e-12)
-                    && abs_diff_eq!(w, 3.0, epsilon = 1e-12)
-            );
-        }
-        assert_eq!(projection.clip(through(20.0, 10.0)).map(|c| (c * 1e9).round()), [0.0, 0.0, 3e9]);
-    }
-
-    #[test]
-    fn numbers_survive_their_coding() {
-        for patch in [0, 1, 16_383] {
-            assert_eq!(patch_of(Side::Front.code(patch) as f32), Some(patch as u32));
-            assert_eq!(patch_of(Side::Back.code(patch) as f32), None);
-        }
-        assert_eq!(patch_of(0.0), None);
-    }
-}

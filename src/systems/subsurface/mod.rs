@@ -28,6 +28,8 @@ mod thickness;
 mod triangles;
 
 pub use dipole::Dipole;
+#[doc(hidden)] // its bound is held against the exponential
+pub use dipole_sum::exp_of_negative;
 pub use fresnel::fresnel_transmittance;
 pub use irradiance::{DistantSource, distant_irradiance, irradiance};
 pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material};

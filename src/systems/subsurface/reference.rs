@@ -286,25 +286,3 @@ fn triangle_points([a, b, c]: [DVec3; 3], n: u32, points: &mut Vec<WeightedPoint
     }
     area
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn triangles_are_integrated_exactly_to_second_order() {
-        let corners = [DVec3::new(0.0, 0.0, 1.0), DVec3::new(3.0, 0.0, 1.0), DVec3::new(1.0, 2.0, 1.0)];
-        for n in 1..5 {
-            let mut points = Vec::new();
-            let area = triangle_points(corners, n, &mut points);
-            assert_eq!((area, points.len() as u32), (3.0, 3 * n * n));
-            let integral = |value: fn(DVec3) -> f64| points.iter().map(|(p, w)| w * value(*p)).sum::<f64>();
-            assert_relative_eq!(integral(|_| 1.0), 3.0, max_relative = 1e-14);
-            assert_relative_eq!(integral(|p| p.x), 4.0, max_relative = 1e-14);
-            // Area / 12 times (the squares of the corners' coordinates, and of their sum).
-            assert_relative_eq!(integral(|p| p.x * p.x), 3.0 / 12.0 * (9.0 + 1.0 + 16.0), max_relative = 1e-14);
-            assert_relative_eq!(integral(|p| p.x * p.y), 3.0 / 12.0 * (2.0 + 4.0 * 2.0), max_relative = 1e-14);
-        }
-    }
-}

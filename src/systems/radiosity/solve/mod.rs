@@ -105,26 +105,3 @@ impl FromStr for Solver {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_read_back() {
-        for solver in
-            [Solver::Jacobi, Solver::GaussSeidel, Solver::OverRelaxation(1.25), Solver::Shooting, Solver::Direct]
-        {
-            assert_eq!(solver.to_string().parse(), Ok(solver));
-        }
-        for name in ["", "sor", "sor:2", "sor:nan", "Jacobi"] {
-            assert_eq!(
-                name.parse::<Solver>(),
-                Err(input_error!(
-                    "expected `jacobi`, `gauss-seidel`, `sor:FACTOR` (0 < FACTOR < 2), `shooting` or `direct`, \
-         found `{name}`"
-                ))
-            );
-        }
-    }
-}
