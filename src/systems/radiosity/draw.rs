@@ -32,15 +32,15 @@ pub enum DrawError {
 /// A perspective projection: an eye, and the axes of its clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
-    pub(super) eye: DVec3,
+    eye: DVec3,
     /// Axis of clip space's w; of unit length.
-    pub(super) forward: DVec3,
+    forward: DVec3,
     /// Axis of clip space's x.
-    pub(super) across: DVec3,
+    across: DVec3,
     /// Axis of clip space's y, upwards.
-    pub(super) upwards: DVec3,
+    upwards: DVec3,
     /// Bound on the distance of any vertex, measured along `forward`.
-    pub(super) far: f64,
+    far: f64,
 }
 
 impl Projection {
@@ -74,39 +74,29 @@ impl Projection {
         outside.contains(&true)
     }
 
-    /// Returns the side of a patch that the eye sees; `None` if it sees the patch edge-on.
-    pub(super) fn side(&self, patch: &Patch) -> Option<Side> {
+    /// Returns `true` if the eye sees the front of a patch, which receives and emits light, and `false` if it sees the
+    /// back, which is black; `None` if it sees the patch edge-on.
+    pub(super) fn sees_front(&self, patch: &Patch) -> Option<bool> {
         let (height, least) = (patch.height(self.eye), EDGE_ON * patch.radius());
-        if height > least { Some(Side::Front) } else { (height < -least).then_some(Side::Back) }
+        (height.abs() > least).then_some(height > 0.0)
     }
 
     /// A corner with its coordinates in the patch, `TEX0` of the programs: u, v, depth, 1 in front and 0 behind.
     ///
     /// Depth, which the program writes, is the distance along the view as a fraction of the farthest. Its precision is
     /// the same at all distances, and there is no near plane. Clip space's z clips nothing.
-    pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], side: Side) -> Vertex {
+    pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], is_front: bool) -> Vertex {
         let [x, y, w] = self.clip(shared(corner));
         let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };
-        vertex.texcoords[0] = bits([u, v, w / self.far, if side == Side::Front { 1.0 } else { 0.0 }]);
+        vertex.texcoords[0] = bits([u, v, w / self.far, if is_front { 1.0 } else { 0.0 }]);
         vertex
     }
 }
 
-/// A side of a patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    /// The front, which receives and emits light.
-    Front,
-    /// The back, which is black.
-    Back,
-}
-
-impl Side {
-    /// Encodes a patch's number as a color: from 1, negative for the back; 0 is no patch.
-    pub(super) fn code(self, patch: usize) -> f64 {
-        let number = (patch + 1) as f64;
-        if self == Self::Front { number } else { -number }
-    }
+/// Encodes a patch's number as a color: from 1, negative for the back; 0 is no patch.
+pub(super) fn code(patch: usize, is_front: bool) -> f64 {
+    let number = (patch + 1) as f64;
+    if is_front { number } else { -number }
 }
 
 /// Decodes the patch whose front is seen in a pixel; `None` for a back or no patch.

@@ -1,10 +1,9 @@
 //! Faces of a scene, and their subdivision into patches.
 
 use super::patch::Patch;
-use crate::error::InputError;
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::exact::is_degenerate;
 use crate::geom::vector::wide;
-use crate::radiosity::patch_error::{empty_error, too_thin_error};
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -46,10 +45,13 @@ pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), InputErro
         faces.push(Face { corners, triangle: i as u32, material: materials[i] });
         i += width;
     }
-    if faces.is_empty() {
-        return Err(empty_error());
-    }
+    ensure!(!faces.is_empty(), "radiosity::patches" => "expected a scene with surfaces, found none");
     Ok((faces, face_of))
+}
+
+pub(super) fn too_thin_error(triangle: u32) -> InputError {
+    input_error!("radiosity::patches" =>
+        "triangle {triangle} (counted from 0) is too thin for a patch; remove it, or merge its corners")
 }
 
 /// Merges two triangles with a common side into a quadrilateral; `None` if it is not flat and convex.

@@ -1,42 +1,34 @@
 //! A crossbar whose rays and triangles are resident on the card, for repeated draws without uploads.
 
-use refsim::event::DrawEvents;
+use std::sync::Arc;
 
-use super::card::{Card, Streams};
-use super::{Answer, EngineError, RayBatch};
+use refsim::machine::Machine;
+
+use super::card::{RayTextures, Streams, rounded};
+use super::units::Units;
+use super::{Answer, EngineError, Kernel, RayBatch};
 
 /// A card with rays in its textures and triangles in its vertex memory. [`super::Crossbar::make_resident`] makes one.
 #[derive(Debug)]
 pub struct ResidentCrossbar {
     /// `None` if there are no rays or no triangles.
-    work: Option<(Card, Streams)>,
-    rays: RayBatch,
-    kernel: &'static str,
+    pub(super) work: Option<(Machine, RayTextures, Units, Streams)>,
+    pub(super) rays: RayBatch,
+    pub(super) kernel: Arc<Kernel>,
 }
 
 impl ResidentCrossbar {
-    pub(super) fn new(card: Card, streams: Streams, rays: RayBatch, kernel: &'static str) -> Self {
-        Self { work: Some((card, streams)), rays, kernel }
-    }
-
-    /// Creates a resident crossbar without work.
-    pub(super) fn idle(rays: RayBatch, kernel: &'static str) -> Self {
-        Self { work: None, rays, kernel }
-    }
-
     /// Clears the targets, draws every triangle over every ray, and reads back: the result of
     /// [`super::Crossbar::intersect`] with all pairs.
     ///
     /// # Errors
     /// [`EngineError::Machine`] if the card refuses the work.
     pub fn intersect(&mut self) -> Result<Answer, EngineError> {
-        let kernel = self.kernel;
-        let Some((card, streams)) = &mut self.work else {
-            let hits = vec![None; self.rays.rays().len()];
-            return Ok(Answer { hits, events: DrawEvents::default(), kernel, log: Vec::new() });
-        };
-        card.clear()?;
-        let events = card.draw(streams)?;
-        Ok(Answer { hits: card.read_back(&self.rays)?, events, kernel, log: card.take_log() })
+        let answer = Answer::without_hits(self.rays.rays().len(), self.kernel.name);
+        let Some((machine, sheet, units, streams)) = &mut self.work else { return Ok(answer) };
+        sheet.clear(machine)?;
+        let events = sheet.draw(machine, &self.kernel, units, &[], streams)?;
+        let (hits, _) = sheet.read_back(machine, &self.rays, units, true)?;
+        Ok(Answer { hits: rounded(hits), events, log: machine.take_log(), ..answer })
     }
 }

@@ -50,25 +50,14 @@ impl<'a> Surfel<'a> {
         Some(Self { triangle, place, normal, shading, view, front, material })
     }
 
-    /// Returns the origin of a ray into direction `towards`.
-    pub(super) fn start(&self, towards: DVec3) -> [f32; 3] {
-        self.place.lifted(towards, 0.0)
-    }
-
     /// Returns a ray from the surface, if the direction is not zero.
     pub(super) fn ray(&self, towards: DVec3) -> Option<Ray> {
-        Ray::new(self.start(towards), narrow(towards)).ok()
-    }
-
-    /// Returns a ray to a point on another triangle, which hits something at t < 1 if and only if something is between.
-    /// `None` if the points coincide.
-    pub(super) fn ray_to(&self, other: &SurfacePoint) -> Option<Ray> {
-        self.place.ray_to(other)
+        Ray::new(self.place.lifted(towards, 0.0), narrow(towards)).ok()
     }
 
     /// Returns a ray to a point in space, which it reaches at t = 1.
     pub(super) fn ray_to_point(&self, point: DVec3) -> Option<Ray> {
-        let start = self.start(point - self.place.at);
+        let start = self.place.lifted(point - self.place.at, 0.0);
         Ray::new(start, narrow(point - wide(start))).ok()
     }
 }

@@ -19,6 +19,7 @@ const PANELS: u32 = 60;
 pub struct Dipole {
     coefficients: Coefficients,
     eta: f64,
+    /// A = (1 + F_dr) / (1 - F_dr): what the boundary sends back, relative to what it lets pass.
     boundary: f64,
     sigma_tr: f64,
     z_r: f64,
@@ -50,11 +51,6 @@ impl Dipole {
     /// The index of refraction.
     pub fn eta(&self) -> f64 {
         self.eta
-    }
-
-    /// A = (1 + F_dr) / (1 - F_dr): what the boundary sends back, relative to what it lets pass.
-    pub fn boundary(&self) -> f64 {
-        self.boundary
     }
 
     /// The reduced extinction coefficient sigma'_t, per mm.

@@ -86,7 +86,8 @@ fn two_halves_make_a_square_and_a_kink_does_not() {
 #[test]
 fn parts_are_as_short_as_the_number_allows() {
     let long = SQUARE.map(|corner| DVec3::new(2.0, 1.0, 1.0) * corner);
-    for (most, expected) in [(12, [[2, 2], [4, 2]]), (11, [[2, 2], [3, 2]]), (3, [[1, 1], [2, 1]]), (0, [[1, 1], [1, 1]])]
+    for (most, expected) in
+        [(12, [[2, 2], [4, 2]]), (11, [[2, 2], [3, 2]]), (3, [[1, 1], [2, 1]]), (0, [[1, 1], [1, 1]])]
     {
         let patches = cut(&[&SQUARE, &long], Subdivision::AtMost(most));
         for (face, (width, [across, along])) in (0..).zip([1.0, 2.0].into_iter().zip(expected)) {
@@ -104,7 +105,7 @@ fn areas_add_up_to_the_face() {
     let long = SQUARE.map(|corner| DVec3::new(4.0, 3.0, 1.0) * corner);
     let both: [&[DVec3]; 2] = [&SQUARE[..3], &long];
     let cases = [
-        (cut(&both, Subdivision::PerSide(4)), vec![(16, 0.5), (16, 12.0)]),
+        (cut(&both, Subdivision::PerSide(4)), vec![(16, 0.5_f64), (16, 12.0)]),
         (cut(&[&long], Subdivision::AtMost(12)), vec![(12, 12.0)]),
     ];
     for (patches, faces) in cases {
@@ -197,15 +198,17 @@ fn a_block_of_the_paper_is_the_longest_that_fits() {
 #[test]
 fn files_are_programs_for_one_texel() {
     for kernel in BLOCKS {
-        let stripped =
-            |text: &str| -> Vec<String> { text.lines().filter(|line| line.ends_with(';')).map(str::to_owned).collect() };
+        let stripped = |text: &str| -> Vec<String> {
+            text.lines().filter(|line| line.ends_with(';')).map(str::to_owned).collect()
+        };
         assert_eq!(stripped(&kernel.unrolled(1)), stripped(kernel.text), "{}", kernel.name);
     }
 }
 
 #[test]
 fn names_of_solvers_read_back() {
-    for solver in [Solver::Jacobi, Solver::GaussSeidel, Solver::OverRelaxation(1.25), Solver::Shooting, Solver::Direct] {
+    for solver in [Solver::Jacobi, Solver::GaussSeidel, Solver::OverRelaxation(1.25), Solver::Shooting, Solver::Direct]
+    {
         assert_eq!(solver.to_string().parse(), Ok(solver));
     }
     for name in ["", "sor", "sor:2", "sor:nan", "Jacobi"] {

@@ -95,7 +95,8 @@ fn every_draw_of_resident_rays_is_that_of_a_new_one() {
 fn without_triangles_nothing_is_hit() {
     let rays = RayBatch::new(2, 1, Camera::teapot(2, 1).expect("a camera").rays()).expect("two rays");
     let crossbar = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch);
-    let mut resident = crossbar.make_resident(&Mesh::default(), &rays, Sides::Front).expect("no triangles are no error");
+    let mut resident =
+        crossbar.make_resident(&Mesh::default(), &rays, Sides::Front).expect("no triangles are no error");
     assert_eq!(resident.intersect().expect("nothing to do").hits, [None, None]);
 }
 
@@ -123,7 +124,7 @@ fn bucketed(directions: &[[f32; 3]], bucket: usize) -> (Vec<u32>, u64) {
     let splits = tree.counts().splits;
     let mut taken = Vec::new();
     while !tree.is_empty() {
-        taken.extend(tree.take().rays);
+        taken.extend(tree.take());
     }
     (taken, splits)
 }

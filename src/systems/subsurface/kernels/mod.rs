@@ -5,6 +5,8 @@ mod gather;
 mod repeated;
 mod view;
 
+use refsim::device::Limits;
+
 use crate::card::kernels;
 pub use gather::{GatherKernel, LinkLayout, MapTexture};
 pub use repeated::LightKernel;
@@ -33,6 +35,16 @@ pub const TEXEL_LIGHTS: [LightKernel; 2] = [
 ];
 /// Direct light at vertices in pass 3.
 pub const VIEW_LIGHTS: LightKernel = LightKernel { kernel: VIEW_LIT, prefix: "c", first: 7, step: 4 };
+
+/// Instruction slots and constants of a device's vertex programs; usual ones where it states no limit.
+pub(super) fn vertex_room(limits: &Limits) -> [usize; 2] {
+    [limits.vertex_instructions.unwrap_or(256) as usize, limits.vertex_constants.unwrap_or(256) as usize]
+}
+
+/// The same of fragment programs.
+pub(super) fn fragment_room(limits: &Limits) -> [usize; 2] {
+    [limits.fragment_instructions.unwrap_or(1024) as usize, limits.fragment_parameters.unwrap_or(64) as usize]
+}
 
 /// Every program that there is, by name: files, and those written here for a few links or lights.
 pub fn programs() -> Vec<(String, String)> {

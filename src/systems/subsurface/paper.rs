@@ -1,10 +1,10 @@
-//! The truth that links are compared with: equation 9 over all pairs of texels, in f64.
+//! Equations 9 and 10 over all pairs of texels in plain f64, which links are compared with. It shares no code with the
+//! fast factors: no levels, no table, no moments.
 //!
-//! Written to be read beside equations 7 to 10, it shares no code with the fast factors: no levels, no table, no
-//! moments. A pair of texels that are far apart counts with R_d between their mean points; of a near pair the double
-//! integral of equation 10 is taken by a quadrature rule on the triangles of both parts. Where one of two close texels
-//! exceeds [`MAX_DIVISIONS`] mean free paths, such a rule misses the peak of R_d: the inner integral is then taken by
-//! bisection ([`super::triangles`]), so that the light of a point is complete however large the texels are.
+//! A pair of texels that are far apart counts with R_d between their mean points; of a near pair the double integral of
+//! equation 10 is taken by a quadrature rule on the triangles of both parts. Where one of two close texels exceeds
+//! [`MAX_DIVISIONS`] mean free paths, such a rule misses the peak of R_d: the inner integral is then taken by bisection
+//! ([`super::triangles`]), so that the light of a point is complete however large the texels are.
 
 use std::ops::Range;
 
