@@ -22,7 +22,7 @@ use crate::io::rays::{load_rays, write_hits};
 use crate::options::sides;
 use crate::ray_engine::Crossbar;
 use crate::ray_engine::engine::EngineCounts;
-use crate::ray_engine::reference::intersect as crossing;
+use crate::ray_engine::paper::intersect as crossing;
 use crate::report::Findings;
 use crate::study::leaky_teapot::FormatLimits;
 

@@ -4,7 +4,7 @@ use approx::abs_diff_eq;
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
-use crossbar::ray_engine::reference::intersect;
+use crossbar::ray_engine::paper::intersect;
 use crossbar::ray_engine::{Answer, Crossbar, Form, Kernel, RayBatch, VertexCrossbar, kernels};
 use crossbar::scene::Camera;
 use glam::DVec3;

@@ -8,7 +8,7 @@ use glam::DVec3;
 use crate::geom::vector::{unit, wide};
 use crate::geom::{Mesh, Ray};
 use crate::picture::{RgbImage, rgb8};
-use crate::ray_engine::{RayBatch, reference};
+use crate::ray_engine::{RayBatch, paper};
 
 /// Background color: linear RGB.
 const BACKGROUND: DVec3 = DVec3::new(0.012, 0.016, 0.024);
@@ -38,7 +38,7 @@ impl<'a> TeapotShader<'a> {
     fn shade(&self, ray: &Ray, triangle: u32) -> DVec3 {
         let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
         let Some(corners) = self.mesh.corners(triangle) else { return DVec3::new(1.0, 0.0, 1.0) };
-        let crossing = reference::intersect(origin, direction, corners.map(wide));
+        let crossing = paper::intersect(origin, direction, corners.map(wide));
         let weights = DVec3::new(crossing.w, crossing.u, crossing.v);
         // u belongs to b, v to c, w to a. Rays that miss their reported triangle are clamped to its border.
         let sign = if crossing.n_dot_d < 0.0 { 1.0 } else { -1.0 };

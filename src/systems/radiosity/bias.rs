@@ -124,39 +124,3 @@ pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Resul
     }
     Ok(off)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_abs_diff_eq;
-
-    const HALF: Accumulator = Accumulator {
-        mantissa: 10,
-        least_exponent: -14,
-        rounding: Rounding::NearestEven,
-        packing: Packing::Rgb,
-        block: 254,
-    };
-
-    #[test]
-    fn a_term_counts_as_a_multiple_of_the_sums_step() {
-        // The step of 1 is 2^-10.
-        let step = 1.0 / 1024.0;
-        let truncated = Accumulator { rounding: Rounding::TowardZero, ..HALF };
-        for (term, nearest, below) in [(0.4, 0.0, 0.0), (0.6, 1.0, 0.0), (2.3, 2.0, 2.0), (2.7, 3.0, 2.0)] {
-            assert_eq!(HALF.loss(1.0, term * step), nearest * step - term * step);
-            assert_eq!(truncated.loss(1.0, term * step), below * step - term * step);
-        }
-    }
-
-    #[test]
-    fn truncation_loses_half_a_step_a_term_and_partial_sums_lose_less() {
-        let terms: Vec<f64> = (0..800).map(|j| (1.0 + f64::from(j % 97) / 97.0) / 1200.0).collect();
-        let truncated = Accumulator { rounding: Rounding::TowardZero, ..HALF };
-        let lost = truncated.row(1.0, &terms);
-        // The sum is between 1 and 2.
-        assert_abs_diff_eq!(lost / (-800.0 / 2048.0), 1.0, epsilon = 0.2);
-        let four = Accumulator { packing: Packing::Luminance, ..truncated };
-        assert!(four.row(1.0, &terms).abs() < 0.2 * lost.abs());
-    }
-}

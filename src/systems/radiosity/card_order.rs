@@ -10,8 +10,9 @@
 use rayon::prelude::*;
 
 use super::System;
-use super::packing::{self, Packing, TooLarge};
+use super::packing::{self, Packing};
 use crate::card::Texels;
+use crate::error::InputError;
 use crate::linalg::Matrix;
 
 /// Minimum number of rows of a parallel task.
@@ -32,7 +33,7 @@ pub struct CardSystem {
 impl CardSystem {
     /// Lays out all three channels of a system, one texel per element, in blocks of `block` texels per pass (at least
     /// 1). Textures have at most `limit` texels per side.
-    pub fn rgb(system: &System, block: usize, limit: usize) -> Result<Self, TooLarge> {
+    pub fn rgb(system: &System, block: usize, limit: usize) -> Result<Self, InputError> {
         let size = system.factors().len();
         let mut right: Vec<[f64; 3]> = system.emittance().to_vec();
         let matrices = [0, 1, 2].map(|c| {
@@ -46,7 +47,7 @@ impl CardSystem {
     }
 
     /// Lays out one channel, given as matrix and right-hand side, four elements per texel.
-    pub fn luminance(matrix: Matrix, right: &[f64], block: usize, limit: usize) -> Result<Self, TooLarge> {
+    pub fn luminance(matrix: Matrix, right: &[f64], block: usize, limit: usize) -> Result<Self, InputError> {
         let size = matrix.row_count();
         let (matrix, diagonal) = divided(matrix);
         let right: Vec<f64> = right.iter().zip(diagonal).map(|(e, d)| e / d).collect();
@@ -56,7 +57,7 @@ impl CardSystem {
     }
 
     /// Creates a system of zeros, for measuring time, which does not depend on values.
-    pub fn zeros(packing: Packing, size: usize, block: usize, limit: usize) -> Result<Self, TooLarge> {
+    pub fn zeros(packing: Packing, size: usize, block: usize, limit: usize) -> Result<Self, InputError> {
         let [width, rows] = match packing {
             Packing::Rgb => [size; 2],
             Packing::Luminance => [size.div_ceil(4), 4 * size.div_ceil(4)],
@@ -112,100 +113,53 @@ impl CardSystem {
     /// # Panics
     /// If a texture is too small, or there is no such pass.
     pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
-        self.observed(radiosity, partial, pass, |_| ()).0
+        let from = pass * self.block;
+        let to = (from + self.block).min(self.matrix.width);
+        let row = |i: usize| {
+            let (matrix, b) = (&self.matrix.row(i)[from..to], &radiosity.texels[from..to]);
+            let begin = |pick: &dyn Fn(&Texels) -> [f32; 4]| {
+                let (b, e) = (pick(radiosity), pick(&self.emittance));
+                if pass > 0 { pick(partial) } else { [0, 1, 2, 3].map(|c| b[c] + e[c]) }
+            };
+            match self.packing {
+                Packing::Rgb => rgb_row(begin(&|texels| texels.texels[i]), matrix, b),
+                Packing::Luminance => {
+                    [luminance_row(begin(&|texels| [texels.texels[i / 4][i % 4]; 4])[0], matrix, b); 4]
+                }
+            }
+        };
+        let values: Vec<[f32; 4]> = (0..self.matrix.height).into_par_iter().with_min_len(ROWS).map(row).collect();
+        Texels::vector(match self.packing {
+            Packing::Rgb => values,
+            Packing::Luminance => {
+                values.chunks_exact(4).map(|four| [four[0][0], four[1][0], four[2][0], four[3][0]]).collect()
+            }
+        })
     }
 
     /// Computes one iteration: all passes.
     pub fn step(&self, radiosity: &Texels) -> Texels {
         (0..self.passes()).fold(self.zero(), |partial, pass| self.pass(radiosity, &partial, pass))
     }
-
-    /// Computes a pass with an observer of the operations of each row.
-    pub(super) fn observed<W: RoundingObserver>(
-        &self,
-        radiosity: &Texels,
-        partial: &Texels,
-        pass: usize,
-        new_observer: impl Fn(usize) -> W + Sync,
-    ) -> (Texels, Vec<W>) {
-        let from = pass * self.block;
-        let to = (from + self.block).min(self.matrix.width);
-        let row = |i: usize| {
-            let mut observer = new_observer(i);
-            let matrix = &self.matrix.row(i)[from..to];
-            let b = &radiosity.texels[from..to];
-            let value = match self.packing {
-                Packing::Rgb => {
-                    let begin =
-                        begin(pass, radiosity.texels[i], self.emittance.texels[i], partial.texels[i], &mut observer);
-                    rgb_row(begin, matrix, b, &mut observer)
-                }
-                Packing::Luminance => {
-                    let (x, c) = (i / 4, i % 4);
-                    let pick = |texels: &Texels| [texels.texels[x][c]; 4];
-                    let begin = begin(pass, pick(radiosity), pick(&self.emittance), pick(partial), &mut observer);
-                    [luminance_row(begin[0], matrix, b, &mut observer); 4]
-                }
-            };
-            (value, observer)
-        };
-        let rows = self.matrix.height;
-        let (values, observers): (Vec<[f32; 4]>, Vec<W>) =
-            (0..rows).into_par_iter().with_min_len(ROWS).map(row).unzip();
-        let texels = match self.packing {
-            Packing::Rgb => values,
-            Packing::Luminance => {
-                values.chunks_exact(4).map(|four| [four[0][0], four[1][0], four[2][0], four[3][0]]).collect()
-            }
-        };
-        (Texels::vector(texels), observers)
-    }
-}
-
-/// Receives the result of every rounded operation of a row, for the four channels at once.
-pub(super) trait RoundingObserver: Send {
-    /// Called after a product.
-    fn product(&mut self, value: [f32; 4]);
-    /// Called after a sum or difference.
-    fn sum(&mut self, value: [f32; 4]);
-}
-
-impl RoundingObserver for () {
-    fn product(&mut self, _: [f32; 4]) {}
-    fn sum(&mut self, _: [f32; 4]) {}
-}
-
-fn begin<W: RoundingObserver>(pass: usize, b: [f32; 4], e: [f32; 4], partial: [f32; 4], observer: &mut W) -> [f32; 4] {
-    if pass > 0 {
-        return partial;
-    }
-    let sum = [0, 1, 2, 3].map(|c| b[c] + e[c]);
-    observer.sum(sum);
-    sum
 }
 
 /// `MAD acc, -m, b, acc` per texel.
-fn rgb_row<W: RoundingObserver>(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]], observer: &mut W) -> [f32; 4] {
+fn rgb_row(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]]) -> [f32; 4] {
     for (m, b) in matrix.iter().zip(b) {
         let product = [m[0] * b[0], m[1] * b[1], m[2] * b[2], m[3] * b[3]];
         acc = [acc[0] - product[0], acc[1] - product[1], acc[2] - product[2], acc[3] - product[3]];
-        observer.product(product);
-        observer.sum(acc);
     }
     acc
 }
 
 /// Four elements of the row at a time; then the sum of the four from the left (`DP4` with ones), added to `begin`.
-fn luminance_row<W: RoundingObserver>(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]], observer: &mut W) -> f32 {
-    let [x, y, z, w] = rgb_row([0.0; 4], matrix, b, observer);
-    let (two, three, four) = (x + y, (x + y) + z, ((x + y) + z) + w);
-    let sum = begin + four;
-    observer.sum([two, three, four, sum]);
-    sum
+fn luminance_row(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
+    let [x, y, z, w] = rgb_row([0.0; 4], matrix, b);
+    begin + (((x + y) + z) + w)
 }
 
 /// The right-hand sides over the diagonal of the system's matrix: one texture of three channels, or one per channel.
-pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec<Texels>, TooLarge> {
+pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec<Texels>, InputError> {
     let factors = system.factors().matrix();
     let divided = |(i, e): (usize, &[f64; 3])| {
         let rho = system.reflectance()[i];

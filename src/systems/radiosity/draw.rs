@@ -32,15 +32,15 @@ pub enum DrawError {
 /// A perspective projection: an eye, and the axes of its clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
-    pub(super) eye: DVec3,
+    eye: DVec3,
     /// Axis of clip space's w; of unit length.
-    pub(super) forward: DVec3,
+    forward: DVec3,
     /// Axis of clip space's x.
-    pub(super) across: DVec3,
+    across: DVec3,
     /// Axis of clip space's y, upwards.
-    pub(super) upwards: DVec3,
+    upwards: DVec3,
     /// Bound on the distance of any vertex, measured along `forward`.
-    pub(super) far: f64,
+    far: f64,
 }
 
 impl Projection {
@@ -74,39 +74,29 @@ impl Projection {
         outside.contains(&true)
     }
 
-    /// Returns the side of a patch that the eye sees; `None` if it sees the patch edge-on.
-    pub(super) fn side(&self, patch: &Patch) -> Option<Side> {
+    /// Returns `true` if the eye sees the front of a patch, which receives and emits light, and `false` if it sees the
+    /// back, which is black; `None` if it sees the patch edge-on.
+    pub(super) fn sees_front(&self, patch: &Patch) -> Option<bool> {
         let (height, least) = (patch.height(self.eye), EDGE_ON * patch.radius());
-        if height > least { Some(Side::Front) } else { (height < -least).then_some(Side::Back) }
+        (height.abs() > least).then_some(height > 0.0)
     }
 
     /// A corner with its coordinates in the patch, `TEX0` of the programs: u, v, depth, 1 in front and 0 behind.
     ///
     /// Depth, which the program writes, is the distance along the view as a fraction of the farthest. Its precision is
     /// the same at all distances, and there is no near plane. Clip space's z clips nothing.
-    pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], side: Side) -> Vertex {
+    pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], is_front: bool) -> Vertex {
         let [x, y, w] = self.clip(shared(corner));
         let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };
-        vertex.texcoords[0] = bits([u, v, w / self.far, if side == Side::Front { 1.0 } else { 0.0 }]);
+        vertex.texcoords[0] = bits([u, v, w / self.far, if is_front { 1.0 } else { 0.0 }]);
         vertex
     }
 }
 
-/// A side of a patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    /// The front, which receives and emits light.
-    Front,
-    /// The back, which is black.
-    Back,
-}
-
-impl Side {
-    /// Encodes a patch's number as a color: from 1, negative for the back; 0 is no patch.
-    pub(super) fn code(self, patch: usize) -> f64 {
-        let number = (patch + 1) as f64;
-        if self == Self::Front { number } else { -number }
-    }
+/// Encodes a patch's number as a color: from 1, negative for the back; 0 is no patch.
+pub(super) fn code(patch: usize, is_front: bool) -> f64 {
+    let number = (patch + 1) as f64;
+    if is_front { number } else { -number }
 }
 
 /// Decodes the patch whose front is seen in a pixel; `None` for a back or no patch.
@@ -122,36 +112,4 @@ fn shared(corner: DVec3) -> DVec3 {
 /// Converts a vector for the card, each component rounded once.
 pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
     vector.map(|x| (x as f32).to_bits())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::abs_diff_eq;
-
-    #[test]
-    fn a_camera_projects_as_it_casts() {
-        let camera = Camera::new([1.0, -2.0, 0.5], [1.5, 3.0, 0.0], [0.0, 0.0, 1.0], 0.5, 40, 20).expect("a camera");
-        let projection = Projection::of(&camera, DVec3::ZERO, 10.0);
-        let through = |x, y| projection.eye + 3.0 * camera.direction_at(x, y);
-        let outline = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0], [0.0, 20.0]].map(|[x, y]| through(x, y));
-        for (corner, want) in outline.iter().zip([[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]) {
-            let [x, y, w] = projection.clip(*corner);
-            assert!(
-                abs_diff_eq!(x / w, want[0], epsilon = 1e-12)
-                    && abs_diff_eq!(y / w, want[1], epsilon = 1e-12)
-                    && abs_diff_eq!(w, 3.0, epsilon = 1e-12)
-            );
-        }
-        assert_eq!(projection.clip(through(20.0, 10.0)).map(|c| (c * 1e9).round()), [0.0, 0.0, 3e9]);
-    }
-
-    #[test]
-    fn numbers_survive_their_coding() {
-        for patch in [0, 1, 16_383] {
-            assert_eq!(patch_of(Side::Front.code(patch) as f32), Some(patch as u32));
-            assert_eq!(patch_of(Side::Back.code(patch) as f32), None);
-        }
-        assert_eq!(patch_of(0.0), None);
-    }
 }

@@ -1,18 +1,14 @@
 //! System 2: matrix radiosity. Diffuse light between patches as a linear system, solved by fragment programs.
 //!
-//! docs/papers/radiosity.md maps each equation.
+//! - section 3, (1), (2): [`System`], the matrix of form factors, reflectances and emittances (`paper`, to be read first);
+//! - (3), (4): [`solve`], Jacobi and other solvers in f64; [`card_order`], the Jacobi step in f32 in the order of a card's
+//!   passes; [`packing`], [`kernels`] and [`on_card`], the same as fragment programs on an emulated card;
+//! - 3: [`bias`], the average effect of half precision; [`model`], passes and operation counts;
+//! - 3.1: [`Patches`], a scene cut into patches; [`FormFactors`] between them, visibility by a [`crate::tracer::Caster`];
+//!   [`display`], images drawn by the card, and radiosities at corners; [`rate`], iterations per second;
+//! - [`gather`]: irradiance at points; [`rooms`]: closed boxes as test scenes.
 //!
-//! - [`Patches`]: a scene cut into patches;
-//! - [`FormFactors`]: the fraction of each patch's light that reaches each other patch, visibility by a
-//!   [`crate::tracer::Caster`];
-//! - [`System`]: form factors, reflectances and emittances, and the matrix of equation 2;
-//! - [`solve`]: Jacobi, Gauss-Seidel, over-relaxation, shooting, and a reference solution by LU;
-//! - [`packing`], [`card_order`]: texture layouts, and the Jacobi step in f32 in the order of a card's passes;
-//! - [`kernels`], [`on_card`]: the same as fragment programs on an emulated card;
-//! - [`bound`]: error bounds of the f32 iteration; [`bias`]: the average effect of half precision;
-//! - [`model`], [`rate`]: the paper's passes and operation counts, and iterations per second of a card;
-//! - [`display`]: images drawn by the card, and radiosities at corners; [`gather`]: irradiance at points;
-//! - [`rooms`]: closed boxes as test scenes.
+//! docs/papers/radiosity.md maps each equation.
 //!
 //! ```
 //! # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*, crossbar_systems::*}; }
@@ -30,7 +26,6 @@
 //! ```
 
 pub mod bias;
-pub mod bound;
 pub mod card_order;
 pub mod display;
 mod draw;
@@ -41,19 +36,17 @@ pub mod model;
 pub mod on_card;
 mod open;
 pub mod packing;
+mod paper;
 mod patch;
-mod patch_error;
 mod patches;
 pub mod rate;
 pub mod solve;
 mod subdivide;
-mod system;
 
 pub use crate::scene::built::rooms;
 pub use draw::DrawError;
 pub use form_factor::FormFactors;
 pub use on_card::{CardOptions, CardSolution, CardSolver, Storage};
+pub use paper::{RgbSolution, System};
 pub use patch::Patch;
-pub use patch_error::MAX_PATCHES;
-pub use patches::{Patches, Subdivision};
-pub use system::{RgbSolution, System};
+pub use patches::{MAX_PATCHES, Patches, Subdivision};

@@ -34,16 +34,3 @@ pub fn mflops(patches: u32, iterations_per_s: f64) -> f64 {
 pub fn matrix_bytes(patches: u32, elements_a_texel: u32, bytes: u32) -> f64 {
     f64::from(patches) * f64::from(patches.div_ceil(elements_a_texel)) * f64::from(bytes)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_block_is_254_texels() {
-        assert_eq!((BLOCK, BLOCK * PER_TEXEL + OVERHEAD), (254, MAX_INSTRUCTIONS));
-        assert_eq!([1, 254, 255, 1540].map(|n| passes(n, 1, BLOCK)), [1, 1, 2, 7]);
-        assert_eq!([4, 1016, 1017, 2048].map(|n| passes(n, 4, BLOCK)), [1, 1, 2, 3]);
-        assert_eq!((block(96), block(0)), (22, 1));
-    }
-}

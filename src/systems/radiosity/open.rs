@@ -53,7 +53,7 @@ pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f
         let mut cells = Vec::new();
         cut(patch.corners().to_vec(), patch.normal(), &faces[&patch.face], FINEST * lift, &mut cells);
         let all = cells.len();
-        cells.retain(|cell| !is_covered(cell, patch, lift, (mesh, &tracer)));
+        cells.retain(|cell| !is_covered(cell, patch, lift, mesh, &tracer));
         (cells.len() < all)
             .then(|| (i as u32, cells.iter().flat_map(|cell| pieces(cell, patch)).collect::<Vec<Patch>>()))
     };
@@ -115,7 +115,7 @@ fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64
 
 /// Returns `true` if the first hit of every test ray of a cell is the back of a surface. For most cells the first ray
 /// decides.
-fn is_covered(cell: &[DVec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &Tracer<'_>)) -> bool {
+fn is_covered(cell: &[DVec3], patch: &Patch, lift: f64, mesh: &Mesh, tracer: &Tracer<'_>) -> bool {
     let normal = patch.normal();
     let along = unit(patch.center() - patch.corners()[0]).unwrap_or(normal);
     let aside = normal.cross(along);

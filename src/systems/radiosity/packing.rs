@@ -9,9 +9,8 @@
 //! Each value is rounded once, from f64. Elements beyond the matrix are 0; a luminance matrix has rows up to a
 //! multiple of four.
 
-use thiserror::Error;
-
 use crate::card::Texels;
+use crate::error::{InputError, input_error};
 use crate::linalg::Matrix;
 
 /// The layout of elements in texels.
@@ -42,33 +41,25 @@ impl Packing {
     }
 }
 
-/// Error: a texture is larger than the card allows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error(
-    "expected {what} that fits a texture of {limit} x {limit} texels, the card's largest, found {width} x {height}; use fewer patches"
-)]
-pub struct TooLarge {
-    /// `a matrix` or `a vector`.
-    pub what: &'static str,
-    /// Maximum number of texels per side.
-    pub limit: usize,
-    /// Texels across.
-    pub width: usize,
-    /// Texels down.
-    pub height: usize,
+/// The error of a texture that is larger than the card allows; `what` is `a matrix` or `a vector`.
+pub(super) fn too_large(what: &str, limit: usize, [width, height]: [usize; 2]) -> InputError {
+    input_error!(
+        "expected {what} that fits a texture of {limit} x {limit} texels, the card's largest, found {width} x {height}; \
+         use fewer patches"
+    )
 }
 
 /// Creates a texture from a function of column and row.
 pub(super) fn filled(
-    what: &'static str,
-    [width, height]: [usize; 2],
+    what: &str,
+    size: [usize; 2],
     limit: usize,
     texel: impl Fn(usize, usize) -> [f32; 4],
-) -> Result<Texels, TooLarge> {
-    if width > limit || height > limit {
-        return Err(TooLarge { what, limit, width, height });
+) -> Result<Texels, InputError> {
+    if size[0].max(size[1]) > limit {
+        return Err(too_large(what, limit, size));
     }
-    Ok(Texels::from_fn([width, height], texel))
+    Ok(Texels::from_fn(size, texel))
 }
 
 /// Returns an element; 0 outside of the matrix.
@@ -77,7 +68,7 @@ fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
 }
 
 /// Three matrices of one size, one texel per element. `limit` is the card's largest texture side.
-pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLarge> {
+pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, InputError> {
     filled("a matrix", Packing::Rgb.matrix_texels(matrices[0].row_count()), limit, |x, y| {
         let [r, g, b] = matrices.map(|m| element(m, y, x));
         [r, g, b, 0.0]
@@ -85,7 +76,7 @@ pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLar
 }
 
 /// Three vectors, one texel per element.
-pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge> {
+pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, InputError> {
     filled("a vector", [values.len(), 1], limit, |x, _| {
         let [r, g, b] = values[x].map(|value| value as f32);
         [r, g, b, 0.0]
@@ -94,21 +85,21 @@ pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge>
 
 /// Four columns per texel. The number of rows is rounded up to a multiple of four, as that of a vector with four
 /// elements per texel is.
-pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
+pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, InputError> {
     filled("a matrix", Packing::Luminance.matrix_texels(matrix.row_count()), limit, |x, y| {
         [0, 1, 2, 3].map(|c| element(matrix, y, 4 * x + c))
     })
 }
 
 /// A vector, four elements per texel.
-pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, TooLarge> {
+pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, InputError> {
     let value = |i: usize| values.get(i).map_or(0.0, |&value| value as f32);
     filled("a vector", [values.len().div_ceil(4), 1], limit, |x, _| [0, 1, 2, 3].map(|c| value(4 * x + c)))
 }
 
 /// The four quarters of a matrix in the four channels: upper left, upper right, lower left, lower right (reference 8
 /// of the paper).
-pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
+pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, InputError> {
     let half = matrix.row_count().div_ceil(2);
     filled("a matrix", [half, half], limit, |x, y| {
         [(0, 0), (0, half), (half, 0), (half, half)].map(|(down, across)| element(matrix, y + down, x + across))

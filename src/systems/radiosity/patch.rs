@@ -110,32 +110,3 @@ fn centroid(corners: &[DVec3], normal: DVec3) -> DVec3 {
     }
     first + 1.0 / weight * sum
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::abs_diff_eq;
-
-    #[test]
-    fn a_trapezoid_has_its_area_and_centre() {
-        let outline = [[0.0, 0.0], [4.0, 0.0], [3.0, 3.0], [1.0, 3.0]].map(|[x, y]| DVec3::new(x, y, 1.0));
-        let patch = Patch::new(&outline, 0, 0).expect("a patch");
-        assert_eq!((patch.area(), patch.normal()), (9.0, DVec3::Z));
-        let [x, y, z] = patch.center().into();
-        assert!(
-            abs_diff_eq!(x, 2.0, epsilon = 1e-15) && abs_diff_eq!(y, 4.0 / 3.0, epsilon = 1e-15) && z == 1.0,
-            "{x} {y} {z}"
-        );
-        let middle = patch.at(0.5, 0.5);
-        assert_eq!((middle.at, middle.density), (DVec3::new(2.0, 1.5, 1.0), 9.0));
-        assert_eq!(patch.at(1.0, 1.0).at, outline[2]);
-    }
-
-    #[test]
-    fn what_has_no_area_is_no_patch() {
-        let line = [0.0, 1.0, 2.0].map(|x| DVec3::new(x, x, 0.0));
-        assert_eq!(Patch::new(&line, 0, 0), None);
-        assert_eq!(Patch::new(&line[..2], 0, 0), None);
-        assert_eq!(Patch::new(&[DVec3::NAN; 3], 0, 0), None);
-    }
-}

@@ -4,13 +4,15 @@ use std::collections::BTreeMap;
 
 use super::open::open_parts;
 use super::patch::{Patch, PatchPoint};
-use super::patch_error::MAX_PATCHES;
-use super::subdivide::{Face, faces_of, steps_for_at_most};
+use super::subdivide::{Face, faces_of, steps_for_at_most, too_thin_error};
 use crate::error::{InputError, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
-use crate::radiosity::patch_error::{empty_error, too_thin_error};
+use crate::linalg::MAX_SQUARE;
 use crate::scene::{Scene, Surface};
+
+/// Maximum number of patches: the rows of the largest matrix.
+pub const MAX_PATCHES: usize = MAX_SQUARE;
 
 /// Fineness of the subdivision of faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +45,6 @@ impl Patches {
     /// [`InputError`].
     pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, InputError> {
         let mesh = scene.mesh();
-        let Some(bounds) = mesh.bounds() else { return Err(empty_error()) };
         let materials = scene.materials().iter().map(diffuse).collect::<Result<Vec<_>, _>>();
         let (faces, face_of) = faces_of(scene)?;
         let (steps, found) = steps(&faces, subdivision)?;
@@ -51,7 +52,7 @@ impl Patches {
         for (id, (face, &steps)) in (0_u32..).zip(faces.iter().zip(&steps)) {
             face.cut(id, steps, &mut list).ok_or_else(|| too_thin_error(face.triangle))?;
         }
-        let [low, high] = bounds.map(wide);
+        let [low, high] = mesh.bounds().unwrap_or_default().map(wide);
         let (materials, extent) = (materials?, (high - low).length());
         let open = open_parts(&list, mesh, &face_of, extent);
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
@@ -160,7 +161,7 @@ fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usi
         Subdivision::PerSide(n) => vec![[n, n]; faces.len()],
         Subdivision::AtMost(most) => steps_for_at_most(faces, most),
     };
-    let found = faces.iter().zip(&steps).map(|(face, &steps)| face.count(steps)).sum();
+    let found = steps.iter().map(|&[u, v]| u as usize * v as usize).sum();
     if found > MAX_PATCHES {
         Err(input_error!("radiosity::patches" =>
             "expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer"))
@@ -179,11 +180,4 @@ fn diffuse(material: &crate::scene::Material) -> Result<([f64; 3], [f64; 3]), In
     };
     Err(input_error!("radiosity::patches" =>
             "material `{}` is {found}, expected a diffuse surface: radiosity knows no other", material.name))
-}
-
-impl Face {
-    /// Number of patches of the face.
-    fn count(&self, [u, v]: [u32; 2]) -> usize {
-        u as usize * v as usize
-    }
 }

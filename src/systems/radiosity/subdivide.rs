@@ -1,10 +1,9 @@
 //! Faces of a scene, and their subdivision into patches.
 
 use super::patch::Patch;
-use crate::error::InputError;
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::exact::is_degenerate;
 use crate::geom::vector::wide;
-use crate::radiosity::patch_error::{empty_error, too_thin_error};
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -46,10 +45,13 @@ pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), InputErro
         faces.push(Face { corners, triangle: i as u32, material: materials[i] });
         i += width;
     }
-    if faces.is_empty() {
-        return Err(empty_error());
-    }
+    ensure!(!faces.is_empty(), "radiosity::patches" => "expected a scene with surfaces, found none");
     Ok((faces, face_of))
+}
+
+pub(super) fn too_thin_error(triangle: u32) -> InputError {
+    input_error!("radiosity::patches" =>
+        "triangle {triangle} (counted from 0) is too thin for a patch; remove it, or merge its corners")
 }
 
 /// Merges two triangles with a common side into a quadrilateral; `None` if it is not flat and convex.
@@ -140,49 +142,4 @@ impl Face {
 /// Linear interpolation; exact at 0 and 1.
 fn mix(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     (1.0 - t) * a + t * b
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::abs_diff_eq;
-
-    const SQUARE: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
-
-    #[test]
-    fn two_halves_make_a_square_and_a_kink_does_not() {
-        let [a, b, c, d] = SQUARE;
-        assert_eq!(quadrilateral(&[b, c, a], &[c, d, a]), Some([a, b, c, d]));
-        assert_eq!(quadrilateral(&[a, b, c], &[a, c, DVec3::new(0.0, 1.0, 0.1)]), None);
-        assert_eq!(quadrilateral(&[a, b, c], &[c, a, d]), None, "it faces the other way");
-        assert_eq!(quadrilateral(&[a, b, c], &[a, c, DVec3::new(0.9, 0.8, 0.0)]), None, "not convex");
-    }
-
-    #[test]
-    fn parts_are_as_short_as_the_number_allows() {
-        let face = |corners: Vec<DVec3>| Face { corners, triangle: 0, material: 0 };
-        let long = SQUARE.map(|corner| DVec3::new(2.0, 1.0, 1.0) * corner).to_vec();
-        let faces = [face(SQUARE.to_vec()), face(long)];
-        assert_eq!(steps_for_at_most(&faces, 12), [[2, 2], [4, 2]]);
-        assert_eq!(steps_for_at_most(&faces, 11), [[2, 2], [3, 2]]);
-        assert_eq!(steps_for_at_most(&faces, 3), [[1, 1], [2, 1]]);
-        assert_eq!(steps_for_at_most(&faces, 0), [[1, 1], [1, 1]]);
-    }
-
-    #[test]
-    fn areas_add_up_to_the_face() {
-        let triangle = Face { corners: SQUARE[..3].to_vec(), triangle: 0, material: 3 };
-        let square = Face { corners: SQUARE.to_vec(), triangle: 0, material: 3 };
-        for (face, steps, count, area) in [(triangle, [4, 4], 16, 0.5), (square, [4, 3], 12, 1.0)] {
-            let mut patches = Vec::new();
-            face.cut(7, steps, &mut patches).expect("patches");
-            let sum: f64 = patches.iter().map(Patch::area).sum();
-            assert!(
-                patches.len() == count && abs_diff_eq!(sum, area, epsilon = 1e-14),
-                "{} patches, {sum}",
-                patches.len()
-            );
-            assert!(patches.iter().all(|p| p.normal() == DVec3::Z && (p.face, p.material) == (7, 3)));
-        }
-    }
 }

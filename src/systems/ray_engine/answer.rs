@@ -49,3 +49,10 @@ pub struct Answer {
     /// Event log of the card; empty unless it was recorded.
     pub log: Vec<Event>,
 }
+
+impl Answer {
+    /// No hit of any ray, before any work.
+    pub(super) fn without_hits(rays: usize, kernel: &'static str) -> Self {
+        Self { hits: vec![None; rays], events: DrawEvents::default(), kernel, log: Vec::new() }
+    }
+}

@@ -1,9 +1,7 @@
 //! The crossbar's resources on a card: rays in textures, triangles in vertex streams, ids and depths in targets.
 
-use std::sync::Arc;
-
 use refsim::device::Profile;
-use refsim::event::{DrawEvents, Event, FenceId};
+use refsim::event::{DrawEvents, FenceId};
 use refsim::exec::Constants;
 use refsim::machine::{
     AttributeStream, DrawCall, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
@@ -30,15 +28,6 @@ pub(super) struct RayTextures {
     target: NearestTarget,
 }
 
-/// Inputs of a draw beside the triangles.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PassInputs<'a> {
-    pub(super) kernel: &'a Kernel,
-    pub(super) units: &'a Units,
-    /// Vertex constants from c3 on, which describe the rays to a culling vertex program.
-    pub(super) bucket: &'a [[u32; 4]],
-}
-
 /// Hit as the card reports it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CardHit {
@@ -47,20 +36,9 @@ pub(super) struct CardHit {
     pub(super) t: f64,
 }
 
-impl CardHit {
-    /// Returns triangle and t.
-    pub(super) fn hit(self) -> Hit {
-        Hit { triangle: self.triangle, t: self.t as f32 }
-    }
-}
-
-/// Parameters of a bucket's read-back.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ReadBack<'a> {
-    pub(super) rays: &'a RayBatch,
-    pub(super) units: &'a Units,
-    /// `true` if the host waits for the data.
-    pub(super) wait: bool,
+/// The hits of rays, with t in single precision.
+pub(super) fn rounded(hits: Vec<Option<CardHit>>) -> Vec<Option<Hit>> {
+    hits.into_iter().map(|hit| hit.map(|CardHit { triangle, t }| Hit { triangle, t: t as f32 })).collect()
 }
 
 impl RayTextures {
@@ -96,19 +74,21 @@ impl RayTextures {
     }
 
     /// Draws one screen-filling quad per triangle, all in one call. The depth buffer starts at 1 and keeps the nearest
-    /// t.
+    /// t. `bucket` are vertex constants from c3 on, which describe the rays to a culling vertex program.
     pub(super) fn draw(
         &self,
         machine: &mut Machine,
-        PassInputs { kernel, units, bucket }: PassInputs<'_>,
+        kernel: &Kernel,
+        units: &Units,
+        bucket: &[[u32; 4]],
         streams: &Streams,
     ) -> Result<DrawEvents, EngineError> {
         let mut float = units.vertex_constants();
         float.extend_from_slice(bucket);
         let vertex_constants = Constants { float, ..Constants::default() };
         let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
-        let source =
-            VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams: streams.bind() };
+        let streams = bind(&streams.corners, &streams.triangles);
+        let source = VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams };
         let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.target.color);
         for (sampler, texture) in &self.textures {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
@@ -124,33 +104,33 @@ impl RayTextures {
     pub(super) fn read_back(
         &self,
         machine: &Machine,
-        reading: &ReadBack<'_>,
+        rays: &RayBatch,
+        units: &Units,
+        wait: bool,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
         let (color, depth) = (self.target.color, self.target.depth);
         // The fence of the last transfer is also behind the other.
-        let (fence, image, depth) = if reading.wait {
+        let (fence, image, depth) = if wait {
             (None, machine.read_back(color)?, machine.read_depth(depth)?)
         } else {
             let (_, image) = machine.read_back_async(color)?;
             let (fence, depth) = machine.read_depth_async(depth)?;
             (Some(fence), image, depth)
         };
-        Ok((reading.hits(image, depth), fence))
+        Ok((hits(image, depth, rays, units), fence))
     }
 }
 
-impl ReadBack<'_> {
-    /// Decodes hits from colors and depths.
-    fn hits(&self, image: &Image, depth: &DepthSurface) -> Vec<Option<CardHit>> {
-        let width = self.rays.width() as usize;
-        let pixel = |(i, ray): (usize, &Ray)| {
-            let triangle = id_of_color(image.raw(0, 0, (i / width) as u32, (i % width) as u32) as u32)?;
-            let stored = *depth.data().get(i)?;
-            let t = self.units.t(f32::from_bits(depth.format().to_format(stored, Format::FP32)), ray);
-            Some(CardHit { triangle, t })
-        };
-        self.rays.rays().iter().enumerate().map(pixel).collect()
-    }
+/// Decodes hits from colors and depths.
+pub(super) fn hits(image: &Image, depth: &DepthSurface, rays: &RayBatch, units: &Units) -> Vec<Option<CardHit>> {
+    let width = rays.width() as usize;
+    let pixel = |(i, ray): (usize, &Ray)| {
+        let triangle = id_of_color(image.raw(0, 0, (i / width) as u32, (i % width) as u32) as u32)?;
+        let stored = *depth.data().get(i)?;
+        let t = units.t(f32::from_bits(depth.format().to_format(stored, Format::FP32)), ray);
+        Some(CardHit { triangle, t })
+    };
+    rays.rays().iter().enumerate().map(pixel).collect()
 }
 
 /// Uploads rays into existing textures of their size or into new ones. Returns samplers with their textures.
@@ -176,51 +156,6 @@ fn upload(
         bound.push((sampler, texture));
     }
     Ok(bound)
-}
-
-/// Machine with one bucket of rays.
-#[derive(Debug)]
-pub(super) struct Card {
-    machine: Machine,
-    kernel: Arc<Kernel>,
-    units: Units,
-    sheet: RayTextures,
-}
-
-impl Card {
-    /// Uploads the rays and creates targets of their size.
-    pub(super) fn set_up(
-        mut machine: Machine,
-        kernel: Arc<Kernel>,
-        rays: &RayBatch,
-        units: Units,
-    ) -> Result<Self, EngineError> {
-        let sheet = RayTextures::new(&mut machine, &kernel, rays, &units)?;
-        Ok(Self { machine, kernel, units, sheet })
-    }
-
-    /// Clears the target to no ids and the depth of a miss.
-    pub(super) fn clear(&mut self) -> Result<(), EngineError> {
-        self.sheet.clear(&mut self.machine)
-    }
-
-    /// Takes the log since the last call; empty if the machine does not record.
-    pub(super) fn take_log(&mut self) -> Vec<Event> {
-        self.machine.take_log()
-    }
-
-    /// Draws one screen-filling quad per triangle.
-    pub(super) fn draw(&mut self, streams: &Streams) -> Result<DrawEvents, EngineError> {
-        let pass = PassInputs { kernel: &self.kernel, units: &self.units, bucket: &[] };
-        self.sheet.draw(&mut self.machine, pass, streams)
-    }
-
-    /// Reads back the hit of each ray.
-    pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
-        let reading = ReadBack { rays, units: &self.units, wait: true };
-        let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
-        Ok(hits.into_iter().map(|found| found.map(CardHit::hit)).collect())
-    }
 }
 
 /// Depth format for a program: float where the program computes in float and the card has a float depth buffer; else 24
@@ -252,10 +187,6 @@ impl Streams {
             triangles[3].push(color_of_id(id));
         }
         Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
-    }
-
-    fn bind(&self) -> VertexStreams<'_> {
-        bind(&self.corners, &self.triangles)
     }
 }
 

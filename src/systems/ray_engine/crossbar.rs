@@ -4,14 +4,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 use refsim::device::Profile;
-use refsim::event::{DrawEvents, TexelObserver};
-use refsim::machine::Executor;
+use refsim::event::TexelObserver;
+use refsim::machine::{Executor, Machine, MachineError};
 use refsim::texture::Region;
 
 use super::answer::{Answer, EngineError, MAX_TRIANGLES};
 use super::bits_left::BitsLeft;
 use super::bundle::{Bundle, regions};
-use super::card::{Card, CardHit, Streams};
+use super::card::{RayTextures, Streams, rounded};
 use super::pass::PassCard;
 use super::range::Range;
 use super::resident::ResidentCrossbar;
@@ -117,18 +117,14 @@ impl Crossbar {
         let mut card = self.pass_card(mesh, sides, cull)?;
         let drawn = card.draw(0, mesh, triangles, rays)?;
         let (hits, _) = card.read_back(&drawn, rays, true)?;
-        let hits = hits.into_iter().map(|found| found.map(CardHit::hit)).collect();
-        Ok(Answer { hits, events: drawn.events, kernel: card.kernel_name(), log: Vec::new() })
+        Ok(Answer { hits: rounded(hits), events: drawn.events, kernel: card.kernel.name, log: Vec::new() })
     }
 
     /// Creates a card for passes of rays of any origin against subsets of a mesh's triangles.
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
     pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, cull: bool) -> Result<PassCard, EngineError> {
         let kernel = Kernel::for_passes(&self.profile, sides, cull)?;
         check_count(mesh)?;
-        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides))
+        Ok(PassCard::new(self.machine()?, kernel, mesh, sides))
     }
 
     /// Creates a card that keeps these rays in its textures and these triangles in its vertex memory, for repeated
@@ -139,14 +135,20 @@ impl Crossbar {
     pub fn make_resident(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<ResidentCrossbar, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         check_count(mesh)?;
-        let name = kernel.name;
-        if rays.rays().is_empty() || mesh.is_empty() {
-            return Ok(ResidentCrossbar::idle(rays.clone(), name));
+        let mut resident = ResidentCrossbar { work: None, rays: rays.clone(), kernel };
+        if !rays.rays().is_empty() && !mesh.is_empty() {
+            let kernel = &resident.kernel;
+            let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
+            let mut machine = self.machine()?;
+            let sheet = RayTextures::new(&mut machine, kernel, rays, &units)?;
+            let ids: Vec<u32> = (0..mesh.len() as u32).collect();
+            resident.work = Some((machine, sheet, units, Streams::new(mesh, &units, &ids)));
         }
-        let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
-        let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
-        let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-        Ok(ResidentCrossbar::new(card, Streams::new(mesh, &units, &ids), rays.clone(), name))
+        Ok(resident)
+    }
+
+    fn machine(&self) -> Result<Machine, MachineError> {
+        self.executor.machine(Arc::clone(&self.profile))
     }
 
     /// Returns the program for a use, from the cache if it is there.
@@ -170,29 +172,28 @@ impl Crossbar {
     ) -> Result<Answer, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         check_count(mesh)?;
+        let mut answer = Answer::without_hits(rays.rays().len(), kernel.name);
         if rays.rays().is_empty() || mesh.is_empty() {
-            let hits = vec![None; rays.rays().len()];
-            return Ok(Answer { hits, events: DrawEvents::default(), kernel: kernel.name, log: Vec::new() });
+            return Ok(answer);
         }
         let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
-            let mut machine = self.executor.machine(Arc::clone(&self.profile))?;
+            let mut machine = self.machine()?;
             machine.record(recording.on);
             machine.observe_textures(recording.new_observer.map(|make| make()));
-            let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
+            let sheet = RayTextures::new(&mut machine, &kernel, &bucket, &units)?;
             // New targets have these contents already; targets kept from bucket to bucket must be cleared.
-            card.clear()?;
-            let events = card.draw(&Streams::new(mesh, &units, &triangles))?;
-            Ok((region, card.read_back(&bucket)?, events, card.take_log()))
+            sheet.clear(&mut machine)?;
+            let events = sheet.draw(&mut machine, &kernel, &units, &[], &Streams::new(mesh, &units, &triangles))?;
+            let (hits, _) = sheet.read_back(&machine, &bucket, &units, true)?;
+            Ok((region, rounded(hits), events, machine.take_log()))
         };
         let buckets = self.buckets(mesh, rays, side);
         let drawn: Vec<_> = match buckets.len() {
             1 => buckets.into_iter().map(draw).collect::<Result<_, _>>()?,
             _ => buckets.into_par_iter().map(draw).collect::<Result<_, _>>()?,
         };
-        let hits = vec![None; rays.rays().len()];
-        let mut answer = Answer { hits, events: DrawEvents::default(), kernel: kernel.name, log: Vec::new() };
         for (region, hits, events, log) in drawn {
             answer.events += events;
             answer.log.extend(log);

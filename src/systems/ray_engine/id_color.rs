@@ -13,17 +13,3 @@ pub(super) const fn id_of_color(raw: u32) -> Option<u32> {
     }
     Some((raw >> 16 & 0xff) | (raw & 0xff00) | (raw & 0xff) << 16)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ids_survive_as_bytes() {
-        for id in [0, 1, 255, 256, 0x0012_3456, 0x00ff_ffff] {
-            let [r, g, b, _] = color_of_id(id).map(|bits| (f32::from_bits(bits) * 255.0).round() as u32);
-            assert_eq!(id_of_color(0xff00_0000 | r << 16 | g << 8 | b), Some(id), "{id:#x}");
-            assert_eq!(id_of_color(r << 16 | g << 8 | b), None, "{id:#x}");
-        }
-    }
-}

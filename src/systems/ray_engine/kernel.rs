@@ -72,10 +72,7 @@ impl Kernel {
     }
 
     /// Chooses the program for passes of rays of any origin, with or without culling by the bucket.
-    ///
-    /// # Errors
-    /// As [`Kernel::choose`].
-    pub fn for_passes(profile: &Profile, sides: Sides, cull: bool) -> Result<Self, EngineError> {
+    pub(super) fn for_passes(profile: &Profile, sides: Sides, cull: bool) -> Result<Self, EngineError> {
         let plain = Self::choose(profile, false, sides)?;
         if !cull {
             return Ok(plain);

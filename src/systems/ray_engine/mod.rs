@@ -2,6 +2,15 @@
 //!
 //! Rays are stored in textures, one per texel; every triangle is drawn as a screen-filling quad whose attributes pass
 //! it to all pixels; the depth buffer keeps the nearest t and the color buffer the triangle's id.
+//!
+//! - [`paper`]: equations (1) to (8) in plain f64, to be read first;
+//! - 3.3, 4.2, 5.3: [`Crossbar`], every ray against every triangle, in buckets (`crossbar`, `bundle`, `card`, `id_color`);
+//!   [`ResidentCrossbar`] draws again without uploads; 3.4: [`VertexCrossbar`], the same in the vertex units;
+//! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]); [`RayBatch`], rays as texels; what brings scenes into a
+//!   format's range (`range`, `reach`, `units`), and how much of a mesh it loses ([`BitsLeft`]);
+//! - 5.2, 5.3, 6.2, 6.3: [`engine`], with the 5-D [`ray_tree`], passes (`pass`) and culling in the vertex program (`cull`);
+//! - 6.1: [`model`], equation (11).
+//!
 //! docs/papers/ray_engine.md maps each equation.
 
 mod answer;
@@ -15,12 +24,12 @@ mod id_color;
 mod kernel;
 pub mod kernels;
 pub mod model;
+pub mod paper;
 mod pass;
 mod range;
 pub mod ray_tree;
 mod rays;
 mod reach;
-pub mod reference;
 mod resident;
 mod units;
 mod vertex_crossbar;

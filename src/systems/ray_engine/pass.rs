@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
-use refsim::event::{DrawEvents, Event, FenceId};
+use refsim::event::{DrawEvents, FenceId};
 use refsim::machine::Machine;
 
-use super::card::{CardHit, PassInputs, RayTextures, ReadBack, Streams};
+use super::card::{CardHit, RayTextures, Streams};
 use super::cull;
 use super::range::Range;
 use super::units::Units;
@@ -17,8 +17,8 @@ use crate::geom::exact::Sides;
 /// Card with several sets of textures and targets, so that one pass can be prepared while others are in flight.
 #[derive(Debug)]
 pub(super) struct PassCard {
-    machine: Machine,
-    kernel: Kernel,
+    pub(super) machine: Machine,
+    pub(super) kernel: Kernel,
     sides: Sides,
     /// Lowest and highest coordinates of the mesh that all passes test against.
     bounds: [[f32; 3]; 2],
@@ -40,21 +40,6 @@ impl PassCard {
     pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides) -> Self {
         let bounds = mesh.bounds().unwrap_or_default();
         Self { machine, kernel, sides, bounds, sheets: BTreeMap::new() }
-    }
-
-    /// Returns the file name of the pixel program.
-    pub(super) fn kernel_name(&self) -> &'static str {
-        self.kernel.name
-    }
-
-    /// Starts or stops recording the log.
-    pub(super) fn record(&mut self, on: bool) {
-        self.machine.record(on);
-    }
-
-    /// Takes the log recorded since the last call.
-    pub(super) fn take_log(&mut self) -> Vec<Event> {
-        self.machine.take_log()
     }
 
     /// Draws some triangles, given in ascending order, over rays, using the textures and targets of set `sheet`.
@@ -80,8 +65,7 @@ impl PassCard {
             Entry::Vacant(slot) => slot.insert(RayTextures::new(machine, kernel, rays, &units)?),
         };
         loaded.clear(machine)?;
-        let pass = PassInputs { kernel, units: &units, bucket: &bucket };
-        let events = loaded.draw(machine, pass, &Streams::new(mesh, &units, triangles))?;
+        let events = loaded.draw(machine, kernel, &units, &bucket, &Streams::new(mesh, &units, triangles))?;
         Ok(DrawnPass { units, sheet, events })
     }
 
@@ -96,11 +80,6 @@ impl PassCard {
         let Some(sheet) = self.sheets.get(&(drawn.sheet, rays.width(), rays.height())) else {
             return Ok((vec![None; rays.rays().len()], None));
         };
-        sheet.read_back(&self.machine, &ReadBack { rays, units: &drawn.units, wait })
-    }
-
-    /// Makes the host wait for a fence.
-    pub(super) fn finish(&self, fence: FenceId) {
-        self.machine.finish_fence(fence);
+        sheet.read_back(&self.machine, rays, &drawn.units, wait)
     }
 }

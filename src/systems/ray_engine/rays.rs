@@ -94,25 +94,3 @@ impl RayBatch {
         self.rays.iter().all(|r| r.origin() == first).then_some(first)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lists_are_laid_out_in_squares_and_padded_with_their_last_ray() {
-        let ray = |x: usize| Ray::new([x as f32, 0.0, 0.0], [0.0, 0.0, 1.0]).expect("a ray");
-        for count in [1, 255, 256, 257, 4096, 5000] {
-            let list: Vec<Ray> = (0..count).map(ray).collect();
-            let batch = RayBatch::from_list(&list);
-            assert_eq!(batch.rays().len(), batch.width() as usize * batch.height() as usize, "a full rectangle");
-            for (i, r) in list.iter().enumerate() {
-                assert_eq!(batch.rays()[batch.pixel_of(i)], *r, "ray {i} of {count}");
-            }
-            let last = batch.rays().iter().filter(|r| *r == &ray(count - 1)).count();
-            assert_eq!(last, batch.rays().len() - count + 1, "the last one is repeated");
-        }
-        assert_eq!(RayBatch::from_list(&[ray(1); 3]).common_origin(), Some([1.0, 0.0, 0.0]), "one origin");
-        assert_eq!(RayBatch::from_list(&[]).height(), 0, "no rays, no rows");
-    }
-}

@@ -3,20 +3,19 @@
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::Constants;
-use refsim::machine::{DrawCall, Executor, Machine, MachineError, VertexSource, VertexStreams};
-use refsim::num::Format;
+use refsim::machine::{DrawCall, Executor, Machine, VertexSource};
 use refsim::output::DepthFormat;
 use refsim::raster::Primitive;
 use refsim::texture::TexelFormat;
 
 use super::answer::{Answer, EngineError};
-use super::card::bind;
-use super::id_color::{color_of_id, id_of_color};
+use super::card::{bind, hits, rounded};
+use super::id_color::color_of_id;
 use super::range::Range;
 use super::units::Units;
 use super::{Form, RayBatch, kernels};
 use crate::card::NearestTarget;
-use crate::geom::{Hit, Mesh, Ray};
+use crate::geom::Mesh;
 use crate::tracer::scale::normalize_range;
 use crate::tracer::triangle_test::{scaled, scaled_corners};
 
@@ -72,32 +71,19 @@ impl VertexCrossbar {
                 [dx, dy, dz, 0.0],
             ];
             let constants = Constants { float: float.map(|c| c.map(f32::to_bits)).to_vec(), ..Constants::default() };
-            let source = VertexSource::Program { program: &vertex, constants: &constants, streams: streams.bind() };
+            let source = VertexSource::Program {
+                program: &vertex,
+                constants: &constants,
+                streams: bind(&streams.corners, &streams.triangles),
+            };
             let none = Constants::default();
             let mut call = DrawCall::new(source, Primitive::TriangleList, &pixel, &none, target.color);
             target.keep_nearest(&mut call);
             events += machine.draw(&call)?;
         }
-        let hits = read_back(machine, target, rays, &units)?;
-        Ok(Answer { hits, events, kernel: kernels::VERTEX_TEST.name, log: Vec::new() })
+        let hits = hits(machine.read_back(target.color)?, machine.read_depth(target.depth)?, rays, &units);
+        Ok(Answer { hits: rounded(hits), events, kernel: kernels::VERTEX_TEST.name, log: Vec::new() })
     }
-}
-
-fn read_back(
-    machine: &Machine,
-    target: NearestTarget,
-    rays: &RayBatch,
-    units: &Units,
-) -> Result<Vec<Option<Hit>>, MachineError> {
-    let (image, depth) = (machine.read_back(target.color)?, machine.read_depth(target.depth)?);
-    let width = depth.width() as usize;
-    let hit = |(i, ray): (usize, &Ray)| {
-        let raw = image.raw(0, 0, (i / width) as u32, (i % width) as u32) as u32;
-        let triangle = id_of_color(raw)?;
-        let t = units.t(f32::from_bits(depth.format().to_format(depth.data()[i], Format::FP32)), ray);
-        Some(Hit { triangle, t: t as f32 })
-    };
-    Ok(rays.rays().iter().enumerate().map(hit).collect())
 }
 
 /// Vertex attributes: the pixel's triangle, and the attributes of each triangle of the mesh.
@@ -120,9 +106,5 @@ impl Streams {
             triangles[4].push(color_of_id(id));
         }
         Self { corners, triangles }
-    }
-
-    fn bind(&self) -> VertexStreams<'_> {
-        bind(&self.corners, &self.triangles)
     }
 }

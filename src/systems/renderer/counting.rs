@@ -25,18 +25,8 @@ pub enum RayKind {
 /// Number of rays cast, per kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
-    /// Eye rays.
-    pub eye: u64,
-    /// Shadow rays.
-    pub shadow: u64,
-    /// Reflection rays, of mirrors and glossy lobes.
-    pub reflection: u64,
-    /// Refraction rays.
-    pub refraction: u64,
-    /// Gather rays.
-    pub gather: u64,
-    /// Photon rays.
-    pub photon: u64,
+    /// By [`RayKind`].
+    by_kind: [u64; 6],
     /// Bundles in which the rays were cast.
     pub bundles: u64,
 }
@@ -44,41 +34,24 @@ pub struct RayCounts {
 impl RayCounts {
     /// Total number of rays.
     pub fn rays(&self) -> u64 {
-        self.eye + self.shadow + self.reflection + self.refraction + self.gather + self.photon
+        self.by_kind.iter().sum()
+    }
+
+    /// Number of rays of a kind.
+    pub fn of(&self, kind: RayKind) -> u64 {
+        self.by_kind[kind as usize]
     }
 
     /// Count of each kind with its name, in the order of [`RayKind`].
     pub fn kinds(&self) -> [(&'static str, u64); 6] {
-        [
-            ("eye", self.eye),
-            ("shadow", self.shadow),
-            ("reflection", self.reflection),
-            ("refraction", self.refraction),
-            ("gather", self.gather),
-            ("photon", self.photon),
-        ]
-    }
-
-    pub(super) fn count(&mut self, kind: RayKind, rays: u64) {
-        *match kind {
-            RayKind::Eye => &mut self.eye,
-            RayKind::Shadow => &mut self.shadow,
-            RayKind::Reflection => &mut self.reflection,
-            RayKind::Refraction => &mut self.refraction,
-            RayKind::Gather => &mut self.gather,
-            RayKind::Photon => &mut self.photon,
-        } += rays;
+        let names = ["eye", "shadow", "reflection", "refraction", "gather", "photon"];
+        std::array::from_fn(|kind| (names[kind], self.by_kind[kind]))
     }
 }
 
 impl AddAssign for RayCounts {
     fn add_assign(&mut self, other: Self) {
-        self.eye += other.eye;
-        self.shadow += other.shadow;
-        self.reflection += other.reflection;
-        self.refraction += other.refraction;
-        self.gather += other.gather;
-        self.photon += other.photon;
+        self.by_kind.iter_mut().zip(other.by_kind).for_each(|(sum, rays)| *sum += rays);
         self.bundles += other.bundles;
     }
 }
@@ -148,7 +121,7 @@ impl<'a> CountingCaster<'a> {
             return Ok(Vec::new());
         }
         for index in 0..rays.len() {
-            self.counts.count(kind(index), 1);
+            self.counts.by_kind[kind(index) as usize] += 1;
         }
         self.counts.bundles += 1;
         let answers = answer(self.caster)?;

@@ -25,7 +25,7 @@ pub fn render<'a>(
     watch: &'a mut WatchProgress<'a>,
 ) -> Result<RenderedPicture, InputError> {
     let mut tracer = CountingCaster::new(caster, watch);
-    expose(&mut tracer, (scene, camera), settings, 1, &Eye)
+    expose(&mut tracer, scene, camera, settings, 1, &Eye)
 }
 
 struct Eye;

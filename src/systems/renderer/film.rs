@@ -62,7 +62,8 @@ impl Film {
 /// Renders with a shader. `fan` is the approximate number of rays that one eye ray may become at a time.
 pub(super) fn expose(
     tracer: &mut CountingCaster<'_>,
-    (scene, camera): (&Scene, &Camera),
+    scene: &Scene,
+    camera: &Camera,
     settings: &Settings,
     fan: usize,
     shader: &impl Shade,
@@ -85,7 +86,7 @@ pub(super) fn expose(
             let rng = SampleRng::new(settings.seed, pixel, sample);
             PathRay::eye(eye_ray(camera, settings, pixel, rng), (index - start) as u32, rng)
         });
-        let wave = follow(tracer, flights.collect(), (scene, settings), shader)?;
+        let wave = follow(tracer, flights.collect(), scene, settings, shader)?;
         for (index, light) in (start..end).zip(wave.light) {
             film.add((index / samples) as usize, light);
         }

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use super::counting::CountingCaster;
-use super::sampling::triangle;
+use super::sampling::{DiscreteDistribution, triangle};
 use super::visibility::visible;
 use crate::geom::Ray;
 use crate::geom::random::CounterRng;
@@ -44,7 +44,7 @@ pub fn form_factor(
     let pairs: Vec<Option<(f64, Ray)>> = pairs.collect();
     let rays: Vec<Option<Ray>> = pairs.iter().flatten().map(|pair| Some(pair.1)).collect();
     let mut ignore = |_| {};
-    let (seen, _) = visible(&rays, &mut CountingCaster::new(caster, &mut ignore))?;
+    let seen = visible(&rays, &mut CountingCaster::new(caster, &mut ignore))?;
     let (mut sum, mut squares) = (0.0, 0.0);
     for ((value, _), seen) in pairs.into_iter().flatten().zip(seen) {
         if seen {
@@ -76,13 +76,13 @@ fn pair(from: &Patch<'_>, to: &Patch<'_>, random: CounterRng, sample: u64) -> Op
 struct Patch<'a> {
     scene: &'a Scene,
     triangles: &'a [u32],
-    table: super::sampling::DiscreteDistribution,
+    table: DiscreteDistribution,
     area: f64,
 }
 
 impl<'a> Patch<'a> {
     fn new(scene: &'a Scene, triangles: &'a [u32]) -> Self {
-        let table = super::sampling::DiscreteDistribution::new(triangles.iter().map(|&id| scene.mesh().area(id)));
+        let table = DiscreteDistribution::new(triangles.iter().map(|&id| scene.mesh().area(id)));
         let area = table.total();
         Self { scene, triangles, table, area }
     }

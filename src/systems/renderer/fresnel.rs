@@ -19,21 +19,3 @@ pub fn refracted(away: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     }
     unit(-ratio * away + (ratio * cosine - square.sqrt()) * normal)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::abs_diff_eq;
-
-    #[test]
-    fn snell() {
-        let normal = DVec3::Z;
-        let away = unit(DVec3::new(0.6, 0.0, 0.8)).expect("a direction");
-        let inside = refracted(away, normal, 1.0 / 1.5).expect("it enters");
-        assert!(abs_diff_eq!(inside[0], -0.4, epsilon = 1e-15) && inside[2] < 0.0, "{inside:?}");
-        let back = refracted(inside, DVec3::NEG_Z, 1.5).expect("it leaves as it came");
-        assert!((back - away).length() < 1e-15);
-        assert_eq!(refracted(DVec3::new(0.8, 0.0, 0.6), normal, 1.5), None);
-        assert_eq!(reflected(DVec3::new(0.6, 0.0, 0.8), normal), DVec3::new(-0.6, 0.0, 0.8));
-    }
-}

@@ -113,7 +113,7 @@ impl<'a> Lights<'a> {
             return None;
         }
         let density = density * square / cosine;
-        let ray = surfel.ray_to(&place)?;
+        let ray = surfel.place.ray_to(&place)?;
         Some(LightSample { ray, towards, light: 1.0 / density * radiance, density })
     }
 

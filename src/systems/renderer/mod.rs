@@ -24,7 +24,8 @@ mod lights;
 mod lobes;
 pub mod path;
 pub mod photon;
-mod photon_map;
+#[doc(hidden)] // held against a search among all photons
+pub mod photon_map;
 pub mod sampling;
 mod settings;
 mod surfel;

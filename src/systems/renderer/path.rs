@@ -47,7 +47,7 @@ pub fn render<'a>(
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::areas_of(scene, settings.rounding);
     let fan = 2 + lights.points();
-    expose(&mut tracer, (scene, camera), settings, fan, &Paths { settings, lights, direct })
+    expose(&mut tracer, scene, camera, settings, fan, &Paths { settings, lights, direct })
 }
 
 struct Paths<'a> {

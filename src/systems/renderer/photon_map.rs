@@ -11,15 +11,15 @@ const SAME_WAY: f64 = 0.707;
 
 /// Stored photon.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Photon {
+pub struct Photon {
     /// Position.
-    pub(super) at: DVec3,
+    pub at: DVec3,
     /// Normal of the triangle, on the side that was hit.
-    pub(super) normal: DVec3,
+    pub normal: DVec3,
     /// Unit vector back along the photon's ray.
-    pub(super) from: DVec3,
+    pub from: DVec3,
     /// Flux: red, green, blue.
-    pub(super) power: DVec3,
+    pub power: DVec3,
 }
 
 /// Photon with its squared distance; ordered by distance, then by index in the map, so that the order of sums is fixed.
@@ -45,14 +45,14 @@ impl PartialOrd for PhotonDistance {
 
 /// Kd-tree: the middle element of each range is its node, split along the axis in `axes`.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PhotonMap {
+pub struct PhotonMap {
     photons: Vec<Photon>,
     axes: Vec<u8>,
 }
 
 impl PhotonMap {
     /// Builds a map; the same photons in the same order give the same map.
-    pub(super) fn new(mut photons: Vec<Photon>) -> Self {
+    pub fn new(mut photons: Vec<Photon>) -> Self {
         let mut axes = vec![0; photons.len()];
         build(&mut photons, &mut axes);
         Self { photons, axes }
@@ -62,7 +62,7 @@ impl PhotonMap {
     /// `radius` that landed on a surface with a similar normal. Of k photons found, the k-th determines the area, pi
     /// r^2, and the k - 1 others the sum, which is unbiased where photons are spread evenly. If fewer than `nearest`
     /// lie within the radius, all of them count, over the area of the radius. `nearest` is at least 2.
-    pub(super) fn density(
+    pub fn density(
         &self,
         at: DVec3,
         normal: DVec3,
@@ -155,68 +155,5 @@ impl NearestSearch<'_> {
         {
             self.square = last.square;
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::random::CounterRng;
-    use approx::assert_abs_diff_eq;
-
-    fn scattered(count: u64) -> Vec<Photon> {
-        let random = CounterRng::new(3);
-        let photon = |i| Photon {
-            at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), if i % 5 == 0 { 0.5 } else { 0.0 }),
-            normal: if i % 7 == 0 { DVec3::NEG_Z } else { DVec3::Z },
-            from: DVec3::Z,
-            power: DVec3::ONE,
-        };
-        (0..count).map(photon).collect()
-    }
-
-    /// The same estimate by testing all photons.
-    fn brute_force(photons: &[Photon], at: DVec3, nearest: usize, radius: f64) -> f64 {
-        let up = photons.iter().filter(|photon| photon.normal.z > 0.0);
-        let mut squares: Vec<f64> = up.map(|photon| photon.at.distance_squared(at)).collect();
-        squares.sort_by(f64::total_cmp);
-        squares.retain(|&square| square <= radius * radius);
-        squares.truncate(nearest);
-        let full = squares.len() == nearest;
-        let count = squares.len() - usize::from(full);
-        let square = if full { squares[nearest - 1] } else { radius * radius };
-        count as f64 / (PI * square)
-    }
-
-    #[test]
-    fn the_nearest_are_those_that_a_plain_search_finds() {
-        let photons = scattered(500);
-        let map = PhotonMap::new(photons.clone());
-        let random = CounterRng::new(4);
-        for i in 0..100 {
-            let at = DVec3::from([0, 1, 2].map(|k| 1.2 * random.unit(i, 0, k) - 0.1));
-            for (nearest, radius) in [(2, 1.0), (10, 0.3), (50, 2.0), (1000, 0.5), (1000, 9.0)] {
-                let found = map.density(at, DVec3::Z, nearest, radius, |photon| photon.power)[0];
-                let expected = brute_force(&photons, at, nearest, radius);
-                assert_abs_diff_eq!(found, expected, epsilon = 1e-9 * expected);
-            }
-        }
-    }
-
-    #[test]
-    fn an_even_spread_has_its_density() {
-        // 4000 photons on a square of side 1, seen from its middle.
-        let random = CounterRng::new(9);
-        let photon = |i| Photon {
-            at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), 0.0),
-            normal: DVec3::Z,
-            from: DVec3::Z,
-            power: DVec3::splat(1.0 / 4000.0),
-        };
-        let map = PhotonMap::new((0..4000).map(photon).collect());
-        let mean = (0..25).map(|i| DVec3::new(0.3 + 0.1 * f64::from(i % 5), 0.3 + 0.1 * f64::from(i / 5), 0.0));
-        let mean = mean.map(|at| map.density(at, DVec3::Z, 100, 1.0, |p| p.power)[0]).sum::<f64>() / 25.0;
-        assert_abs_diff_eq!(mean, 1.0, epsilon = 0.05);
-        assert_eq!(PhotonMap::default().density(DVec3::ZERO, DVec3::Z, 10, 1.0, |p| p.power), DVec3::ZERO);
     }
 }

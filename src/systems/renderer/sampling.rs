@@ -79,38 +79,3 @@ impl DiscreteDistribution {
         (self.sums[entry] - before) / self.total()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::random::CounterRng;
-    use approx::assert_abs_diff_eq;
-
-    const COUNT: u64 = 20_000;
-
-    fn mean(f: impl Fn([f64; 2]) -> f64) -> f64 {
-        let random = CounterRng::new(5);
-        (0..COUNT).map(|i| f([random.unit(i, 0, 0), random.unit(i, 0, 1)])).sum::<f64>() / COUNT as f64
-    }
-
-    #[test]
-    fn densities_are_those_stated() {
-        let normal = DVec3::new(0.0, 0.6, 0.8);
-        // Under cos / pi the mean cosine is 2/3; under the lobe's density it is (n + 1) / (n + 2).
-        assert_abs_diff_eq!(mean(|u| cosine(normal, u).dot(normal)), 2.0 / 3.0, epsilon = 0.01);
-        assert_abs_diff_eq!(mean(|u| lobe(normal, 8.0, u).dot(normal)), 0.9, epsilon = 0.005);
-        // The centroid of a triangle is the mean of its corners; half of a disk's area lies within 1 / sqrt 2.
-        assert_abs_diff_eq!(mean(|u| triangle(u)[1]), 1.0 / 3.0, epsilon = 0.01);
-        assert_abs_diff_eq!(mean(|u| disk(u).map(|x| x * x).iter().sum::<f64>()), 0.5, epsilon = 0.01);
-    }
-
-    #[test]
-    fn tables_pass_over_what_has_no_weight() {
-        let table = DiscreteDistribution::new([0.0, 1.0, 0.0, 3.0, 0.0]);
-        assert_eq!(table.draw(0.0), Some((1, 0.25)));
-        assert_eq!(table.draw(0.2499), Some((1, 0.25)));
-        assert_eq!(table.draw(0.25), Some((3, 0.75)));
-        assert_eq!(table.draw(0.999), Some((3, 0.75)));
-        assert_eq!(DiscreteDistribution::new([0.0]).draw(0.5), None);
-    }
-}

@@ -50,25 +50,14 @@ impl<'a> Surfel<'a> {
         Some(Self { triangle, place, normal, shading, view, front, material })
     }
 
-    /// Returns the origin of a ray into direction `towards`.
-    pub(super) fn start(&self, towards: DVec3) -> [f32; 3] {
-        self.place.lifted(towards, 0.0)
-    }
-
     /// Returns a ray from the surface, if the direction is not zero.
     pub(super) fn ray(&self, towards: DVec3) -> Option<Ray> {
-        Ray::new(self.start(towards), narrow(towards)).ok()
-    }
-
-    /// Returns a ray to a point on another triangle, which hits something at t < 1 if and only if something is between.
-    /// `None` if the points coincide.
-    pub(super) fn ray_to(&self, other: &SurfacePoint) -> Option<Ray> {
-        self.place.ray_to(other)
+        Ray::new(self.place.lifted(towards, 0.0), narrow(towards)).ok()
     }
 
     /// Returns a ray to a point in space, which it reaches at t = 1.
     pub(super) fn ray_to_point(&self, point: DVec3) -> Option<Ray> {
-        let start = self.start(point - self.place.at);
+        let start = self.place.lifted(point - self.place.at, 0.0);
         Ray::new(start, narrow(point - wide(start))).ok()
     }
 }
@@ -106,48 +95,4 @@ fn facing_viewer(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
         return smooth;
     }
     unit(smooth + (LEAST_COSINE - cosine) * view).filter(|bent| bent.dot(normal) > 0.0).unwrap_or(normal)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::Mesh;
-    use crate::geom::random::CounterRng;
-    use crate::tracer::offset::SINGLE;
-
-    fn triangle() -> Scene {
-        let corners = vec![[10.0, 0.0, 3.0], [11.0, 0.5, 3.25], [10.0, 2.0, 4.0]];
-        let mesh = Mesh::new(corners, vec![[0, 1, 2]]).expect("a triangle");
-        Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0], Vec::new()).expect("a scene")
-    }
-
-    #[test]
-    fn places_lie_on_their_triangle_whatever_t_says() {
-        let scene = triangle();
-        let random = CounterRng::new(1);
-        for i in 0..200 {
-            let eye = [0, 1, 2].map(|k| (20.0 * random.unit(i, 0, k)) as f32);
-            let inside = SurfacePoint::new(
-                scene.mesh(),
-                0,
-                super::super::sampling::triangle([random.unit(i, 1, 0), random.unit(i, 1, 1)]),
-                SINGLE,
-            );
-            let inside = inside.expect("a place");
-            let ray = Ray::new(eye, narrow(inside.at - wide(eye))).expect("a ray");
-            let surfel = Surfel::new(&scene, SINGLE, &ray, Hit { triangle: 0, t: 77.0 }).expect("a surfel");
-            let wrong = (surfel.place.at - inside.at).length();
-            assert!(wrong < 1e-4, "{wrong}");
-            assert!(surfel.normal.dot(surfel.view) >= 0.0);
-            assert_eq!(surfel.front, surfel.place.normal.dot(surfel.view) >= 0.0);
-        }
-    }
-
-    #[test]
-    fn normals_that_look_away_are_bent() {
-        let (normal, view) = (DVec3::Z, unit(DVec3::new(1.0, 0.0, 0.1)).expect("a view"));
-        let bent = facing_viewer(unit(DVec3::new(-0.9, 0.0, 0.2)).expect("a normal"), normal, view);
-        assert!(bent.dot(view) > 0.0 && bent.dot(normal) > 0.0, "{bent:?}");
-        assert_eq!(facing_viewer(DVec3::NEG_Z, normal, view), normal);
-    }
 }

@@ -21,19 +21,3 @@ pub(super) fn turned(local: DVec3, normal: DVec3) -> DVec3 {
     let [tangent, other] = frame(normal);
     local.x * tangent + local.y * other + local.z * normal
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::abs_diff_eq;
-
-    #[test]
-    fn frames_are_square() {
-        for normal in [DVec3::Z, DVec3::X, DVec3::new(0.6, -0.8, 0.0), DVec3::new(-2.0, 3.0, 6.0) / 7.0] {
-            let [x, y] = frame(normal);
-            assert!(x.dot(y).abs() < 1e-15 && x.dot(normal).abs() < 1e-15 && y.dot(normal).abs() < 1e-15);
-            assert!(abs_diff_eq!(x.length(), 1.0, epsilon = 1e-15) && abs_diff_eq!(y.length(), 1.0, epsilon = 1e-15));
-            assert!((x.cross(y) - normal).length() < 1e-15, "right-handed");
-        }
-    }
-}

@@ -1,6 +1,6 @@
 //! Mutual visibility of points.
 
-use super::counting::{CountingCaster, RayCounts};
+use super::counting::CountingCaster;
 use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
 use crate::tracer::{CastError, Caster};
@@ -14,18 +14,14 @@ use crate::tracer::{CastError, Caster};
 pub fn visibility(pairs: &[[[f32; 3]; 2]], caster: &mut dyn Caster) -> Result<Vec<bool>, CastError> {
     let rays: Vec<Option<Ray>> = pairs.iter().map(|&[from, to]| segment(from, to)).collect();
     let mut ignore = |_| {};
-    visible(&rays, &mut CountingCaster::new(caster, &mut ignore)).map(|(seen, _)| seen)
+    visible(&rays, &mut CountingCaster::new(caster, &mut ignore))
 }
 
 /// Like [`visibility`], for rays that end at t = 1; `None` counts as visible.
-pub(super) fn visible(
-    rays: &[Option<Ray>],
-    tracer: &mut CountingCaster<'_>,
-) -> Result<(Vec<bool>, RayCounts), CastError> {
+pub(super) fn visible(rays: &[Option<Ray>], tracer: &mut CountingCaster<'_>) -> Result<Vec<bool>, CastError> {
     let asked: Vec<Ray> = rays.iter().flatten().copied().collect();
     let mut occluded = tracer.occluded(&asked)?.into_iter();
-    let seen = rays.iter().map(|ray| ray.is_none() || occluded.next() == Some(false)).collect();
-    Ok((seen, tracer.counts))
+    Ok(rays.iter().map(|ray| ray.is_none() || occluded.next() == Some(false)).collect())
 }
 
 fn segment(from: [f32; 3], to: [f32; 3]) -> Option<Ray> {

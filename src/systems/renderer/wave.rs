@@ -120,7 +120,8 @@ pub(super) struct Wave {
 pub(super) fn follow(
     tracer: &mut CountingCaster<'_>,
     mut flights: Vec<PathRay>,
-    (scene, settings): (&Scene, &Settings),
+    scene: &Scene,
+    settings: &Settings,
     shader: &impl Shade,
 ) -> Result<Wave, InputError> {
     let shade = |flight: &PathRay, hit: Option<Hit>| {

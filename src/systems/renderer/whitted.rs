@@ -3,6 +3,7 @@
 
 use super::Settings;
 use super::counting::{CountingCaster, WatchProgress};
+use super::distributed::direct;
 use super::film::{RenderedPicture, expose};
 use super::lights::Lights;
 use super::lobes::{Lobes, specular_rays};
@@ -12,7 +13,6 @@ use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
-use glam::DVec3;
 
 /// Minimum weight of a branch for its pixel (Hall's adaptive depth): half a step of an 8-bit display.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
@@ -34,7 +34,7 @@ pub fn render<'a>(
     let lights = Lights::points_of(scene, settings.rounding);
     // A ray may become two at each glass surface on its way; few do.
     let fan = 2 + lights.points();
-    expose(&mut tracer, (scene, camera), settings, fan, &Whitted { settings, lights })
+    expose(&mut tracer, scene, camera, settings, fan, &Whitted { settings, lights })
 }
 
 struct Whitted<'a> {
@@ -46,26 +46,14 @@ impl Shade for Whitted<'_> {
     fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter {
         let mut scatter = Scatter::of(flight.weight * Lights::emitted(surfel));
         match Lobes::of(&surfel.material.surface) {
-            Some(lobes) => self.light(flight.weight, surfel, &lobes, &mut scatter),
+            Some(lobes) => {
+                scatter.light += flight.weight * (lobes.albedo * wide(self.settings.ambient));
+                direct(&self.lights, flight, surfel, &lobes, &mut scatter);
+            }
             None if flight.depth < self.settings.depth => continue_specular(flight, surfel, &mut scatter),
             None => {}
         }
         scatter
-    }
-}
-
-impl Whitted<'_> {
-    fn light(&self, weight: DVec3, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
-        let ambient = lobes.albedo * wide(self.settings.ambient);
-        scatter.light += weight * ambient;
-        for light in 0..self.lights.points() {
-            let Some(arriving) = self.lights.point(surfel, light) else { continue };
-            let (value, _) = lobes.evaluate(surfel, arriving.towards);
-            let light = weight * (value * arriving.light);
-            if light.max_element() > 0.0 {
-                scatter.shadows.push((arriving.ray, light));
-            }
-        }
     }
 }
 

@@ -62,7 +62,7 @@ impl DipoleSum {
 
 /// e^-x for x >= 0, within 4 units in the last place; e^-700 (1e-304) beyond. Compilers turn this one into vector code.
 #[inline(always)]
-fn exp_of_negative(x: f64) -> f64 {
+pub fn exp_of_negative(x: f64) -> f64 {
     const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
     const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
     // Adding 1.5 x 2^52 rounds to an integer, which the last bits then hold.
@@ -77,33 +77,4 @@ fn exp_of_negative(x: f64) -> f64 {
     }
     let power = f64::from_bits((1023_u64.wrapping_sub(shifted.to_bits() & 0x7ff)) << 52);
     series * power
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::elementary::exp;
-    use crate::subsurface::Coefficients;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn the_exponential_is_right() {
-        for k in 0..200_000 {
-            let x = f64::from(k) * 0.0035;
-            assert_relative_eq!(exp_of_negative(x), exp(-x), max_relative = 9e-16);
-        }
-        assert_eq!([exp_of_negative(0.0), exp_of_negative(1e300)], [1.0, exp_of_negative(700.0)]);
-    }
-
-    #[test]
-    fn r_d_is_the_dipole_s() {
-        let dipole = Dipole::new(Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 }, 1.3).expect("a medium");
-        let sum = DipoleSum::new(&dipole);
-        for r in [0.0, 1e-3, 0.5, 3.0, 40.0, 1000.0] {
-            assert_relative_eq!(sum.at(r * r), dipole.r_d(r), max_relative = 1e-13);
-        }
-        let squared: Vec<f64> = (0..7).map(f64::from).collect();
-        let direct: f64 = squared.iter().map(|s| s * sum.at(*s)).sum();
-        assert_relative_eq!(sum.sum(&squared, &squared), direct, max_relative = 1e-15);
-    }
 }

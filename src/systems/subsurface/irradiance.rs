@@ -99,33 +99,3 @@ pub fn distant_irradiance(
     }
     Ok(found)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::{Mesh, Sides};
-    use crate::tracer::HostTracer;
-
-    /// A lid over half of a floor shadows that half, and nothing else.
-    #[test]
-    fn distant_light_has_shadows() {
-        let square = |z: f32, x: [f32; 2]| [[x[0], -1.0, z], [x[1], -1.0, z], [x[1], 1.0, z], [x[0], 1.0, z]];
-        let corners = [square(0.0, [-1.0, 1.0]), square(0.5, [0.01, 1.0])].concat();
-        let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]).expect("a mesh");
-        let atlas = Atlas::new(&mesh, 16).expect("an atlas");
-        let source = DistantSource { towards: DVec3::Z, irradiance: [1.0, 2.0, 0.0] };
-        let mut caster = HostTracer::new(&mesh, Sides::Both);
-        let found = distant_irradiance(&atlas, &[source], 1.3, &mut caster).expect("traced");
-        let full = fresnel_transmittance(1.3, 1.0);
-        for (at, (texel, found)) in atlas.texels().iter().zip(&found).enumerate() {
-            let weights = atlas.places()[texel.face as usize].weights((at % 16) as f64 + 0.5, (at / 16) as f64 + 0.5);
-            let middle = DVec3::from(weights).dot(DVec3::from(atlas.corners(texel.face).map(|corner| corner.x)));
-            let share = if texel.face < 2 && middle > 0.01 { 0.0 } else { full };
-            let expected = DVec3::new(share, 2.0 * share, 0.0);
-            assert!((DVec3::from(*found) - expected).length() < 1e-12, "{found:?}, expected {expected} at {texel:?}");
-        }
-        let from_below = DistantSource { towards: DVec3::NEG_Z, ..source };
-        let dark = distant_irradiance(&atlas, &[from_below], 1.3, &mut caster).expect("traced");
-        assert!(dark.iter().flatten().all(|&value| value == 0.0));
-    }
-}

@@ -29,15 +29,6 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// The coefficients, checked as in [`Self::check`].
-    ///
-    /// # Errors
-    /// [`InputError`] for figures that make no medium.
-    pub fn new(sigma_s_prime: f64, sigma_a: f64) -> Result<Self, InputError> {
-        let coefficients = Self { sigma_s_prime, sigma_a };
-        coefficients.check().map(|()| coefficients)
-    }
-
     /// Checks that the coefficients make a medium: both finite, absorption at least 0, scattering above 0.
     ///
     /// # Errors

@@ -143,18 +143,3 @@ pub const MATERIALS: [PublishedMaterial; 14] = [
     figure_7("Figure7", 1.3, "not printed; that of all media but marble in the table of 2001"),
     figure_7("Figure7-marble", 1.5, "not printed; that of marble in the table of 2001, whose coefficients are near"),
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn all_are_media_and_names_are_unique() {
-        for (i, material) in MATERIALS.iter().enumerate() {
-            let checked = Material::new(material.name, material.material().channels, material.eta.value);
-            assert_eq!(checked, Ok(material.material()));
-            assert_eq!(named(&material.name.to_uppercase()), Some(&MATERIALS[i]));
-        }
-        assert_eq!(named("Butter"), None);
-    }
-}

@@ -1,10 +1,10 @@
 //! The f32 iteration is within its derived bound of the direct solution, and the bound is not empty talk.
 
 use crossbar::linalg::Matrix;
-use crossbar::radiosity::bound::{ErrorBound, before, bounded_step, contraction};
 use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::solve::{Options, Problem, Solver, solve};
 
+use super::bound::{ErrorBound, before, bounded_step, contraction};
 use super::{cornell, random_system};
 
 fn truth(matrix: &Matrix, right: &[f64]) -> Vec<f64> {
@@ -39,7 +39,7 @@ fn check(name: &str, card: &CardSystem, systems: &[(Matrix, Vec<f64>)], steps: u
             }
         }
         let (next, errors) = bounded_step(card, &b);
-        assert_eq!(next, card.step(&b), "watching changes nothing");
+        assert_eq!(next, card.step(&b), "the rounded results that the bound adds up are those of the step");
         running.iter_mut().zip(errors).for_each(|(bound, error)| bound.advance(error));
         b = next;
     }

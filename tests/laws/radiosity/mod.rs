@@ -2,6 +2,7 @@
 
 mod all_pictures;
 mod bias;
+mod bound;
 mod bounds;
 mod covered;
 mod cycles;

@@ -3,7 +3,6 @@
 use approx::abs_diff_eq;
 use crossbar::card::{CardError, Texels};
 use crossbar::linalg::Matrix;
-use crossbar::radiosity::bound::{ErrorBound, before, bounded_step, contraction};
 use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::on_card::{self, CardOptions, CardSolver, Fit, Storage};
 use crossbar::radiosity::packing::Packing;
@@ -14,6 +13,7 @@ use refsim::check::{RuleId, check};
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
+use super::bound::{ErrorBound, before, bounded_step, contraction};
 use super::cornell;
 
 fn device(name: &str) -> Profile {

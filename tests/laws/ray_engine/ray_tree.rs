@@ -25,15 +25,15 @@ proptest! {
                 put += 1;
             } else {
                 let taken = tree.take();
-                prop_assert!(taken.rays.len() <= bucket && taken.own <= taken.rays.len());
-                out.extend(taken.rays);
+                prop_assert!(taken.len() <= bucket);
+                out.extend(taken);
             }
             prop_assert_eq!(tree.len(), put as usize - out.len());
         }
         while !tree.is_empty() {
             let taken = tree.take();
-            prop_assert!(!taken.rays.is_empty(), "a tree that holds rays gives some");
-            out.extend(taken.rays);
+            prop_assert!(!taken.is_empty(), "a tree that holds rays gives some");
+            out.extend(taken);
         }
         out.sort_unstable();
         prop_assert_eq!(out, (0..put).collect::<Vec<_>>());
@@ -65,8 +65,8 @@ fn buckets_are_coherent_and_well_filled() {
         1.0 - [0, 1, 2].map(|k| mean(k) * mean(k)).iter().sum::<f64>().sqrt()
     };
     let batch = tree.take();
-    assert_eq!(batch.rays.len(), 256, "stolen rays fill it up");
+    assert_eq!(batch.len(), 256, "stolen rays fill it up");
     let everything: Vec<u32> = (0..100_000).collect();
-    assert!(spread(&batch.rays) < 0.3 * spread(&everything), "one way rather than all ways");
+    assert!(spread(&batch) < 0.3 * spread(&everything), "one way rather than all ways");
     assert!(tree.bytes() < 100_000 * 100, "{} B a ray", tree.bytes() / 100_000);
 }

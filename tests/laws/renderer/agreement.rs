@@ -1,7 +1,7 @@
 //! Renderers that estimate the same integral agree, pixel by pixel, within what chance allows.
 
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{RenderedPicture, Settings, distributed, path};
+use crossbar::renderer::{RayKind, RenderedPicture, Settings, distributed, path};
 use crossbar::scene::{Scene, Surface};
 
 use super::{host, of, room, room_camera, settings, white};
@@ -85,7 +85,7 @@ fn distributed_rays_are_paths_with_one_diffuse_hit() {
     // A mirror between: one hit more for both, and no light between diffuse surfaces that only the walk would find.
     let mirror = room(1.0, &of(Surface::Mirror { reflectance: [0.9; 3] }));
     let picture = distributed::render(&mirror, &camera, &once(8), &mut host(&mirror), &mut |_| {}).expect("a picture");
-    assert!(picture.counts.reflection > 0);
+    assert!(picture.counts.of(RayKind::Reflection) > 0);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::environment::by_form;
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::photon::{self, Photons};
-use crossbar::renderer::{RenderedPicture, Settings, path};
+use crossbar::renderer::{RayKind, RenderedPicture, Settings, path};
 use crossbar::scene::{Material, Scene, Surface};
 
 use super::{host, of, room, room_camera, settings, white};
@@ -34,7 +34,7 @@ fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     let photons = Photons { global: 20_000, caustic: 20_000, nearest: 50, radius: 0.3, gather };
     let mapped = photon::render(&scene, &camera, &settings(16), &photons, &mut host(&scene), &mut |_| {});
     let mapped = mapped.expect("a picture");
-    assert!(mapped.counts.photon >= 20_000 && mapped.not_finite == 0);
+    assert!(mapped.counts.of(RayKind::Photon) >= 20_000 && mapped.not_finite == 0);
     let walked = path::render(&scene, &camera, &settings(144), Direct::Both, &mut host(&scene), &mut |_| {});
     let (a, b) = (mean(&mapped, &scene), mean(&walked.expect("a picture"), &scene));
     for channel in 0..3 {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crossbar::renderer::{Settings, whitted};
+use crossbar::renderer::{RayKind, Settings, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 
 use super::{Builder, host, lamp, near, needle, of, settings, white};
@@ -177,7 +177,7 @@ fn depth_ends_the_hall_of_mirrors() {
     let scene = builder.scene();
     for depth in [0, 1, 7] {
         let picture = render(&scene, &needle([0.1, 0.1, 0.5], [0.1, 0.1, 0.0]), &Settings { depth, ..settings() });
-        assert_eq!((picture.counts.eye, picture.counts.reflection), (1, u64::from(depth)));
+        assert_eq!((picture.counts.of(RayKind::Eye), picture.counts.of(RayKind::Reflection)), (1, u64::from(depth)));
         assert_eq!(picture.color[0], [0.0; 3]);
     }
 }

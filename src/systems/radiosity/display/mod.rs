@@ -15,7 +15,7 @@ use refsim::output::DepthFormat;
 use refsim::raster::{Primitive, Vertex};
 use refsim::texture::{SamplerState, TexelFormat};
 
-use super::draw::{DrawError, Projection, bits, patch_of};
+use super::draw::{DrawError, Projection, bits, code, patch_of};
 use super::{Patches, kernels};
 use crate::card::{NearestTarget, Texels};
 use crate::picture::Picture;
@@ -66,8 +66,7 @@ impl Display {
         let (quad, triangle) = (kernels::SMOOTH_QUAD.checked(profile)?, kernels::SMOOTH_TRIANGLE.checked(profile)?);
         let corner_sets = CornerSets::new(patches);
         let resampler = Resampler::new(machine, &corner_sets)?;
-        let builder = VertexBuilder { patches, camera, corner_sets: &corner_sets, resampler: &resampler };
-        let [quads, quad_fans, triangles] = builder.vertices();
+        let [quads, quad_fans, triangles] = vertices(patches, camera, &corner_sets, &resampler);
         let shapes = [
             PatchShape { primitive: Primitive::QuadList, vertices: quads, smooth: quad.clone() },
             PatchShape { primitive: Primitive::TriangleList, vertices: quad_fans, smooth: quad },
@@ -153,42 +152,27 @@ impl Display {
     }
 }
 
-/// Builder of the vertices of patches.
-struct VertexBuilder<'a> {
-    patches: &'a Patches,
-    camera: &'a Camera,
-    corner_sets: &'a CornerSets,
-    resampler: &'a Resampler,
-}
-
-impl VertexBuilder<'_> {
-    /// Returns the vertices of all patches in the picture: of quadrilaterals, of their fans, of triangles and their
-    /// fans.
-    fn vertices(&self) -> [Vec<Vertex>; 3] {
-        let list = self.patches.list();
-        let within = list.first().map_or(DVec3::ZERO, |patch| patch.corners()[0]);
-        let projection = Projection::of(self.camera, within, self.patches.extent());
-        let mut vertices = [const { Vec::new() }; 3];
-        for (i, (patch, fan)) in list.iter().zip(fans::fans(self.patches)).enumerate() {
-            if let Some(side) = projection.side(patch).filter(|_| !projection.misses(patch)) {
-                let code = side.code(i);
-                let dressed = |(point, at)| self.dressed(projection.vertex(point, at, side), i, code);
-                let into = &mut vertices[if patch.corners().len() == 3 { 2 } else { usize::from(fan.is_some()) }];
-                match fan {
-                    Some(triangles) => into.extend(triangles.into_iter().flatten().map(dressed)),
-                    None => into.extend(patch.corners().iter().copied().zip(in_patch(patch)).map(dressed)),
-                }
-            }
+/// Returns the vertices of all patches in the picture: of quadrilaterals, of their fans, of triangles and their fans.
+/// Each has the texels of its patch and of its corners.
+fn vertices(patches: &Patches, camera: &Camera, corner_sets: &CornerSets, resampler: &Resampler) -> [Vec<Vertex>; 3] {
+    let list = patches.list();
+    let within = list.first().map_or(DVec3::ZERO, |patch| patch.corners()[0]);
+    let projection = Projection::of(camera, within, patches.extent());
+    let mut vertices = [const { Vec::new() }; 3];
+    for (i, (patch, fan)) in list.iter().zip(fans::fans(patches)).enumerate() {
+        let Some(is_front) = projection.sees_front(patch).filter(|_| !projection.misses(patch)) else { continue };
+        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = corner_sets.of[i].map(|set| resampler.texel(set));
+        let texels = [[ax, ay, bx, by], [cx, cy, dx, dy], [i as f64 + 0.5, 0.5, code(i, is_front), 0.0]].map(bits);
+        let dressed = |(point, at)| {
+            let mut vertex = projection.vertex(point, at, is_front);
+            vertex.texcoords[1..4].copy_from_slice(&texels);
+            vertex
+        };
+        let into = &mut vertices[if patch.corners().len() == 3 { 2 } else { usize::from(fan.is_some()) }];
+        match fan {
+            Some(triangles) => into.extend(triangles.into_iter().flatten().map(dressed)),
+            None => into.extend(patch.corners().iter().copied().zip(in_patch(patch)).map(dressed)),
         }
-        vertices
     }
-
-    /// Adds the texels of a patch and of its corners to a vertex.
-    fn dressed(&self, mut vertex: Vertex, patch: usize, code: f64) -> Vertex {
-        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.corner_sets.of[patch].map(|set| self.resampler.texel(set));
-        vertex.texcoords[1] = bits([ax, ay, bx, by]);
-        vertex.texcoords[2] = bits([cx, cy, dx, dy]);
-        vertex.texcoords[3] = bits([patch as f64 + 0.5, 0.5, code, 0.0]);
-        vertex
-    }
+    vertices
 }

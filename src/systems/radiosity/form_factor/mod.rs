@@ -8,16 +8,14 @@
 
 mod closure;
 mod contour;
-mod error;
 mod exchange;
 mod polygon;
 pub mod rectangles;
 mod rows;
 mod visibility;
 
-use crate::error::{InputError, ensure};
+use crate::error::{InputError, ensure, input_error};
 use crate::linalg::Matrix;
-use crate::radiosity::form_factor::error::value_error;
 
 pub use closure::RowSums;
 pub(super) use polygon::clipped;
@@ -46,11 +44,15 @@ impl FormFactors {
         ensure!(areas.len() == rows, "radiosity::form_factors" =>
             "expected {rows} areas, one per row, found {}", areas.len());
         for (patch, (&area, row)) in areas.iter().zip(matrix.rows()).enumerate() {
+            let wrong = |expected: &str, value: f64| {
+                Err(input_error!("radiosity::form_factors" =>
+                    "expected {expected}, found {value} for patch {patch} (counted from 0)"))
+            };
             if !(area > 0.0 && area.is_finite()) {
-                return Err(value_error("an area above 0", area, patch));
+                return wrong("an area above 0", area);
             }
             if let Some(&value) = row.iter().find(|&&f| !(f >= 0.0 && f.is_finite())) {
-                return Err(value_error("form factors of at least 0", value, patch));
+                return wrong("form factors of at least 0", value);
             }
         }
         Ok(Self { areas, matrix })

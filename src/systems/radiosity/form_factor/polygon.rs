@@ -45,37 +45,3 @@ pub(in crate::radiosity) fn clipped(corners: &[DVec3], height: impl Fn(DVec3) ->
     }
     kept
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_abs_diff_eq;
-
-    /// Faces the point from above: counter-clockwise seen from below.
-    const LID: [DVec3; 4] = [
-        DVec3::new(-1.0, -1.0, 1.0),
-        DVec3::new(-1.0, 1.0, 1.0),
-        DVec3::new(1.0, 1.0, 1.0),
-        DVec3::new(1.0, -1.0, 1.0),
-    ];
-
-    #[test]
-    fn a_square_above_its_middle_has_the_textbook_factor() {
-        // Four corner rectangles of sides 1 and 1 at height 1: each 1 / (pi sqrt 2) atan(1 / sqrt 2).
-        let corner = atan2(1.0, 2.0_f64.sqrt()) / (PI * 2.0_f64.sqrt());
-        let found = point_to_polygon(DVec3::ZERO, DVec3::Z, &LID);
-        assert_abs_diff_eq!(found, 4.0 * corner, epsilon = 1e-15);
-        let mut back = LID;
-        back.reverse();
-        assert_eq!(point_to_polygon(DVec3::ZERO, DVec3::Z, &back), 0.0, "its back is black");
-        assert_eq!(point_to_polygon(DVec3::ZERO, DVec3::NEG_Z, &LID), 0.0, "behind the horizon");
-    }
-
-    #[test]
-    fn the_horizon_cuts_what_straddles_it() {
-        let half = point_to_polygon(DVec3::ZERO, DVec3::X, &LID);
-        let front = LID.map(|corner| corner.with_x(corner.x.max(0.0)));
-        assert_eq!(half, point_to_polygon(DVec3::ZERO, DVec3::X, &front));
-        assert!(half > 0.0);
-    }
-}

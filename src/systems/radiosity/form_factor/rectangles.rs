@@ -70,19 +70,3 @@ fn corner_sum(
     let unit = 0.5 * f64::EPSILON;
     Bounded { value: sum / (2.0 * PI * area), error: ROUNDINGS * unit * size / (2.0 * PI * area) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_abs_diff_eq;
-
-    const SIDE: Interval = [0.0, 1.0];
-
-    #[test]
-    fn the_unit_cube() {
-        let (lid, wall) = (parallel([SIDE; 2], [SIDE; 2], 1.0), perpendicular([SIDE; 2], [SIDE; 2]));
-        assert_abs_diff_eq!(lid.value, 0.199_824_895_698_387, epsilon = 1e-15);
-        assert_abs_diff_eq!(wall.value, 0.200_043_776_075_403, epsilon = 1e-15);
-        assert!((lid.value + 4.0 * wall.value - 1.0).abs() <= lid.error + 4.0 * wall.error, "{lid:?} {wall:?}");
-    }
-}

@@ -7,15 +7,14 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::exchange::kernel;
-use crate::error::InputError;
+use crate::error::{InputError, ensure};
 use crate::geom::random::CounterRng;
 use crate::geom::vector::narrow;
 use crate::geom::{Hit, Ray};
 use crate::linalg::Matrix;
 use crate::radiosity::Patches;
-use crate::radiosity::form_factor::error::{cast_error, no_samples_error};
-use crate::tracer::Caster;
 use crate::tracer::offset::scene_clearance;
+use crate::tracer::{CastError, Caster};
 
 /// Parameters of the visibility estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +42,16 @@ struct VisibilitySample {
     arrives: f32,
 }
 
+fn require_samples(parameters: VisibilityParameters) -> Result<(), InputError> {
+    ensure!(parameters.side > 0, "radiosity::form_factors" =>
+        "expected 1 sample or more along a side of a patch, found 0");
+    Ok(())
+}
+
+fn cast_error(error: CastError) -> InputError {
+    InputError::of("radiosity::form_factors", error)
+}
+
 /// Multiplies the factors above the diagonal by the visible fraction.
 pub(super) fn hide(
     patches: &Patches,
@@ -51,9 +60,7 @@ pub(super) fn hide(
     parameters: VisibilityParameters,
     done: &mut dyn FnMut(usize, usize),
 ) -> Result<(), InputError> {
-    if parameters.side == 0 {
-        return Err(no_samples_error());
-    }
+    require_samples(parameters)?;
     let pairs: Vec<[u32; 2]> = factors
         .rows()
         .enumerate()
@@ -137,9 +144,7 @@ pub(in crate::radiosity) fn point_share(
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
 ) -> Result<Vec<f64>, InputError> {
-    if parameters.side == 0 {
-        return Err(no_samples_error());
-    }
+    require_samples(parameters)?;
     let (side, lift) = (u64::from(parameters.side), scene_clearance(patches.extent()));
     let (random, start) = (CounterRng::new(parameters.seed), point + lift * normal);
     let count = side.saturating_mul(side);

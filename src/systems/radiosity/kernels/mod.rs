@@ -38,34 +38,3 @@ pub fn of(packing: Packing, half: bool) -> [KernelText; 2] {
         (Packing::Luminance, true) => [LUMINANCE_FIRST_HALF, LUMINANCE_NEXT_HALF],
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::radiosity::model::{BLOCK, MAX_INSTRUCTIONS};
-
-    #[test]
-    fn a_block_of_the_paper_is_the_longest_that_fits() {
-        let most = MAX_INSTRUCTIONS as usize;
-        for kernel in BLOCKS {
-            let [rest, each] = [kernel.overhead(), kernel.per_texel()];
-            let block = kernel.block(most);
-            let expected = if each == 4 { BLOCK as usize } else { 204 };
-            assert!(rest >= 3 && block >= expected, "{}: {rest} and {each}", kernel.name);
-        }
-        for packing in [Packing::Rgb, Packing::Luminance] {
-            let least = of(packing, false).map(|kernel| kernel.block(most)).into_iter().min();
-            assert_eq!(least, Some(BLOCK as usize));
-        }
-    }
-
-    #[test]
-    fn files_are_programs_for_one_texel() {
-        for kernel in BLOCKS {
-            let stripped = |text: &str| -> Vec<String> {
-                text.lines().filter(|line| line.ends_with(';')).map(str::to_owned).collect()
-            };
-            assert_eq!(stripped(&kernel.unrolled(1)), stripped(kernel.text), "{}", kernel.name);
-        }
-    }
-}

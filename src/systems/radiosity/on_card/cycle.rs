@@ -56,11 +56,7 @@ fn digest(state: &Radiosities) -> u64 {
 impl CardSolver {
     /// Iterates from `start`, which is on the card, at most `most` times until it repeats. `None` if it does not
     /// repeat; the card then holds `start` again.
-    pub(super) fn around(
-        &mut self,
-        start: &Radiosities,
-        [entered, most]: [u32; 2],
-    ) -> Result<Option<Cycle>, CardError> {
+    pub(super) fn around(&mut self, start: &Radiosities, entered: u32, most: u32) -> Result<Option<Cycle>, CardError> {
         let mut cycle = Cycle { entered, period: 0, changing: 0, largest_change: 0.0 };
         let mut last = start.to_vec();
         while cycle.period < most {

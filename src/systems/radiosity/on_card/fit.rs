@@ -5,9 +5,10 @@ use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use crate::card::CardError;
+use crate::error::InputError;
 use crate::radiosity::card_order::CardSystem;
 use crate::radiosity::kernels;
-use crate::radiosity::packing::{Packing, TooLarge};
+use crate::radiosity::packing::{self, Packing};
 use crate::radiosity::{System, model};
 
 /// Maximum texels per side where a device states no limit: the largest image.
@@ -59,11 +60,11 @@ impl Fit {
     /// # Errors
     /// [`CardError::Input`].
     pub fn require(self, profile: &Profile, packing: Packing, patches: usize) -> Result<(), CardError> {
-        let [width, height] = packing.matrix_texels(patches);
-        if width.max(height) <= self.limit {
+        let size = packing.matrix_texels(patches);
+        if size[0].max(size[1]) <= self.limit {
             return Ok(());
         }
-        Err(too_large(profile, TooLarge { what: "a matrix", limit: self.limit, width, height }))
+        Err(too_large(profile, packing::too_large("a matrix", self.limit, size)))
     }
 
     /// Lays out a system for the device: one system of three channels, or three of one.
@@ -95,7 +96,7 @@ pub(super) fn limits(profile: &Profile) -> Result<(usize, usize), CardError> {
     Ok((instructions, sides.min().map_or(MAX_TEXELS, |side| side as usize)))
 }
 
-pub(super) fn too_large(profile: &Profile, problem: TooLarge) -> CardError {
+pub(super) fn too_large(profile: &Profile, problem: InputError) -> CardError {
     CardError::input(format!("device `{}`: {problem}", profile.name))
 }
 

@@ -28,11 +28,6 @@ impl SystemLayout {
         let (packing, size, block) = (system.packing(), system.len(), system.block());
         Self { packing, size, block, width: matrix.width, rows: matrix.height }
     }
-
-    /// Checks that a texture is one of this system's vectors.
-    pub(super) fn check_vector(&self, texels: &Texels) -> Result<(), CardError> {
-        CardError::check_size("texels, as the card has", self.width, texels.texels.len())
-    }
 }
 
 /// A system's textures. A pass reads the radiosities and the partial sums of the pass before, and writes the next
@@ -61,22 +56,20 @@ impl Layer {
     }
 
     pub(super) fn set_matrix(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        CardError::check_size("texels, as the card has", self.layout.width * self.layout.rows, texels.texels.len())?;
-        self.update(machine, self.matrix, texels)
+        self.update(machine, self.matrix, self.layout.rows, texels)
     }
 
     pub(super) fn set_emittance(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.layout.check_vector(texels)?;
-        self.update(machine, self.emittance, texels)
+        self.update(machine, self.emittance, 1, texels)
     }
 
     pub(super) fn load(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.layout.check_vector(texels)?;
-        self.update(machine, self.radiosity, texels)
+        self.update(machine, self.radiosity, 1, texels)
     }
 
-    fn update(&self, machine: &mut Machine, texture: TextureId, texels: &Texels) -> Result<(), CardError> {
-        Ok(texels.update(machine, texture, self.storage.format())?)
+    fn update(&self, machine: &mut Machine, into: TextureId, rows: usize, texels: &Texels) -> Result<(), CardError> {
+        CardError::check_size("texels, as the card has", self.layout.width * rows, texels.texels.len())?;
+        Ok(texels.update(machine, into, self.storage.format())?)
     }
 
     /// Texture that a pass draws into.

@@ -124,7 +124,7 @@ impl CardSolver {
     /// # Errors
     /// [`CardError::Draw`].
     pub fn iterate(&mut self) -> Result<(), CardError> {
-        self.iterate_watched(&mut |_, _, _| Ok(()))
+        self.iterate_watched(&mut |_, _, _, _| Ok(()))
     }
 
     /// Runs one iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
@@ -132,7 +132,7 @@ impl CardSolver {
     /// # Errors
     /// [`CardError::Draw`].
     pub fn iterate_by_pass(&mut self, each: &mut dyn FnMut(usize, usize, Texels)) -> Result<(), CardError> {
-        self.iterate_watched(&mut |machine, (place, layer), pass| {
+        self.iterate_watched(&mut |machine, place, layer, pass| {
             each(place, pass, Texels::read_back(machine, layer.target(pass))?);
             Ok(())
         })
@@ -143,7 +143,7 @@ impl CardSolver {
         for (place, layer) in self.layers.iter_mut().enumerate() {
             for pass in 0..passes {
                 layer.pass(&mut self.machine, &self.programs, pass)?;
-                after(&self.machine, (place, layer), pass)?;
+                after(&self.machine, place, layer, pass)?;
             }
             layer.turn(passes);
         }
@@ -197,17 +197,8 @@ impl CardSolver {
                 .map(|c| Texels::vector((0..self.layout.width).map(|x| texel(c, x)).collect()))
                 .collect(),
         };
-        self.load_texels(&layouts)
-    }
-
-    /// Replaces the radiosities, in the layout of the textures, one per system.
-    ///
-    /// # Errors
-    /// [`CardError::Input`].
-    pub fn load_texels(&mut self, radiosity: &[Texels]) -> Result<(), CardError> {
-        CardError::check_size("vectors, one a system on the card", self.layers.len(), radiosity.len())?;
         let machine = &mut self.machine;
-        self.layers.iter().zip(radiosity).try_for_each(|(layer, texels)| layer.load(machine, texels))
+        self.layers.iter().zip(&layouts).try_for_each(|(layer, texels)| layer.load(machine, texels))
     }
 
     /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card. Radiosities are
@@ -260,5 +251,5 @@ impl CardSolver {
     }
 }
 
-/// Called after a pass with the card, the system and the pass.
-type PassObserver<'a> = dyn FnMut(&Machine, (usize, &Layer), usize) -> Result<(), CardError> + 'a;
+/// Called after a pass with the card, the system and its number, and the pass.
+type PassObserver<'a> = dyn FnMut(&Machine, usize, &Layer, usize) -> Result<(), CardError> + 'a;

@@ -13,8 +13,7 @@ use super::PassProgram;
 use super::fit::{limits, too_large};
 use super::programs::Programs;
 use crate::card::{CardError, FullScreenPass, PingPong, Texels, nearest};
-use crate::radiosity::kernels;
-use crate::radiosity::packing::TooLarge;
+use crate::radiosity::{kernels, packing};
 
 /// The largest block on a device, in texels: the steps of a pass.
 ///
@@ -46,7 +45,7 @@ pub fn product(
         CardError::check_size("rows, as the left matrix has columns", size, texels.height)?;
     }
     if size > limit {
-        return Err(too_large(&profile, TooLarge { what: "a matrix", limit, width: size, height: size }));
+        return Err(too_large(&profile, packing::too_large("a matrix", limit, [size; 2])));
     }
     let programs = Programs::new(&profile, [kernels::PRODUCT_FIRST, kernels::PRODUCT_NEXT], size, block)?;
     let mut machine = executor.into().machine(profile)?;

@@ -86,7 +86,7 @@ impl CardSolver {
             let converged = channels.iter().all(|&c| residual[c] <= target[c]);
             // A repeated digest may be a collision: only states that repeat bit for bit are a cycle.
             let cycle = match seen.note(&radiosity, number) {
-                Some(first) if !converged => self.around(&radiosity, [first, number - first])?,
+                Some(first) if !converged => self.around(&radiosity, first, number - first)?,
                 _ => None,
             };
             if converged || cycle.is_some() || number >= options.most_iterations {

@@ -46,17 +46,3 @@ impl EngineCounts {
         self.pass_rays as f64 / (self.pass_rays + self.forced_rays).max(1) as f64
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_two_readings_of_table_2() {
-        // Three of four rays met the card, in six visits; two visits ended on the host.
-        let counts = EngineCounts { rays: 4, rays_on_card: 3, pass_rays: 6, forced_rays: 2, ..EngineCounts::default() };
-        assert_eq!((counts.share_on_card(), counts.share_of_visits_on_card()), (0.75, 0.75));
-        assert_eq!(EngineCounts { forced_rays: 6, ..counts }.share_of_visits_on_card(), 0.5);
-        assert_eq!(EngineCounts::default().share_of_visits_on_card(), 0.0, "no visits at all");
-    }
-}

@@ -16,21 +16,3 @@ pub(super) fn order(count: usize, shuffled: Option<(u64, u64)>) -> Vec<usize> {
     }
     places
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shuffled_rays_are_all_there_and_elsewhere() {
-        assert_eq!(order(5, None), [0, 1, 2, 3, 4]);
-        let mut shuffled = order(1000, Some((7, 0)));
-        assert_eq!(shuffled, order(1000, Some((7, 0))));
-        assert_ne!(shuffled, order(1000, Some((8, 0))));
-        assert_ne!(shuffled, order(1000, Some((7, 1000))));
-        let moved = shuffled.iter().enumerate().filter(|(i, place)| i != *place).count();
-        assert!(moved > 950, "{moved} moved");
-        shuffled.sort_unstable();
-        assert_eq!(shuffled, order(1000, None));
-    }
-}

@@ -42,7 +42,7 @@ pub(super) struct Passes {
 impl Passes {
     /// Wraps a card; sets of textures and targets are created when a pass finds none free.
     pub(super) fn new(mut card: PassCard, readback: Readback, record: bool) -> Self {
-        card.record(record && readback != Readback::InfinitelyFast);
+        card.machine.record(record && readback != Readback::InfinitelyFast);
         Self { card, readback, flying: VecDeque::new(), free: VecDeque::new(), sheets: 0 }
     }
 
@@ -89,7 +89,7 @@ impl Passes {
     pub(super) fn take(&mut self) -> Option<PassInFlight> {
         let pass = self.flying.pop_front()?;
         if let Some(fence) = pass.fence {
-            self.card.finish(fence);
+            self.card.machine.finish_fence(fence);
         }
         self.free.push_back(pass.sheet);
         Some(pass)
@@ -97,6 +97,6 @@ impl Passes {
 
     /// Takes the log of the card since the last call.
     pub(super) fn take_log(&mut self) -> Vec<Event> {
-        self.card.take_log()
+        self.card.machine.take_log()
     }
 }

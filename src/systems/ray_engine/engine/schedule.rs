@@ -26,7 +26,7 @@ impl RayEngine<'_> {
 
     /// Removes a bucket from the tree and starts its rays through the octree.
     pub(super) fn release_bucket(&mut self) -> Result<(), EngineError> {
-        let bucket = self.tree.take().rays;
+        let bucket = self.tree.take();
         if self.parameters.beams && self.misses_all(&bucket) {
             self.counts.beam_rays += bucket.len() as u64;
             bucket.into_iter().for_each(|flight| self.answer(flight));

@@ -31,18 +31,3 @@ impl Key {
         (face, Self { origin: ray.origin(), direction: [d[u] / length, d[v] / length] })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn directions_go_to_their_faces() {
-        let face = |d| Key::of(&Ray::new([0.0; 3], d).expect("a ray"));
-        assert_eq!(face([2.0, 1.0, -1.0]).0, 0);
-        assert_eq!(face([2.0, 1.0, -1.0]).1.direction, [0.5, -0.5]);
-        assert_eq!(face([0.0, -3.0, 1.0]).0, 3);
-        assert_eq!(face([-0.0, 0.0, -1e-40]).0, 5);
-        assert_eq!(face([1.0, 1.0, 1.0]).0, 0, "the first of equals");
-    }
-}

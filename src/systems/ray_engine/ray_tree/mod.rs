@@ -13,8 +13,6 @@ use crate::geom::Ray;
 use key::{Key, RayTreeEntry};
 use split::Split;
 
-pub use take::CoherentBatch;
-
 /// Parameters of a ray tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RayTreeParameters {

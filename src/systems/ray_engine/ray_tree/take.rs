@@ -2,24 +2,13 @@
 
 use super::{RayTree, RayTreeContent, RayTreeEntry, RayTreeNode, key};
 
-/// Batch of rays that go to the card together.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct CoherentBatch {
-    /// Numbers of the rays, those of the bucket first; at most one bucket full.
-    pub rays: Vec<u32>,
-    /// Number of rays from the bucket itself.
-    pub own: usize,
-    /// Levels of inner nodes above the bucket that were merged into a bucket.
-    pub levels_merged: usize,
-}
-
 impl RayTree {
-    /// Takes a batch out: at most one bucket full, empty if the tree is empty. The search descends to the child with
-    /// the most rays below it, so that it need not find the fullest bucket of all.
-    pub fn take(&mut self) -> CoherentBatch {
+    /// Takes a batch of rays out, which go to the card together: at most one bucket full, empty if the tree is empty.
+    /// The search descends to the child with the most rays below it, so that it need not find the fullest bucket of all.
+    pub fn take(&mut self) -> Vec<u32> {
         let root = self.fullest(0..key::FACES as u32);
         if self.nodes[root as usize].count == 0 {
-            return CoherentBatch::default();
+            return Vec::new();
         }
         let bucket = self.descend(root);
         let size = self.parameters.bucket;
@@ -39,7 +28,7 @@ impl RayTree {
         self.counts.stolen += (rays.len() - own) as u64;
         self.counts.levels_merged += levels_merged as u64;
         self.counts.merges += u64::from(levels_merged > 0);
-        CoherentBatch { rays: rays.into_iter().map(|entry| entry.ray).collect(), own, levels_merged }
+        rays.into_iter().map(|entry| entry.ray).collect()
     }
 
     /// Returns the node with the most rays below it, the first of equals.

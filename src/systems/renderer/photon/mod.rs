@@ -88,7 +88,7 @@ pub fn render<'a>(
     let caustic = PhotonMap::new(emission(photons.caustic, true).landed(&mut tracer)?);
     let fan = 2 + photons.gather as usize + lights.points();
     let shader = Gathering { settings, photons, global: &global, caustic: &caustic, lights: &lights };
-    expose(&mut tracer, (scene, camera), settings, fan, &shader)
+    expose(&mut tracer, scene, camera, settings, fan, &shader)
 }
 
 struct Gathering<'a> {

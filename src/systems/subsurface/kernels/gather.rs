@@ -96,7 +96,7 @@ impl GatherKernel {
         let mut writer = Writer { kernel: *self, text: "!!FP1.0\n".to_owned(), textures: 0, first };
         let _ = writeln!(writer.text, "# {}: {links} links", self.name());
         if self.continues {
-            writer.read(SUM, ("f[TEX0]", 1));
+            writer.read(SUM, "f[TEX0]", 1);
         }
         match self.layout {
             LinkLayout::Fixed => (0..links).step_by(4).for_each(|from| writer.fixed(from, links)),
@@ -170,7 +170,7 @@ impl Writer {
     }
 
     /// Reads a texture that has a texel for each of the target's.
-    fn read(&mut self, into: usize, (at, unit): (&str, usize)) {
+    fn read(&mut self, into: usize, at: &str, unit: usize) {
         let _ = writeln!(self.text, "TEX {}, {at}, TEX{unit}, RECT;", self.register(into));
     }
 
@@ -179,10 +179,10 @@ impl Writer {
         let in_one = self.kernel.tiles * self.kernel.tiles;
         let unit = 1 + usize::from(self.kernel.continues) + self.textures / in_one;
         match self.textures % in_one {
-            0 => self.read(into, ("f[TEX0]", unit)),
+            0 => self.read(into, "f[TEX0]", unit),
             tile => {
                 let _ = writeln!(self.text, "ADDR {PLACE}, f[TEX0], p[{}];", self.first + tile - 1);
-                self.read(into, (PLACE, unit));
+                self.read(into, PLACE, unit);
             }
         }
         self.textures += 1;

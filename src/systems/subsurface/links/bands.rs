@@ -69,13 +69,17 @@ impl LinkBands {
         let rows = range.len() * Self::rows(side);
         let links = rows * side as usize * per_texel;
         let mut bands = Self { clusters: Vec::new(), factors: vec![0.0; links * N] };
-        let progress = Progress { band: Self::rows(side), rows, done, count: AtomicUsize::new(0) };
+        let count_of_rows = AtomicUsize::new(0);
+        let band_done = || {
+            let before = count_of_rows.fetch_add(Self::rows(side), Ordering::Relaxed);
+            done(before + Self::rows(side), rows);
+        };
         match choice {
-            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level, range.start, &progress),
+            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level, range.start, &band_done),
             LinkChoice::Adaptive { count } => {
                 // A link that is not used has the factor 0; it points to the root.
                 bands.clusters = vec![PackedCluster::new(root(factors.surface())); links];
-                bands.fill_adaptive(factors, [per_texel, count], range.start, &progress);
+                bands.fill_adaptive(factors, per_texel, count, range.start, &band_done);
             }
         }
         Ok(bands)
@@ -86,7 +90,7 @@ impl LinkBands {
         factors: &Factors<'_, N>,
         level: u32,
         first: usize,
-        progress: &Progress<'_>,
+        band_done: &(dyn Fn() + Sync),
     ) {
         let side = factors.surface().side();
         let ids: Vec<ClusterId> = fixed_clusters(side, level).collect();
@@ -102,16 +106,17 @@ impl LinkBands {
                     }
                 });
             }
-            progress.band_done();
+            band_done();
         });
     }
 
     fn fill_adaptive<const N: usize>(
         &mut self,
         factors: &Factors<'_, N>,
-        [per_texel, count]: [usize; 2],
+        per_texel: usize,
+        count: usize,
         first: usize,
-        progress: &Progress<'_>,
+        band_done: &(dyn Fn() + Sync),
     ) {
         let (side, root) = (factors.surface().side(), root(factors.surface()));
         let bands = self.clusters.par_chunks_mut(BAND * side as usize * per_texel);
@@ -130,7 +135,7 @@ impl LinkBands {
                     }
                 });
             }
-            progress.band_done();
+            band_done();
         });
     }
 
@@ -199,20 +204,4 @@ fn squares(side: u32, band: usize) -> impl Iterator<Item = ClusterId> {
 /// Where a texel stands in its band.
 fn place_in_band(side: u32, (x, y): (u32, u32)) -> usize {
     ((y % BAND as u32) * side + x) as usize
-}
-
-/// Counts rows of texels.
-struct Progress<'a> {
-    /// Rows of a band, and of all bands.
-    band: usize,
-    rows: usize,
-    done: &'a (dyn Fn(usize, usize) + Sync),
-    count: AtomicUsize,
-}
-
-impl Progress<'_> {
-    fn band_done(&self) {
-        let before = self.count.fetch_add(self.band, Ordering::Relaxed);
-        (self.done)(before + self.band, self.rows);
-    }
 }

@@ -67,11 +67,6 @@ impl<'a> EncodedLinks<'a> {
         Self { links, surface, weighting }
     }
 
-    /// Places of fixed links, which are constants of the program; none of adaptive ones. As many as links.
-    pub fn places(&self) -> Vec<LinkPlace> {
-        self.links.fixed_clusters().into_iter().map(|cluster| LinkPlace::new(self.links.side(), cluster)).collect()
-    }
-
     /// The number of textures.
     pub fn texture_count(&self) -> usize {
         let channels = self.links.channels();

@@ -115,7 +115,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         if level == 0 {
             for &node in pending {
                 let sum = self.gather_to_texel(place, node);
-                self.add_to_ancestors(node, |node, stamp| node.own.gather(stamp, &sum, add), self.stamp);
+                self.add_to_ancestors(node, |node, stamp| node.own.gather(stamp, &sum, add));
             }
             each(&mut TexelFactors { block: self, texel: place });
             for node in std::mem::take(&mut self.divided) {
@@ -127,7 +127,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
                 let sum = self.gather_to_square(level, place, node, &mut near);
                 let add =
                     |node: &mut Node<N>, stamp| node.shared[level as usize - 1].gather(stamp, &sum, Expansion::add);
-                self.add_to_ancestors(node, add, self.stamp);
+                self.add_to_ancestors(node, add);
             }
             for quarter in 4 * place..4 * place + 4 {
                 self.enter(level - 1, quarter, &near, each);
@@ -139,11 +139,11 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         }
     }
 
-    fn add_to_ancestors(&mut self, node: u32, add: impl Fn(&mut Node<N>, u64), stamp: u64) {
+    fn add_to_ancestors(&mut self, node: u32, add: impl Fn(&mut Node<N>, u64)) {
         let mut at = self.nodes[node as usize].parent;
         while at != NONE {
             let ancestor = &mut self.nodes[at as usize];
-            add(ancestor, stamp);
+            add(ancestor, self.stamp);
             at = ancestor.parent;
         }
     }

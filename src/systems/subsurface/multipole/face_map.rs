@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::clip::clip;
 use super::moments::{Covariance, Moments, size_squared};
 use crate::atlas::FacePlace;
 
@@ -99,6 +98,21 @@ impl FaceMap {
     }
 }
 
+/// The part of a convex polygon where a linear function is not negative.
+fn clip(outline: &[DVec3], function: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
+    let mut part = Vec::with_capacity(outline.len() + 1);
+    for (&a, &b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+        let [at_a, at_b] = [a, b].map(&function);
+        if at_a >= 0.0 {
+            part.push(a);
+        }
+        if (at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0) {
+            part.push(a + at_a / (at_a - at_b) * (b - a));
+        }
+    }
+    part
+}
+
 /// The corners of a window, and where the diagonal enters and leaves it.
 fn corners(Window { s: [s0, s1], t: [t0, t1] }: Window) -> [[f64; 2]; 6] {
     let (enter, leave) = (s0.max(t0), s1.min(t1));
@@ -130,91 +144,6 @@ impl WindowMoments {
             mm: var_s + 2.0 * s_d + var_d,
             mn: s_d + t_d + var_d,
             nn: var_t + 2.0 * t_d + var_d,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    fn place(width: u32, height: u32) -> FacePlace {
-        FacePlace { x: 4, y: 8, width, height, first: 1, transposed: false }
-    }
-
-    fn map(width: u32, height: u32, transposed: bool) -> FaceMap {
-        let corners = [DVec3::new(1.0, 2.0, 0.5), DVec3::new(4.0, 1.0, 0.0), DVec3::new(2.0, 5.0, 3.0)];
-        FaceMap::new(corners, FacePlace { transposed, ..place(width, height) })
-    }
-
-    /// Means over a fine grid of points of the window.
-    fn sampled(map: &FaceMap, window: Window) -> (DVec3, f64, f64) {
-        let count = 400;
-        let mut points = Vec::new();
-        for j in 0..count {
-            for i in 0..count {
-                let [u, v] = [i, j].map(|k| (f64::from(k) + 0.5) / f64::from(count));
-                let s = window.s[0] + u * (window.s[1] - window.s[0]);
-                let t = window.t[0] + v * (window.t[1] - window.t[0]);
-                points.push(map.origin + s.max(t) * map.e + t.max(2.0 * t - s) * map.f);
-            }
-        }
-        let mean = points.iter().sum::<DVec3>() / points.len() as f64;
-        let along = |v: DVec3| points.iter().map(|p| (*p - mean).dot(v)).map(|d| d * d).sum::<f64>();
-        let n = points.len() as f64;
-        (mean, along(DVec3::new(1.0, 2.0, -1.0)) / n, along(DVec3::X) / n)
-    }
-
-    #[test]
-    fn moments_are_those_of_the_points_under_a_texel() {
-        for (width, height, transposed) in [(1, 1, false), (3, 2, false), (2, 4, true), (4, 4, false), (5, 3, true)] {
-            let map = map(width, height, transposed);
-            for y in 0..height {
-                for x in 0..width {
-                    let window = map.window(4 + x, 8 + y);
-                    let moments = map.moments(window, 1.0);
-                    let (mean, along, x_variance) = sampled(&map, window);
-                    assert!((moments.point - mean).length() < 1e-4, "{moments:?} {mean}");
-                    let found = moments.covariance.along(DVec3::new(1.0, 2.0, -1.0));
-                    assert_relative_eq!(found, along, max_relative = 1e-3);
-                    assert_relative_eq!(moments.covariance.along(DVec3::X), x_variance, max_relative = 1e-3);
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_face_of_one_texel_has_the_moments_of_a_triangle() {
-        let map = map(1, 1, false);
-        let moments = map.moments(map.window(4, 8), 1.0);
-        let corners = [DVec3::new(1.0, 2.0, 0.5), DVec3::new(4.0, 1.0, 0.0), DVec3::new(2.0, 5.0, 3.0)];
-        let centroid = corners.iter().sum::<DVec3>() / 3.0;
-        assert!((moments.point - centroid).length() < 1e-14);
-        let expected = Covariance::of(corners.map(|corner| (1.0 / 12.0, corner - centroid)));
-        assert_relative_eq!(moments.covariance.trace(), expected.trace(), max_relative = 1e-13);
-        assert_relative_eq!(
-            moments.covariance.along(DVec3::new(1.0, -2.0, 0.7)),
-            expected.along(DVec3::new(1.0, -2.0, 0.7)),
-            max_relative = 1e-13
-        );
-        let farthest = corners.iter().map(|corner| (*corner - centroid).length_squared()).fold(0.0, f64::max);
-        assert_relative_eq!(moments.size_squared, size_squared(&moments.covariance, farthest), max_relative = 1e-13);
-    }
-
-    #[test]
-    fn quarters_together_are_the_window() {
-        for (width, height) in [(1, 1), (2, 2), (3, 5)] {
-            let map = map(width, height, true);
-            for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (4 + x, 8 + y))) {
-                let window = map.window(x, y);
-                let whole = map.moments(window, 1.0);
-                let together = Moments::together(&window.quarters().map(|quarter| map.moments(quarter, 0.25)));
-                assert!((whole.point - together.point).length() < 1e-14);
-                for (a, b) in whole.covariance.0.iter().zip(together.covariance.0) {
-                    assert!((a - b).abs() < 1e-14, "{whole:?} {together:?}");
-                }
-            }
         }
     }
 }

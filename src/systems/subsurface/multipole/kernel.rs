@@ -39,7 +39,7 @@ pub(super) const FLOOR: f64 = 1e-5;
 /// R_d of N channels on intervals of the squared distance.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceTable<const N: usize> {
-    dipoles: [Dipole; N],
+    pub(super) dipoles: [Dipole; N],
     /// The least depth of a source, squared, and its reciprocal.
     unit: f64,
     per_unit: f64,
@@ -48,9 +48,9 @@ pub(super) struct DistanceTable<const N: usize> {
     intervals: Vec<Interval<N>>,
     /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
-    tolerance: f64,
-    /// Hardly any light leaves farther away than this from where it entered, in mm.
-    layer: f64,
+    pub(super) tolerance: f64,
+    /// The radius around an entering photon that all light leaves within, but for the tolerance and in any channel, in mm.
+    pub(super) layer: f64,
 }
 
 /// One interval of v = 1 + r^2 / unit.
@@ -178,34 +178,37 @@ impl<const N: usize> DistanceTable<N> {
         let (interval, t) = self.find(apart.length_squared());
         let size_squared = one.size_squared + other.size_squared;
         let fits = |channel: usize| size_squared <= interval.reach[channel].max(interval.negligible[channel]);
-        (0..N).all(fits).then(|| {
-            let [across, along] = self.spread(one, other, apart);
-            std::array::from_fn(|channel| {
-                let [value, first, second] = derivatives_at(interval.cubic[channel], t);
-                let is_far = size_squared <= interval.reach[channel];
-                if is_far { value + first * across + second * along } else { value }
-            })
-        })
+        (0..N).all(fits).then(|| self.second_order(one, other, apart, interval, t, 1.0))
     }
 
     /// The same for pieces that are not divided any more; R_d between mean points if they are much too near.
     pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> [f64; N] {
         let apart = other.point - one.point;
         let (interval, t) = self.find(apart.length_squared());
-        let size_squared = one.size_squared + other.size_squared;
-        let [across, along] = self.spread(one, other, apart);
-        std::array::from_fn(|channel| {
-            let [value, first, second] = derivatives_at(interval.cubic[channel], t);
-            let is_far = size_squared <= LOOSE * interval.reach[channel];
-            if is_far { value + first * across + second * along } else { value }
-        })
+        self.second_order(one, other, apart, interval, t, LOOSE)
     }
 
-    /// What the first and second derivatives by v count with in a mean.
+    /// The mean to second order where the sum of the squared sizes is at most the reach times `loose`; R_d between mean
+    /// points elsewhere.
     #[inline]
-    fn spread(&self, one: &Moments, other: &Moments, apart: DVec3) -> [f64; 2] {
+    fn second_order(
+        &self,
+        one: &Moments,
+        other: &Moments,
+        apart: DVec3,
+        interval: &Interval<N>,
+        t: f64,
+        loose: f64,
+    ) -> [f64; N] {
+        let size_squared = one.size_squared + other.size_squared;
         let covariance = one.covariance.plus(&other.covariance);
-        [covariance.trace() * self.per_unit, 2.0 * covariance.along(apart) * self.per_unit * self.per_unit]
+        let across = covariance.trace() * self.per_unit;
+        let along = 2.0 * covariance.along(apart) * self.per_unit * self.per_unit;
+        std::array::from_fn(|channel| {
+            let [value, first, second] = derivatives_at(interval.cubic[channel], t);
+            let is_far = size_squared <= loose * interval.reach[channel];
+            if is_far { value + first * across + second * along } else { value }
+        })
     }
 
     /// Light that receivers in a group of given moments get of a cluster: R_d times its area, by their offset from
@@ -247,19 +250,6 @@ impl<const N: usize> DistanceTable<N> {
     /// The least depth of a source: the shortest mean free path, in mm.
     pub(super) fn depth(&self) -> f64 {
         self.unit.sqrt()
-    }
-
-    pub(super) fn dipoles(&self) -> &[Dipole; N] {
-        &self.dipoles
-    }
-
-    pub(super) fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
-    /// The radius around an entering photon that all light leaves within, but for the tolerance and in any channel, in mm.
-    pub(super) fn layer(&self) -> f64 {
-        self.layer
     }
 
     /// How many times two pieces are to be halved until their parts are far from each other.
@@ -312,53 +302,4 @@ fn derivatives(dipole: &Dipole, unit: f64, v: f64) -> Derivatives {
         sum.fourth += scale * z * psi[5] / 16.0;
     }
     sum
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::subsurface::Coefficients;
-
-    fn dipole(sigma_s_prime: f64, sigma_a: f64) -> Dipole {
-        Dipole::new(Coefficients { sigma_s_prime, sigma_a }, 1.3).expect("a medium")
-    }
-
-    /// R_d at a distance.
-    fn at(kernel: &DistanceTable<1>, r: f64) -> f64 {
-        let (interval, t) = kernel.find(r * r);
-        derivatives_at(interval.cubic[0], t)[0]
-    }
-
-    #[test]
-    fn the_table_keeps_its_bound_and_is_never_below_r_d() {
-        for medium in [dipole(2.21, 0.0012), dipole(0.68, 0.9), dipole(1.0, 0.0), dipole(40.0, 7.0)] {
-            let kernel = DistanceTable::new([medium], 300.0, 1e4, 0.01);
-            let bound = kernel.interpolation_error;
-            assert!(bound > 0.0 && bound <= MAX_INTERPOLATION_ERROR, "{bound}");
-            let mut worst: f64 = 0.0;
-            for k in 0..20_000 {
-                let t = f64::from(k) / 20_000.0;
-                let r = 300.0 * (t * t * t);
-                if medium.sigma_tr() * r > MATTERS {
-                    break;
-                }
-                let (exact, found) = (medium.r_d(r), at(&kernel, r));
-                let error = (found - exact) / exact;
-                assert!(error <= 1e-12 && error >= -bound - 1e-12, "at {r}: {error} against {bound}");
-                worst = worst.max(-error);
-            }
-            assert!(worst > 0.05 * bound, "the bound {bound} is far from {worst}");
-        }
-    }
-
-    #[test]
-    fn extreme_media_have_tables() {
-        for (s, a) in [(1e-30, 0.0), (1e-30, 1e30), (1e30, 0.0), (1e30, 1e30), (1.0, 1e-300)] {
-            let kernel = DistanceTable::new([dipole(s, a)], 1e20, 1e40, 0.01);
-            for r in [0.0, 1e-20, 1.0, 1e20] {
-                let value = at(&kernel, r);
-                assert!(value.is_finite() && value >= 0.0, "{s} {a} {r}: {value}");
-            }
-        }
-    }
 }

@@ -190,9 +190,9 @@ impl<const N: usize> Light<'_, N> {
     fn mean(&self, patch: &TexelPatch) -> [f64; N] {
         let &TexelPatch { corner, e, f, is_triangle, .. } = patch;
         let normal = e.cross(f);
-        let allowed = TOLERANCES.map(|part| part * self.kernel.tolerance());
+        let allowed = TOLERANCES.map(|part| part * self.kernel.tolerance);
         // The middle of a side that is this short has its mean light within a quarter of the tolerance.
-        let is_short = |length: f64| length < self.kernel.depth() * (2.0 * self.kernel.tolerance()).sqrt();
+        let is_short = |length: f64| length < self.kernel.depth() * (2.0 * self.kernel.tolerance).sqrt();
         let sides = || self.part.outlines.iter().flat_map(|outline| &outline.sides);
         let along = |s: f64| {
             let [width, weight] = if is_triangle { [s, 2.0 * s] } else { [1.0, 1.0] };
@@ -224,7 +224,7 @@ impl<const N: usize> Light<'_, N> {
     /// Ends of intervals from 0 to 1, of a length in mm: the places, and where light that leaves there has become
     /// negligible; no two nearer to each other than a mean free path.
     fn ends(&self, places: impl Iterator<Item = f64>, length: f64) -> Vec<f64> {
-        let [layer, path] = [self.kernel.layer(), self.kernel.depth()].map(|distance| distance / length);
+        let [layer, path] = [self.kernel.layer, self.kernel.depth()].map(|distance| distance / length);
         let places = [0.0, 1.0].into_iter().chain(places).flat_map(|at| [at - layer, at, at + layer]);
         let mut inside: Vec<f64> = places.filter(|&at| at > path && at < 1.0 - path).collect();
         inside.sort_by(f64::total_cmp);
@@ -249,7 +249,7 @@ impl<const N: usize> Light<'_, N> {
                 add(&mut errors, &interval.error);
             }
             let allowed: [f64; N] = std::array::from_fn(|channel| {
-                tolerance * sum[channel].abs().max(FLOOR * self.kernel.dipoles()[channel].total())
+                tolerance * sum[channel].abs().max(FLOOR * self.kernel.dipoles[channel].total())
             });
             let excess = |error: &[f64; N]| (0..N).map(|channel| error[channel] / allowed[channel]).fold(0.0, f64::max);
             if excess(&errors) <= 1.0 || intervals.len() >= MAX_INTERVALS {

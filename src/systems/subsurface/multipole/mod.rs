@@ -11,7 +11,6 @@
 //! A factor is an area times a mean of R_d that is symmetric in texel and cluster, so A_i F_ij = A_j F_ji.
 
 mod block;
-mod clip;
 mod expansion;
 mod face_map;
 mod integrate;

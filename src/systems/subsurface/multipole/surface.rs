@@ -95,6 +95,13 @@ impl SurfaceMoments {
         self.level(cluster.level)[to_morton(cluster.x, cluster.y)].area
     }
 
+    /// Mean point, covariance (xx, yy, zz, xy, xz, yz) and squared size of a cluster: what tests hold against its polygons.
+    #[doc(hidden)]
+    pub fn moments(&self, cluster: ClusterId) -> (DVec3, [f64; 6], f64) {
+        let found = &self.level(cluster.level)[to_morton(cluster.x, cluster.y)];
+        (found.point, found.covariance.0, found.size_squared)
+    }
+
     /// The mean texel area of the atlas over that of a cluster: what a factor is multiplied by where plain means of
     /// levels weigh texels by their number. 0 for a cluster without area.
     pub(in crate::subsurface) fn area_ratio(&self, cluster: ClusterId) -> f64 {
@@ -165,18 +172,4 @@ pub(super) fn from_morton(place: usize) -> (u32, u32) {
         (v | (v >> 16)) as u32
     };
     (gather(place as u64), gather(place as u64 >> 1))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn morton_order_keeps_children_together() {
-        for (x, y) in [(0, 0), (1, 0), (0, 1), (5, 9), (1023, 512), (65535, 65534)] {
-            let place = to_morton(x, y);
-            assert_eq!(from_morton(place), (x, y));
-            assert_eq!(to_morton(x / 2, y / 2), place / 4);
-        }
-    }
 }

@@ -9,7 +9,7 @@ use super::levels::LeveledMap;
 use super::link_textures::LinkTextures;
 use super::options::SubsurfaceCardOptions;
 use crate::card::{CardError, FullScreenPass, constants, nearest, new_target};
-use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
+use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture, fragment_room};
 
 /// A program of pass 2, accepted by the device.
 #[derive(Clone, Debug)]
@@ -155,13 +155,11 @@ pub(super) fn programs(
 
 /// The most links of one pass. Fixed ones by fours, which share textures.
 fn most_links(profile: &Profile, kernel: GatherKernel) -> Result<usize, CardError> {
-    let limits = &profile.limits;
-    let samplers = limits.samplers.unwrap_or(16).min(16);
-    let constants = limits.fragment_parameters.unwrap_or(64);
-    let instructions = limits.fragment_instructions.unwrap_or(1024) as usize;
+    let samplers = profile.limits.samplers.unwrap_or(16).min(16);
+    let [instructions, constants] = fragment_room(&profile.limits);
     let fits = |links: &usize| {
         kernel.samplers(*links) <= samplers as usize
-            && kernel.constants(*links) <= constants as usize
+            && kernel.constants(*links) <= constants
             && kernel.instructions(*links) <= instructions
     };
     let step = if kernel.layout == LinkLayout::Fixed { 4 } else { 1 };

@@ -61,13 +61,8 @@ impl LinkTextures {
     }
 
     /// How links are chosen, as programs see it.
-    pub fn layout(&self) -> LinkLayout {
+    pub(super) fn layout(&self) -> LinkLayout {
         if self.level.is_some() { LinkLayout::Fixed } else { LinkLayout::Adaptive }
-    }
-
-    /// Links per texel.
-    pub fn count(&self) -> usize {
-        self.count
     }
 
     /// The program that follows the links in a map of this kind.

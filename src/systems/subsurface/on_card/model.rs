@@ -37,12 +37,6 @@ pub(super) struct CardVertex<P> {
     pub(super) at: P,
 }
 
-/// Places in [`CardFace::rectangle`].
-const A: usize = 0;
-const B: usize = 1;
-const C: usize = 2;
-const M: usize = 3;
-
 impl CardModel {
     /// Of a mesh's atlas.
     pub fn new(atlas: &Atlas) -> Self {
@@ -87,11 +81,6 @@ impl CardModel {
         self.side
     }
 
-    /// The number of faces.
-    pub fn faces(&self) -> usize {
-        self.faces.len()
-    }
-
     /// The frame of positions on the card.
     pub(super) fn frame(&self) -> &UnitFrame {
         &self.frame
@@ -99,8 +88,8 @@ impl CardModel {
 }
 
 impl CardFace {
-    /// The two triangles in the atlas: places in [`Self::rectangle`].
-    pub(super) const TRIANGLES: [usize; 6] = [A, B, M, A, M, C];
+    /// The two triangles in the atlas, a b m and a m c: places in [`Self::rectangle`].
+    pub(super) const TRIANGLES: [usize; 6] = [0, 1, 3, 0, 3, 2];
 }
 
 fn narrowed(vector: DVec3) -> [f32; 3] {

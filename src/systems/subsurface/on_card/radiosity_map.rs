@@ -214,17 +214,11 @@ impl LightPass {
 /// The most lights of one pass on a machine's device.
 fn lights_per_pass(machine: &Machine, stage: LightStage) -> usize {
     let limits = &machine.profile().limits;
-    let most = |kernel: LightKernel, instructions: Option<u32>, constants: Option<u32>, usual: [usize; 2]| {
-        let of = |limit: Option<u32>, usual| limit.map_or(usual, |limit| limit as usize);
-        kernel.most_lights(of(instructions, usual[0]), of(constants, usual[1])).max(1)
-    };
+    let most = |kernel: LightKernel, [slots, constants]: [usize; 2]| kernel.most_lights(slots, constants).max(1);
     match stage {
-        LightStage::Vertices => {
-            most(kernels::VERTEX_LIGHTS, limits.vertex_instructions, limits.vertex_constants, [256, 256])
-        }
+        LightStage::Vertices => most(kernels::VERTEX_LIGHTS, kernels::vertex_room(limits)),
         LightStage::Texels => {
-            let [first, next] = kernels::TEXEL_LIGHTS
-                .map(|kernel| most(kernel, limits.fragment_instructions, limits.fragment_parameters, [1024, 64]));
+            let [first, next] = kernels::TEXEL_LIGHTS.map(|kernel| most(kernel, kernels::fragment_room(limits)));
             first.min(next)
         }
     }
@@ -233,8 +227,8 @@ fn lights_per_pass(machine: &Machine, stage: LightStage) -> usize {
 impl RectangleVertices {
     fn new(model: &CardModel) -> Self {
         let side = model.side() as f32;
-        let mut attributes = [(); 3].map(|()| Vec::with_capacity(4 * model.faces()));
-        let mut indices = Vec::with_capacity(6 * model.faces());
+        let mut attributes = [(); 3].map(|()| Vec::with_capacity(4 * model.faces.len()));
+        let mut indices = Vec::with_capacity(6 * model.faces.len());
         for face in &model.faces {
             let first = attributes[0].len() as u32;
             indices.extend(CardFace::TRIANGLES.map(|corner| first + corner as u32));

@@ -12,7 +12,7 @@ use crate::card::{
     Attribute, BILINEAR, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshPass, MeshView, Texels, new_texture,
 };
 use crate::subsurface::fresnel::{fresnel_transmittance, mean_transmittance};
-use crate::subsurface::kernels::{self, DirectLight, EyeTransmittance, ViewKernel};
+use crate::subsurface::kernels::{self, DirectLight, EyeTransmittance, ViewKernel, fragment_room, vertex_room};
 
 /// Texels of the table of transmittances.
 const TABLE: u32 = 256;
@@ -129,15 +129,11 @@ fn direct_lights<'a>(
     kernel: ViewKernel,
 ) -> Result<&'a [CardLight], CardError> {
     let limits = &machine.profile().limits;
-    let or = |limit: Option<u32>, usual: usize| limit.map_or(usual, |limit| limit as usize);
+    let ([slots, constants], [pixel_slots, pixel_constants]) = (vertex_room(limits), fragment_room(limits));
     let most = match kernel.direct {
         DirectLight::None => return Ok(&[]),
-        DirectLight::ByVertex => {
-            kernels::VIEW_LIGHTS.most_lights(or(limits.vertex_instructions, 256), or(limits.vertex_constants, 256))
-        }
-        DirectLight::ByFragment => {
-            kernel.most_lights(or(limits.fragment_instructions, 1024), or(limits.fragment_parameters, 64))
-        }
+        DirectLight::ByVertex => kernels::VIEW_LIGHTS.most_lights(slots, constants),
+        DirectLight::ByFragment => kernel.most_lights(pixel_slots, pixel_constants),
     };
     let found = lights.list.len();
     if found > most {
@@ -164,22 +160,20 @@ impl ViewConstants<'_> {
         [r, g, b, 1.0]
     }
 
-    /// Diffuse and specular light.
-    fn colors(&self, light: &CardLight) -> [[f32; 4]; 2] {
+    /// Place, attenuation, diffuse and specular light of each light.
+    fn of_lights(&self) -> impl Iterator<Item = [f32; 4]> {
         let exposure = self.view.mesh.exposure;
-        [
-            colored(light.color, |channel| self.view.diffuse[channel] / PI * exposure),
-            colored(light.color, |channel| self.view.specular[channel] * exposure),
-        ]
+        self.direct.iter().flat_map(move |light| {
+            let diffuse = colored(light.color, |channel| self.view.diffuse[channel] / PI * exposure);
+            let specular = colored(light.color, |channel| self.view.specular[channel] * exposure);
+            [light.place, light.attenuation, diffuse, specular]
+        })
     }
 
     fn of_vertices(&self, pass: &MeshPass<'_>) -> Vec<[f32; 4]> {
         let mut all = pass.rows().to_vec();
         all.extend([[0.0, 1.0, LEAST_LENGTH, self.view.shininess as f32], pass.eye(LEAST_SQUARE), self.ambient()]);
-        for light in self.direct {
-            let [diffuse, specular] = self.colors(light);
-            all.extend([light.place, light.attenuation, diffuse, specular]);
-        }
+        all.extend(self.of_lights());
         all
     }
 
@@ -197,10 +191,7 @@ impl ViewConstants<'_> {
         let factor = (factor * self.view.mesh.exposure / PI) as f32;
         let mut all =
             vec![[factor, factor, factor, LEAST_SQUARE], pass.eye(LEAST_LENGTH), [x, y, z, shininess], self.ambient()];
-        for light in self.direct {
-            let [diffuse, specular] = self.colors(light);
-            all.extend([light.place, light.attenuation, diffuse, specular]);
-        }
+        all.extend(self.of_lights());
         all
     }
 }

@@ -1,4 +1,4 @@
-//! Error bounds of the f32 iteration of [`super::card_order`].
+//! Error bounds of the f32 iteration of [`CardSystem`].
 //!
 //! With `A = diag(M)^-1 M`, `e = diag(M)^-1 E` and `G = 1 - A`, the exact step is `x' = e + G x`, and the solution x*
 //! is its fixed point. The card's step is the exact one plus d, the rounding errors of the step and of the data. So
@@ -10,20 +10,20 @@
 //! A rounded operation is off by at most `2^-24` of its result (or 2^-150 near zero), so |d| follows from the results
 //! of a step: [`bounded_step`]. Before any step it is bounded by the number of roundings per element: [`before`].
 
-use super::card_order::{CardSystem, RoundingObserver};
-use super::packing::Packing;
-use crate::card::Texels;
-use crate::linalg::Matrix;
+use crossbar::card::Texels;
+use crossbar::linalg::Matrix;
+use crossbar::radiosity::card_order::CardSystem;
+use crossbar::radiosity::packing::Packing;
 
 /// The unit roundoff of f32: half of the distance from 1 to the next number.
-pub const UNIT_F32: f64 = 0.5 * f32::EPSILON as f64;
+const UNIT_F32: f64 = 0.5 * f32::EPSILON as f64;
 /// Covers terms of second order in the unit roundoff, and the rounding of the bound itself.
 const SLACK: f64 = 1.001;
 /// The largest error of an operation near zero.
 const TINY: f64 = f32::MIN_POSITIVE as f64 * UNIT_F32;
 
 /// The contraction factor g: the infinity norm (maximum absolute row sum) of `1 - diag(M)^-1 M`.
-pub fn contraction(matrix: &Matrix) -> f64 {
+pub(super) fn contraction(matrix: &Matrix) -> f64 {
     let of_row = |(i, row): (usize, &[f64])| {
         let all: f64 = row.iter().map(|m| m.abs()).sum();
         all / row[i].abs() - 1.0
@@ -33,50 +33,50 @@ pub fn contraction(matrix: &Matrix) -> f64 {
 
 /// A bound on the error of a channel in the infinity norm, updated step by step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ErrorBound {
+pub(super) struct ErrorBound {
     /// The contraction factor g, at least 0.
-    pub contraction: f64,
+    pub(super) contraction: f64,
     /// The bound so far.
-    pub error: f64,
+    pub(super) error: f64,
 }
 
 impl ErrorBound {
     /// The initial bound for an iteration that starts from 0: x* is at most `|e| / (1 - g)` away. `largest` is `|e|`,
     /// the largest element of `diag(M)^-1 E`.
-    pub fn from_zero(contraction: f64, largest: f64) -> Self {
+    pub(super) fn from_zero(contraction: f64, largest: f64) -> Self {
         Self { contraction, error: largest / (1.0 - contraction) }
     }
 
     /// Updates the bound for a step with a rounding error of at most `step`.
-    pub fn advance(&mut self, step: f64) {
+    pub(super) fn advance(&mut self, step: f64) {
         self.error = (self.contraction * self.error + step) * (1.0 + f64::EPSILON);
     }
 }
 
-/// Sums of the magnitudes of a row's results.
-#[derive(Clone, Copy, Debug, Default)]
+/// Sums of the magnitudes of a row's rounded results, per channel.
+#[derive(Clone, Copy, Default)]
 struct Magnitudes {
     sums: [f64; 4],
     products: [f64; 4],
     operations: u32,
 }
 
-impl RoundingObserver for Magnitudes {
-    fn product(&mut self, value: [f32; 4]) {
-        self.operations += 1;
-        for (sum, x) in self.products.iter_mut().zip(value) {
-            *sum += f64::from(x.abs());
-        }
-    }
-
-    fn sum(&mut self, value: [f32; 4]) {
-        for (sum, x) in self.sums.iter_mut().zip(value) {
-            *sum += f64::from(x.abs());
-        }
-    }
-}
-
 impl Magnitudes {
+    fn sum(&mut self, value: [f32; 4]) -> [f32; 4] {
+        self.sums.iter_mut().zip(value).for_each(|(sum, x)| *sum += f64::from(x.abs()));
+        value
+    }
+
+    /// `start` less the products of a row, in the order of the texels.
+    fn row(&mut self, start: [f32; 4], matrix: &[[f32; 4]], radiosity: &[[f32; 4]]) -> [f32; 4] {
+        matrix.iter().zip(radiosity).fold(start, |acc, (m, b)| {
+            let product = [0, 1, 2, 3].map(|c| m[c] * b[c]);
+            self.operations += 1;
+            self.products.iter_mut().zip(product).for_each(|(sum, x)| *sum += f64::from(x.abs()));
+            self.sum([0, 1, 2, 3].map(|c| acc[c] - product[c]))
+        })
+    }
+
     /// A bound on |d| per channel: the rounding errors of all operations, and of the data, which products propagate.
     /// `e` is the element of the right-hand side.
     fn bound(&self, e: [f64; 4]) -> [f64; 4] {
@@ -87,42 +87,39 @@ impl Magnitudes {
 
 /// A step, and a bound per channel on its distance from the exact step on the unrounded system, in the infinity norm.
 /// With four elements per texel all four bounds are the same number.
-///
-/// # Panics
-/// If the texture is not a radiosity texture of this system.
-pub fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f64; 4]) {
-    let rows = card.matrix().height;
-    let (mut partial, mut totals) = (card.zero(), vec![Magnitudes::default(); rows]);
-    for pass in 0..card.passes() {
-        let (next, observed) = card.observed(radiosity, &partial, pass, |_| Magnitudes::default());
-        for (total, part) in totals.iter_mut().zip(observed) {
-            total.operations += part.operations;
-            for c in 0..4 {
-                total.sums[c] += part.sums[c];
-                total.products[c] += part.products[c];
-            }
-        }
-        partial = next;
-    }
-    let mut largest = [0.0_f64; 4];
-    for (i, total) in totals.iter().enumerate() {
+pub(super) fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f64; 4]) {
+    let (mut step, mut largest) = (card.zero(), [0.0_f64; 4]);
+    for i in 0..card.matrix().height {
+        let (mut total, matrix, b) = (Magnitudes::default(), card.matrix().row(i), &radiosity.texels[..]);
         let bound = match card.packing() {
-            Packing::Rgb => total.bound(card.emittance().texels[i].map(f64::from)),
+            Packing::Rgb => {
+                let e = card.emittance().texels[i];
+                let begin = total.sum([0, 1, 2, 3].map(|c| b[i][c] + e[c]));
+                step.texels[i] = total.row(begin, matrix, b);
+                total.bound(e.map(f64::from))
+            }
             Packing::Luminance => {
-                let e = f64::from(card.emittance().texels[i / 4][i % 4]);
-                [total.bound([e, 0.0, 0.0, 0.0]).iter().sum(); 4]
+                let (x, c) = (i / 4, i % 4);
+                let e = card.emittance().texels[x][c];
+                let mut partial = total.sum([b[x][c] + e; 4])[0];
+                for (matrix, b) in matrix.chunks(card.block()).zip(b.chunks(card.block())) {
+                    let [x, y, z, w] = total.row([0.0; 4], matrix, b);
+                    partial = total.sum([x + y, (x + y) + z, ((x + y) + z) + w, partial + (((x + y) + z) + w)])[3];
+                }
+                step.texels[x][c] = partial;
+                [total.bound([f64::from(e), 0.0, 0.0, 0.0]).iter().sum(); 4]
             }
         };
         largest = [0, 1, 2, 3].map(|c| largest[c].max(bound[c]));
     }
-    (partial, largest)
+    (step, largest)
 }
 
 /// An a-priori bound on the error that rounding causes in any number of steps: `d / (1 - g)`, where an element of a
 /// step has k roundings, k depending on the layout, and a relative error of `gamma = k u / (1 - k u)` of the
 /// magnitudes that are summed. Starting from 0, add `g^steps |e| / (1 - g)` for the error of the initial guess.
 /// Infinite where k u is not below 1, or g is not.
-pub fn before(card: &CardSystem, contraction: f64, largest: f64) -> f64 {
+pub(super) fn before(card: &CardSystem, contraction: f64, largest: f64) -> f64 {
     let texels = card.matrix().width;
     let roundings = match card.packing() {
         Packing::Rgb => texels + 3,

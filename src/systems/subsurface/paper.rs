@@ -1,10 +1,10 @@
-//! The truth that links are compared with: equation 9 over all pairs of texels, in f64.
+//! Equations 9 and 10 over all pairs of texels in plain f64, which links are compared with. It shares no code with the
+//! fast factors: no levels, no table, no moments.
 //!
-//! Written to be read beside equations 7 to 10, it shares no code with the fast factors: no levels, no table, no
-//! moments. A pair of texels that are far apart counts with R_d between their mean points; of a near pair the double
-//! integral of equation 10 is taken by a quadrature rule on the triangles of both parts. Where one of two close texels
-//! exceeds [`MAX_DIVISIONS`] mean free paths, such a rule misses the peak of R_d: the inner integral is then taken by
-//! bisection ([`super::triangles`]), so that the light of a point is complete however large the texels are.
+//! A pair of texels that are far apart counts with R_d between their mean points; of a near pair the double integral of
+//! equation 10 is taken by a quadrature rule on the triangles of both parts. Where one of two close texels exceeds
+//! [`MAX_DIVISIONS`] mean free paths, such a rule misses the peak of R_d: the inner integral is then taken by bisection
+//! ([`super::triangles`]), so that the light of a point is complete however large the texels are.
 
 use std::ops::Range;
 
@@ -285,26 +285,4 @@ fn triangle_points([a, b, c]: [DVec3; 3], n: u32, points: &mut Vec<WeightedPoint
         }
     }
     area
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn triangles_are_integrated_exactly_to_second_order() {
-        let corners = [DVec3::new(0.0, 0.0, 1.0), DVec3::new(3.0, 0.0, 1.0), DVec3::new(1.0, 2.0, 1.0)];
-        for n in 1..5 {
-            let mut points = Vec::new();
-            let area = triangle_points(corners, n, &mut points);
-            assert_eq!((area, points.len() as u32), (3.0, 3 * n * n));
-            let integral = |value: fn(DVec3) -> f64| points.iter().map(|(p, w)| w * value(*p)).sum::<f64>();
-            assert_relative_eq!(integral(|_| 1.0), 3.0, max_relative = 1e-14);
-            assert_relative_eq!(integral(|p| p.x), 4.0, max_relative = 1e-14);
-            // Area / 12 times (the squares of the corners' coordinates, and of their sum).
-            assert_relative_eq!(integral(|p| p.x * p.x), 3.0 / 12.0 * (9.0 + 1.0 + 16.0), max_relative = 1e-14);
-            assert_relative_eq!(integral(|p| p.x * p.y), 3.0 / 12.0 * (2.0 + 4.0 * 2.0), max_relative = 1e-14);
-        }
-    }
 }

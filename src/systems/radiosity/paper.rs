@@ -1,4 +1,5 @@
-//! The linear system of equations 1 and 2, and its updates while the form factors stay.
+//! Equations 1 and 2 in plain f64: the linear system, and its updates while the form factors stay. [`solve`] has the
+//! Jacobi iteration of equations 3 and 4, and other solvers.
 
 use super::FormFactors;
 use super::solve::{self, Options, Solution, Solver};

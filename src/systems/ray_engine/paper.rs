@@ -1,7 +1,5 @@
-//! Equations (1) to (8) in f64, without the card: the exact values that a kernel approximates.
-//!
-//! A readable form of the paper's equations, and the independent result in `tests/papers`. [`crate::geom::exact`], not
-//! this module, decides whether a ray hits exactly.
+//! Equations (1) to (8) in plain f64, which the kernels approximate. [`crate::geom::exact`] decides whether a ray hits
+//! exactly.
 
 use glam::DVec3;
 

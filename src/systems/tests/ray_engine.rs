@@ -1,0 +1,176 @@
+//! Facts of the Ray Engine: its equations of cost, ray batches, buckets, ids.
+
+use approx::assert_abs_diff_eq;
+use crossbar_base::geom::exact::Sides;
+use crossbar_base::geom::teapot::teapot;
+use crossbar_base::geom::{Mesh, Ray};
+use crossbar_ground::scene::Camera;
+use crossbar_systems::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crossbar_systems::ray_engine::model::CostRates;
+use crossbar_systems::ray_engine::ray_tree::{RayTree, RayTreeParameters};
+use crossbar_systems::ray_engine::{Crossbar, RayBatch};
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+const GEFORCE3: CostRates = CostRates { fill_pixels_per_s: 390e6, readback_bytes_per_s: 250e6 };
+
+fn profile(name: &str) -> Profile {
+    Profile::named(name).expect("a device")
+}
+
+#[test]
+fn the_worked_numbers_of_section_6_1() {
+    assert_eq!(GEFORCE3.results_per_s(4.0), 62.5e6);
+    assert_eq!(GEFORCE3.results_per_s(16.0), 15.625e6);
+    assert_eq!((GEFORCE3.tests_per_s(10.0, 4.0) / 1e6).round(), 240.0);
+    assert_eq!((GEFORCE3.half_rate_triangles(4.0) * 100.0).round(), 624.0);
+    assert_eq!((GEFORCE3.half_rate_triangles(16.0) * 100.0).round(), 2496.0);
+}
+
+#[test]
+fn the_card_pays_from_the_least_number_of_triangles_on_and_not_before() {
+    for host in [1e6, 20e6, 40e6, 100e6, 389e6] {
+        for gamma in [1.0, 4.0, 16.0] {
+            let least = GEFORCE3.least_triangles(host, gamma).expect("the card is faster");
+            assert!(GEFORCE3.tests_per_s(f64::from(least), gamma) >= host * (1.0 - 1e-12));
+            assert!(least == 1 || GEFORCE3.tests_per_s(f64::from(least - 1), gamma) < host);
+        }
+    }
+    assert_eq!(GEFORCE3.least_triangles(390e6, 4.0), None);
+}
+
+#[test]
+fn the_implied_fill_gives_the_rate_back() {
+    let fill = CostRates::implied_fill(286e6, 10.0, 4.0, 250e6);
+    assert_eq!((fill / 1e5).round(), 5273.0);
+    let card = CostRates { fill_pixels_per_s: fill, ..GEFORCE3 };
+    assert_abs_diff_eq!(card.tests_per_s(10.0, 4.0) / 286e6, 1.0, epsilon = 1e-12);
+}
+
+#[test]
+fn the_two_readings_of_table_2() {
+    // Three of four rays met the card, in six visits; two visits ended on the host.
+    let counts = EngineCounts { rays: 4, rays_on_card: 3, pass_rays: 6, forced_rays: 2, ..EngineCounts::default() };
+    assert_eq!((counts.share_on_card(), counts.share_of_visits_on_card()), (0.75, 0.75));
+    assert_eq!(EngineCounts { forced_rays: 6, ..counts }.share_of_visits_on_card(), 0.5);
+    assert_eq!(EngineCounts::default().share_of_visits_on_card(), 0.0, "no visits at all");
+}
+
+#[test]
+fn lists_are_laid_out_in_squares_and_padded_with_their_last_ray() {
+    let ray = |x: usize| Ray::new([x as f32, 0.0, 0.0], [0.0, 0.0, 1.0]).expect("a ray");
+    for count in [1, 255, 256, 257, 4096, 5000] {
+        let list: Vec<Ray> = (0..count).map(ray).collect();
+        let batch = RayBatch::from_list(&list);
+        assert_eq!(batch.rays().len(), batch.width() as usize * batch.height() as usize, "a full rectangle");
+        for (i, r) in list.iter().enumerate() {
+            assert_eq!(batch.rays()[batch.pixel_of(i)], *r, "ray {i} of {count}");
+        }
+        let last = batch.rays().iter().filter(|r| *r == &ray(count - 1)).count();
+        assert_eq!(last, batch.rays().len() - count + 1, "the last one is repeated");
+    }
+    assert_eq!(RayBatch::from_list(&[ray(1); 3]).common_origin(), Some([1.0, 0.0, 0.0]), "one origin");
+    assert_eq!(RayBatch::from_list(&[]).height(), 0, "no rays, no rows");
+}
+
+#[test]
+fn every_draw_of_resident_rays_is_that_of_a_new_one() {
+    let whole = teapot(2).expect("the teapot tessellates");
+    let mesh = Mesh::new(whole.positions().to_vec(), whole.triangles()[..64].to_vec()).expect("a part of it");
+    let camera = Camera::teapot(16, 16).expect("the default camera");
+    let rays = RayBatch::new(16, 16, camera.rays()).expect("a ray per pixel");
+    for device in ["ideal-s3.12", "ideal-fp32"] {
+        let crossbar = Crossbar::new(profile(device), ExecutorKind::Batch).all_pairs(true);
+        let new = crossbar.intersect(&mesh, &rays, Sides::Front).expect("the card intersects");
+        assert!(new.hits.iter().any(Option::is_some), "{device}: something is hit");
+        let mut resident = crossbar.make_resident(&mesh, &rays, Sides::Front).expect("the card takes them");
+        for draw in 0..3 {
+            let again = resident.intersect().expect("the card intersects");
+            assert_eq!((&again.hits, &again.events), (&new.hits, &new.events), "{device}, draw {draw}");
+        }
+    }
+}
+
+#[test]
+fn without_triangles_nothing_is_hit() {
+    let rays = RayBatch::new(2, 1, Camera::teapot(2, 1).expect("a camera").rays()).expect("two rays");
+    let crossbar = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch);
+    let mut resident =
+        crossbar.make_resident(&Mesh::default(), &rays, Sides::Front).expect("no triangles are no error");
+    assert_eq!(resident.intersect().expect("nothing to do").hits, [None, None]);
+}
+
+/// An id is a color of three bytes, of which none may be lost, and alpha is 0 where a ray misses.
+#[test]
+fn every_id_comes_back_as_a_color() {
+    let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mesh = Mesh::new(triangle.to_vec(), vec![[0, 1, 2]; 1 << 24]).expect("as many triangles as there are ids");
+    let ray = |x: f32| Ray::new([x, 0.25, 1.0], [0.0, 0.0, -1.0]).expect("a ray");
+    let rays = RayBatch::new(2, 1, vec![ray(0.25), ray(2.0)]).expect("two rays");
+    let crossbar = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch);
+    for id in [0, 1, 255, 256, 0x0012_3456, 0x00ff_ffff] {
+        let answer = crossbar.intersect_pass(&mesh, &[id], &rays, Sides::Front, false).expect("the card intersects");
+        let found: Vec<Option<u32>> = answer.hits.iter().map(|hit| hit.map(|hit| hit.triangle)).collect();
+        assert_eq!(found, [Some(id), None], "{id:#x}");
+    }
+}
+
+/// The rays that a tree of rays with these directions gives, and how many buckets it split.
+fn bucketed(directions: &[[f32; 3]], bucket: usize) -> (Vec<u32>, u64) {
+    let mut tree = RayTree::new(RayTreeParameters { bucket, merge: 0 });
+    for (ray, direction) in (0..).zip(directions) {
+        tree.insert(ray, &Ray::new([0.0; 3], *direction).expect("a ray"));
+    }
+    let splits = tree.counts().splits;
+    let mut taken = Vec::new();
+    while !tree.is_empty() {
+        taken.extend(tree.take());
+    }
+    (taken, splits)
+}
+
+/// Faces of equally many rays leave the tree in their order +x -x +y -y +z -z.
+#[test]
+fn directions_go_to_their_faces() {
+    let directions = [[-0.0, 0.0, -1e-40], [0.0, -3.0, 1.0], [1.0, 2.0, -1.5], [0.0, 0.5, 4.0], [-2.0, 1.0, 1.0]];
+    let of_x = [2.0, 1.0, -1.0];
+    let all = [&directions[..], &[of_x]].concat();
+    assert_eq!(bucketed(&all, 8).0, [5, 4, 2, 1, 3, 0]);
+    // Of equal components the first counts: a second ray of +x makes its face the fullest.
+    assert_eq!(bucketed(&[&all[..], &[[1.0; 3]]].concat(), 8).0, [5, 6, 4, 2, 1, 3, 0]);
+    // A direction is the point where it meets the face, whatever its length: equal points can not be split.
+    assert_eq!(bucketed(&[of_x, [4.0, 2.0, -2.0], [1.0, 0.5, -0.5]], 1).1, 0);
+    assert_eq!(bucketed(&[of_x, [2.0, 1.0, 1.0]], 1).1, 1);
+    assert_eq!(bucketed(&[of_x, [2.0, -1.0, -1.0]], 1).1, 1);
+}
+
+/// The order in which an engine answers 1000 rays that meet nothing, after `before` others: that in which they enter
+/// its tree, which has one bucket.
+fn order(shuffle: Option<u64>, before: usize) -> Vec<u64> {
+    let mesh = teapot(1).expect("the teapot tessellates");
+    let tree = RayTreeParameters { bucket: 4096, merge: 0 };
+    let parameters = EngineParameters { shuffle, tree, card: false, ..EngineParameters::default() };
+    let mut engine = RayEngine::new(&mesh, profile("r300"), ExecutorKind::Batch, parameters).expect("an engine");
+    let ray = Ray::new([100.0, 100.0, 100.0], [0.0, 0.0, 1.0]).expect("a ray");
+    let mut answer = |count: usize| {
+        let first = engine.submit(&vec![ray; count]).expect("rays enter").0;
+        engine.finish().expect("the host traces");
+        engine.take_answers().into_iter().map(|(ticket, _)| ticket.0 - first).collect()
+    };
+    let _: Vec<u64> = answer(before);
+    answer(1000)
+}
+
+#[test]
+fn shuffled_rays_are_all_there_and_elsewhere() {
+    let in_turn: Vec<u64> = (0..1000).collect();
+    assert_eq!(order(None, 0), in_turn);
+    let mut shuffled = order(Some(7), 0);
+    assert_eq!(shuffled, order(Some(7), 0));
+    assert_ne!(shuffled, order(Some(8), 0));
+    assert_ne!(shuffled, order(Some(7), 1000));
+    let moved = shuffled.iter().zip(&in_turn).filter(|(ray, place)| ray != place).count();
+    assert!(moved > 950, "{moved} moved");
+    shuffled.sort_unstable();
+    assert_eq!(shuffled, in_turn);
+}
