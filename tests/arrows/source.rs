@@ -81,9 +81,9 @@ impl Crate {
         let texts = rust_files(&folder).into_iter().filter_map(|file| {
             let below = file.strip_prefix(&folder).expect("below the folder");
             let member = MEMBERS.iter().find_map(|member| below.strip_prefix(member).ok());
-            // The root of a member re-imports rooms of other members, which is no use of them.
-            let is_root = member.is_some_and(|below| below == Path::new("lib.rs"));
-            (!is_root).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
+            // The root of a member re-imports rooms of other members, which is no use of them; its tests are no room.
+            let is_room = member.is_none_or(|below| below != Path::new("lib.rs") && !below.starts_with("tests"));
+            is_room.then(|| (member.unwrap_or(below).to_owned(), read(&file)))
         });
         Self::of_texts(texts)
     }

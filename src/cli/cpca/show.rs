@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use super::coherence::count;
 use crate::cli::transfer::model::chosen_vertex;
 use crate::cli::words::{counted, measured};
+use crate::clustering::Clustering;
 use crate::report::{Cell, Findings, Table};
-use crate::transfer::clustering::Clustering;
 use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 
 const EXAMPLES: &str = "\
