@@ -73,4 +73,6 @@ pub use crossbar_ground::{atlas, card, fresnel, io, linalg, names, picture, quad
 pub use crossbar_studies::{case, options, report, shader, split, study};
 #[cfg(feature = "systems")]
 #[doc(inline)]
-pub use crossbar_systems::{all_frequency, bi_scale, cpca, radiosity, ray_engine, renderer, subsurface, transfer};
+pub use crossbar_systems::{
+    all_frequency, bi_scale, clustering, cpca, radiosity, ray_engine, renderer, subsurface, transfer,
+};

@@ -12,7 +12,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
-use crossbar::bi_scale::baselines::WideRows;
+use crossbar::bi_scale::baselines::CompressedRows;
 use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::matrix::SparseMatrix;
@@ -40,7 +40,7 @@ fn biclusters(matrix: &SparseMatrix) -> Biclustering {
 }
 
 /// Product with a light of C channels, by biclusters and by rows.
-fn products<const C: usize>(criterion: &mut Criterion, rows: &WideRows, gather: &Gather) {
+fn products<const C: usize>(criterion: &mut Criterion, rows: &CompressedRows, gather: &Gather) {
     let light: Vec<[f32; C]> = (0..6144).map(|texel| [0; C].map(|_: u8| (texel % 97) as f32 / 97.0)).collect();
     let mut group = criterion.benchmark_group(format!("light of {C} channels"));
     group.sample_size(20).measurement_time(Duration::from_secs(3));
@@ -51,7 +51,7 @@ fn products<const C: usize>(criterion: &mut Criterion, rows: &WideRows, gather: 
 }
 
 fn benches(criterion: &mut Criterion, matrix: &SparseMatrix, found: &Biclustering) {
-    let (rows, gather) = (WideRows::new(matrix).expect("columns of 32 bits"), Gather::new(found));
+    let (rows, gather) = (CompressedRows::wide(matrix).expect("columns of 32 bits"), Gather::new(found));
     products::<1>(criterion, &rows, &gather);
     products::<3>(criterion, &rows, &gather);
     products::<4>(criterion, &rows, &gather);

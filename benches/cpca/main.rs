@@ -9,8 +9,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use crossbar::transfer::Signal;
-use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, reference};
+use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress, paper};
 use crossbar::transfer::synthetic::torus_signal;
 
 /// Points of both signals.
@@ -41,7 +40,7 @@ fn main() {
         bench.iter(|| black_box(fast(&diffuse, &diffuse_options)));
     });
     group.bench_function(BenchmarkId::new("diffuse", "plain loops"), |bench| {
-        bench.iter(|| black_box(reference::compress(&diffuse, &diffuse_options).expect("compressed")));
+        bench.iter(|| black_box(paper::compress(&diffuse, &diffuse_options).expect("compressed")));
     });
     let (glossy, glossy_options) = (torus_signal(POINTS, 600, 1), options(16, 4));
     group.bench_function(BenchmarkId::new("glossy", "fast"), |bench| {

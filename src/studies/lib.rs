@@ -3,7 +3,9 @@
 
 use crossbar_base::{compare, elementary, error, geom};
 use crossbar_ground::{atlas, card, io, linalg, names, picture, scene, sphere, tracer};
-use crossbar_systems::{all_frequency, bi_scale, cpca, radiosity, ray_engine, renderer, subsurface, transfer};
+use crossbar_systems::{
+    all_frequency, bi_scale, clustering, cpca, radiosity, ray_engine, renderer, subsurface, transfer,
+};
 
 pub mod case;
 pub mod options;

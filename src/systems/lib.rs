@@ -6,6 +6,7 @@ use crossbar_ground::{atlas, card, fresnel, io, linalg, picture, quadrature, sce
 
 pub mod all_frequency;
 pub mod bi_scale;
+pub mod clustering;
 pub mod cpca;
 pub mod radiosity;
 pub mod ray_engine;

@@ -2,11 +2,11 @@
 //! is proved beside them.
 
 use crossbar::card::MeshView;
+use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;
-use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::transfer::synthetic::{hills, signal_at};
 use crossbar::transfer::{Tangents, Vertices};
 use refsim::device::Profile;

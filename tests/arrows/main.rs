@@ -68,20 +68,21 @@ const CROSSBAR: Law = (
         ("case", "error names picture io geom scene report shader compare"),
         ("radiosity", "error card tracer elementary quadrature picture geom atlas scene linalg io"),
         ("subsurface", "error card tracer elementary fresnel quadrature picture geom atlas scene linalg io"),
-        ("transfer", "error card tracer elementary fresnel quadrature picture sphere geom scene linalg io"),
-        ("cpca", "error transfer card tracer elementary quadrature picture sphere geom scene linalg io"),
-        ("all_frequency", "error transfer card elementary picture sphere geom scene linalg io"),
-        ("bi_scale", "error transfer card tracer elementary picture sphere geom scene linalg io"),
+        ("clustering", "error geom linalg"),
+        ("transfer", "error clustering card tracer elementary fresnel quadrature picture sphere geom scene linalg io"),
+        ("cpca", "error clustering transfer card tracer elementary quadrature picture sphere geom scene linalg io"),
+        ("all_frequency", "error clustering transfer card elementary picture sphere geom scene linalg io"),
+        ("bi_scale", "error clustering transfer card tracer elementary picture sphere geom scene linalg io"),
         ("ray_engine", "error card tracer geom scene linalg io"),
         ("renderer", "error tracer elementary fresnel picture geom scene linalg"),
         (
             "study",
-            "error names ray_engine radiosity subsurface transfer cpca all_frequency bi_scale sphere atlas renderer \
+            "error names ray_engine radiosity subsurface clustering transfer cpca all_frequency bi_scale sphere atlas renderer \
              case shader split report options picture card tracer elementary geom scene linalg io",
         ),
         (
             "cli",
-            "error names study ray_engine radiosity subsurface transfer cpca all_frequency bi_scale sphere atlas \
+            "error names study ray_engine radiosity subsurface clustering transfer cpca all_frequency bi_scale sphere atlas \
              renderer case compare shader split report options picture card tracer geom scene linalg io",
         ),
         ("lib", ""),
@@ -108,7 +109,7 @@ const BATCH: Law = (
 );
 
 /// Rooms of the root package that may use the emulator; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &str = "card tracer case compare shader radiosity subsurface transfer cpca all_frequency bi_scale \
+const SPEAKS_REFSIM: &str = "card tracer case compare shader radiosity subsurface clustering transfer cpca all_frequency bi_scale \
      ray_engine study cli";
 
 /// The uses that a law forbids, one line each. A file outside the table's rooms is a violation, or, where the rooms

@@ -12,10 +12,10 @@ use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::words::counted;
 use crate::cli::{CommandLine, Problem, ProgressBar};
+use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Findings, Table};
 use crate::split::{Computed, KeptResults, SpentTime};
 use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
-use crate::transfer::clustering::CpcaMethod;
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::SegmentCensus;
 

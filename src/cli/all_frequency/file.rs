@@ -11,7 +11,7 @@ use crate::cli::transfer::picture::PictureArgs;
 use crate::scene::{Material, Surface};
 use crate::study::prt::LitModel;
 use crate::transfer::Vertices;
-use crate::transfer::file::MeshDigest;
+use crate::transfer::file::{MeshDigest, require_mesh};
 use crate::transfer::light::Decimation;
 
 /// A file with the model that it was made from.
@@ -28,7 +28,7 @@ impl FileOfModel {
         let model = load(model, file.mesh.tangents)?;
         let vertices = vertices(&model, file.mesh.tangents)?;
         let digest = MeshDigest::new(&vertices);
-        file.require_mesh(&digest, path)?;
+        require_mesh(path, &digest, Some(file.mesh))?;
         Ok(Self { file, model, vertices, digest })
     }
 }

@@ -15,7 +15,7 @@ use crate::options::number;
 use crate::study::prt::SurfaceTexture;
 use crate::transfer::Vertices;
 use crate::transfer::file::MeshDigest;
-use crate::transfer::file::other_mesh_error;
+use crate::transfer::file::require_mesh;
 
 /// How patches are sampled, and where they lie.
 #[derive(Debug, clap::Args)]
@@ -94,10 +94,7 @@ impl TransferOfModel {
         };
         let model = load_creased(name, meaning.mesh.tangents, crease)?;
         let vertices = vertices(&model, meaning.mesh.tangents)?;
-        let (expected, found) = (MeshDigest::new(&vertices), Some(meaning.mesh));
-        if found != Some(expected) {
-            return Err(other_mesh_error(path, expected, found).into());
-        }
+        require_mesh(path, &MeshDigest::new(&vertices), Some(meaning.mesh))?;
         let light = LocalDirections::new(meaning.side as usize)
             .map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
         Ok(Self { file, model, vertices, light })

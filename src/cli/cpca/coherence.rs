@@ -7,12 +7,12 @@ use serde_json::{Value, json};
 use super::file::model_of;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, given};
+use crate::clustering::{Clustering, Signal};
 use crate::cpca::coherence::{Superclusters, overdraw, reclassify};
 use crate::options::number;
 use crate::report::Findings;
-use crate::transfer::clustering::Clustering;
+use crate::transfer::Vertices;
 use crate::transfer::file::MeshDigest;
-use crate::transfer::{Signal, Vertices};
 
 /// Optimisation of clusters for drawing (section 5 of the paper).
 #[derive(Debug, clap::Args)]

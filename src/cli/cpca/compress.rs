@@ -9,14 +9,14 @@ use super::compress_report::{most_vectors, steps_document, table};
 use crate::cli::study::written;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
+use crate::clustering::{
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, StartPoints, compress,
+};
 use crate::options::one_of::{name, variants};
 use crate::report::Findings;
 use crate::study::prt::CompressionError;
-use crate::transfer::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, StartPoints, compress,
-};
 use crate::transfer::file::{PrtFile, save_prt};
-use crate::transfer::{Signal, load_signal_and_meaning};
+use crate::transfer::load_signal;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -66,7 +66,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     args.refuse_idle()?;
-    let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
+    let (meaning, mesh, signal) = load_signal(&args.signal)?;
     let vertices = args.coherence.vertices(&args.signal, mesh)?;
     let options = args.options(&signal)?;
     let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters`");

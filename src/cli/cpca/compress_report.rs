@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
+use crate::clustering::{Clustering, CpcaStep, CpcaStepKind};
 use crate::report::{Cell, Table};
-use crate::transfer::clustering::{Clustering, CpcaStep, CpcaStepKind};
 
 const fn word(kind: CpcaStepKind) -> &'static str {
     match kind {

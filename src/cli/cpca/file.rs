@@ -5,9 +5,9 @@ use std::path::Path;
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::model::{load, vertices};
+use crate::clustering::Clustering;
 use crate::transfer::Vertices;
-use crate::transfer::clustering::Clustering;
-use crate::transfer::file::other_mesh_error;
+use crate::transfer::file::require_mesh;
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 
 /// A `.npz` file with the model that it was made from.
@@ -37,9 +37,7 @@ pub(super) fn model_of(
     let model = load(model, tangents)?;
     let vertices = vertices(&model, tangents)?;
     let digest = MeshDigest::new(&vertices);
-    if mesh != Some(digest) {
-        return Err(other_mesh_error(path, digest, mesh).into());
-    }
+    require_mesh(path, &digest, mesh)?;
     Ok((model, vertices, digest))
 }
 

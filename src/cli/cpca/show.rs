@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 
 use super::coherence::count;
 use crate::cli::words::counted;
+use crate::clustering::Clustering;
 use crate::report::{Cell, Findings, Table};
-use crate::transfer::clustering::Clustering;
 use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 
 const EXAMPLES: &str = "\

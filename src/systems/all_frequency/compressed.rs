@@ -1,10 +1,9 @@
 //! Each lighting segment's transfer as clusters of linear combinations (section 5 of the paper, equation 11).
 
-use crate::error::{InputError, ensure, input_error};
-use crate::transfer::Signal;
-use crate::transfer::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, StartPoints, compress,
+use crate::clustering::{
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, StartPoints, compress,
 };
+use crate::error::{InputError, ensure, input_error};
 
 /// Options of the compression of segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,9 +82,6 @@ pub struct CompressedTransfer {
 
 impl CompressedTransfer {
     /// The parts, checked.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(rows: usize, vertices: usize, segments: Vec<CompressedSegment>) -> Result<Self, InputError> {
         let mut before: Option<(usize, usize)> = None;
         for part in &segments {
@@ -124,49 +120,5 @@ impl CompressedTransfer {
     pub fn omega(&self, segments: usize) -> f64 {
         let filled: usize = self.segments.iter().map(|part| part.vertices.len()).sum();
         filled as f64 / (segments * self.vertices) as f64
-    }
-}
-
-#[cfg(test)]
-pub(super) mod tests {
-    use super::*;
-    use crate::transfer::synthetic::torus_signal;
-
-    /// Some vertices of 40 in segments 1 and 4: m rows of n numbers, 3 clusters and 1 of up to 4 vectors.
-    pub(in crate::all_frequency) fn sample(rows: usize, coefficients: usize) -> CompressedTransfer {
-        let options = SegmentOptions { points_per_cluster: 10, vectors: 4, iterations: 4, ..SegmentOptions::default() };
-        let segment = |segment: usize, vertices: Vec<u32>| {
-            let signal = torus_signal(vertices.len(), rows * coefficients, segment as u64);
-            CompressedSegment::new(segment, vertices, &signal, &options, |_| ()).expect("compressed")
-        };
-        let segments = vec![segment(1, (0..30).collect()), segment(4, (5..40).step_by(3).collect())];
-        CompressedTransfer::new(rows, 40, segments).expect("transfer")
-    }
-
-    #[test]
-    fn parts_must_go_together() {
-        let good = sample(2, 8);
-        assert_eq!((good.coefficients(), good.omega(24)), (8, 42.0 / (24.0 * 40.0)));
-        let refused = |change: &dyn Fn(&mut CompressedTransfer)| {
-            let mut transfer = good.clone();
-            change(&mut transfer);
-            CompressedTransfer::new(transfer.rows, transfer.vertices, transfer.segments).expect_err("refused")
-        };
-        assert_eq!(
-            refused(&|t| t.rows = 3).to_string(),
-            "segment 1: expected a multiple of 3 numbers per vertex, one per row, found 16"
-        );
-        let (expected, found) = (16, 16);
-        assert_eq!(
-            refused(&|t| t.segments.swap(0, 1)),
-            input_error!("expected segments of {expected} numbers in increasing order, found segment 1 of {found}")
-        );
-        let vertices = |segment, points, vertices| {
-            input_error!(
-                "segment {segment}: expected {points} vertices below {vertices} in increasing order, found others"
-            )
-        };
-        assert_eq!(refused(&|t| t.vertices = 38), vertices(4, 12, 38));
-        assert_eq!(refused(&|t| t.segments[0].vertices[0] = 1), vertices(1, 30, 40));
     }
 }

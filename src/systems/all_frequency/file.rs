@@ -15,7 +15,7 @@ use crate::error::InputError;
 use crate::io::{NpzReader, NpzWriter, WriteError, write_file};
 use crate::sphere::ParabolicMap;
 use crate::transfer::file::kind::{begin_reading, begin_writing, bytes_of, contradiction};
-use crate::transfer::file::{MeshDigest, PrtKind, front, other_mesh_error};
+use crate::transfer::file::{MeshDigest, PrtKind, front, require_mesh};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps};
@@ -57,19 +57,13 @@ struct Code {
 }
 
 /// Reads a file; of `mesh`, if one is given.
-///
-/// # Errors
-/// [`InputError`].
 pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllFrequencyFile, InputError> {
     let file = parse_all_frequency(&bytes_of(path)?, path)?;
-    mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
+    mesh.map_or(Ok(()), |expected| require_mesh(path, expected, Some(file.mesh)))?;
     Ok(file)
 }
 
 /// Reads a file from bytes; `name` is its name in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, InputError> {
     let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::AllFrequency)?;
     let TransferMetadata { mesh, hats, terms, factors, code } = metadata;
@@ -95,18 +89,6 @@ pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile
 }
 
 impl AllFrequencyFile {
-    /// Refuses a file of another mesh, or of the same with other tangents; `path` is named in the message.
-    ///
-    /// # Errors
-    /// [`InputError`].
-    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), InputError> {
-        let found = self.mesh;
-        if found == *expected {
-            return Ok(());
-        }
-        Err(other_mesh_error(path, *expected, Some(found)))
-    }
-
     /// The first contradiction between the parts: the field, the expected and the found value.
     fn fault(&self, terms: usize) -> Option<(&'static str, String, String)> {
         if self.reflectance.terms() != terms {

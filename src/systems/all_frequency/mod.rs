@@ -1,6 +1,6 @@
 //! System 5: all-frequency transfer for glossy objects (Liu, Sloan, Shum and Snyder 2004).
 //!
-//! - [`mod@reference`]: the paper by plain loops, without compression. Read it first.
+//! - [`paper`]: equation 1 by plain loops, without compression. Read it first.
 //! - [`factor`]: reflectance as a sum of products of a function of view and a function of light (section 3);
 //! - [`Reflectance`]: these factors, or the exact term of a diffuse surface;
 //! - [`transfer`]: matrices of vertices (section 4), over the light texels of [`grid`](crate::transfer::grid);
@@ -18,7 +18,7 @@ pub mod factor;
 pub mod file;
 pub mod kernels;
 pub mod on_card;
-pub mod reference;
+pub mod paper;
 mod reflectance;
 pub mod shade;
 pub mod transfer;

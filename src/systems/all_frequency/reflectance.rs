@@ -1,21 +1,22 @@
 //! The reflectance that transfer was computed for.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
-use super::factor::{DiffuseFactor, ProductFactors};
+use super::factor::ProductFactors;
 
 /// f(v, s) = G(v) . F(s), without the color of the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
-    /// The one term of a diffuse surface of albedo 1, exact.
+    /// The one term of a diffuse surface of albedo 1, exact: F = s_z and G = 1 / pi. A table would lose s_z to
+    /// interpolation, most at the horizon.
     Diffuse,
     /// Factors by texels.
     Factored(ProductFactors),
 }
 
 impl Reflectance {
-    const WHITE: DiffuseFactor = DiffuseFactor { albedo: 1.0 };
-
     /// The number of terms m.
     pub const fn terms(&self) -> usize {
         match self {
@@ -31,7 +32,7 @@ impl Reflectance {
     pub fn view(&self, direction: DVec3, into: &mut [f64]) {
         match self {
             _ if direction.z <= 0.0 => into.fill(0.0),
-            Self::Diffuse => into[0] = Self::WHITE.view(),
+            Self::Diffuse => into[0] = 1.0 / PI,
             Self::Factored(factors) => factors.view(direction, into),
         }
     }
@@ -42,7 +43,7 @@ impl Reflectance {
     /// If there is not a place per term.
     pub fn light(&self, direction: DVec3, into: &mut [f64]) {
         match self {
-            Self::Diffuse => into[0] = DiffuseFactor::light(direction),
+            Self::Diffuse => into[0] = direction.z.max(0.0),
             Self::Factored(factors) => factors.light(direction, into),
         }
     }

@@ -17,13 +17,14 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Reflectance;
+use crate::clustering::Signal;
 use crate::error::InputError;
-use crate::transfer::error::out_of_range_error;
+use crate::transfer::Vertices;
+use crate::transfer::error::require;
 use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation};
 use crate::transfer::haar::Haar;
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::{VisibilityMaps, check};
-use crate::transfer::{Signal, Vertices};
 
 /// Number of light texels, and of coefficients, in a segment.
 const LEN: usize = Segmentation::Quarters.len();
@@ -111,9 +112,6 @@ impl Scratch {
 
 impl FactoredTransfer<'_> {
     /// The segments in order, without those that no vertex sees. Each is computed when the iterator reaches it.
-    ///
-    /// # Errors
-    /// As [`Self::segment`].
     pub fn segments(&self) -> impl Iterator<Item = Result<TransferSegment, InputError>> + '_ {
         (0..Segmentation::Quarters.count()).filter_map(|segment| self.segment(segment).transpose())
     }
@@ -126,10 +124,7 @@ impl FactoredTransfer<'_> {
     /// # Panics
     /// If there is no such segment.
     pub fn segment(&self, segment: usize) -> Result<Option<TransferSegment>, InputError> {
-        if self.rows == 0 {
-            let (what, expected) = ("the number of rows", "at least 1");
-            return Err(out_of_range_error(what, expected, 0.0));
-        }
+        require(self.rows > 0, "the number of rows", "at least 1", 0.0)?;
         check(self.vertices, self.maps.vertices())?;
         let hats = self.hats.segment(segment);
         let maps: Vec<usize> =

@@ -8,8 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bi_scale::bicluster::{Bicluster, Biclustering};
 use crate::bi_scale::directions::LocalDirections;
-use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crate::bi_scale::values::EntryValues;
+use crate::bi_scale::matrix::{EntryValues, MatrixEntry, SparseMatrix};
 use crate::error::InputError;
 use crate::io::{NpzReader, NpzWriter, WriteError, write_file};
 use crate::transfer::file::kind::{begin_reading, begin_writing, bytes_of, contradiction};
@@ -57,17 +56,11 @@ struct BiclusterSizes {
 }
 
 /// Reads a file.
-///
-/// # Errors
-/// [`InputError`].
 pub fn load_bi_scale(path: &Path) -> Result<BiScaleFile, InputError> {
     parse_bi_scale(&bytes_of(path)?, path)
 }
 
 /// Reads a file from bytes; `name` stands for it in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputError> {
     let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::BiScale)?;
     let MatrixMetadata { meaning, shape, entries, biclusters } = metadata;

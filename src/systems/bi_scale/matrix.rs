@@ -4,7 +4,6 @@
 //! other numbers are in a table ([`EntryValues`]). Multiples of a unit are subtracted without rounding, so that
 //! "lossless" means equal.
 
-use super::values::EntryValues;
 use crate::error::{InputError, ensure, input_error};
 use crate::io::CoordinateMatrix;
 
@@ -16,7 +15,7 @@ pub struct MatrixEntry {
     /// The column of an entry of a row; the row of an entry of a column.
     pub index: u32,
     /// The value, as [`EntryValues`] of the matrix or of the biclusters has it: equal integers are equal numbers, 0 is
-    /// 0, and signs and order are those of the numbers.
+    /// 0, and the order is that of the numbers.
     pub value: i32,
 }
 
@@ -56,9 +55,6 @@ impl SparseMatrix {
     /// A matrix of real numbers: in the largest power-of-two unit of which all are multiples, if this has at most
     /// [`EntryValues::MOST_FRACTION_BITS`] and 32 bits hold the multiples; else with a table. Zeros of either sign are
     /// left out.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, InputError> {
         if let Some(&(row, column, value)) = matrix.entries.iter().find(|(.., value)| !value.is_finite()) {
             return Err(input_error!("expected finite values, found {value} in row {row}, column {column}"));
@@ -176,9 +172,9 @@ impl SparseMatrix {
         &self.entries[self.begins[row]..self.begins[row + 1]]
     }
 
-    /// All entries row by row, and the start of each row followed by the end of the last.
-    pub(super) fn to_rows(&self) -> (Vec<MatrixEntry>, Vec<usize>) {
-        (self.entries.clone(), self.begins.clone())
+    /// All entries row by row.
+    pub(super) fn to_rows(&self) -> Vec<Vec<MatrixEntry>> {
+        (0..self.rows()).map(|row| self.row(row).to_vec()).collect()
     }
 }
 
@@ -200,60 +196,98 @@ fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
     values.map(|value| value * unit).all(|units| units.abs() <= f64::from(i32::MAX)).then_some(fraction_bits)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// The numbers behind entries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EntryValues {
+    /// All values of the matrix are multiples of 2^-this that 32 bits hold; `None` if there is no such unit.
+    fraction_bits: Option<u32>,
+    /// The unit; 1 without one.
+    unit: f64,
+    /// The numbers that entries name, the first by 1, in increasing order, unless entries are in units.
+    table: Option<Vec<f64>>,
+}
 
-    #[test]
-    fn a_wrong_row_changes_nothing() {
-        let entry = |index, value| MatrixEntry { index, value };
-        let mut matrix = SparseMatrix::new(4, 2).unwrap();
-        matrix.push_row(&[entry(0, 4), entry(3, 1)]).unwrap();
-        let before = matrix.clone();
-        let wrong = [
-            (vec![entry(4, 1)], input_error!("expected a column below 4 in row 1, found 4")),
-            (
-                vec![entry(2, 1), entry(2, 3)],
-                input_error!("expected increasing columns in row 1, found 2 after 2: is an entry given twice?"),
-            ),
-            (vec![entry(1, 0)], input_error!("expected values other than 0, found 0 in row 1, column 1")),
-        ];
-        for (row, error) in wrong {
-            assert_eq!(matrix.push_row(&row), Err(error));
-            assert_eq!(matrix, before);
+impl EntryValues {
+    /// The largest number of fraction bits of a unit: more than the difference of two f32 numbers in [0, 1] needs.
+    pub const MOST_FRACTION_BITS: u32 = 30;
+
+    /// Whole numbers of 2^-`fraction_bits`.
+    ///
+    /// # Panics
+    /// If `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
+    pub fn units(fraction_bits: u32) -> Self {
+        assert!(fraction_bits <= Self::MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
+        Self { fraction_bits: Some(fraction_bits), unit: 1.0 / f64::from(1_u32 << fraction_bits), table: None }
+    }
+
+    /// A table of finite numbers, in any order, repeated or not; zeros are left out. The values of the matrix may have
+    /// a unit all the same, where those of its biclusters leave 32 bits.
+    pub(super) fn table(fraction_bits: Option<u32>, numbers: impl Iterator<Item = f64>) -> Self {
+        let mut numbers: Vec<f64> = numbers.filter(|&value| value != 0.0).collect();
+        numbers.sort_unstable_by(f64::total_cmp);
+        numbers.dedup();
+        let unit = fraction_bits.map_or(1.0, |bits| Self::units(bits).unit);
+        Self { fraction_bits, unit, table: Some(numbers) }
+    }
+
+    /// In the unit of the matrix if there is one in which 32 bits hold all numbers, else in a table.
+    pub(super) fn of_numbers(fraction_bits: Option<u32>, numbers: impl Iterator<Item = f64> + Clone) -> Self {
+        let units = fraction_bits.map(Self::units);
+        let units = units.filter(|units| numbers.clone().all(|number| units.entry(number).is_some()));
+        units.unwrap_or_else(|| Self::table(fraction_bits, numbers))
+    }
+
+    /// Number of fraction bits of the unit of which all values of the matrix are multiples, if there is one.
+    pub fn fraction_bits(&self) -> Option<u32> {
+        self.fraction_bits
+    }
+
+    /// The number of values in the table; `None` if entries are in units.
+    pub fn table_len(&self) -> Option<usize> {
+        self.table.as_ref().map(Vec::len)
+    }
+
+    /// The number that an entry holds.
+    ///
+    /// # Panics
+    /// If the table has no such entry.
+    #[inline]
+    pub fn value(&self, entry: i32) -> f64 {
+        match &self.table {
+            None => self.unit * f64::from(entry),
+            Some(table) => table[(entry - 1) as usize],
         }
-        assert_eq!(SparseMatrix::new(0, 2), Err(size_error(0, 0)));
-        assert_eq!((matrix.value(1), matrix.nonzeros()), (0.25, 2));
     }
 
-    fn of(entries: &[(u32, u32, f64)]) -> Result<SparseMatrix, InputError> {
-        SparseMatrix::from_coordinates(&CoordinateMatrix { rows: 3, columns: 4, entries: entries.to_vec() })
-    }
-
-    #[test]
-    fn real_numbers_get_the_largest_units() {
-        let matrix = of(&[(0, 1, 0.5), (2, 0, -3.0), (2, 1, 0.0), (2, 3, 0.25)]).unwrap();
-        assert_eq!((matrix.values().fraction_bits(), matrix.nonzeros(), matrix.rows()), (Some(2), 3, 3));
-        assert_eq!(matrix.row(2), [MatrixEntry { index: 0, value: -12 }, MatrixEntry { index: 3, value: 1 }]);
-        assert_eq!(of(&[(0, 1, 6e8)]).unwrap().values().fraction_bits(), Some(0));
-        assert_eq!(of(&[]).unwrap().values().fraction_bits(), Some(0));
-    }
-
-    #[test]
-    fn numbers_without_a_unit_get_a_table() {
-        for numbers in [[0.1, 0.25], [6e8, 0.25], [1e200, 1.0], [f64::from_bits(1), -1e300], [f64::MAX, -0.1]] {
-            let [a, b] = numbers;
-            let matrix = of(&[(0, 1, a), (0, 2, -0.0), (2, 0, b), (2, 1, a)]).unwrap();
-            let values = matrix.values();
-            assert_eq!((values.fraction_bits(), values.table_len(), matrix.nonzeros()), (None, Some(2), 3));
-            let of_row = |row: usize| matrix.row(row).iter().map(|entry| matrix.value(entry.value)).collect::<Vec<_>>();
-            assert_eq!((of_row(0), of_row(1), of_row(2)), (vec![a], vec![], vec![b, a]));
-            let mut more = matrix.clone();
-            let foreign = MatrixEntry { index: 3, value: 3 };
-            let error = input_error!("expected a value of the table of 2 values in row 3, column 3, found entry 3");
-            assert_eq!((more.push_row(&[foreign]), &more), (Err(error), &matrix));
+    /// The integer of an entry for a number; `None` if it is neither a multiple of the unit that 32 bits hold nor in
+    /// the table.
+    pub(super) fn entry(&self, value: f64) -> Option<i32> {
+        match &self.table {
+            None => {
+                // Exact: the unit is a power of two.
+                let units = value / self.unit;
+                (units == f64::from(units as i32)).then_some(units as i32)
+            }
+            Some(table) => {
+                let found = table.binary_search_by(|other| other.total_cmp(&value));
+                found.ok().map(|index| (index + 1) as i32)
+            }
         }
-        let infinite = input_error!("expected finite values, found {} in row 1, column 1", f64::INFINITY);
-        assert_eq!(of(&[(0, 0, 0.1), (1, 1, f64::INFINITY)]), Err(infinite));
+    }
+
+    /// True if an entry may hold this.
+    pub(super) fn has(&self, entry: i32) -> bool {
+        entry != 0 && self.table.as_ref().is_none_or(|table| (1..=table.len()).contains(&(entry as usize)))
+    }
+}
+
+impl std::fmt::Display for EntryValues {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.table_len(), self.fraction_bits) {
+            (None, Some(0)) => f.write_str("whole numbers"),
+            (None, bits) => write!(f, "whole numbers of 2^-{}", bits.unwrap_or(0)),
+            (Some(1), _) => f.write_str("1 number in a table"),
+            (Some(count), _) => write!(f, "{count} numbers in a table"),
+        }
     }
 }

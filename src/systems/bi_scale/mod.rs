@@ -1,8 +1,8 @@
 //! System 6: all-frequency bi-scale radiance transfer by biclustering.
 //!
+//! - [`paper`]: Algorithms 1 and 2 and equation 3 by plain loops. Read it first.
 //! - [`directions`]: the local directions to which light is transferred (section VI-A);
 //! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a sparse [`matrix`];
-//! - [`values`]: the numbers that its integers stand for, and those of its biclusters;
 //! - [`mod@file`]: transfer and biclusters in `.npz` files;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
@@ -18,8 +18,8 @@ pub mod file;
 pub mod kernels;
 pub mod matrix;
 pub mod on_card;
+pub mod paper;
 pub mod product;
 pub mod shade;
 pub mod texture;
 pub mod transfer;
-pub mod values;

@@ -1,8 +1,8 @@
 //! Light times the transfer: L~ = T L as the sum of B_i L (section V, Rendering; Algorithm 2).
 //!
 //! - [`by_rows`]: T L itself, row by row;
-//! - [`reference()`]: Algorithm 2 in f64;
-//! - [`Gather`]: Algorithm 2 in f32, from lists in the order in which they are read: the sums of the reference's shape.
+//! - [`Gather`]: Algorithm 2 in f32, from lists in the order in which they are read: the sums of
+//!   [`paper::multiply`](super::paper::multiply)'s shape.
 //!
 //! Values of biclusters are taken in the format of the product. Residuals that it does not hold are rounded, so that
 //! large ones may leave an error where they cancel, though the biclusters are exact.
@@ -24,30 +24,6 @@ pub fn by_rows(matrix: &SparseMatrix, light: &[f64]) -> Vec<f64> {
         terms.fold(0.0, |sum, term| sum + term)
     };
     (0..matrix.rows()).map(row).collect()
-}
-
-/// Algorithm 2 in f64, step by step.
-///
-/// # Panics
-/// If the light has not as many numbers as the matrix has columns.
-pub fn reference(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
-    let [rows, columns] = biclusters.matrix_size();
-    assert_eq!(light.len(), columns, "as many numbers as columns");
-    // Lines 1 to 3: the bicluster buffer P.
-    let mut buffer = vec![0.0; biclusters.len()];
-    for (bicluster, sum) in buffer.iter_mut().enumerate() {
-        for entry in biclusters.columns_of(bicluster) {
-            *sum += biclusters.value(entry.value) * light[entry.index as usize];
-        }
-    }
-    // Lines 4 to 11, from the other side: rows take the biclusters in the same order.
-    let mut local = vec![0.0; rows];
-    for (bicluster, sum) in buffer.iter().enumerate() {
-        for &row in biclusters.rows_of(bicluster) {
-            local[row as usize] += sum;
-        }
-    }
-    local
 }
 
 /// Rows that are summed together.

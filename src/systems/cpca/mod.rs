@@ -1,15 +1,13 @@
 //! System 4: precomputed radiance transfer, compressed by clustered principal components.
 //!
-//! - [`mod@reference`]: the paper by plain loops, without compression. Read it first.
-//! - [`transfer`]: a matrix per vertex from light to exit radiance;
-//! - [`coherence`]: clusters that are cheaper to draw;
-//! - [`kernels`], [`on_card`]: compressed transfer drawn by vertex and pixel programs.
-//!
-//! The compression itself, which system 5 uses as well, is [`crate::transfer::clustering`], with a reference of
-//! its own.
+//! - [`paper`]: section 3.1 by plain loops, without compression. Read it first.
+//! - [`transfer`]: section 3, a matrix per vertex from light to exit radiance;
+//! - [`crate::clustering`]: section 4, the compression, with a `paper.rs` of its own;
+//! - [`coherence`]: section 5, clusters that are cheaper to draw;
+//! - [`kernels`], [`on_card`]: section 6, compressed transfer drawn by vertex and pixel programs.
 
 pub mod coherence;
 pub mod kernels;
 pub mod on_card;
-pub mod reference;
+pub mod paper;
 pub mod transfer;

@@ -1,6 +1,15 @@
-//! Facts of the systems, through the crate's public items, by room.
+//! The rooms through their public interface: a file or folder per room, so that the library is compiled once.
 
+mod all_frequency;
+mod bi_scale;
+mod clustering;
+mod cpca;
 mod radiosity;
 mod ray_engine;
 mod renderer;
 mod subsurface;
+mod transfer;
+
+// Tests name the rooms as the library does, `crate::geom`.
+use crossbar_base::{error, geom};
+use crossbar_ground::{card, io, linalg, scene, sphere, tracer};

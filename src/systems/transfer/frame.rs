@@ -66,32 +66,3 @@ impl LocalFrame {
         DMat3::from_cols(x, y, z)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_abs_diff_eq;
-
-    #[test]
-    fn frames_are_orthonormal_and_right_handed() {
-        let normals = [DVec3::X, -DVec3::Z, DVec3::new(0.36, 0.48, 0.8), DVec3::new(1e-9, 1.0, 0.0)];
-        for normal in normals {
-            let given = LocalFrame::new(normal, DVec3::new(0.3, -0.5, 7.0)).into_iter();
-            for frame in given.chain([LocalFrame::of_normal(normal)]) {
-                let m = frame.matrix();
-                assert!((m.transpose() * m).abs_diff_eq(DMat3::IDENTITY, 1e-15));
-                assert_abs_diff_eq!(m.determinant(), 1.0, epsilon = 1e-15);
-                let v = DVec3::new(0.1, 0.2, -0.3);
-                assert!(frame.to_local(frame.to_global(v)).abs_diff_eq(v, 1e-15));
-                assert_eq!(frame.to_local(v).z, normal.dot(v));
-            }
-        }
-    }
-
-    #[test]
-    fn a_tangent_along_the_normal_makes_no_frame() {
-        for tangent in [DVec3::ZERO, DVec3::Z, DVec3::new(1e-9, 0.0, -3.0), DVec3::NAN] {
-            assert_eq!(LocalFrame::new(DVec3::Z, tangent), None);
-        }
-    }
-}

@@ -171,30 +171,3 @@ impl FineDirections {
         (0..samples * samples).map(move |sample| first + sample / samples * side + sample % samples)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn texels_and_places_are_one_to_one() {
-        for (segmentation, count, side) in [(Segmentation::Quarters, 24, 16), (Segmentation::Faces, 6, 32)] {
-            assert_eq!((segmentation.count(), segmentation.side()), (count, side));
-            for texel in 0..LIGHT_TEXELS {
-                let [segment, place] = segmentation.place(texel);
-                assert_eq!(segmentation.texel(segment, place), texel);
-            }
-        }
-        // Face 2, row 17, column 3: the lower left quarter, row 1.
-        assert_eq!(Segmentation::Quarters.place(2 * 1024 + 17 * 32 + 3), [2 * 4 + 2, 16 + 3]);
-        assert_eq!(light_texel(3 * 16_384 + 5 * 128 + 127), 3 * 1024 + 32 + 31);
-    }
-
-    #[test]
-    fn fine_directions_cover_the_sphere() {
-        let fine = FineDirections::get();
-        let sum: f64 = fine.solid_angles().iter().sum();
-        assert!((sum / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12, "{sum}");
-        assert_eq!(fine.directions()[4 * 16_384 + 64 * 128 + 64], CubeMap::new(FINE_SIDE).direction(4, 64, 64));
-    }
-}

@@ -116,33 +116,3 @@ const fn butterfly([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     let ([left, right], [above, below]) = ([a + c, b + d], [a - b, c - d]);
     [(left + right) / 2.0, (above + below) / 2.0, ((a + b) - (c + d)) / 2.0, (above - below) / 2.0]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn two_by_two_as_defined() {
-        let mut square = [8.0, 4.0, 2.0, 0.0];
-        Haar::new(2).forward(&mut square);
-        assert_eq!(square, [7.0, 3.0, 5.0, 1.0]);
-        Haar::new(2).inverse(&mut square);
-        assert_eq!(square, [8.0, 4.0, 2.0, 0.0]);
-    }
-
-    #[test]
-    fn a_basis_function_vanishes_outside_its_support() {
-        let mut haar = Haar::new(8);
-        for coefficient in 0..64 {
-            let mut square = [0.0; 64];
-            square[coefficient] = 1.0;
-            haar.inverse(&mut square);
-            let HaarSupport { row, column, side } = haar.support(coefficient);
-            for (at, value) in square.into_iter().enumerate() {
-                let within = (row..row + side).contains(&(at / 8)) && (column..column + side).contains(&(at % 8));
-                // Plus or minus one over the side: a sum of squares of 1.
-                assert_eq!(value.abs(), if within { 1.0 / side as f64 } else { 0.0 }, "{coefficient} at {at}");
-            }
-        }
-    }
-}

@@ -256,30 +256,3 @@ fn rim(samples: &[SegmentSample]) -> Vec<u32> {
     }
     found
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn inside_a_face_hats_are_bilinear() {
-        // Fine row 41 is row 1 of texel row 10, 1/8 above its center; fine column 47 column 3 of texel 11, 3/8 right.
-        let found: Vec<_> = BasisWeights::of(BasisWidth::TwoTexels, 4 * 16_384 + 41 * 128 + 47).iter().collect();
-        let at = |row: usize, column: usize| 4 * 1024 + row * 32 + column;
-        let expected =
-            [(at(10, 11), 35.0 / 64.0), (at(10, 12), 21.0 / 64.0), (at(9, 11), 5.0 / 64.0), (at(9, 12), 3.0 / 64.0)];
-        assert_eq!(found, expected);
-        let one: Vec<_> = BasisWeights::of(BasisWidth::OneTexel, 4 * 16_384 + 41 * 128 + 47).iter().collect();
-        assert_eq!(one, [(at(10, 11), 1.0)]);
-    }
-
-    #[test]
-    fn beyond_an_edge_lies_the_next_face() {
-        // +x has -z to its right, +y above; beyond its right border lies -z's left column.
-        assert_eq!(texel(0, [7, 32]), Some(5 * 1024 + 7 * 32));
-        assert_eq!(texel(0, [7, -1]), Some(4 * 1024 + 7 * 32 + 31));
-        // Above +x's row 0 lies +y's right column; +x's columns run along -z, +y's rows along +z.
-        assert_eq!(texel(0, [-1, 0]), Some(2 * 1024 + 31 * 32 + 31));
-        assert_eq!(texel(0, [-1, -1]), None);
-    }
-}

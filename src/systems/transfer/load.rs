@@ -2,25 +2,15 @@
 
 use std::path::Path;
 
-use super::Signal;
 use super::file::{self, MeshDigest, PrtFile, PrtMeaning, parse_prt};
+use crate::clustering::Signal;
 use crate::error::{InputError, input_error};
 use crate::io::{npz, number_table, parse_numbers, read_file};
 
 /// Reads a signal from a file: the transfer of a `.npz` file, a NumPy array, or comma-separated values, recognised by
-/// the first bytes. Its numbers are f32, as transfer is stored.
-///
-/// # Errors
-/// [`InputError`].
-pub fn load_signal(path: &Path) -> Result<Signal, InputError> {
-    load_signal_and_meaning(path).map(|(_, _, signal)| signal)
-}
-
-/// As [`load_signal`], with the meaning of the numbers, and the mesh whose vertices are the points.
-///
-/// # Errors
-/// [`InputError`].
-pub fn load_signal_and_meaning(path: &Path) -> Result<(PrtMeaning, Option<MeshDigest>, Signal), InputError> {
+/// the first bytes. Its numbers are f32, as transfer is stored. Also the meaning of the numbers, and the mesh whose
+/// vertices are the points.
+pub fn load_signal(path: &Path) -> Result<(PrtMeaning, Option<MeshDigest>, Signal), InputError> {
     let limit = file::MAX_BYTES.max(number_table::MAX_BYTES);
     let bytes = read_file(path, "signal", limit)?;
     if bytes.starts_with(npz::MAGIC) {

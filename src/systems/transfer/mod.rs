@@ -9,13 +9,10 @@
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
 //! - [`grid`], [`haar`], [`linear_basis`]: the cube of light texels, its segments and their bases;
 //! - [`light`]: light as coefficients over the cube; [`visibility`]: the directions that each vertex sees;
-//! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;
-//! - [`clustering`]: clustered principal components of any signal;
 //! - [`mod@file`]: files of transfer (`.npz`); [`load_signal`] reads a signal from one, or from NPY or CSV;
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
 pub mod brdf;
-pub mod clustering;
 pub(crate) mod error;
 pub mod file;
 mod frame;
@@ -24,19 +21,17 @@ pub mod haar;
 pub mod light;
 pub mod linear_basis;
 mod load;
-mod origins;
+mod plain;
 mod shooter;
-pub mod signal;
 mod skyline;
 pub mod synthetic;
 mod vertices;
 pub mod visibility;
 
 pub use frame::LocalFrame;
-pub use load::{load_signal, load_signal_and_meaning};
-pub(crate) use origins::{RayOrigin, origins};
+pub use load::load_signal;
+pub(crate) use plain::{plain_hit, plain_origin};
 pub use shooter::ray_length;
-pub(crate) use shooter::{FrontHit, Shooter, VertexRays};
-pub use signal::Signal;
+pub(crate) use shooter::{FrontHit, RayOrigin, Shooter, VertexRays, origins};
 pub(crate) use skyline::{Occluders, SkyPart, ones};
 pub use vertices::{Tangents, Vertices};

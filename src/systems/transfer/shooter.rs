@@ -1,14 +1,87 @@
-//! Generation of the rays of a vertex, and classification of their hits.
+//! Where the rays of a vertex start, off all triangles on which it lies, even where it is not a corner of them; the rays,
+//! and what they hit.
 
 use glam::DVec3;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::origins::RayOrigin;
 use super::skyline::{Occluders, SkyPart};
 use super::vertices::Vertices;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
+use crate::tracer::offset::{SINGLE, SurfacePoint};
+
+/// Largest number of rounds in which an origin is moved; after that it stays, even if it is not clear of all triangles.
+const MAX_ROUNDS: usize = 16;
+/// The largest distance at which a vertex can count as lying on a triangle, relative to the triangle's size or the
+/// vertex's coordinates: more than a few rounding errors.
+const SHARE: f64 = 1e-5;
+
+/// The origin of a vertex's rays, and the triangles on which the vertex lies.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct RayOrigin {
+    /// The origin, in single precision as rays have it.
+    pub(crate) at: [f32; 3],
+    /// Unit normals of the triangles.
+    pub(crate) planes: Vec<DVec3>,
+    /// True if it lies in front of all of them, at the required distance.
+    pub(crate) is_clear: bool,
+}
+
+impl RayOrigin {
+    /// True if a direction lies below the geometric horizon: behind every triangle on which the vertex lies.
+    pub(crate) fn is_below_horizon(&self, direction: DVec3) -> bool {
+        self.planes.iter().all(|plane| plane.dot(direction) < 0.0)
+    }
+}
+
+/// The origins of all vertices.
+pub(crate) fn origins(vertices: &Vertices, occluders: &Occluders) -> Vec<RayOrigin> {
+    vertices.positions().par_iter().map(|&at| origin(wide(at), occluders)).collect()
+}
+
+/// Moves the vertex repeatedly along the normal of each triangle that it is not yet clear of.
+fn origin(place: DVec3, occluders: &Occluders) -> RayOrigin {
+    let mut planes: Vec<(DVec3, f64)> = Vec::new();
+    occluders.around(place, SHARE, |corners| planes.extend(plane(corners, place)));
+    // Sorted, so that the result does not depend on the order of the triangles.
+    planes.sort_by(|(one, _), (other, _)| {
+        let keys = one.to_array().into_iter().zip(other.to_array());
+        keys.fold(std::cmp::Ordering::Equal, |order, (one, other)| order.then(one.total_cmp(&other)))
+    });
+    let mut at = place;
+    let clear = |at: DVec3| planes.iter().all(|&(normal, clearance)| normal.dot(wide(narrow(at)) - place) >= clearance);
+    for _ in 0..MAX_ROUNDS {
+        if clear(at) {
+            break;
+        }
+        for &(normal, clearance) in &planes {
+            // Twice the clearance, which leaves room for rounding to single precision.
+            let missing = 2.0 * clearance - normal.dot(at - place);
+            if missing > 0.0 {
+                at += missing * normal;
+            }
+        }
+    }
+    let is_clear = clear(at);
+    RayOrigin { at: narrow(at), planes: planes.into_iter().map(|(normal, _)| normal).collect(), is_clear }
+}
+
+/// The normal of a triangle on which `place` lies, and the distance from it at which rays must start; `None` if it lies
+/// elsewhere.
+fn plane(corners: [DVec3; 3], place: DVec3) -> Option<(DVec3, f64)> {
+    let [a, b, c] = corners;
+    let weights = DVec3::from([a, b, c].map(|corner| f64::from(u8::from(corner == place))));
+    let point = SurfacePoint::of(corners, weights, SINGLE)?;
+    let (normal, clearance) = (point.normal, point.clearance(place.distance(a)));
+    // The tolerance covers a few rounding errors of the coordinates.
+    let largest = corners.iter().fold(place.abs().max_element(), |most, corner| most.max(corner.abs().max_element()));
+    let reach = 8.0 * SINGLE * largest;
+    let inside = |from: DVec3, to: DVec3| (to - from).cross(place - from).dot(normal) >= -reach * from.distance(to);
+    let on = normal.dot(place - a).abs() <= reach && inside(a, b) && inside(b, c) && inside(c, a);
+    on.then_some((normal, clearance))
+}
 
 /// The largest length of a ray, 2^126; the range of single precision ends at 2^128.
 const MAX_REACH: f64 = (1_u128 << 126) as f64;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::Signal;
+use crate::clustering::Signal;
 use crate::elementary::{on_circle, sin_cos};
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;

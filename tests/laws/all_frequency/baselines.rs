@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crossbar::all_frequency::baselines::{BaselineSubject, FixedView, HarmonicTransfer};
 use crossbar::all_frequency::factor::{Lobe, ProductFunction};
-use crossbar::all_frequency::reference::AllFrequencyReference;
+use crossbar::all_frequency::paper::AllFrequencyReference;
 use crossbar::geom::Mesh;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::brdf::Brdf;

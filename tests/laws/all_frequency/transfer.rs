@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crossbar::all_frequency::reference::AllFrequencyReference;
+use crossbar::all_frequency::paper::AllFrequencyReference;
 use crossbar::all_frequency::transfer::{FactoredTransfer, TransferSegment};
 use crossbar::elementary::{atan2, on_circle};
 use crossbar::geom::random::CounterRng;

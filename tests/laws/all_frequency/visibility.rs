@@ -1,6 +1,6 @@
 //! Visibility maps: by rays, by the reference's triangles.
 
-use crossbar::all_frequency::reference::AllFrequencyReference;
+use crossbar::all_frequency::paper::AllFrequencyReference;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Sides};
 use crossbar::sphere::CUBE_FACES;

@@ -1,8 +1,9 @@
 //! Biclusters: the fast search against a literal Algorithm 1, and properties for any matrix.
 
-use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster, reference};
+use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crossbar::bi_scale::matrix::MatrixEntry;
-use crossbar::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
+use crossbar::bi_scale::paper;
+use crossbar::bi_scale::product::{Gather, by_rows};
 use proptest::prelude::*;
 use refsim::num::power_of_two;
 
@@ -28,7 +29,7 @@ proptest! {
     ) {
         let options = BiclusterOptions { seed, deletion, drop: 0.25 * f64::from(drop) };
         let matrix = matrix(&rows, 2);
-        let expected = reference::bicluster(&matrix, options);
+        let expected = paper::biclusters(&matrix, options);
         let found = quietly(&matrix, options);
         for index in 0..expected.len().min(found.len()) {
             prop_assert_eq!(expected.get(index), found.get(index), "bicluster {}", index);
@@ -71,7 +72,7 @@ proptest! {
         let found = quietly(&matrix, BiclusterOptions { seed, ..BiclusterOptions::default() });
         let light: Vec<f64> = light[..matrix.columns()].iter().map(|&texel| f64::from(texel)).collect();
         let expected = by_rows(&matrix, &light);
-        prop_assert_eq!(&algorithm_2(&found, &light), &expected);
+        prop_assert_eq!(&paper::multiply(&found, &light), &expected);
         // Sums of multiples of a quarter below 2^22 are exact in f32 too.
         let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel as f32]).collect::<Vec<_>>());
         prop_assert_eq!(fast.into_iter().map(|[sum]| f64::from(sum)).collect::<Vec<f64>>(), expected);
@@ -85,7 +86,7 @@ proptest! {
         let found = quietly(&matrix, BiclusterOptions { seed, ..BiclusterOptions::default() });
         let light = &light[..matrix.columns()];
         let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel]).collect::<Vec<_>>());
-        let expected = algorithm_2(&found, &light.iter().map(|&texel| f64::from(texel)).collect::<Vec<f64>>());
+        let expected = paper::multiply(&found, &light.iter().map(|&texel| f64::from(texel)).collect::<Vec<f64>>());
         // Per row the sum of magnitudes, and the largest number of operations on a term.
         let [rows, _] = found.matrix_size();
         let (mut magnitude, mut operations) = (vec![0.0; rows], vec![0; rows]);
@@ -160,7 +161,7 @@ fn a_matrix_of_nothing_has_no_biclusters() {
     let matrix = matrix(&[vec![0, 0], vec![0, 0]], 0);
     let found = quietly(&matrix, BiclusterOptions::default());
     assert!(found.is_empty());
-    assert_eq!(algorithm_2(&found, &[1.0, 2.0]), [0.0, 0.0]);
+    assert_eq!(paper::multiply(&found, &[1.0, 2.0]), [0.0, 0.0]);
     assert_eq!(found.sum(), Ok(matrix));
 }
 
@@ -173,7 +174,7 @@ fn residuals_leave_32_bits() {
     let matrix = matrix(&rows, 2);
     let found = quietly(&matrix, BiclusterOptions::default());
     assert_eq!((found.values().fraction_bits(), found.values().table_len()), (Some(2), Some(3)));
-    assert_eq!(reference::bicluster(&matrix, BiclusterOptions::default()), found);
+    assert_eq!(paper::biclusters(&matrix, BiclusterOptions::default()), found);
     assert_eq!(found.sum(), Ok(matrix));
 }
 
@@ -188,7 +189,7 @@ proptest! {
         drop in prop_oneof![2 => Just(0.0), 1 => finite().prop_map(f64::abs)],
     ) {
         let (matrix, options) = (real_matrix(&rows), BiclusterOptions { seed, deletion, drop });
-        prop_assert_eq!(reference::bicluster(&matrix, options), quietly(&matrix, options));
+        prop_assert_eq!(paper::biclusters(&matrix, options), quietly(&matrix, options));
     }
 
     /// Subnormal numbers, 1e-300 beside 1e300, numbers of 53 bits: what is read comes back but for rounding.

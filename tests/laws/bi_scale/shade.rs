@@ -2,9 +2,10 @@
 
 use approx::assert_relative_eq;
 use crossbar::bi_scale::directions::{LocalDirections, hemisphere};
+use crossbar::bi_scale::paper;
 use crossbar::bi_scale::product::by_rows;
 use crossbar::bi_scale::shade::{
-    ShadedPixel, TextureLookup, TracedLight, TracedPoint, TracedRung, TracedScene, pixel_frame, reference,
+    ShadedPixel, TextureLookup, TracedLight, TracedPoint, TracedRung, TracedScene, pixel_frame,
 };
 use crossbar::bi_scale::texture::{BidirectionalTexture, MesoMaterial, MesoPatch, PatchKind, TextureSampling};
 use crossbar::bi_scale::transfer::{light_vector, transfer_matrix};
@@ -56,10 +57,10 @@ proptest! {
         let lights = sizes[1] * sizes[1];
         let local = &light.as_chunks().0[..lights * VERTICES as usize];
         let found = TextureLookup::new(&texture).radiance(local, &pixel, &mut Vec::new());
-        prop_assert_eq!(found, reference::radiance(&texture, local, &pixel));
+        prop_assert_eq!(found, paper::radiance(&texture, local, &pixel));
         // Light is linear: twice as much of it gives twice the radiance, to the bit.
         let twice: Vec<[f64; 3]> = local.iter().map(|rgb| rgb.map(|value| 2.0 * value)).collect();
-        prop_assert_eq!(reference::radiance(&texture, &twice, &pixel), found.map(|value| 2.0 * value));
+        prop_assert_eq!(paper::radiance(&texture, &twice, &pixel), found.map(|value| 2.0 * value));
     }
 
     /// A texture that is the same everywhere gives its value times the light of the pixel, whatever place and view.
@@ -68,7 +69,7 @@ proptest! {
         let texture = texture(sizes, &[value]);
         let lights = sizes[1] * sizes[1];
         let local = vec![[0.5, 1.0, 2.0]; lights * VERTICES as usize];
-        for (found, light) in reference::radiance(&texture, &local, &pixel).into_iter().zip([0.5, 1.0, 2.0]) {
+        for (found, light) in paper::radiance(&texture, &local, &pixel).into_iter().zip([0.5, 1.0, 2.0]) {
             assert_relative_eq!(found, light * f64::from(value) * lights as f64, max_relative = 1e-12);
         }
     }
@@ -145,7 +146,7 @@ fn white_furnace_of_pixels() {
         let local: Vec<[f64; 3]> = by_rows(&matrix, &light).into_iter().map(|value| [value; 3]).collect();
         let weights = [0.2, 0.3, 0.5];
         let pixel = ShadedPixel { corners: [0, 1, 2], weights, place: [0.1, 0.2], view: DVec3::Z };
-        let by_transfer = reference::radiance(&texture, &local, &pixel);
+        let by_transfer = paper::radiance(&texture, &local, &pixel);
         let by_rays = rungs(&patch, &texture, [1.0; 3]);
         for (channel, albedo) in albedo.into_iter().enumerate() {
             assert_relative_eq!(by_transfer[channel], albedo, max_relative = error);

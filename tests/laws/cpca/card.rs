@@ -3,13 +3,13 @@
 use approx::assert_relative_eq;
 use crossbar::card::frame_time::frame_time;
 use crossbar::card::{MeshView, Texels};
+use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::cpca::on_card::model::TransferSize;
 use crossbar::cpca::on_card::time::{FrameCounts, host_of_section_7};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, WeightFormat};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;
-use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::transfer::synthetic::{hills, signal_at};
 use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;

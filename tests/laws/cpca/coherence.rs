@@ -1,10 +1,9 @@
 //! Fewer triangles drawn: within the budget, never more, and never at the cost of error where none is allowed.
 
+use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
 use crossbar::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
-use crossbar::transfer::Signal;
-use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use glam::DVec3;
 use proptest::prelude::*;
 

@@ -1,10 +1,9 @@
 //! Compression against plain loops, closed forms, and what must hold of every step.
 
-use crossbar::linalg::{Matrix, SymmetricEigen};
-use crossbar::transfer::Signal;
-use crossbar::transfer::clustering::{
-    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, StartPoints, compress, reference,
+use crossbar::clustering::{
+    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress, paper,
 };
+use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::transfer::synthetic::torus_signal;
 use proptest::prelude::*;
 
@@ -72,7 +71,7 @@ fn clusters_are_those_of_plain_loops() {
                 let options = CpcaOptions { form, ..options(clusters, vectors, method) };
                 let fast = compressed(&signal, &options);
                 check_steps(&signal, form, &fast);
-                let plain = reference::compress(&signal, &options).expect("compressed");
+                let plain = paper::compress(&signal, &options).expect("compressed");
                 let fast = fast.clustering;
                 assert_eq!(
                     fast.of_point(),
@@ -104,7 +103,7 @@ fn ties_go_to_the_lower_cluster() {
             ..options(2, 0, CpcaMethod::Static)
         };
         assert_eq!(compressed(&signal, &options).clustering.of_point(), of_point);
-        assert_eq!(reference::compress(&signal, &options).expect("compressed").of_point(), of_point);
+        assert_eq!(paper::compress(&signal, &options).expect("compressed").of_point(), of_point);
     }
 }
 
@@ -210,7 +209,7 @@ fn options_that_do_not_fit_are_refused() {
         let mut options = options(4, 2, CpcaMethod::Static);
         change(&mut options);
         let error = compress(&signal, &options, |_| ()).expect_err("refused");
-        assert_eq!(reference::compress(&signal, &options).expect_err("refused"), error);
+        assert_eq!(paper::compress(&signal, &options).expect_err("refused"), error);
         error.to_string()
     };
     assert_eq!(refused(&|o| o.clusters = 0), "expected 1 to 10 clusters, one per point at most, found 0");
@@ -256,7 +255,7 @@ proptest! {
         prop_assert!(clustering.all_weights().len() <= vectors * signal.points());
         // The vectors are orthonormal, and their largest components positive: `new` checks the former.
         let parts = (clustering.subspaces().to_vec(), clustering.of_point().to_vec(), clustering.all_weights().to_vec());
-        let again = crossbar::transfer::clustering::Clustering::new(parts.0, parts.1, parts.2);
+        let again = crossbar::clustering::Clustering::new(parts.0, parts.1, parts.2);
         prop_assert_eq!(again.as_ref(), Ok(clustering));
         for vector in clustering.subspaces().iter().flat_map(|subspace| subspace.vectors()) {
             let largest = vector.iter().copied().fold(0.0_f64, |a, b| if b.abs() > a.abs() { b } else { a });

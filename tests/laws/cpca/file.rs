@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
+use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
 use crossbar::geom::Mesh;
 use crossbar::io::npz::MAGIC;
 use crossbar::io::{NumberTable, parse_npy, parse_number_table, write_npy};
-use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt, parse_prt, save_prt, write_prt};
 use crossbar::transfer::synthetic::torus_signal;
-use crossbar::transfer::{Signal, Tangents, Vertices, load_signal};
+use crossbar::transfer::{Tangents, Vertices, load_signal};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -76,7 +76,7 @@ fn what_is_written_is_read_in_all_its_parts() {
         let path = folder.path().join("a.npz");
         save_prt(&file, &path).expect("saved");
         assert_eq!(load_prt(&path, file.mesh.as_ref()).expect("loaded"), file);
-        match (&file.transfer, load_signal(&path)) {
+        match (&file.transfer, load_signal(&path).map(|(_, _, signal)| signal)) {
             (Some(transfer), Ok(signal)) => assert_eq!(&signal, transfer),
             (None, Err(error)) => assert!(error.to_string().ends_with("expected transfer, found clusters alone")),
             (_, other) => panic!("{other:?}"),
@@ -306,7 +306,9 @@ fn signals_are_read_from_tables_and_arrays() {
     let read = |bytes: &[u8]| {
         let path = folder.path().join("signal");
         std::fs::write(&path, bytes).expect("written");
-        load_signal(&path).map_err(|error| error.to_string().replace(&path.display().to_string(), "signal"))
+        load_signal(&path)
+            .map(|(_, _, signal)| signal)
+            .map_err(|error| error.to_string().replace(&path.display().to_string(), "signal"))
     };
     let signal = Signal::new(2, vec![1.0, 2.0, 3.0, 4.0]).expect("a signal");
     assert_eq!(read(b"x,y\n1,2\n3,4\n"), Ok(signal.clone()));

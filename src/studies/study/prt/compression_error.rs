@@ -1,9 +1,8 @@
 //! How far a compressed signal is from the original.
 
+use crate::clustering::{Clustering, Signal};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
-use crate::transfer::Signal;
-use crate::transfer::clustering::Clustering;
 
 /// Powers of ten that the histogram tells apart, as shares of a point's mean square.
 const DECADES: std::ops::RangeInclusive<i32> = -10..=-1;

@@ -3,12 +3,12 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::clustering::{Clustering, Signal};
 use crate::geom::vector::wide;
 use crate::sphere::{HarmonicLight, MAX_ORDER, harmonics};
 use crate::study::StudyError;
-use crate::transfer::clustering::Clustering;
+use crate::transfer::Vertices;
 use crate::transfer::file::PrtMeaning;
-use crate::transfer::{Signal, Vertices};
 
 /// Meaning of the numbers of a vertex, with a light of as many functions.
 pub(in crate::study) struct Lit<'a> {

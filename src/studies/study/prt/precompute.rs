@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::parts::VertexTransfer;
+use crate::clustering::Signal;
 use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
 use crate::error::InputError;
 use crate::geom::Mesh;
@@ -12,9 +13,9 @@ use crate::split::{Computed, SplitRun};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, fresnel_transmittance};
 use crate::tracer::HostTracer;
+use crate::transfer::Vertices;
 use crate::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
-use crate::transfer::{Signal, Vertices};
 
 /// Degree up to which a rule of many heights is exact: that of products of two functions of the largest order.
 const EXACT_DEGREE: usize = 2 * MAX_ORDER - 2;

@@ -4,6 +4,7 @@ use super::compression_error::CompressionError;
 use super::exit_radiance::{Lit, no_transfer};
 use super::interpolate::SeenSurface;
 use super::lit_view::LitView;
+use crate::clustering::Signal;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
@@ -12,8 +13,8 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color};
 use crate::sphere::HarmonicLight;
 use crate::study::{ProgressFn, Study, StudyError};
+use crate::transfer::Vertices;
 use crate::transfer::file::PrtFile;
-use crate::transfer::{Signal, Vertices};
 
 /// A model with its transfer, a light and a camera.
 #[derive(Debug)]

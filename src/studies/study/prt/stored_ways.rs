@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use crate::bi_scale::baselines::columns_error;
 use crate::bi_scale::baselines::{
-    CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer, NarrowRows,
-    ReshuffledVisibility, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
+    CoefficientPriority, CompressedRows, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer,
+    ReshuffledVisibility, RowClusterOptions, RowClusters, StoredSize, StoredTransfer,
 };
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::matrix::SparseMatrix;
@@ -73,10 +73,10 @@ impl StoredComparison<'_> {
         let (rows, budget) = (self.matrix.rows(), self.biclusters.sizes()[0].bytes);
         ways.push("biclusters", self.biclusters, 0.0);
         let start = Instant::now();
-        if let Ok(narrow) = NarrowRows::new(self.matrix) {
+        if let Ok(narrow) = CompressedRows::narrow(self.matrix) {
             ways.push("rows of 3 bytes an entry", &narrow, start.elapsed().as_secs_f64());
         }
-        ways.make("rows of 8 bytes an entry", || WideRows::new(self.matrix))?;
+        ways.make("rows of 8 bytes an entry", || CompressedRows::wide(self.matrix))?;
         for (clusters, what) in self.cluster_settings(budget) {
             let steps = clusters.rounds as u64 + 1;
             let name = format!(

@@ -14,7 +14,7 @@ use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{FactorSampling, Supersamples};
 use crossbar_systems::all_frequency::file::AllFrequencyFile;
 use crossbar_systems::transfer::brdf::Brdf;
-use crossbar_systems::transfer::clustering::{AffineSubspace, Clustering};
+use crossbar_systems::clustering::{AffineSubspace, Clustering};
 use crossbar_systems::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
 use crossbar_systems::transfer::grid::texel_center;
 use crossbar_systems::transfer::light::{CubeLight, Decimation, DiskSource, DistantLight};

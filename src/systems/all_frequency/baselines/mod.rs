@@ -8,8 +8,6 @@
 
 mod fixed_view;
 mod harmonic;
-mod subject;
 
-pub use fixed_view::FixedView;
+pub use fixed_view::{BaselineSubject, FixedView};
 pub use harmonic::HarmonicTransfer;
-pub use subject::BaselineSubject;

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::quantise::{quantise, step};
 use super::{CodeOptions, ScaleOf, SparseRows};
 use crate::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
+use crate::clustering::Clustering;
 use crate::error::InputError;
-use crate::transfer::clustering::Clustering;
 
 /// The transfer of one lighting segment, coded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -274,116 +274,5 @@ pub(super) fn steps(most: &[f64], bits: u8, scale: ScaleOf) -> Vec<f32> {
     match scale {
         ScaleOf::Representative => most.iter().map(|&most| step(most, bits)).collect(),
         ScaleOf::Segment => vec![step(largest(most.iter()), bits); most.len()],
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::all_frequency::compressed::tests::sample;
-
-    #[test]
-    fn decoded_transfer_is_as_near_as_the_steps() {
-        let transfer = sample(3, 16);
-        for scale in [ScaleOf::Representative, ScaleOf::Segment] {
-            for bits in [8, 12, 16] {
-                let options = CodeOptions { representative_bits: bits, weight_bits: bits, scale };
-                let coded = CodedTransfer::new(&transfer, options).expect("coded");
-                for (part, code) in transfer.segments.iter().zip(&coded.segments) {
-                    code.decode(|point, decoded| {
-                        let mut expected = vec![0.0; 48];
-                        part.clustering.approximation(point, &mut expected);
-                        let bound = bound(part, code, point);
-                        for (a, b) in decoded.iter().zip(&expected) {
-                            assert!((a - b).abs() <= bound, "{bits} bits, {scale:?}: {a} for {b}, {bound}");
-                        }
-                    });
-                }
-            }
-        }
-    }
-
-    /// Error bound: half a step of each factor, plus rounding in sums of about 4 terms.
-    fn bound(part: &CompressedSegment, code: &CodedSegment, point: usize) -> f64 {
-        let first = code.firsts()[part.clustering.of_point()[point] as usize];
-        let terms = part.clustering.weights(point).iter().enumerate().map(|(k, weight)| {
-            let steps = [&code.representative_steps, &code.weight_steps].map(|steps| 0.5 * f64::from(steps[first + k]));
-            // Representatives have length 1, so none of their numbers exceeds 1.
-            weight.abs() * steps[0] + steps[1] * (1.0 + steps[0])
-        });
-        terms.sum::<f64>() * (1.0 + 1e-9) + 1e-12
-    }
-
-    /// Representatives times the sizes of their weights are multiples of the step, within half of it or at the end of
-    /// 16 bits; a coarser step leaves fewer numbers.
-    #[test]
-    fn an_absolute_step_is_that_of_numbers_with_weights_of_about_1() {
-        let transfer = sample(3, 16);
-        let mut nonzeros = Vec::new();
-        for halves in [4, 10, 16] {
-            let step = 1.0 / f64::from(1_u32 << halves);
-            for part in &transfer.segments {
-                let coded = CodedSegment::code_in_steps(part, step, CodeOptions::default()).expect("coded");
-                let sizes = mean_weights(&part.clustering, &coded.firsts());
-                let codes = coded.representatives.decode();
-                let rows = vectors(&part.clustering).zip(codes.chunks_exact(coded.representatives.columns()));
-                for ((row, codes), size) in rows.zip(sizes) {
-                    for (value, &code) in row.iter().zip(codes) {
-                        let (value, found) = (value * size, f64::from(code) * step);
-                        let is_cut = code == i16::MAX || code == i16::MIN;
-                        // The step of a representative is stored in single precision.
-                        assert!(is_cut || (found - value).abs() <= step * 0.51 + 1e-6 * value.abs(), "{value} {found}");
-                    }
-                }
-                nonzeros.push(coded.representatives.nonzeros());
-            }
-        }
-        let of_steps: Vec<usize> = nonzeros.chunks(transfer.segments.len()).map(|parts| parts.iter().sum()).collect();
-        assert!(of_steps[0] < of_steps[1] && of_steps[1] <= of_steps[2], "{of_steps:?}");
-        let none = CodeOptions { weight_bits: 1, ..CodeOptions::default() };
-        assert!(CodedSegment::code_in_steps(&transfer.segments[0], 1.0, none).is_err());
-    }
-
-    #[test]
-    fn sizes_are_counted_by_part() {
-        let transfer = sample(2, 8);
-        let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
-        let (nonzeros, all) = coded.nonzeros();
-        let representatives: usize = coded.segments.iter().map(|part| part.representatives.rows()).sum();
-        let weights: usize = transfer.segments.iter().map(|part| part.clustering.all_weights().len()).sum();
-        assert!(all == 16 * representatives && nonzeros <= all);
-        let size = coded.size();
-        let expected = CodeSize {
-            representatives: 3 * nonzeros as u64,
-            columns: 2 * 2 * 16,
-            weights: 2 * weights as u64,
-            steps: 8 * representatives as u64,
-            clusters: 2 * 5 + 2 * 42,
-        };
-        assert_eq!((size, coded.clusters()), (expected, 4));
-        assert_eq!(size.total() - size.as_the_paper_counts(), 64 + size.steps + 94);
-        let options = CodeOptions { representative_bits: 8, weight_bits: 12, scale: ScaleOf::Segment };
-        let coded = CodedTransfer::new(&transfer, options).expect("coded");
-        let nonzeros = coded.nonzeros().0 as u64;
-        let size = coded.size();
-        let bytes = |part: &CompressedSegment| (12 * part.clustering.all_weights().len() as u64).div_ceil(8);
-        let weights = transfer.segments.iter().map(bytes).sum::<u64>();
-        assert_eq!((size.representatives, size.weights, size.steps), (2 * nonzeros, weights, 16));
-    }
-
-    #[test]
-    fn other_bits_are_refused() {
-        for (representative_bits, weight_bits, what) in
-            [(1, 16, "representatives"), (17, 16, "representatives"), (16, 0, "weights")]
-        {
-            let options = CodeOptions { representative_bits, weight_bits, scale: ScaleOf::Segment };
-            let error = CodedTransfer::new(&sample(1, 4), options).expect_err("refused");
-            let found = if what == "weights" { weight_bits } else { representative_bits };
-            assert_eq!(error.error_code(), "crossbar::prt::code");
-            assert_eq!(
-                error.to_string(),
-                format!("expected 2 to 16 bits for {what}, the sign among them, found {found}")
-            );
-        }
     }
 }

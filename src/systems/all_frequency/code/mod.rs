@@ -6,7 +6,6 @@
 //!   non-zero number;
 //! - [`CodeOptions`]: bits, and the numbers that share a scale, which the paper leaves open.
 
-mod coarser;
 mod coded;
 mod decoded;
 mod quantise;

@@ -1,4 +1,4 @@
-//! Errors of approximations, over texels whose directions lie above the horizon.
+//! Errors of approximations, over texels whose directions lie above the horizon, of terms and of spherical harmonics.
 
 use std::f64::consts::PI;
 
@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use super::factors::ProductFactors;
 use super::product::ProductFunction;
 use super::table::ProductTable;
-use crate::all_frequency::factor::error::of_svd;
+use crate::all_frequency::factor::factors::of_svd;
 use crate::elementary::on_circle;
 use crate::error::InputError;
 use crate::linalg::{LeadingSvd, Matrix, dot};
-use crate::sphere::ParabolicMap;
+use crate::sphere::{ParabolicMap, function_count, harmonics};
 
 /// The error of an approximation of f, over pairs of view and light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,9 +134,6 @@ impl HemisphereSamples {
     }
 
     /// Errors of the `terms` largest singular values of these samples themselves, or of all there are.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn term_errors(&self, terms: usize) -> Result<ProductErrors, InputError> {
         let svd = LeadingSvd::new(&self.values, terms.max(1)).map_err(of_svd)?;
         let lights: Vec<Vec<f64>> = (0..self.values.column_count()).map(|at| column(&svd.right, at)).collect();
@@ -218,59 +215,50 @@ fn inside(map: ParabolicMap) -> Vec<usize> {
     (0..map.texels()).filter(|texel| map.direction(texel % map.side(), texel / map.side()).z > 0.0).collect()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::all_frequency::factor::{FactorSampling, Factorization, Supersamples};
-    use crate::transfer::brdf::Brdf;
+/// Errors of harmonics of an order on both sides, at samples above the horizon. Coefficients are integrals with the
+/// functions, f being 0 below the horizon: sums over these samples, weighted by their solid angles.
+///
+/// # Errors
+/// [`InputError`] if a matrix is too large.
+///
+/// # Panics
+/// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
+pub fn harmonic_errors(samples: &HemisphereSamples, order: usize) -> Result<ProductErrors, InputError> {
+    let [view, light] = [0, 1].map(|side| Expansion::new(samples, side, order));
+    Ok(samples.errors_of(&view?.rows(&light?.columns(&samples.values)?)?))
+}
 
-    #[test]
-    fn a_map_of_32_has_812_texels_in_its_disc() {
-        assert_eq!([1, 2, 32].map(|side| inside(ParabolicMap::new(side)).len()), [1, 4, 812]);
-        let directions = ProductErrors::directions();
-        let mean = directions.iter().sum::<DVec3>() / 1024.0;
-        assert!(mean.x.abs() < 1e-2 && mean.y.abs() < 1e-2 && (mean.z - 0.5).abs() < 1e-12, "{mean}");
-    }
+/// Converts values at texels to coefficients, and back.
+struct Expansion {
+    /// A row per function.
+    analysis: Matrix,
+    /// A row per function.
+    synthesis: Matrix,
+}
 
-    /// As many terms as the rank leave nothing, fewer what the singular values say; all directions have the same angle.
-    #[test]
-    fn terms_of_equal_angles_are_those_of_their_singular_values() {
-        let samples = HemisphereSamples::of_equal_angles(&Brdf::Lambert { albedo: 0.6 }, 3.0);
-        let whole: f64 = samples.solid_angles[0].iter().sum();
-        assert!((whole - 2.0 * PI).abs() < 1e-12 && samples.counts() == [1024; 2]);
-        assert!(samples.term_errors(1).expect("a term").max < 1e-14, "Lambert has one term");
-        let lobe = HemisphereSamples::of_equal_angles(&Brdf::Phong { albedo: 0.1, specular: 0.8, exponent: 9.0 }, 3.0);
-        let values = LeadingSvd::new(&lobe.values, 1).expect("values").values;
-        let expected = (values[4..].iter().map(|value| value * value).sum::<f64>() / (1024.0 * 1024.0)).sqrt();
-        let found = lobe.term_errors(4).expect("terms").rms;
-        assert!((found - expected).abs() < 1e-9 * expected, "{found} {expected}");
-    }
-
-    #[test]
-    fn errors_are_those_of_plain_sums() {
-        let sampling = FactorSampling { side: 6, supersamples: Supersamples::NONE, ..FactorSampling::default() };
-        let phong = Brdf::Phong { albedo: 0.1, specular: 0.8, exponent: 30.0 };
-        let table = sampling.table(&phong, &mut |_, _| ()).expect("a table");
-        let factors = Factorization::new(&table, 2).expect("terms").factors(2);
-        let errors = DiscSamples::new(&table).errors(&factors);
-        let (mut squared, mut energy, mut max, mut least, mut negative, mut pairs) = (0.0, 0.0, 0.0_f64, 1.0_f64, 0, 0);
-        let (map, is_in) = (table.view(), |texel: usize| table.view().direction(texel % 6, texel / 6).z > 0.0);
-        for (view, light) in (0..36).flat_map(|view| (0..36).map(move |light| (view, light))) {
-            if is_in(view) && is_in(light) {
-                let f = table.values().row(view)[light];
-                let [v, s] = [view, light].map(|texel| map.direction(texel % 6, texel / 6));
-                let found = factors.product(v, s);
-                (squared, energy, pairs) = (squared + (found - f) * (found - f), energy + f * f, pairs + 1);
-                (max, least) = (max.max((found - f).abs()), least.min(found));
-                negative += usize::from(found < 0.0);
-            }
+impl Expansion {
+    fn new(samples: &HemisphereSamples, side: usize, order: usize) -> Result<Self, InputError> {
+        let (directions, angles) = (&samples.directions[side], &samples.solid_angles[side]);
+        let mut y = Matrix::zeros([directions.len(), function_count(order)]).map_err(of_svd)?;
+        for (row, &direction) in directions.iter().enumerate() {
+            harmonics(order, direction, y.row_mut(row));
         }
-        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
-        close(errors.rms, (squared / f64::from(pairs)).sqrt());
-        close(errors.relative_squared_error, squared / energy);
-        close(errors.max, max);
-        close(errors.least, least);
-        assert_eq!(errors.negative, negative as f64 / f64::from(pairs));
-        assert!(errors.least < 0.0, "two terms of a sharp lobe ring");
+        let synthesis = y.transposed();
+        for (row, &angle) in angles.iter().enumerate() {
+            y.row_mut(row).iter_mut().for_each(|value| *value *= angle);
+        }
+        Ok(Self { analysis: y.transposed(), synthesis })
+    }
+
+    /// Expands each row of a matrix.
+    fn columns(&self, values: &Matrix) -> Result<Matrix, InputError> {
+        let analysed = values.product(&self.analysis.transposed());
+        analysed.and_then(|analysed| analysed.product(&self.synthesis)).map_err(of_svd)
+    }
+
+    /// Expands each column.
+    fn rows(&self, values: &Matrix) -> Result<Matrix, InputError> {
+        let analysed = self.analysis.product(values);
+        analysed.and_then(|analysed| self.synthesis.transposed().product(&analysed)).map_err(of_svd)
     }
 }

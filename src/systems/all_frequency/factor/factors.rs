@@ -1,10 +1,10 @@
-//! G and F of equation 9.
-
-use std::f64::consts::PI;
+//! Singular values of a table of f, what a number of terms keeps of it (equation 8), and G and F of equation 9.
 
 use glam::DVec3;
 
-use crate::linalg::dot;
+use super::table::ProductTable;
+use crate::error::{InputError, ensure};
+use crate::linalg::{LeadingSvd, dot};
 use crate::sphere::ParabolicMap;
 
 /// f(v, s) as the sum over k of G_k(v) F_k(s), by texels of parabolic maps and bilinear between their centers.
@@ -113,75 +113,100 @@ impl ProductFactors {
     }
 }
 
-/// The one term of a diffuse surface, exact: F = s_z and G = albedo / pi. A table would lose s_z to interpolation, most
-/// at the horizon.
+/// Two singular values whose relative difference is less than this count as a pair. A lobe that is symmetric around the
+/// normal has its values in such pairs, which differ by rounding, or by the square of a texel's size: by 4e-4 in a map
+/// of 32 x 32.
+pub const PAIR_DISTANCE: f64 = 1e-3;
+
+/// A pair of equal singular values of which one is kept and one is not: the terms then prefer a direction that f does
+/// not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DiffuseFactor {
-    /// Reflectance.
-    pub albedo: f64,
+pub struct SplitPair {
+    /// The terms that are kept.
+    pub terms: usize,
+    /// The last value that is kept and the first that is not.
+    pub values: [f64; 2],
 }
 
-impl DiffuseFactor {
-    /// G, the same for all views.
-    pub const fn view(self) -> f64 {
-        self.albedo / PI
+/// A table's singular values, with the vectors of the largest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factorization {
+    view: ParabolicMap,
+    light: ParabolicMap,
+    svd: LeadingSvd,
+}
+
+impl Factorization {
+    /// Factors a table, with vectors for up to `terms` terms. The bits do not depend on the number of threads.
+    ///
+    /// # Errors
+    /// [`InputError`] for no terms, for more than the table's rank, and for a table of zeros.
+    pub fn new(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
+        let found = Self::up_to(table, terms)?;
+        ensure!((1..=found.rank()).contains(&terms), "crossbar::factor::terms" =>
+            "expected 1 to {} terms, the rank of the table, found {terms}", found.rank(); help "ask for fewer terms");
+        Ok(found)
     }
 
-    /// F at a direction of length 1 towards the light: 0 below the horizon.
-    pub const fn light(direction: DVec3) -> f64 {
-        direction.z.max(0.0)
+    /// As [`Self::new`], with fewer terms where the rank is lower.
+    ///
+    /// # Errors
+    /// [`InputError`] for a table of zeros.
+    pub fn up_to(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
+        let svd = LeadingSvd::new(table.values(), terms.max(1)).map_err(of_svd)?;
+        ensure!(svd.rank != 0, "crossbar::factor::dark" =>
+            "expected reflectance above 0 somewhere, found 0 in all {} texels of the table",
+            table.view().texels() * table.light().texels(); help "a diffuse or specular part must be above 0");
+        Ok(Self { view: table.view(), light: table.light(), svd })
+    }
+
+    /// All singular values, the largest first.
+    pub fn singular_values(&self) -> &[f64] {
+        &self.svd.values
+    }
+
+    /// Number of singular values distinguishable from 0.
+    pub const fn rank(&self) -> usize {
+        self.svd.rank
+    }
+
+    /// The most terms that there are vectors for.
+    pub fn terms(&self) -> usize {
+        self.svd.right.row_count()
+    }
+
+    /// The error of Figure 2: the sum of squared differences by the sum of squares, over all pairs of texels. It is
+    /// that of the squared singular values that are left out.
+    pub fn relative_squared_error(&self, terms: usize) -> f64 {
+        // From the smallest.
+        let squares = |values: &[f64]| values.iter().rev().map(|value| value * value).sum::<f64>();
+        let values = self.singular_values();
+        squares(&values[terms.min(values.len())..]) / squares(values)
+    }
+
+    /// The pair that a number of terms splits, if it does ([`PAIR_DISTANCE`]).
+    pub fn split_pair(&self, terms: usize) -> Option<SplitPair> {
+        let values = [*self.svd.values.get(terms.checked_sub(1)?)?, *self.svd.values.get(terms)?];
+        let is_pair = terms < self.rank() && values[0] - values[1] < PAIR_DISTANCE * values[0];
+        is_pair.then_some(SplitPair { terms, values })
+    }
+
+    /// The factors of the largest singular values, whose square roots are multiplied into both (equation 9). The
+    /// component of F_k of largest magnitude is positive.
+    ///
+    /// # Panics
+    /// If there are no vectors for this many terms.
+    pub fn factors(&self, terms: usize) -> ProductFactors {
+        assert!((1..=self.terms()).contains(&terms), "1 to {} terms, not {terms}", self.terms());
+        let by_texel = |vectors: &crate::linalg::Matrix| {
+            let texel = |at: usize| (0..terms).map(move |k| self.svd.values[k].sqrt() * vectors.row(k)[at]);
+            (0..vectors.column_count()).flat_map(texel).collect()
+        };
+        ProductFactors::new(terms, (self.view, by_texel(&self.svd.left)), (self.light, by_texel(&self.svd.right)))
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
-    use crate::transfer::brdf::Brdf;
-
-    fn factorization(product: &dyn super::super::ProductFunction, terms: usize) -> Factorization {
-        let sampling = FactorSampling { side: 8, supersamples: Supersamples::NONE, ..FactorSampling::default() };
-        Factorization::new(&sampling.table(product, &mut |_, _| ()).expect("a table"), terms).expect("terms")
-    }
-
-    #[test]
-    fn the_root_of_a_singular_value_is_in_both() {
-        let found = factorization(&Lobe::cook_torrance(0.5, 0.5), 3);
-        let factors = found.factors(3);
-        for k in 0..3 {
-            let energy = |texel: &dyn Fn(usize) -> f64| (0..64).map(|at| texel(at) * texel(at)).sum::<f64>();
-            for squares in [energy(&|at| factors.view_texel(at)[k]), energy(&|at| factors.light_texel(at)[k])] {
-                assert!((squares - found.singular_values()[k]).abs() < 1e-12 * squares, "{k}: {squares}");
-            }
-            let f = (0..64).map(|at| factors.light_texel(at)[k]);
-            assert!(f.fold(0.0_f64, |most, f| if f.abs() > most.abs() { f } else { most }) > 0.0, "the sign of {k}");
-        }
-    }
-
-    #[test]
-    fn texel_centers_read_their_texels() {
-        let factors = factorization(&Lobe::schlick(0.4, 0.5, 0.8), 4).factors(4);
-        let [view, light] = [factors.view_map().direction(2, 5), factors.light_map().direction(4, 3)];
-        let expected = dot(factors.view_texel(42), factors.light_texel(28));
-        assert!((factors.product(view, light) - expected).abs() < 1e-14);
-        assert_eq!(factors.terms(), 4);
-    }
-
-    #[test]
-    fn a_diffuse_surface_has_one_term() {
-        let lambert = Brdf::Lambert { albedo: 0.6 };
-        let table = FactorSampling::default().table(&lambert, &mut |_, _| ()).expect("a table");
-        let found = Factorization::new(&table, 1).expect("a term");
-        assert_eq!(found.rank(), 1);
-        assert!(found.relative_squared_error(1) < 1e-28, "{}", found.relative_squared_error(1));
-        let exact = DiffuseFactor { albedo: 0.6 };
-        // Texels at the horizon are means with 0 below it.
-        for z in [0.4_f64, 0.6, 0.9] {
-            let light = DVec3::new((1.0 - z * z).sqrt(), 0.0, z);
-            let [tabled, expected] =
-                [found.factors(1).product(DVec3::Z, light), exact.view() * DiffuseFactor::light(light)];
-            assert!((tabled - expected).abs() < 2e-3 * 0.6, "{z}: {tabled} {expected}");
-        }
-        assert_eq!(DiffuseFactor::light(DVec3::NEG_Z), 0.0);
-    }
+/// The singular values cannot be had.
+pub(super) fn of_svd(error: InputError) -> InputError {
+    error.coded("crossbar::factor::svd")
 }

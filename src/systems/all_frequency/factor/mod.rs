@@ -11,23 +11,16 @@
 //! Directions are local: z is the normal, x the tangent.
 
 mod disc;
-mod error;
-mod factorization;
 mod factors;
-mod harmonics;
 mod lobe;
-mod motion;
 mod product;
 mod sampling;
 mod table;
 
-pub use disc::{DiscSamples, HemisphereSamples, ProductErrors};
-pub use factorization::{Factorization, PAIR_DISTANCE, SplitPair};
-pub use factors::{DiffuseFactor, ProductFactors};
-pub use harmonics::harmonic_errors;
+pub use disc::{DiscSamples, HemisphereSamples, ProductErrors, harmonic_errors};
+pub use factors::{Factorization, PAIR_DISTANCE, ProductFactors, SplitPair};
 pub use lobe::{Denominators, FacetDistribution, FresnelForm, Lobe, Shadowing, TangentCosine};
-pub use motion::ProductSymmetry;
-pub use product::ProductFunction;
+pub use product::{ProductFunction, ProductSymmetry};
 pub use sampling::{FactorSampling, MAX_SUPERSAMPLES, Supersamples};
 pub use table::{MAX_MAP_SIDE, ProductTable, load_product_table};
 

@@ -3,10 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::motion::{Motion, moved, moved_back};
-use super::product::ProductFunction;
+use super::product::{Motion, ProductFunction, moved_back};
 use super::table::{MAX_MAP_SIDE, ProductTable};
-use crate::all_frequency::factor::error::of_svd;
+use crate::all_frequency::factor::factors::of_svd;
 use crate::error::{InputError, ensure};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
@@ -87,8 +86,8 @@ impl FactorSampling {
         let map = ParabolicMap::new(self.side);
         let [views, lights] = [self.supersamples.view, self.supersamples.light].map(|edge| self.directions(edge));
         let motions = product.symmetry().motions();
-        let whole = SymmetricMap { motions, side: self.side };
-        let first: Vec<usize> = (0..map.texels()).filter(|&texel| whole.first(texel).0 == texel).collect();
+        let first_of = |texel| first(motions, self.side, texel);
+        let first: Vec<usize> = (0..map.texels()).filter(|&texel| first_of(texel).0 == texel).collect();
         let mut values = Matrix::zeros([map.texels(); 2]).map_err(of_svd)?;
         for (batch, texels) in first.chunks(BATCH).enumerate() {
             progress((batch * BATCH) as u64, first.len() as u64);
@@ -97,7 +96,7 @@ impl FactorSampling {
         }
         // Rows of the other views follow from the symmetry of f: only their lights are permuted.
         for texel in 0..map.texels() {
-            let (from, motion) = whole.first(texel);
+            let (from, motion) = first_of(texel);
             if from != texel {
                 let row: Vec<f64> =
                     (0..map.texels()).map(|light| values.row(from)[moved_back(motion, self.side, light)]).collect();
@@ -135,93 +134,8 @@ impl FactorSampling {
     }
 }
 
-/// A map with a group of motions: rotations and mirrorings of its texels.
-struct SymmetricMap {
-    motions: &'static [Motion],
-    side: usize,
-}
-
-impl SymmetricMap {
-    /// The first texel that a motion of the group takes to `texel`, and that motion.
-    fn first(&self, texel: usize) -> (usize, Motion) {
-        let from = |&motion: &Motion| (moved_back(motion, self.side, texel), motion);
-        let mut all = self.motions.iter().map(from);
-        let same = all.next().unwrap_or((texel, [[1, 0], [0, 1]]));
-        let first = all.fold(same, |first, other| if other.0 < first.0 { other } else { first });
-        debug_assert_eq!(moved(first.1, self.side, first.0), texel, "a motion takes the first texel here");
-        first
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::all_frequency::factor::{FresnelForm, Lobe, ProductSymmetry};
-    use crate::transfer::brdf::Brdf;
-
-    /// A product function that declares no symmetry.
-    struct Plain(Lobe);
-
-    impl ProductFunction for Plain {
-        fn value(&self, view: DVec3, light: DVec3) -> f64 {
-            self.0.value(view, light)
-        }
-
-        fn symmetry(&self) -> ProductSymmetry {
-            ProductSymmetry::None
-        }
-    }
-
-    fn table(sampling: FactorSampling, product: &dyn ProductFunction) -> ProductTable {
-        sampling.table(product, &mut |_, _| ()).expect("a table")
-    }
-
-    fn largest_difference(a: &ProductTable, b: &ProductTable) -> f64 {
-        let pairs = a.values().rows().flatten().zip(b.values().rows().flatten());
-        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-    }
-
-    #[test]
-    fn symmetry_saves_work_and_changes_nothing() {
-        for lobe in [Lobe::cook_torrance(0.4, 0.5), Lobe::schlick(0.2, 0.2, 0.8)] {
-            for side in [5, 8] {
-                let supersamples = Supersamples { view: 2, light: 3 };
-                let sampling = FactorSampling { side, supersamples, ..FactorSampling::default() };
-                let difference = largest_difference(&table(sampling, &lobe), &table(sampling, &Plain(lobe)));
-                assert!(difference < 1e-11, "{lobe:?} {side}: {difference}");
-            }
-        }
-    }
-
-    #[test]
-    fn values_are_means_over_the_samples_of_a_pair() {
-        let lobe = Lobe { fresnel: FresnelForm::Constant, ..Lobe::cook_torrance(0.5, 0.6) };
-        let supersamples = Supersamples { view: 2, light: 2 };
-        let sampling = FactorSampling { side: 4, supersamples, limit: f64::INFINITY };
-        let found = table(sampling, &lobe);
-        let (fine, mut sum) = (ParabolicMap::new(8), 0.0);
-        // View texel (1, 2) and light texel (3, 2), part of which lies below the horizon.
-        for (a, b, c, d) in (0..16).map(|at| (at & 1, at >> 1 & 1, at >> 2 & 1, at >> 3 & 1)) {
-            let [view, light] = [fine.direction(2 + a, 4 + b), fine.direction(6 + c, 4 + d)];
-            sum += if light.z > 0.0 { lobe.value(view, light) } else { 0.0 };
-        }
-        let value = found.values().row(9)[11];
-        assert!((value - sum / 16.0).abs() < 1e-15 && value > 0.0, "{value} {}", sum / 16.0);
-    }
-
-    #[test]
-    fn bad_figures_are_refused() {
-        let ward = Brdf::Ward { albedo: 0.0, specular: 0.5, roughness: [0.2, 0.3] };
-        let message = |sampling: FactorSampling| {
-            sampling.table(&ward, &mut |_, _| ()).map(|_| ()).expect_err("refused").to_string()
-        };
-        let base = FactorSampling::default();
-        assert_eq!(
-            message(FactorSampling { side: 0, ..base }),
-            "expected 1 to 48 texels for the side of the maps, found 0"
-        );
-        assert!(message(FactorSampling { limit: f64::NAN, ..base }).contains("limit of f"));
-        let supersamples = Supersamples { view: 17, light: 1 };
-        assert!(message(FactorSampling { supersamples, ..base }).contains("1 to 16"));
-    }
+/// The first texel of a map that a motion of a group takes to `texel`, and that motion; the identity is first.
+fn first(motions: &'static [Motion], side: usize, texel: usize) -> (usize, Motion) {
+    let from = |&motion: &Motion| (moved_back(motion, side, texel), motion);
+    motions.iter().map(from).min_by_key(|&(first, _)| first).unwrap_or((texel, [[1, 0], [0, 1]]))
 }

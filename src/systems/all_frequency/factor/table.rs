@@ -84,47 +84,7 @@ impl ProductTable {
 }
 
 /// Reads a table from a file: comma-separated values or a NumPy array, recognised by the first bytes.
-///
-/// # Errors
-/// [`InputError`].
 pub fn load_product_table(path: &Path) -> Result<ProductTable, InputError> {
     let table = load_numbers(path, "table of reflectance", number_table::MAX_BYTES)?;
     ProductTable::of_numbers(&table, path)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::DVec3;
-
-    fn table(rows: usize, columns: usize, values: &[f64]) -> Result<ProductTable, String> {
-        let values = values.iter().copied().cycle().take(rows * columns).collect();
-        let found = ProductTable::of_numbers(&NumberTable { columns, values }, Path::new("q.csv"));
-        found.map_err(|error| error.to_string())
-    }
-
-    #[test]
-    fn maps_may_differ_in_size() {
-        let table = table(4, 9, &[1.0, 2.0, 3.0]).expect("a table");
-        assert_eq!([table.view().side(), table.light().side()], [2, 3]);
-        assert_eq!(table.values().row(1)[5], 3.0);
-        // At the center of the light's map is texel 4, with value 2 for any view.
-        assert_eq!(table.interpolated(DVec3::Z, DVec3::Z), 2.0);
-    }
-
-    #[test]
-    fn what_is_no_table_is_named() {
-        let error = |rows, columns, values: &[f64]| table(rows, columns, values).expect_err("no table");
-        assert_eq!(
-            error(5, 4, &[1.0]),
-            "q.csv: expected a square number of rows up to 2304, a texel of a square map each, found 5"
-        );
-        assert!(error(4, 7, &[1.0]).contains("columns"));
-        assert_eq!(
-            error(4, 4, &[1.0, 2.0, 3.0, -0.5]),
-            "q.csv: expected finite numbers of at least 0, found -0.5 in row 0, column 3 (counted from 0)"
-        );
-        assert!(error(4, 4, &[f64::NAN]).contains("found NaN in row 0, column 0"));
-        assert!(error(1, 49 * 49, &[0.0]).contains("2401"));
-    }
 }

@@ -78,34 +78,3 @@ impl SetLayout {
         (self.view_set() + loose / 4, loose % 4)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn every_number_has_a_place_of_its_own() {
-        for (terms, channels, view) in
-            [(10, 3, ViewNumbers::Coordinates), (9, 3, ViewNumbers::Vector), (7, 1, ViewNumbers::Vector)]
-        {
-            let layout = SetLayout { terms, channels, view };
-            let of_view = (0..view.count()).map(|component| (layout.view_set(), component));
-            let of_terms = (0..terms).flat_map(|term| (0..channels).map(move |channel| (term, channel)));
-            let places: BTreeSet<_> =
-                of_view.chain(of_terms.map(|(term, channel)| layout.place(term, channel))).collect();
-            assert_eq!(places.len(), layout.numbers());
-            assert!(places.iter().all(|&(set, component)| 4 * set + component < layout.numbers()));
-        }
-    }
-
-    /// "30 numbers and the 2 coordinates fill eight sets"; a view vector would be one number too many.
-    #[test]
-    fn ten_terms_of_three_channels_fill_eight_sets() {
-        let layout = |view| SetLayout { terms: 10, channels: 3, view };
-        assert_eq!(layout(ViewNumbers::Coordinates).numbers(), 32);
-        assert_eq!(layout(ViewNumbers::Coordinates).sets(), 8);
-        assert_eq!(layout(ViewNumbers::Vector).sets(), 9);
-        assert_eq!(SetLayout { channels: 1, ..layout(ViewNumbers::Vector) }.sets(), 4);
-    }
-}

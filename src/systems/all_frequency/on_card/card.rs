@@ -8,11 +8,9 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
-use super::attributes::{FactoredCounts, colors, diffuse_radiance, radiance, radiance_sets};
+use super::attributes::{FactoredCounts, TransferredMesh, colors, diffuse_radiance, radiance, radiance_sets};
 use super::options::{ProductPlace, VertexColors};
-use super::programs::Programs;
-use super::subject::TransferredMesh;
-use super::textures::FactorMaps;
+use super::programs::{FactorMaps, Programs};
 use super::time;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::shade::Multiplies;
@@ -99,9 +97,6 @@ impl<'a> FactoredCard<'a> {
 
     /// As [`Self::view_texels`], with the log of host and card for [`time`]; `host` are the multiplications of steps 2
     /// and 3.
-    ///
-    /// # Errors
-    /// As [`Self::view_texels`].
     pub fn logged_view(
         &mut self,
         view: &MeshView,
@@ -142,9 +137,6 @@ impl<'a> FactoredCard<'a> {
 }
 
 /// Draws a mesh on a device. `host` are the multiplications of steps 2 and 3.
-///
-/// # Errors
-/// [`CardError`].
 pub fn draw(
     profile: impl Into<Arc<Profile>>,
     executor: impl Into<Executor>,

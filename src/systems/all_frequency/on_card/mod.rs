@@ -9,14 +9,8 @@ mod card;
 mod options;
 mod programs;
 pub mod reference;
-mod subject;
-mod textures;
 pub mod time;
 
-pub use attributes::FactoredCounts;
+pub use attributes::{FactoredCounts, TransferredMesh};
 pub use card::{FactoredCard, FactoredDrawing, draw};
 pub use options::{ProductOptions, ProductPlace, RadianceFormat, VertexColors};
-pub use subject::TransferredMesh;
-
-#[cfg(test)]
-mod tests;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::subject::TransferredMesh;
+use super::attributes::TransferredMesh;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::kernels::ViewNumbers;
 use crate::geom::vector::wide;

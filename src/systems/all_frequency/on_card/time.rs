@@ -4,8 +4,8 @@ use refsim::event::{Event, ResourceId};
 use refsim::isa::Version;
 use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 
+use super::attributes::TransferredMesh;
 use super::options::{ProductPlace, VertexColors};
-use super::subject::TransferredMesh;
 use crate::all_frequency::kernels::TransferredVertexKernel;
 use crate::all_frequency::shade::Multiplies;
 use crate::card::frame_time::{UnseenFrame, host_work};
@@ -69,9 +69,6 @@ impl PrintedModel {
 
 /// The host of section 7 (two processors of 3 GHz), calibrated by one figure: the time of one frame of each model of
 /// Table 1 without drawing, summed.
-///
-/// # Errors
-/// None for the printed figures.
 pub fn host_of_table_1() -> Result<HostModel, HostError> {
     let work = |model: &PrintedModel| {
         let Multiplies { per_cluster, per_vertex } = model.multiplies();

@@ -5,11 +5,9 @@
 //! - [`exit_radiance`]: G(v) . T_p, equation 7;
 //! - [`plain`]: the same from transfer that is not coded, by plain loops in f64.
 
-mod exit;
 pub mod plain;
 mod shader;
 mod transferred;
 
-pub use exit::exit_radiance;
 pub use shader::Shader;
-pub use transferred::{LightSizeError, Multiplies, TransferredRadiance};
+pub use transferred::{LightSizeError, Multiplies, TransferredRadiance, exit_radiance};

@@ -31,9 +31,6 @@ fn sums<'a>(vertices: usize, rows: usize, segments: impl Iterator<Item = PlainSe
 }
 
 /// T_p from transfer that is not coded. `light` is as in [`Shader::transferred`](super::Shader::transferred).
-///
-/// # Errors
-/// [`LightSizeError`].
 pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LightSizeError> {
     let coefficients = transfer.coefficients();
     LightSizeError::check(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;
@@ -58,9 +55,6 @@ pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<
 }
 
 /// The same from coded transfer, decoded as integers times steps.
-///
-/// # Errors
-/// [`LightSizeError`].
 pub fn transferred_of_code(transfer: &CodedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LightSizeError> {
     let coefficients = transfer.coefficients;
     LightSizeError::check(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;

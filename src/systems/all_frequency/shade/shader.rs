@@ -96,17 +96,11 @@ impl Shader {
     }
 
     /// T_p of all vertices under a light, given by its coefficients (red, green, blue), segment by segment.
-    ///
-    /// # Errors
-    /// [`LightSizeError`].
     pub fn transferred(&self, light: &[[f32; 3]]) -> Result<TransferredRadiance, LightSizeError> {
         Ok(self.weighted(&self.per_cluster(light)?))
     }
 
     /// M^i L for all representatives, times the steps of both codes: step 2 of section 6.
-    ///
-    /// # Errors
-    /// [`LightSizeError`].
     pub fn per_cluster(&self, light: &[[f32; 3]]) -> Result<Vec<f32>, LightSizeError> {
         let last = self.segments.last().map(|part| part.segment);
         LightSizeError::check(light.len(), self.coefficients, last)?;
@@ -227,75 +221,5 @@ fn add_scaled(scale: f32, from: &[f32], into: &mut [f32]) {
     let (from, into) = (from.as_chunks::<LANES>().0, into.as_chunks_mut::<LANES>().0);
     for (into, from) in into.iter_mut().zip(from) {
         (0..LANES).for_each(|lane| into[lane] += scale * from[lane]);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::all_frequency::code::CodeOptions;
-    use crate::all_frequency::compressed::tests::sample;
-    use crate::all_frequency::shade::plain;
-
-    /// Light with zeros in it, for 5 segments.
-    fn light(coefficients: usize) -> Vec<[f32; 3]> {
-        let one = |at: usize| [at % 3, at % 5, 0].map(|value| value as f32 - 1.5);
-        (0..5 * coefficients).map(|at| if at % 4 == 1 { [0.0; 3] } else { one(at) }).collect()
-    }
-
-    #[test]
-    fn radiance_is_that_of_plain_loops() {
-        for (rows, coefficients) in [(1, 16), (3, 4), (10, 4)] {
-            let transfer = sample(rows, coefficients);
-            let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
-            let light = light(coefficients);
-            let exact: Vec<[f64; 3]> = light.iter().map(|rgb| rgb.map(f64::from)).collect();
-            let expected = plain::transferred(&transfer, &exact).expect("radiance");
-            let found = Shader::new(&coded).transferred(&light).expect("radiance");
-            assert_eq!((found.rows(), found.vertices()), (rows, 40));
-            let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
-            for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
-                for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
-                    // Rounding to 16 bits of representatives and weights: about 2^-15 of the largest number each.
-                    assert!((f64::from(*found) - expected).abs() < 2e-4 * most, "{vertex}: {found} for {expected}");
-                }
-            }
-            // Compared with the same code in f64, only rounding of f32 remains.
-            let expected = plain::transferred_of_code(&coded, &exact).expect("radiance");
-            for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
-                for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
-                    assert!((f64::from(*found) - expected).abs() < 1e-6 * most, "{vertex}: {found} for {expected}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn multiplications_by_zero_are_not_counted() {
-        let coded = CodedTransfer::new(&sample(10, 16), CodeOptions::default()).expect("coded");
-        let count = Shader::new(&coded).multiplies(&light(16));
-        let (nonzeros, _) = coded.nonzeros();
-        // A quarter of the light is black.
-        assert!(count.per_cluster > 0 && count.per_cluster < 3 * nonzeros as u64);
-        let weights: usize = coded.segments.iter().map(|part| part.weights.len()).sum();
-        assert_eq!(count.per_vertex, 3 * 10 * weights as u64);
-    }
-
-    #[test]
-    fn bits_do_not_depend_on_threads() {
-        let coded = CodedTransfer::new(&sample(10, 16), CodeOptions::default()).expect("coded");
-        let shader = Shader::new(&coded);
-        let radiance = [1, 2, 5].map(|threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            pool.install(|| shader.transferred(&light(16)).expect("radiance"))
-        });
-        assert!(radiance.iter().all(|other| *other == radiance[0]));
-    }
-
-    #[test]
-    fn light_for_fewer_segments_is_refused() {
-        let coded = CodedTransfer::new(&sample(1, 4), CodeOptions::default()).expect("coded");
-        let error = Shader::new(&coded).transferred(&light(4)[1..]).expect_err("refused");
-        assert_eq!(error.to_string(), "expected at least 20 light coefficients, 4 per segment, found 19");
     }
 }

@@ -2,13 +2,12 @@
 
 use super::refine::{PlacedRow, RowSubspace, placed, refitted};
 use super::stored::{StoredSize, StoredTransfer};
-use crate::bi_scale::baselines::error::dark_error;
+use crate::bi_scale::baselines::stored::dark_error;
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::clustering::{CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
 use crate::error::{InputError, ensure};
 use crate::geom::random::CounterRng;
 use crate::linalg::dot;
-use crate::transfer::Signal;
-use crate::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 
 /// Options of the compression of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,9 +74,6 @@ pub struct RowClusters {
 impl RowClusters {
     /// Clusters the rows of a matrix: first a sample by [`compress`], then rounds over all rows. `observe` is called
     /// with the number of finished rounds.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(
         matrix: &SparseMatrix,
         options: &RowClusterOptions,

@@ -2,132 +2,70 @@
 
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure};
 
-/// The number of a column as a layout keeps it.
-pub trait RowColumn: Copy + Send + Sync {
-    /// The largest.
-    const MOST: u32;
-    /// The number of a column; `None` beyond [`Self::MOST`].
-    fn of(column: u32) -> Option<Self>;
-    /// The index into the light.
-    fn place(self) -> usize;
-}
-
-/// A value as a layout keeps it.
-pub trait RowValue: Copy + Send + Sync {
-    /// The values that there is room for.
-    const HOLDS: &'static str;
-    /// The value of an entry; `None` if it is out of range.
-    fn of(matrix: &SparseMatrix, entry: i32) -> Option<Self>;
-    /// The value in f32; exact up to 24 bits. `unit` is that of the matrix, if it has one.
-    fn single(self, unit: f32) -> f32;
-}
-
-impl RowColumn for u16 {
-    const MOST: u32 = Self::MAX as u32;
-
-    fn of(column: u32) -> Option<Self> {
-        column.try_into().ok()
-    }
-
-    #[inline(always)]
-    fn place(self) -> usize {
-        self.into()
-    }
-}
-
-impl RowColumn for u32 {
-    const MOST: u32 = Self::MAX;
-
-    fn of(column: u32) -> Option<Self> {
-        Some(column)
-    }
-
-    #[inline(always)]
-    fn place(self) -> usize {
-        self as usize
-    }
-}
-
-impl RowValue for i8 {
-    const HOLDS: &'static str = "values of -128 to 127 units";
-
-    fn of(matrix: &SparseMatrix, entry: i32) -> Option<Self> {
-        matrix.values().fraction_bits()?;
-        entry.try_into().ok()
-    }
-
-    #[inline(always)]
-    fn single(self, unit: f32) -> f32 {
-        unit * f32::from(self)
-    }
-}
-
-impl RowValue for f32 {
-    const HOLDS: &'static str = "values within single precision";
-
-    fn of(matrix: &SparseMatrix, entry: i32) -> Option<Self> {
-        Some(matrix.value(entry) as Self).filter(|value| value.is_finite())
-    }
-
-    #[inline(always)]
-    fn single(self, _: f32) -> f32 {
-        self
-    }
-}
-
-/// Three bytes an entry: a column of two, and a value of one in units of the matrix.
-pub type NarrowRows = CompressedRows<u16, i8>;
-/// Eight bytes an entry: a column and a value of four each.
-pub type WideRows = CompressedRows<u32, f32>;
-
-/// A sparse matrix row by row, four bytes more for where each row begins (CSR).
+/// A sparse matrix row by row, four bytes more for where each row begins (CSR). Products are in f32 or f64; a layout of
+/// fewer bytes holds the same numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CompressedRows<I, V> {
+pub struct CompressedRows {
+    /// Bytes of an entry: 3 or 8.
+    entry: usize,
     width: usize,
-    unit: f32,
     begins: Vec<u32>,
-    columns: Vec<I>,
-    values: Vec<V>,
+    columns: Vec<u32>,
+    /// Exact up to 24 bits.
+    values: Vec<f32>,
 }
 
-impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
-    /// The rows of a matrix.
+impl CompressedRows {
+    /// Three bytes an entry: a column of two, and a value of one in units of the matrix.
     ///
     /// # Errors
-    /// [`InputError`] if the layout has no room for them.
+    /// [`InputError`] if this has no room for a column or value.
     ///
     /// # Panics
     /// If there are more entries than 32 bits can count.
-    pub fn new(matrix: &SparseMatrix) -> Result<Self, InputError> {
+    pub fn narrow(matrix: &SparseMatrix) -> Result<Self, InputError> {
+        let has_unit = matrix.values().fraction_bits().is_some();
+        let fits = |entry: i32| has_unit && i8::try_from(entry).is_ok();
+        Self::new(matrix, 3, u16::MAX.into(), "values of -128 to 127 units", fits)
+    }
+
+    /// Eight bytes an entry: a column and a value in f32 of four each.
+    ///
+    /// # Errors
+    /// [`InputError`] if a value is beyond single precision.
+    ///
+    /// # Panics
+    /// As [`Self::narrow`].
+    pub fn wide(matrix: &SparseMatrix) -> Result<Self, InputError> {
+        let fits = |entry| (matrix.value(entry) as f32).is_finite();
+        Self::new(matrix, 8, u32::MAX, "values within single precision", fits)
+    }
+
+    fn new(
+        matrix: &SparseMatrix,
+        entry_bytes: usize,
+        most: u32,
+        holds: &str,
+        fits: impl Fn(i32) -> bool,
+    ) -> Result<Self, InputError> {
         assert!(u32::try_from(matrix.nonzeros()).is_ok(), "entries that 32 bits can count");
-        let mut rows = Self {
-            width: matrix.columns(),
-            unit: matrix.values().unit() as f32,
-            begins: Vec::with_capacity(matrix.rows() + 1),
-            columns: Vec::with_capacity(matrix.nonzeros()),
-            values: Vec::with_capacity(matrix.nonzeros()),
-        };
-        rows.begins.push(0);
+        let (begins, columns, values) = (vec![0], Vec::new(), Vec::new());
+        let mut rows = Self { entry: entry_bytes, width: matrix.columns(), begins, columns, values };
         for row in 0..matrix.rows() {
             for entry in matrix.row(row) {
-                let column = entry.index;
-                rows.columns.push(I::of(column).ok_or_else(|| {
-                    input_error!(
-                        "expected columns of at most {} in this layout, found {column}: take one of wider numbers",
-                        I::MOST
-                    )
-                })?);
-                let value = V::of(matrix, entry.value);
-                let out_of_range = || {
-                    input_error!(
-                        "expected {} in this layout, found {:e} in row {row}: take one of wider numbers",
-                        V::HOLDS,
-                        matrix.value(entry.value)
-                    )
-                };
-                rows.values.push(value.ok_or_else(out_of_range)?);
+                let (column, value) = (entry.index, matrix.value(entry.value));
+                ensure!(
+                    column <= most,
+                    "expected columns of at most {most} in this layout, found {column}: take one of wider numbers"
+                );
+                ensure!(
+                    fits(entry.value),
+                    "expected {holds} in this layout, found {value:e} in row {row}: take one of wider numbers"
+                );
+                rows.columns.push(column);
+                rows.values.push(value as f32);
             }
             rows.begins.push(rows.columns.len() as u32);
         }
@@ -158,17 +96,16 @@ impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
         let row = |ends: &[u32]| {
             let of = ends[0] as usize..ends[1] as usize;
             let entries = self.columns[of.clone()].iter().zip(&self.values[of]);
-            entries.fold(zero, |sum, (column, value)| add(sum, column.place(), value.single(self.unit)))
+            entries.fold(zero, |sum, (&column, &value)| add(sum, column as usize, value))
         };
         self.begins.windows(2).map(row).collect()
     }
 }
 
-impl<I: RowColumn, V: RowValue> StoredTransfer for CompressedRows<I, V> {
+impl StoredTransfer for CompressedRows {
     fn sizes(&self) -> Vec<StoredSize> {
-        let entry = size_of::<I>() + size_of::<V>();
-        let layout = if entry == 3 { "3 bytes an entry, 4 a row" } else { "8 bytes an entry, 4 a row" };
-        vec![StoredSize { layout, bytes: (entry * self.nonzeros() + 4 * self.begins.len()) as u64 }]
+        let layout = if self.entry == 3 { "3 bytes an entry, 4 a row" } else { "8 bytes an entry, 4 a row" };
+        vec![StoredSize { layout, bytes: (self.entry * self.nonzeros() + 4 * self.begins.len()) as u64 }]
     }
 
     fn multiply(&self, light: &[f64]) -> Vec<f64> {

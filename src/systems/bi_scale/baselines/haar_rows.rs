@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::stored::{StoredSize, StoredTransfer};
-use crate::bi_scale::baselines::error::columns_error;
+use crate::bi_scale::baselines::stored::columns_error;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::error::{InputError, ensure};
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS};
@@ -87,9 +87,6 @@ pub struct HaarRows {
 
 impl HaarRows {
     /// The most important coefficients of each row of a matrix.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(matrix: &SparseMatrix, options: HaarRowOptions) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
             return Err(columns_error(matrix.columns()));

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::local_transfer::{LocalTransfer, cell_integrals};
 use super::stored::{StoredSize, StoredTransfer};
-use crate::bi_scale::baselines::error::columns_error;
+use crate::bi_scale::baselines::stored::columns_error;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::error::{InputError, ensure};
 use crate::sphere::{MAX_ORDER, function_count, harmonics};
@@ -36,9 +36,6 @@ pub struct HarmonicRows {
 
 impl HarmonicRows {
     /// Rows whose light is of an order. Nothing is to be known of vertices.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn of_light(matrix: &SparseMatrix, order: usize) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
             return Err(columns_error(matrix.columns()));
@@ -60,9 +57,6 @@ impl HarmonicRows {
 
     /// Matrices from harmonics of the distant light to harmonics of the light around a vertex, in its frame: integrals
     /// over light texels, at their centers, of visibility and both.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn of_both(transfer: &LocalTransfer<'_>, order: usize) -> Result<Self, InputError> {
         let functions = TexelHarmonics::new(order)?;
         let count = function_count(order);

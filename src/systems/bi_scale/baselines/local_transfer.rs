@@ -1,6 +1,6 @@
 //! Transfer with the frames of its vertices: what is needed to rotate harmonics or visibility.
 
-use crate::bi_scale::baselines::error::columns_error;
+use crate::bi_scale::baselines::stored::columns_error;
 use crate::bi_scale::directions::{LocalDirections, hemisphere};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::error::{InputError, ensure};
@@ -22,9 +22,6 @@ pub struct LocalTransfer<'a> {
 
 impl<'a> LocalTransfer<'a> {
     /// Row M p + j of the matrix is local direction j in frame p.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(
         matrix: &'a SparseMatrix,
         frames: &'a [LocalFrame],

@@ -7,28 +7,23 @@
 //! - [`HarmonicRows`]: transfer of spherical harmonics, on one side or on both (Figures 1 and 5);
 //! - [`ReshuffledVisibility`]: visibility of few texels and a shuffle of them in place of a rotation (section IV-A);
 //! - [`StoredTransfer`]: their common interface with biclusters: sizes, and products with light; [`LocalLightError`]:
-//!   the error of local light;
-//! - [`mod@reference`]: wavelets and clusters by plain loops.
+//!   the error of local light.
 //!
 //! Products are computed in f64 from the stored numbers, so that errors are those of the storage.
 
-mod biclusters;
 mod clusters;
 mod compressed_rows;
-mod error;
 mod haar_rows;
 mod harmonic_rows;
 mod local_transfer;
-pub mod reference;
 mod refine;
 mod reshuffled;
 mod stored;
 
 pub use clusters::{RowClusterOptions, RowClusters};
-pub use compressed_rows::{CompressedRows, NarrowRows, RowColumn, RowValue, WideRows};
-pub use error::columns_error;
+pub use compressed_rows::CompressedRows;
 pub use haar_rows::{CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows};
 pub use harmonic_rows::{HarmonicRows, HarmonicSides};
 pub use local_transfer::{LocalTransfer, cell_integrals};
 pub use reshuffled::ReshuffledVisibility;
-pub use stored::{LocalLightError, StoredSize, StoredTransfer};
+pub use stored::{LocalLightError, StoredSize, StoredTransfer, columns_error};

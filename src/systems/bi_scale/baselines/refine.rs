@@ -10,8 +10,8 @@
 use rayon::prelude::*;
 
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::clustering::CpcaForm;
 use crate::linalg::dot;
-use crate::transfer::clustering::CpcaForm;
 
 /// Relative length below which the part of a vector orthogonal to the others counts as rounding error.
 const NOTHING: f64 = 1e-12;
@@ -172,30 +172,4 @@ fn add_orthonormal(vectors: &mut Vec<f64>, vector: &[f64]) -> bool {
     }
     vectors.extend(vector);
     true
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bi_scale::matrix::MatrixEntry;
-
-    /// Rows along two directions from a mean, and one outlier.
-    fn matrix() -> SparseMatrix {
-        let mut matrix = SparseMatrix::new(5, 0).unwrap();
-        for (a, b) in [(1, 5), (3, 5), (2, 7), (2, 3), (9, 1)] {
-            matrix.push_row(&[MatrixEntry { index: 0, value: a }, MatrixEntry { index: 3, value: b }]).unwrap();
-        }
-        matrix
-    }
-
-    #[test]
-    fn rows_in_a_plane_are_met_exactly_by_two_vectors() {
-        let start = RowSubspace { mean: vec![0.0; 5], vectors: vec![1., 0., 0., 0., 0., 0., 0.6, 0., 0.8, 0.] };
-        let first = placed(&matrix(), std::slice::from_ref(&start));
-        let once = refitted(&matrix(), (vec![start], CpcaForm::Affine), &first);
-        assert_eq!(once[0].mean, [17.0 / 5.0, 0.0, 0.0, 21.0 / 5.0, 0.0]);
-        for row in placed(&matrix(), &once) {
-            assert!(row.squared_error < 1e-12, "{row:?}");
-        }
-    }
 }

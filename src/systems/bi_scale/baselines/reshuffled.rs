@@ -29,9 +29,6 @@ pub struct ReshuffledVisibility {
 impl ReshuffledVisibility {
     /// Baseline with coarse cubes of `side` texels along an edge, a power of two up to 32. With 4 they have 96 texels,
     /// about as many over the hemisphere as there are local directions of 8 x 8.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(transfer: &LocalTransfer<'_>, side: usize) -> Result<Self, InputError> {
         ensure!(
             side.is_power_of_two() && side <= LIGHT_SIDE,

@@ -1,5 +1,10 @@
 //! The common interface of stored transfer, and the error of the local light that it gives.
 
+use crate::bi_scale::bicluster::Biclustering;
+use crate::bi_scale::paper;
+use crate::error::{InputError, input_error};
+use crate::transfer::grid::LIGHT_TEXELS;
+
 /// Transfer stored by one of the compression methods.
 pub trait StoredTransfer {
     /// Bytes per layout. The first layout holds the numbers with which [`Self::multiply`] computes.
@@ -51,16 +56,27 @@ impl LocalLightError {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Bytes of a row number, and of a column's number and value, which agree with the paper's sizes.
+const PER_ROW: usize = 4;
+const PER_COLUMN: usize = 8;
 
-    #[test]
-    fn errors_are_means_and_shares() {
-        let error = LocalLightError::new(&[1.0, 5.0, 0.0, 0.0], &[4.0, 1.0, 0.0, 0.0]);
-        assert_eq!((error.root_mean_square, error.largest), (2.5, 4.0));
-        assert_eq!(error.relative, (25.0_f64 / 17.0).sqrt());
-        let none = LocalLightError { root_mean_square: 0.0, largest: 0.0, relative: 0.0 };
-        assert_eq!(LocalLightError::new(&[0.0, 0.0], &[0.0, 0.0]), none);
+impl StoredTransfer for Biclustering {
+    fn sizes(&self) -> Vec<StoredSize> {
+        let bytes = (PER_ROW * self.row_entries() + PER_COLUMN * self.column_entries()) as u64;
+        vec![StoredSize { layout: "4 bytes a row, 8 a column", bytes }]
     }
+
+    fn multiply(&self, light: &[f64]) -> Vec<f64> {
+        paper::multiply(self, light)
+    }
+}
+
+/// The matrix does not have a column for each light texel.
+pub fn columns_error(found: usize) -> InputError {
+    input_error!("expected a matrix of {LIGHT_TEXELS} columns, a light texel each, found {found}")
+}
+
+/// The matrix has no principal components.
+pub(super) fn dark_error() -> InputError {
+    input_error!("expected a row with a value other than 0, found none")
 }

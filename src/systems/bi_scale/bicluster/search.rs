@@ -8,23 +8,19 @@
 use std::collections::BTreeSet;
 
 use super::draw::{Counts, start};
-use super::lines::Lines;
+use super::lines::{ColumnTally, Lines, transposed};
 use super::numbers::{KnownNumbers, SearchNumbers, UnitNumbers};
 use super::queue::BucketQueue;
-use super::tally::ColumnTally;
 use super::{Bicluster, BiclusterOptions, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::error::{InputError, ensure, input_error};
 
-/// Biclusters of a matrix, identical to those of [`reference::bicluster`](super::reference::bicluster). `found` is
+/// Biclusters of a matrix, identical to those of [`paper::biclusters`](crate::bi_scale::paper::biclusters). `found` is
 /// called after each with the number of remaining non-zeros.
 ///
-/// Memory is 16 bytes per non-zero and some 50 per row and column, besides the biclusters. Where there is no unit in
+/// Memory is 16 bytes per non-zero and some 80 per row and column, besides the biclusters. Where there is no unit in
 /// which 32 bits hold the values and all residuals, some 100 bytes per distinct number more. If a residual is the first
 /// that 32 bits do not hold, the search begins again, and `found` counts down from all non-zeros once more.
-///
-/// # Errors
-/// [`InputError`].
 pub fn bicluster(
     matrix: &SparseMatrix,
     options: BiclusterOptions,
@@ -34,16 +30,15 @@ pub fn bicluster(
     ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
     let values = matrix.values();
     if let (Some(bits), None) = (values.fraction_bits(), values.table_len()) {
-        let (entries, begins) = matrix.to_rows();
-        let lines = (Lines::new(entries, begins), matrix.columns());
-        let mut search = Search::new(lines, UnitNumbers::new(options.drop, bits), options);
+        let numbers = UnitNumbers::new(options.drop, bits);
+        let mut search = Search::new(matrix.to_rows(), matrix.columns(), numbers, options);
         if let Some(biclustering) = search.run(matrix, found) {
             return Ok(biclustering);
         }
     }
     let known = KnownNumbers::new(matrix, options.drop);
-    let (numbers, entries, begins) = known.ok_or_else(residuals_error)?;
-    let mut search = Search::new((Lines::new(entries, begins), matrix.columns()), numbers, options);
+    let (numbers, rows) = known.ok_or_else(residuals_error)?;
+    let mut search = Search::new(rows, matrix.columns(), numbers, options);
     let biclustering = search.run(matrix, found).ok_or_else(residuals_error)?;
     Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.number(integer)))
 }
@@ -66,9 +61,8 @@ struct SearchSide {
     touched: Vec<u32>,
     insertions: BucketQueue,
     deletions: BucketQueue,
-    /// Scratch of [`Self::subtract`]: crossing lines that were met, by index in `inside`; new entries.
+    /// Scratch of [`Self::subtract`]: crossing lines that were met, by index in `inside`.
     met: Vec<bool>,
-    more: Vec<MatrixEntry>,
 }
 
 const OUTSIDE: u32 = u32::MAX;
@@ -102,7 +96,6 @@ impl SearchSide {
             insertions: BucketQueue::default(),
             deletions: BucketQueue::default(),
             met: Vec::new(),
-            more: Vec::new(),
         }
     }
 
@@ -171,11 +164,12 @@ impl SearchSide {
         t: impl Fn(u32) -> i32,
         mut goes: impl FnMut(&N, u32, i32) -> bool,
     ) -> Option<i64> {
-        let before = self.lines.get(line as usize).len().cast_signed() as i64;
+        let entries = &mut self.lines[line as usize];
+        let before = entries.len().cast_signed() as i64;
         self.met.clear();
         self.met.resize(all.len(), false);
         let (met, mut has_all) = (&mut self.met, true);
-        let subtract = |entry: MatrixEntry| {
+        let mut subtract = |entry: MatrixEntry| {
             let place = places[entry.index as usize];
             if place == OUTSIDE {
                 return Some(entry);
@@ -186,21 +180,19 @@ impl SearchSide {
             let value = residual.unwrap_or(0);
             (value != 0 && !goes(numbers, entry.index, value)).then_some(MatrixEntry { value, ..entry })
         };
-        self.lines.change(line as usize, subtract);
+        entries.retain_mut(|entry| subtract(*entry).map(|left| *entry = left).is_some());
         if !has_all {
             return None;
         }
         // Elements of the line that were 0 become -t.
         let is_new = |entry: &MatrixEntry| !self.met[places[entry.index as usize] as usize];
-        self.more.clear();
         for entry in all.filter(is_new) {
             let value = numbers.difference(0, entry.value)?;
             if !goes(numbers, entry.index, value) {
-                self.more.push(MatrixEntry { value, ..entry });
+                entries.push(MatrixEntry { value, ..entry });
             }
         }
-        self.lines.add(line as usize, &self.more);
-        Some(self.lines.get(line as usize).len().cast_signed() as i64 - before)
+        Some(entries.len().cast_signed() as i64 - before)
     }
 
     /// Resets everything but the entries.
@@ -231,9 +223,9 @@ struct Search<N> {
 }
 
 impl<N: SearchNumbers> Search<N> {
-    fn new((rows, width): (Lines, usize), numbers: N, options: BiclusterOptions) -> Self {
-        let columns = rows.transposed(width);
-        let left = Counts::new((0..rows.len()).map(|row| rows.get(row).len() as u64));
+    fn new(rows: Lines, width: usize, numbers: N, options: BiclusterOptions) -> Self {
+        let columns = transposed(&rows, width);
+        let left = Counts::new(rows.iter().map(|row| row.len() as u64));
         Self {
             options,
             numbers,
@@ -266,7 +258,7 @@ impl<N: SearchNumbers> Search<N> {
     /// Lines 5 and 6 of Algorithm 1: a submatrix of one element.
     fn begin(&mut self, element: u64) {
         let (row, number) = self.left.find(element);
-        let mut columns: Vec<u32> = self.rows.lines.get(row).iter().map(|entry| entry.index).collect();
+        let mut columns: Vec<u32> = self.rows.lines[row].iter().map(|entry| entry.index).collect();
         let (_, &mut column, _) = columns.select_nth_unstable(number as usize);
         self.insert_row(row as u32);
         self.insert_column(column);
@@ -313,7 +305,7 @@ impl<N: SearchNumbers> Search<N> {
     fn cross_columns(&mut self, row: u32, change: impl Fn(&mut ColumnTally, i32)) {
         let [_, least] = self.least_keys();
         let Self { rows, columns, tallies, values, .. } = self;
-        for &MatrixEntry { index: column, value } in rows.lines.get(row as usize) {
+        for &MatrixEntry { index: column, value } in &rows.lines[row as usize] {
             let tally = &mut tallies[column as usize];
             change(tally, value);
             let key = column_key(tally, columns.places[column as usize], values[column as usize]);
@@ -342,7 +334,7 @@ impl<N: SearchNumbers> Search<N> {
     fn cross_rows(&mut self, column: u32, change: impl Fn(u32, u32) -> u32) {
         let ([least, _], t) = (self.least_keys(), self.values[column as usize]);
         let Self { rows, columns, .. } = self;
-        for &MatrixEntry { index: row, value } in columns.lines.get(column as usize) {
+        for &MatrixEntry { index: row, value } in &columns.lines[column as usize] {
             rows.set_key(row, change(rows.keys[row as usize], 1 + u32::from(value == t)), least);
         }
     }

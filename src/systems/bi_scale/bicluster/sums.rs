@@ -1,8 +1,7 @@
 //! Sums of biclusters, and what they leave of a matrix: exact in units of the matrix, else in f64.
 
 use super::Biclustering;
-use crate::bi_scale::matrix::SparseMatrix;
-use crate::bi_scale::values::EntryValues;
+use crate::bi_scale::matrix::{EntryValues, SparseMatrix};
 use crate::error::{InputError, ensure};
 use crate::io::CoordinateMatrix;
 

@@ -1,7 +1,6 @@
-//! Biclusters.
+//! Biclusters, and the options by which they are found.
 
-use crate::bi_scale::matrix::MatrixEntry;
-use crate::bi_scale::values::EntryValues;
+use crate::bi_scale::matrix::{EntryValues, MatrixEntry};
 
 /// A constant-column bicluster: within each of its columns, all of its rows have the same value (equation 4).
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,7 +71,7 @@ impl Biclustering {
 
     /// The same with other integers for values, by the number of each: in units of 2^-`fraction_bits` where there are
     /// such and 32 bits hold all, else in a table.
-    pub(super) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
+    pub(in crate::bi_scale) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
         self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
         for entry in &mut self.columns {
             entry.value = self.values.entry(number(entry.value)).expect("one of the numbers");
@@ -148,5 +147,24 @@ impl Biclustering {
             }
         }
         (begins, of_row)
+    }
+}
+
+/// Options of Algorithm 1 that the paper leaves open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BiclusterOptions {
+    /// Random seed for the non-zeros at which biclusters start.
+    pub seed: u64,
+    /// True if rows and columns may also be deleted again (section IV-C: operations are insertions and deletions).
+    pub deletion: bool,
+    /// Residuals of at most this magnitude are dropped, once per matrix element; 0 is lossless, and so is what is
+    /// negative or not a number. The sum of the biclusters then differs from the matrix by at most this in each element
+    /// (the paper's future work, section VII).
+    pub drop: f64,
+}
+
+impl Default for BiclusterOptions {
+    fn default() -> Self {
+        Self { seed: 1, deletion: true, drop: 0.0 }
     }
 }

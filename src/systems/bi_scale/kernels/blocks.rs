@@ -63,23 +63,3 @@ impl BlockGrid {
         (light, [(row % pitch + back) % self.size, (column % pitch + back) % self.size])
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn borders_show_the_opposite_edge() {
-        let grid = BlockGrid { size: 4, lights: 3, views: 2, edges: BlockEdges::Wrapped };
-        assert_eq!(grid.extents(), [18, 18, 4]);
-        let [x, y] = grid.origin(5);
-        assert_eq!([x, y], [12, 6]);
-        let columns: Vec<usize> = (0..6).map(|column| grid.shown(x + column, y + 2).1[1]).collect();
-        assert_eq!(columns, [3, 0, 1, 2, 3, 0]);
-        assert_eq!(grid.shown(x, y), (5, [3, 3]));
-        assert_eq!(grid.shown(x + 5, y + 5), (5, [0, 0]));
-        let touching = BlockGrid { edges: BlockEdges::Touching, ..grid };
-        assert_eq!(touching.extents(), [12, 12, 4]);
-        assert_eq!(touching.shown(11, 4), (5, [0, 3]));
-    }
-}

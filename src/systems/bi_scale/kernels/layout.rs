@@ -1,4 +1,10 @@
-//! The layout of local light in texture coordinate sets.
+//! The layout of local light in texture coordinate sets, and the vertex program that hands it on.
+
+use std::fmt::Write as _;
+
+use refsim::isa::Version;
+
+use crate::card::{TO_CLIP, WrittenKernel, local_view};
 
 /// The last set holds texture coordinates u, v and the view along bitangent and tangent; the fourth component of the
 /// first set is the view along the normal. Every other set has a direction's red, green and blue in its first three
@@ -44,32 +50,47 @@ impl LocalLayout {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeSet;
+/// A vertex program that hands local light on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct LocalVertexKernel {
+    /// The places of the numbers.
+    pub layout: LocalLayout,
+    /// [`Version::Vs2_0`] or [`Version::Vs1_1`].
+    pub version: Version,
+}
 
-    #[test]
-    fn every_number_has_a_place_of_its_own() {
-        for sets in 3..=16 {
-            let layout = LocalLayout { sets };
-            let beside = [(0, 3), (layout.last(), 0), (layout.last(), 1), (layout.last(), 2), (layout.last(), 3)];
-            let of = (0..layout.directions()).flat_map(|d| (0..3).map(move |channel| layout.place(d, channel)));
-            let places: BTreeSet<_> = of.chain(beside).collect();
-            assert_eq!(places.len(), 3 * layout.directions() + BESIDE, "{sets} sets");
-            assert!(places.iter().all(|&(set, component)| set < sets && component < 4));
-            assert!(4 * sets - places.len() < 3, "{sets} sets: room for one more");
-        }
+impl LocalVertexKernel {
+    /// Number of vertex attributes: position, sets, texture coordinates, tangent, normal.
+    pub const fn attributes(&self) -> usize {
+        1 + self.layout.last() + 3
     }
 
-    /// Eight sets of ps_2_x; fifteen of shader model 4: Direct3D 10 has 16 outputs of a vertex program, of which
-    /// position takes one, and Mesa's driver for these cards (nv50_screen.c) gives fragment programs 15 inputs.
-    #[test]
-    fn passes_for_the_papers_directions() {
-        let passes = |sets, directions| LocalLayout { sets }.passes(directions);
-        assert_eq!([8, 15, 16].map(|sets| LocalLayout { sets }.directions()), [9, 18, 19]);
-        assert_eq!([64, 144].map(|directions| passes(8, directions)), [8, 16]);
-        assert_eq!([64, 144].map(|directions| passes(15, directions)), [4, 8]);
-        assert_eq!([64, 144].map(|directions| passes(16, directions)), [4, 8]);
+    /// Instruction slots.
+    pub const fn slots(&self) -> usize {
+        4 + self.layout.last() + 8
+    }
+}
+
+impl WrittenKernel for LocalVertexKernel {
+    fn name(&self) -> String {
+        format!("local light of {} directions, {}", self.layout.directions(), self.version)
+    }
+
+    fn text(&self) -> String {
+        let last = self.layout.last();
+        let mut text = format!("{}\n; {}\ndcl_position v0\n", self.version, self.name());
+        for set in 0..=last {
+            let _ = writeln!(text, "dcl_texcoord{set} v{}", 1 + set);
+        }
+        let (tangent, normal) = (2 + last, 3 + last);
+        let _ = write!(text, "dcl_tangent v{tangent}\ndcl_normal v{normal}\n");
+        text.push_str(TO_CLIP);
+        for set in 0..last {
+            let _ = writeln!(text, "mov oT{set}{}, v{}", if set == 0 { ".xyz" } else { "" }, 1 + set);
+        }
+        let _ = writeln!(text, "mov oT{last}.xy, v{}", 1 + last);
+        text.push_str(&local_view(tangent, normal));
+        let _ = write!(text, "dp3 oT{last}.z, r0, r2\ndp3 oT{last}.w, r0, r1\ndp3 oT0.w, r0, v{normal}\n");
+        text
     }
 }

@@ -10,10 +10,9 @@ use refsim::exec::CheckedProgram;
 use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 
-use super::attributes::{LocalStream, largest};
 use super::gather::version;
 use super::options::DisplayOptions;
-use super::parts::{CardPart, parts};
+use super::parts::{CardPart, LocalStream, largest, parts};
 use super::subject::{CardVertices, TexturedMesh};
 use crate::bi_scale::kernels::{LocalLayout, LocalVertexKernel};
 use crate::card::{
@@ -153,9 +152,6 @@ impl<'a> BiScaleCard<'a> {
 
     /// As [`Self::view_texels`], with the log of the frame's work: without read-back, and without upload of local
     /// light, which the paper keeps on the card.
-    ///
-    /// # Errors
-    /// As [`Self::view_texels`].
     pub fn logged_view(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
         self.show(local, view, true)
     }

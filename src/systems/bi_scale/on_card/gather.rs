@@ -159,9 +159,6 @@ impl GatherCard {
 
     /// As [`Self::multiply`], with the log of the work of host and card: upload of light and passes, without the
     /// read-back, because the paper leaves local light on the card.
-    ///
-    /// # Errors
-    /// As [`Self::multiply`].
     pub fn logged_multiply(&mut self, light: &[[f32; 3]]) -> Result<(Vec<[f32; 3]>, Vec<Event>), CardError> {
         self.machine.record(true);
         let drawn = self.draw(light);

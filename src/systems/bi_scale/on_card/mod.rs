@@ -6,7 +6,6 @@
 //!   coordinates, pass by pass added up by blending.
 //! - [`mod@reference`]: pixels in f64.
 
-mod attributes;
 mod card;
 mod gather;
 mod lists;
@@ -21,6 +20,3 @@ pub use gather::{GatherCard, GatherCounts};
 pub use options::{DisplayOptions, LightFormat, LocalFormat};
 pub use subject::{TexturedMesh, corner_coordinates};
 pub use textures::{VolumeTexture, volume_image};
-
-#[cfg(test)]
-mod tests;

@@ -3,14 +3,11 @@
 //!
 //! - [`ShadedPixel`]: a pixel's vertices, texture coordinates and view; [`pixel_frame`]: its local frame;
 //! - [`TexelSamples`]: the four texels around texture coordinates;
-//! - [`mod@reference`]: equation 3 by plain loops; [`TextureLookup`]: the same bits, faster;
+//! - [`TextureLookup`]: the bits of [`paper::radiance`](super::paper::radiance), faster;
 //! - [`TracedScene`]: a pixel by rays, and the causes of its error.
 
-mod lookup;
 mod pixel;
-pub mod reference;
 mod traced;
 
-pub use lookup::TextureLookup;
-pub use pixel::{ShadedPixel, TexelSamples, pixel_frame};
+pub use pixel::{ShadedPixel, TexelSamples, TextureLookup, pixel_frame};
 pub use traced::{TracedLight, TracedPoint, TracedRung, TracedScene};

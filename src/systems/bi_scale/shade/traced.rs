@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::pixel::ShadedPixel;
-use super::reference;
+use crate::bi_scale::paper;
 use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch, SeenPoint, ViewSamples};
 use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
@@ -151,7 +151,7 @@ impl TracedScene<'_> {
             }
         }
         let own = ShadedPixel { corners: [0; 3], weights: [1.0, 0.0, 0.0], ..*pixel };
-        rungs[TracedRung::Texture as usize] = reference::radiance(texture, &local, &own);
+        rungs[TracedRung::Texture as usize] = paper::radiance(texture, &local, &own);
         rungs
     }
 }

@@ -69,9 +69,6 @@ impl HeightField {
     }
 
     /// A height field from heights row by row, in edges of the patch, shifted so that the highest is 0.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(side: usize, heights: &[f64]) -> Result<Self, InputError> {
         Self::check_side(side)?;
         ensure!(
@@ -182,42 +179,4 @@ impl HeightField {
 /// A place as seen from a cell's first corner, within the cell.
 pub(super) fn within([i, j]: [isize; 2], [x, y]: [f64; 2]) -> [f64; 2] {
     [(x - i as f64).clamp(0.0, 1.0), (y - j as f64).clamp(0.0, 1.0)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_abs_diff_eq;
-
-    #[test]
-    fn heights_stand_at_the_middles_of_texels_and_repeat() {
-        let field = HeightField::new(2, &[1.0, 0.5, 0.25, 0.0]).unwrap();
-        let at = |u: f64, v: f64| field.height([u, v]);
-        assert_eq!([at(0.25, 0.25), at(0.75, 0.25), at(0.25, 0.75), at(0.75, 0.75)], [0.0, -0.5, -0.75, -1.0]);
-        assert_eq!((at(-0.75, 2.25), field.depth()), (at(0.25, 0.25), 1.0));
-        assert_eq!([at(0.5, 0.25), at(0.0, 0.25), at(0.5, 0.5)], [-0.25, -0.25, -0.5625]);
-        // Half an edge of the patch goes half an edge down: 45 degrees.
-        let normal = field.normal([0.5, 0.25]);
-        assert_abs_diff_eq!(normal.x / normal.z, 1.0, epsilon = 1e-15);
-        assert_eq!(HeightField::flat().normal([0.3, 0.9]), DVec3::Z);
-    }
-
-    #[test]
-    fn what_is_no_height_is_refused() {
-        let text = [
-            HeightField::new(0, &[]),
-            HeightField::new(2, &[0.0; 3]),
-            HeightField::new(2, &[0.0, 1.0, f64::NAN, 0.0]),
-            HeightField::new(1, &[f64::INFINITY]),
-            HeightField::new(2, &[0.0, 0.0, 0.0, -17.0]),
-        ]
-        .map(|made| made.unwrap_err().to_string());
-        insta::assert_snapshot!(text.join("\n"), @"
-        expected 1 to 1024 texels along an edge of the heights, found 0
-        expected 4 heights, 2 x 2, found 3
-        expected finite heights, the lowest at most 16 edges of the patch below the highest; found NaN in row 1, column 0
-        expected finite heights, the lowest at most 16 edges of the patch below the highest; found inf in row 0, column 0
-        expected finite heights, the lowest at most 16 edges of the patch below the highest; found -17 in row 1, column 1
-        ");
-    }
 }

@@ -22,9 +22,6 @@ fn shape_error(path: &Path, found: Vec<usize>) -> InputError {
 }
 
 /// Reads a texture from a file.
-///
-/// # Errors
-/// [`InputError`].
 pub fn load_bidirectional_texture(path: &Path) -> Result<BidirectionalTexture, InputError> {
     let NumberArray { shape, values } = load_npy_array(path, "bidirectional texture", MAX_BYTES)?;
     let &[views, lights, size, columns, 3] = &shape[..] else {

@@ -10,18 +10,14 @@
 mod field;
 mod file;
 mod kinds;
-mod material;
 mod patch;
 mod ray;
 pub mod reference;
 mod response;
-mod sampled;
 
 pub use field::HeightField;
 pub use file::{load_bidirectional_texture, write_bidirectional_texture};
 pub use kinds::PatchKind;
-pub use material::MesoMaterial;
-pub use patch::{MesoDetail, MesoPatch, MesoTexel, SeenPoint};
+pub use patch::{MesoDetail, MesoMaterial, MesoPatch, MesoTexel, SeenPoint};
 pub use ray::REACH;
-pub use response::{BidirectionalTexture, ViewSamples};
-pub use sampled::TextureSampling;
+pub use response::{BidirectionalTexture, TextureSampling, ViewSamples};

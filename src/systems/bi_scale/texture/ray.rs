@@ -150,22 +150,3 @@ pub(super) fn follow<T>(ray: &TexelRay, mut ask: impl FnMut(&CellSpan) -> Contro
         cell[axis] += if ray.step[axis] > 0.0 { 1 } else { -1 };
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn roots_and_least_values_are_those_of_parabolas() {
-        assert_eq!(first_root([2.0, -3.0, 1.0], 9.0), Some(1.0));
-        assert_eq!(first_root([2.0, -3.0, 1.0], 0.5), None);
-        assert_eq!(first_root([2.0, -1.0, 0.0], 9.0), Some(2.0));
-        assert_eq!(first_root([2.0, 1.0, 0.0], 9.0), None);
-        assert_eq!(first_root([2.0, 0.0, -2.0], 9.0), Some(1.0));
-        assert_eq!(first_root([-1.0, 5.0, 0.0], 9.0), Some(0.0));
-        assert_eq!(first_root([1.0, 0.0, 0.0], 9.0), None);
-        assert_eq!(least([2.0, -3.0, 1.0], 9.0), -0.25);
-        assert_eq!(least([2.0, -3.0, 1.0], 1.0), 0.0);
-        assert_eq!(least([2.0, 3.0, -1.0], 4.0), -2.0);
-    }
-}

@@ -8,7 +8,9 @@
 //! bitangent.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
+use super::patch::{MesoPatch, SeenPoint};
 use crate::bi_scale::directions::{LocalDirections, square};
 use crate::error::{InputError, input_error};
 
@@ -39,9 +41,6 @@ impl BidirectionalTexture {
     pub const MOST: usize = 1024;
 
     /// A texture of samples: view by view, in a view light by light, then row by row.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(
         size: usize,
         view: LocalDirections,
@@ -125,47 +124,66 @@ impl ViewSamples {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_abs_diff_eq;
+/// Options of sampling a patch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureSampling {
+    /// Texels along an edge of the texture.
+    pub size: usize,
+    /// The views.
+    pub view: LocalDirections,
+    /// The M directions of light.
+    pub light: LocalDirections,
+    /// n x n points per texel, of which the mean is taken; with 1 its middle.
+    pub samples: usize,
+}
 
-    fn directions(side: usize) -> LocalDirections {
-        LocalDirections::new(side).unwrap()
-    }
-
-    #[test]
-    fn samples_stand_where_their_numbers_say() {
-        let samples: Vec<[f32; 3]> = (0..4 * 9 * 25).map(|at| [at as f32; 3]).collect();
-        let texture = BidirectionalTexture::new(5, directions(2), directions(3), samples).unwrap();
-        assert_eq!(texture.patch(3, 7)[2 * 5 + 4], [((3 * 9 + 7) * 25 + 14) as f32; 3]);
-    }
-
-    #[test]
-    fn what_is_no_texture_is_refused() {
-        let of = |size, count, value: f32| {
-            BidirectionalTexture::new(size, directions(1), directions(2), vec![[value; 3]; count]).unwrap_err()
-        };
-        let text = [of(0, 0, 1.0), of(2, 15, 1.0), of(2, 16, -1.0), of(2, 16, f32::NAN)].map(|error| error.to_string());
-        insta::assert_snapshot!(text.join("\n"), @"
-        expected a patch of 1 to 1024 texels along an edge, found 0
-        expected 16 samples (1 views x 4 lights x 2 x 2 texels), found 15
-        expected samples of 0 or more, finite ones; found another at view 0, light 0, row 0, column 0
-        expected samples of 0 or more, finite ones; found another at view 0, light 0, row 0, column 0
-        ");
-    }
-
-    #[test]
-    fn a_center_has_its_own_sample_alone_and_weights_sum_to_1() {
-        let view = directions(12);
-        for (number, &direction) in view.directions().iter().enumerate() {
-            let found = ViewSamples::around(&view, direction);
-            let own: f64 = found.numbers.iter().zip(found.weights).filter(|(n, _)| **n == number).map(|(_, w)| w).sum();
-            assert_abs_diff_eq!(own, 1.0, epsilon = 1e-6);
-            assert_abs_diff_eq!(found.weights.iter().sum::<f64>(), 1.0, epsilon = 1e-12);
+impl MesoPatch {
+    /// The texture of a patch, with the same bits on any number of threads. `done` is called with the number of
+    /// finished views and their total.
+    ///
+    /// # Errors
+    /// [`InputError`].
+    ///
+    /// # Panics
+    /// If there are no samples per texel.
+    pub fn texture(
+        &self,
+        sampling: &TextureSampling,
+        done: &mut dyn FnMut(usize, usize),
+    ) -> Result<BidirectionalTexture, InputError> {
+        let TextureSampling { size, view, light, samples: fine } = sampling;
+        assert!(*fine > 0, "a sample in a texel");
+        if !(1..=BidirectionalTexture::MOST).contains(size) {
+            return Err(size_error(*size));
         }
-        let horizon = ViewSamples::around(&view, DVec3::new(1.0, 0.0, -0.5).normalize());
-        assert!(horizon.numbers.iter().all(|number| number % 12 == 11));
-        assert_eq!(ViewSamples::around(&directions(1), DVec3::Z).numbers, [0; 4]);
+        let (lights, texels) = (light.directions(), size * size);
+        let mut samples = vec![[0.0_f32; 3]; view.directions().len() * lights.len() * texels];
+        let of_views = samples.chunks_exact_mut(lights.len() * texels).zip(view.directions());
+        for (number, (samples, &view)) in of_views.enumerate() {
+            let points: Vec<SeenPoint> =
+                (0..texels * fine * fine).into_par_iter().map(|at| self.seen(place(at, *size, *fine), view)).collect();
+            samples.par_chunks_exact_mut(texels).zip(lights).for_each(|(patch, &light)| {
+                for (texel, points) in patch.iter_mut().zip(points.chunks_exact(fine * fine)) {
+                    *texel = mean(points.iter().map(|seen| self.reflected(seen, light)), fine * fine);
+                }
+            });
+            done(number + 1, sampling.view.directions().len());
+        }
+        BidirectionalTexture::new(*size, view.clone(), light.clone(), samples)
     }
+}
+
+/// The texture coordinates of a point: texel by texel, in a texel row by row.
+fn place(at: usize, size: usize, fine: usize) -> [f64; 2] {
+    let (texel, point) = (at / (fine * fine), at % (fine * fine));
+    let along = |texel: usize, point: usize| (texel as f64 + (point as f64 + 0.5) / fine as f64) / size as f64;
+    [along(texel % size, point % fine), along(texel / size, point / fine)]
+}
+
+fn mean(values: impl Iterator<Item = [f64; 3]>, count: usize) -> [f32; 3] {
+    let mut sum = [0.0; 3];
+    for value in values {
+        (0..3).for_each(|channel| sum[channel] += value[channel]);
+    }
+    sum.map(|sum| (sum / count as f64) as f32)
 }

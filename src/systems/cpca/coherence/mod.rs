@@ -12,9 +12,8 @@ mod supercluster;
 pub use reclassify::{Reclassified, reclassify};
 pub use supercluster::{ConstantRegisters, Superclusters};
 
+use crate::clustering::{Clustering, Signal};
 use crate::error::{InputError, ensure, input_error};
-use crate::transfer::Signal;
-use crate::transfer::clustering::Clustering;
 
 /// The number of triangles drawn: for each triangle the number of different clusters of its vertices, summed. Divided
 /// by the number of triangles it is the overdraw that the paper prints.
@@ -49,16 +48,4 @@ fn check_shape(signal: &Signal, clustering: &Clustering) -> Result<(), InputErro
         "expected a signal of {points} x {dimension} numbers, found {found_points} x {found_dimension}"
     );
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn overdraw_counts_clusters_of_triangles() {
-        let of_point = [0, 0, 1, 2];
-        let triangles = [[0, 1, 1], [0, 1, 2], [2, 1, 0], [1, 2, 3], [3, 3, 3]];
-        assert_eq!(overdraw(&triangles, &of_point), 1 + 2 + 2 + 3 + 1);
-    }
 }

@@ -4,9 +4,8 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::{check_shape, check_triangles, distinct, overdraw};
+use crate::clustering::{Clustering, Signal};
 use crate::error::{InputError, input_error};
-use crate::transfer::Signal;
-use crate::transfer::clustering::Clustering;
 
 /// A clustering with fewer triangles across clusters.
 #[derive(Clone, Debug, PartialEq)]

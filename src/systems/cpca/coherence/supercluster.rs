@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{check_triangles, overdraw};
+use crate::clustering::Clustering;
 use crate::error::{InputError, ensure, input_error};
-use crate::transfer::clustering::Clustering;
 
 /// Constant registers for the products of clusters' vectors with the light (section 6.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,9 +72,6 @@ impl Superclusters {
     }
 
     /// Refuses superclusters that exceed the registers, or are of other clusters.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), InputError> {
         let (expected, found) = (clustering.subspaces().len(), self.of_cluster.len());
         ensure!(expected == found, "expected superclusters of {expected} clusters, found those of {found}");
@@ -198,25 +195,4 @@ fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(
     let fitting = common.into_iter().filter(|((a, b), _)| needed[*a as usize] + needed[*b as usize] <= limit);
     // max_by_key returns the last among equals; on the reversed iterator this is the first.
     fitting.rev().max_by_key(|&(_, count)| count).map(|(pair, _)| pair)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Table 1, and 256 registers without the six constants for transform, eye and scale.
-    #[test]
-    fn registers_of_the_papers_models() {
-        let fitting = |registers: ConstantRegisters, vectors| {
-            [256, 250].map(|limit| limit / ConstantRegisters { limit, ..registers }.needed(vectors))
-        };
-        for (rows, vectors, needed, clusters) in
-            [(16, 6, 28, [9, 8]), (24, 8, 54, [4, 4]), (25, 8, 63, [4, 3]), (24, 20, 126, [2, 1]), (24, 0, 6, [42, 41])]
-        {
-            let registers = ConstantRegisters::glossy(256, rows);
-            assert_eq!((registers.needed(vectors), fitting(registers, vectors)), (needed, clusters), "{rows} rows");
-        }
-        let diffuse = ConstantRegisters::diffuse(256);
-        assert_eq!((diffuse.needed(8), fitting(diffuse, 8), fitting(diffuse, 4)), (9, [28, 27], [51, 50]));
-    }
 }

@@ -6,10 +6,8 @@
 
 mod attributes;
 pub mod model;
-mod options;
 mod products;
 mod programs;
-mod textures;
 pub mod time;
 mod transfer;
 mod weights;
@@ -22,10 +20,9 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::timing::host::HostOperation;
 
-pub use options::PrtCardOptions;
 pub use products::Products;
 pub use transfer::CompressedTransfer;
-pub use weights::{CardWeights, WeightFormat};
+pub use weights::{CardWeights, PrtCardOptions, WeightFormat};
 
 use crate::card::frame_time::host_work;
 use crate::card::{CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, ReadTexture, Texels};
@@ -33,11 +30,7 @@ use crate::cpca::coherence::Superclusters;
 use crate::sphere::{HarmonicLight, ParabolicMap};
 use attributes::{Chunk, chunks};
 use model::TransferSize;
-use programs::{ShadingPrograms, kernel, registers};
-use textures::{exit_maps, map_scale};
-
-#[cfg(test)]
-mod tests;
+use programs::{ShadingPrograms, exit_maps, kernel, map_scale, registers};
 
 /// Write masks of the passes of glossy transfer.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
@@ -123,9 +116,6 @@ impl<'a> PrtCard<'a> {
 
     /// As [`Self::view_texels`], with the log of host and card for [`frame_time`](crate::card::frame_time::frame_time),
     /// without read-back.
-    ///
-    /// # Errors
-    /// As [`Self::view_texels`].
     pub fn logged_view(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
         let (texels, mut log) = self.show(light, view, true)?;
         log.insert(0, host_work(HostOperation::MultiplyAdd, self.size.host_multiply_adds() as u64));

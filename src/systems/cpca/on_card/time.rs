@@ -16,9 +16,6 @@ const HEAD_FRAMES: u64 = 29;
 const HEAD_SECONDS: u64 = 10;
 
 /// The host of section 7, with the speed at which the uncompressed head gets its 2.9 frames per second.
-///
-/// # Errors
-/// None for the printed figures.
 pub fn host_of_section_7() -> Result<HostModel, HostError> {
     let work = HEAD_FRAMES * HEAD.uncompressed_multiply_adds() as u64;
     HostModel::calibrate(&HostCounts::default().with(HostOperation::MultiplyAdd, work), HEAD_SECONDS, 1)

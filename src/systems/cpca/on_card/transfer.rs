@@ -1,11 +1,11 @@
 //! Compressed transfer of a mesh, which is the drawn object.
 
 use crate::card::CardError;
+use crate::clustering::Clustering;
 use crate::cpca::coherence::Superclusters;
 use crate::sphere::order_with;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
-use crate::transfer::clustering::Clustering;
 
 use super::model::TransferSize;
 

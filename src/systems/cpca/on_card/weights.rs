@@ -1,7 +1,10 @@
-//! Weights as a vertex holds them. The paper does not say how; fewer bits make vertices smaller.
+//! Options of drawing compressed transfer, and weights as a vertex holds them. The paper does not say how; fewer bits make
+//! vertices smaller.
 
-use crate::card::through_half;
-use crate::transfer::clustering::Clustering;
+use refsim::texture::TexelFormat;
+
+use crate::card::{CardError, through_half};
+use crate::clustering::Clustering;
 
 /// The format of a weight in a vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
@@ -88,5 +91,36 @@ impl CardWeights {
             (WeightFormat::Fp16, None) => through_half(weight as f32),
             (_, None) => weight as f32,
         }
+    }
+}
+
+/// Options of drawing compressed transfer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PrtCardOptions {
+    /// Clusters are drawn together, in the superclusters of the transfer or as far as the constant registers hold;
+    /// otherwise each alone.
+    pub superclusters: bool,
+    /// Texels along an edge of the maps of y; 32 in the paper.
+    pub map_side: usize,
+    /// The format of the maps.
+    pub map_format: TexelFormat,
+    /// The format of weights in vertices.
+    pub weights: WeightFormat,
+}
+
+impl Default for PrtCardOptions {
+    fn default() -> Self {
+        let (map_side, map_format) = (32, TexelFormat::Rgba16Snorm);
+        Self { superclusters: true, map_side, map_format, weights: WeightFormat::default() }
+    }
+}
+
+impl PrtCardOptions {
+    /// Checks the ranges.
+    pub(super) fn check(&self) -> Result<(), CardError> {
+        if (1..=4096).contains(&self.map_side) {
+            return Ok(());
+        }
+        Err(CardError::figure("1 to 4096 texels along an edge of a map", self.map_side))
     }
 }

@@ -6,7 +6,7 @@ use crate::error::InputError;
 use crate::linalg::{Matrix, dot};
 use crate::sphere::{DirectionRule, function_count, harmonics};
 use crate::transfer::brdf::{Brdf, ExitBasis, Projector, exit_per_direction, integrals};
-use crate::transfer::error::out_of_range_error;
+use crate::transfer::error::require;
 
 /// The representation of incident radiance for the BRDF of a glossy material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,10 +40,7 @@ impl Response {
     /// # Errors
     /// [`InputError`] if the albedo is not in [0, 1].
     pub fn diffuse(albedo: f64, rule: &DirectionRule) -> Result<Self, InputError> {
-        if !(0.0..=1.0).contains(&albedo) {
-            let (what, expected) = ("the albedo", "a number from 0 to 1");
-            return Err(out_of_range_error(what, expected, albedo));
-        }
+        require((0.0..=1.0).contains(&albedo), "the albedo", "a number from 0 to 1", albedo)?;
         let columns = rule.directions().iter().map(|s| albedo / PI * s.z).collect();
         Ok(Self { basis: ExitBasis::Radiance, directions: rule.len(), columns })
     }

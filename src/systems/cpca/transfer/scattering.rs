@@ -6,12 +6,12 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::whole::Transfer;
+use super::whole::{Transfer, differ};
 use crate::error::InputError;
 use crate::geom::vector::wide;
 use crate::quadrature::graded_integral;
 use crate::transfer::Vertices;
-use crate::transfer::error::{differ_error, out_of_range_error};
+use crate::transfer::error::require;
 
 /// Vertices of a leaf.
 const LEAF: usize = 8;
@@ -66,26 +66,12 @@ impl Transfer {
         options: ScatteringOptions,
     ) -> Result<Self, InputError> {
         let ScatteringOptions { mm_per_unit, solid_angle } = options;
-        for (what, expected, found, fits) in [
-            ("mm per unit", "a finite number above 0", mm_per_unit, mm_per_unit > 0.0 && mm_per_unit.is_finite()),
-            (
-                "the solid angle",
-                "a finite number of at least 0",
-                solid_angle,
-                (0.0..f64::INFINITY).contains(&solid_angle),
-            ),
-        ] {
-            if !fits {
-                return Err(out_of_range_error(what, expected, found));
-            }
-        }
-        for (what, found) in
-            [("vertices", [vertices.len(), entering.vertex_count()]), ("rows", [1, entering.row_count()])]
-        {
-            if found[0] != found[1] {
-                return Err(differ_error(what, found));
-            }
-        }
+        let is_length = mm_per_unit > 0.0 && mm_per_unit.is_finite();
+        require(is_length, "mm per unit", "a finite number above 0", mm_per_unit)?;
+        let is_angle = (0.0..f64::INFINITY).contains(&solid_angle);
+        require(is_angle, "the solid angle", "a finite number of at least 0", solid_angle)?;
+        differ("vertices", [vertices.len(), entering.vertex_count()])?;
+        differ("rows", [1, entering.row_count()])?;
         let hierarchy = Hierarchy::new(vertices, mm_per_unit);
         let columns = entering.column_count();
         let fluxes = hierarchy.fluxes(entering);

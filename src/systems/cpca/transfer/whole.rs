@@ -6,11 +6,11 @@ use rayon::prelude::*;
 use super::gather::TransferGather;
 use super::rays::TracedRays;
 use super::response::Response;
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure, input_error};
 use crate::sphere::{MAX_ORDER, function_count};
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
-use crate::transfer::error::{differ_error, exit_bases_error, out_of_range_error};
+use crate::transfer::error::require;
 
 /// Vertices per chunk of a sum over all vertices; it fixes the order of the additions.
 const CHUNK: usize = 1024;
@@ -61,9 +61,6 @@ impl Transfer {
 
     /// The matrices of direct light at the vertices of a range, those whose rays were traced: each is computed by
     /// itself, and the same for every range. Concatenated, row by row.
-    ///
-    /// # Errors
-    /// [`InputError`] as of [`Self::new`].
     pub fn direct(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -127,9 +124,6 @@ impl Transfer {
     /// The transferred incident radiance, R_p T_p, of all vertices in local coordinates: projected onto `basis` by
     /// integrals over the hemisphere (zero hemisphere), or if `inverse` by least squares. Radiance from other surfaces
     /// is taken from their exit radiance `exit`; with `None` they send nothing.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
     pub fn incident(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -244,10 +238,8 @@ fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, Input
 }
 
 fn check(rays: &TracedRays, responses: &[Response], light_order: usize) -> Result<(), InputError> {
-    if !(1..=MAX_ORDER).contains(&light_order) {
-        let (what, expected) = ("the order of the light", "an order from 1 to 10");
-        return Err(out_of_range_error(what, expected, light_order as f64));
-    }
+    let fits = (1..=MAX_ORDER).contains(&light_order);
+    require(fits, "the order of the light", "an order from 1 to 10", light_order as f64)?;
     for response in responses {
         differ("directions", [rays.rule().len(), response.direction_count()])?;
         if responses[0].basis().functions() != response.basis().functions() {
@@ -263,8 +255,7 @@ fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: Bounces) -> Re
     differ("vertices of rays", [vertices.len(), rays.vertex_count()])?;
     match bounces {
         Bounces::Tolerance { share, .. } if !(share > 0.0 && share.is_finite()) => {
-            let (what, expected) = ("the tolerance of bounces", "a finite number above 0");
-            Err(out_of_range_error(what, expected, share))
+            require(false, "the tolerance of bounces", "a finite number above 0", share)
         }
         Bounces::Count(0) => Ok(()),
         _ if !rays.keeps_hits() => Err(input_error!("crossbar::prt::precompute" =>
@@ -287,6 +278,13 @@ fn squares(values: &[f32], size: usize) -> f64 {
 }
 
 /// Returns an error if two numbers differ.
-fn differ(what: &'static str, found: [usize; 2]) -> Result<(), InputError> {
-    if found[0] == found[1] { Ok(()) } else { Err(differ_error(what, found)) }
+pub(super) fn differ(what: &str, [a, b]: [usize; 2]) -> Result<(), InputError> {
+    ensure!(a == b, "crossbar::prt::precompute" => "expected equal numbers of {what}, found {a} and {b}");
+    Ok(())
+}
+
+fn exit_bases_error([a, b]: [usize; 2]) -> InputError {
+    input_error!("crossbar::prt::precompute" =>
+        "expected one exit basis for all materials, or one that holds the other's functions, found bases of {a} and \
+         {b} functions")
 }

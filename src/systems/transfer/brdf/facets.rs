@@ -49,29 +49,3 @@ pub(crate) fn cosine_along_tangent(half: DVec3) -> f64 {
     let square = half.x * half.x + half.y * half.y;
     if square > NORMAL { half.x / square.sqrt() } else { 1.0 }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sphere::DirectionRule;
-    use approx::assert_abs_diff_eq;
-    use std::f64::consts::PI;
-
-    #[test]
-    fn distributions_times_the_cosine_integrate_to_pi() {
-        let rule = DirectionRule::hemisphere(255);
-        for roughness in [0.2, 0.4, 1.0] {
-            assert_abs_diff_eq!(rule.integral(|h| h.z * schlick_zenith(h.z, roughness)), PI, epsilon = 1e-8);
-            assert_abs_diff_eq!(rule.integral(|h| h.z * beckmann(h.z, roughness)), PI, epsilon = 1e-8);
-        }
-    }
-
-    #[test]
-    fn lobes_are_wide_across_the_tangent() {
-        assert_eq!(schlick_azimuth(0.3, 1.0), 1.0);
-        assert!(schlick_azimuth(0.0, 0.25) == 2.0 && schlick_azimuth(1.0, 0.25) == 0.5);
-        assert_eq!(cosine_along_tangent(DVec3::new(0.0, 0.6, 0.8)), 0.0);
-        assert_eq!([cosine_along_tangent(DVec3::Z), cosine_along_tangent(DVec3::NEG_X)], [1.0, -1.0]);
-        assert_eq!([schlick_seen(1.0, 0.3), schlick_seen(0.0, 0.3), schlick_seen(0.4, 0.0)], [1.0, 0.0, 1.0]);
-    }
-}

@@ -110,46 +110,51 @@ impl Brdf {
     /// # Errors
     /// [`InputError`] for the first that is not.
     pub fn check(&self) -> Result<(), InputError> {
-        let share = |what, found: f64| check(what, "a number from 0 to 1", found, (0.0..=1.0).contains(&found));
-        let width =
-            |what, found: f64| check(what, "a number from 0.001 to below 1e9", found, (0.001..1e9).contains(&found));
-        let schlick_width =
-            |what, found: f64| check(what, "a number from 0.001 to 1", found, (0.001..=1.0).contains(&found));
-        let exponent =
-            |found: f64| check("exponent", "a number from 0 to below 1e9", found, (0.0..1e9).contains(&found));
-        match *self {
-            Self::Lambert { albedo } => share("albedo", albedo),
-            Self::Phong { albedo, specular, exponent: e } => share("albedo", albedo)
-                .and_then(|()| share("specular reflectance", specular))
-                .and_then(|()| exponent(e))
-                .and_then(|()| {
-                    let (what, sum) = ("sum of albedo and specular reflectance", albedo + specular);
-                    check(what, "a number from 0 to 1", sum, sum <= 1.0 + SINGLE)
-                }),
-            Self::CookTorrance { albedo, specular, roughness, normal_incidence: f0 } => {
-                share("albedo", albedo)?;
-                share("specular factor", specular)?;
-                width("roughness", roughness)?;
-                check("reflectance at normal incidence", "a number from 0 to below 1", f0, (0.0..1.0).contains(&f0))
-            }
-            Self::Schlick { albedo, specular, roughness, isotropy, normal_incidence } => {
-                share("albedo", albedo)?;
-                share("specular factor", specular)?;
-                schlick_width("roughness", roughness)?;
-                schlick_width("isotropy", isotropy)?;
-                share("reflectance at normal incidence", normal_incidence)
-            }
-            Self::Ward { albedo, specular, roughness: [x, y] } => {
-                share("albedo", albedo)?;
-                share("specular reflectance", specular)?;
-                width("roughness", x).and_then(|()| width("roughness", y))
-            }
-            Self::AshikhminShirley { albedo, specular, exponents: [u, v] } => {
-                share("albedo", albedo)?;
-                share("specular reflectance", specular)?;
-                exponent(u).and_then(|()| exponent(v))
-            }
+        type Range = (&'static str, fn(f64) -> bool);
+        const SHARE: Range = ("a number from 0 to 1", |x| (0.0..=1.0).contains(&x));
+        const BELOW_1: Range = ("a number from 0 to below 1", |x| (0.0..1.0).contains(&x));
+        const SUM: Range = ("a number from 0 to 1", |x| x <= 1.0 + SINGLE);
+        const WIDTH: Range = ("a number from 0.001 to below 1e9", |x| (0.001..1e9).contains(&x));
+        const SCHLICK_WIDTH: Range = ("a number from 0.001 to 1", |x| (0.001..=1.0).contains(&x));
+        const EXPONENT: Range = ("a number from 0 to below 1e9", |x| (0.0..1e9).contains(&x));
+        let figures: &[(&str, Range, f64)] = match *self {
+            Self::Lambert { albedo } => &[("albedo", SHARE, albedo)],
+            Self::Phong { albedo, specular, exponent } => &[
+                ("albedo", SHARE, albedo),
+                ("specular reflectance", SHARE, specular),
+                ("exponent", EXPONENT, exponent),
+                ("sum of albedo and specular reflectance", SUM, albedo + specular),
+            ],
+            Self::CookTorrance { albedo, specular, roughness, normal_incidence } => &[
+                ("albedo", SHARE, albedo),
+                ("specular factor", SHARE, specular),
+                ("roughness", WIDTH, roughness),
+                ("reflectance at normal incidence", BELOW_1, normal_incidence),
+            ],
+            Self::Schlick { albedo, specular, roughness, isotropy, normal_incidence } => &[
+                ("albedo", SHARE, albedo),
+                ("specular factor", SHARE, specular),
+                ("roughness", SCHLICK_WIDTH, roughness),
+                ("isotropy", SCHLICK_WIDTH, isotropy),
+                ("reflectance at normal incidence", SHARE, normal_incidence),
+            ],
+            Self::Ward { albedo, specular, roughness: [x, y] } => &[
+                ("albedo", SHARE, albedo),
+                ("specular reflectance", SHARE, specular),
+                ("roughness", WIDTH, x),
+                ("roughness", WIDTH, y),
+            ],
+            Self::AshikhminShirley { albedo, specular, exponents: [u, v] } => &[
+                ("albedo", SHARE, albedo),
+                ("specular reflectance", SHARE, specular),
+                ("exponent", EXPONENT, u),
+                ("exponent", EXPONENT, v),
+            ],
+        };
+        for &(what, (expected, fits), found) in figures {
+            ensure!(fits(found), "expected {expected} for the {what}, found {}", shown(found));
         }
+        Ok(())
     }
 
     /// True if rotation around the normal has no effect.
@@ -214,37 +219,8 @@ fn shown(number: f64) -> String {
     if number.abs() < 1e16 { number.to_string() } else { format!("{number:e}") }
 }
 
-fn check(what: &'static str, expected: &'static str, found: f64, fits: bool) -> Result<(), InputError> {
-    ensure!(fits, "expected {expected} for the {what}, found {}", shown(found));
-    Ok(())
-}
-
 /// x^5.
 fn fifth_power(x: f64) -> f64 {
     let square = x * x;
     square * square * x
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bad_figures_are_named() {
-        let message = |brdf: Brdf| brdf.check().expect_err("refused").to_string();
-        let found = message(Brdf::Lambert { albedo: 1.5 });
-        assert_eq!(found, "expected a number from 0 to 1 for the albedo, found 1.5");
-        let nan = Brdf::Phong { albedo: 0.5, specular: 0.5, exponent: f64::NAN };
-        assert_eq!(message(nan), "expected a number from 0 to below 1e9 for the exponent, found NaN");
-        let ward = Brdf::Ward { albedo: 0.0, specular: 0.5, roughness: [0.1, 0.0] };
-        assert!(message(ward).contains("roughness"));
-        for (surface, found) in [
-            (Surface::Mirror { reflectance: [1.0; 3] }, "a mirror"),
-            (Surface::Glass { index: 1.5, transmittance: [1.0; 3] }, "glass"),
-        ] {
-            assert_eq!(Brdf::of_surface(&surface, 0), Err(one_way_error(found)));
-        }
-        let glossy = Surface::Glossy { albedo: [0.1, 0.2, 0.3], specular: [0.4; 3], exponent: 9.0 };
-        assert!(matches!(Brdf::of_surface(&glossy, 1), Ok(Brdf::Phong { exponent: 9.0, .. })));
-    }
 }

@@ -6,11 +6,10 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::kind::{begin_reading, begin_writing, bytes_of, contradiction};
-use super::{MeshDigest, PrtFile, PrtKind, PrtMeaning, front, other_mesh_error};
+use super::{MeshDigest, PrtFile, PrtKind, PrtMeaning, front, require_mesh};
+use crate::clustering::{AffineSubspace, Clustering, Signal};
 use crate::error::InputError;
 use crate::io::{NpzReader, NpzWriter, WriteError, write_file};
-use crate::transfer::Signal;
-use crate::transfer::clustering::{AffineSubspace, Clustering};
 
 #[derive(Serialize, Deserialize)]
 struct Metadata {
@@ -30,19 +29,13 @@ struct ClusterSizes {
 }
 
 /// Reads a file; of `mesh`, if one is given.
-///
-/// # Errors
-/// [`InputError`].
 pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, InputError> {
     let file = parse_prt(&bytes_of(path)?, path)?;
-    mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
+    mesh.map_or(Ok(()), |expected| require_mesh(path, expected, file.mesh))?;
     Ok(file)
 }
 
 /// Reads a file from bytes; `name` is its name in messages.
-///
-/// # Errors
-/// [`InputError`].
 pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, InputError> {
     let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::LowFrequency)?;
     let Metadata { meaning, points, clusters, mesh, provenance } = metadata;
@@ -92,19 +85,6 @@ fn clustering(
     });
     let found = Clustering::new(subspaces.collect(), of_point, weights);
     found.map_err(|reason| arrays.refuse("clusters", "those of a signal", reason.to_string()))
-}
-
-impl PrtFile {
-    /// Refuses a file of another mesh, or of the same with other tangents; `path` is named in the message.
-    ///
-    /// # Errors
-    /// [`InputError`].
-    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), InputError> {
-        match self.mesh {
-            Some(found) if found == *expected => Ok(()),
-            found => Err(other_mesh_error(path, *expected, found)),
-        }
-    }
 }
 
 /// Writes a file completely or not at all.

@@ -1,9 +1,11 @@
-//! Identification of the mesh that a file belongs to.
+//! The mesh that a file belongs to.
 
 use std::fmt;
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::{InputError, input_error};
 use crate::transfer::{LocalFrame, Tangents, Vertices};
 
 /// Counts and checksums of the vertices at which transfer is computed. A mesh with other positions, normals, tangents
@@ -52,4 +54,19 @@ impl fmt::Display for MeshDigest {
             Tangents::Along(_) => write!(f, "tangents along {tangents}"),
         }
     }
+}
+
+/// Refuses a file of another mesh than `expected`, or of the same with other tangents; `path` is named in the message.
+///
+/// # Errors
+/// [`InputError`] unless `found` is this mesh.
+pub fn require_mesh(path: &Path, expected: &MeshDigest, found: Option<MeshDigest>) -> Result<(), InputError> {
+    if found.as_ref() == Some(expected) {
+        return Ok(());
+    }
+    Err(input_error!("crossbar::prt::mesh" =>
+        "expected transfer of a mesh with {expected}, found that of {}",
+        found.map_or_else(|| "no mesh".to_owned(), |found| found.to_string());
+        help "name the model that it was made from, or make it anew with `precompute`")
+    .at(path))
 }

@@ -4,18 +4,16 @@
 
 mod arrays;
 mod digest;
-mod error;
 pub(crate) mod kind;
 
 use serde::{Deserialize, Serialize};
 
 pub use arrays::{load_prt, parse_prt, save_prt, write_prt};
-pub use digest::MeshDigest;
-pub use error::other_mesh_error;
+pub use digest::{MeshDigest, require_mesh};
 pub use kind::PrtKind;
 
-use super::Signal;
-use super::clustering::Clustering;
+use crate::clustering::Clustering;
+use crate::clustering::Signal;
 
 /// Largest size of a file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;

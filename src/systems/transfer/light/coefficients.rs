@@ -1,7 +1,8 @@
-//! A light's Haar coefficients.
+//! A light's Haar coefficients, and the few that matter most (section 6; \[NRH03\]'s "non-linear" approximation).
 
 use super::cube_light::CubeLight;
-use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
+use crate::error::{InputError, input_error};
+use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation, light_texel};
 use crate::transfer::haar::Haar;
 
 /// The vector L of a light: Haar coefficients of each segment's texels, for red, green and blue.
@@ -17,19 +18,17 @@ pub struct HaarLight {
 impl HaarLight {
     /// The coefficients of a light.
     pub fn new(light: &CubeLight, segmentation: Segmentation) -> Self {
+        Self::of_radiances(light.texels(), segmentation)
+    }
+
+    fn of_radiances(radiances: &[[f64; 3]], segmentation: Segmentation) -> Self {
         let mut haar = Haar::new(segmentation.side());
         let channels = [0, 1, 2].map(|channel| {
-            let mut values: Vec<f64> = (0..LIGHT_TEXELS)
-                .map(|at| segmentation.texel(at / segmentation.len(), at % segmentation.len()))
-                .map(|texel| light.texels()[texel][channel])
-                .collect();
+            let texel = |at| segmentation.texel(at / segmentation.len(), at % segmentation.len());
+            let mut values: Vec<f64> = (0..LIGHT_TEXELS).map(|at| radiances[texel(at)][channel]).collect();
             values.chunks_exact_mut(segmentation.len()).for_each(|square| haar.forward(square));
             values
         });
-        Self { segmentation, channels }
-    }
-
-    pub(super) const fn of_channels(segmentation: Segmentation, channels: [Vec<f64>; 3]) -> Self {
         Self { segmentation, channels }
     }
 
@@ -80,15 +79,7 @@ impl HaarLight {
     /// The coefficients of the same light in other segments, as in Figure 6 for a truncated light of six faces.
     #[must_use]
     pub fn reprojected(&self, segmentation: Segmentation) -> Self {
-        let radiances = self.radiances();
-        let mut haar = Haar::new(segmentation.side());
-        let channels = [0, 1, 2].map(|channel| {
-            let texel = |at| segmentation.texel(at / segmentation.len(), at % segmentation.len());
-            let mut values: Vec<f64> = (0..LIGHT_TEXELS).map(|at| radiances[texel(at)][channel]).collect();
-            values.chunks_exact_mut(segmentation.len()).for_each(|square| haar.forward(square));
-            values
-        });
-        Self { segmentation, channels }
+        Self::of_radiances(&self.radiances(), segmentation)
     }
 
     /// Coefficients that are not 0 in at least one channel.
@@ -105,4 +96,84 @@ impl HaarLight {
     pub(super) fn energy_at(&self, at: usize) -> f64 {
         self.channels.iter().map(|channel| channel[at] * channel[at]).sum()
     }
+}
+
+/// The criterion by which coefficients are chosen: the three of \[NRH03\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum TruncationPriority<'a> {
+    /// Magnitude.
+    #[default]
+    Magnitude,
+    /// Magnitude times the solid angle of the basis function's support.
+    Area,
+    /// Magnitude times the average response of the transfer to the coefficient, over all vertices: a number per
+    /// coefficient, in the light's segments.
+    Transfer(&'a [f64]),
+}
+
+/// A truncated light and what is left of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightTruncation {
+    /// The light, coefficients that were dropped set to 0.
+    pub light: HaarLight,
+    /// Coefficients of the whole light that are not 0.
+    pub nonzero: usize,
+    /// Number of coefficients that were kept; lower than requested if there are no more.
+    pub kept: usize,
+    /// The energy of the whole light.
+    pub energy: f64,
+    /// The share of it that was kept, in [0, 1]; 1 of a black light.
+    pub kept_energy: f64,
+}
+
+impl HaarLight {
+    /// The light with at most `keep` coefficients. A coefficient is kept in all three channels or in none; its
+    /// magnitude is the root of the sum of their squares, so that L has one pattern of zeros. Among equal priorities
+    /// the lowest number is kept.
+    ///
+    /// # Errors
+    /// [`InputError`] if there is not one mean response per coefficient.
+    pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, InputError> {
+        let weights = match priority {
+            TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],
+            TruncationPriority::Area => support_areas(self.segmentation()),
+            TruncationPriority::Transfer(responses) if responses.len() == LIGHT_TEXELS => responses.to_vec(),
+            TruncationPriority::Transfer(responses) => {
+                return Err(input_error!("crossbar::prt::light" =>
+                        "expected {LIGHT_TEXELS} responses, one per coefficient of the light, found {}",
+                        responses.len()));
+            }
+        };
+        let mut order: Vec<(f64, usize)> = (0..LIGHT_TEXELS)
+            .filter(|&at| self.energy_at(at) != 0.0)
+            .map(|at| (self.energy_at(at).sqrt() * weights[at], at))
+            .collect();
+        let nonzero = order.len();
+        order.sort_by(|(a, at), (b, other)| b.total_cmp(a).then(at.cmp(other)));
+        order.truncate(keep);
+        let mut channels = [0, 1, 2].map(|_| vec![0.0; LIGHT_TEXELS]);
+        for &(_, at) in &order {
+            channels.iter_mut().zip(self.channels()).for_each(|(into, from)| into[at] = from[at]);
+        }
+        let light = Self { segmentation: self.segmentation, channels };
+        let (energy, kept) = (self.energy(), light.energy());
+        let kept_energy = if energy > 0.0 { kept / energy } else { 1.0 };
+        Ok(LightTruncation { light, nonzero, kept: order.len(), energy, kept_energy })
+    }
+}
+
+/// The solid angle of each basis function's support.
+fn support_areas(segmentation: Segmentation) -> Vec<f64> {
+    let mut texels = vec![0.0; LIGHT_TEXELS];
+    for (fine, solid_angle) in FineDirections::get().solid_angles().iter().enumerate() {
+        texels[light_texel(fine)] += solid_angle;
+    }
+    let (haar, side, len) = (Haar::new(segmentation.side()), segmentation.side(), segmentation.len());
+    let area = |at: usize| {
+        let support = haar.support(at % len);
+        let rows = support.row..support.row + support.side;
+        let places = rows.flat_map(|row| (support.column..support.column + support.side).map(move |c| row * side + c));
+        places.map(|place| texels[segmentation.texel(at / len, place)]).sum()
+    };
+    (0..LIGHT_TEXELS).map(area).collect()
 }

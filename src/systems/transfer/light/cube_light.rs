@@ -10,7 +10,6 @@ use crate::transfer::grid::{
     FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
     light_texel,
 };
-use crate::transfer::light::error::{of_light, texels_error};
 
 /// The weights by which 4 x 4 samples are averaged to a texel.
 ///
@@ -98,9 +97,6 @@ impl CubeLight {
     }
 
     /// A light from a picture of the whole sphere, whose radiance is constant over each pixel.
-    ///
-    /// # Errors
-    /// As [`Self::sampled`].
     pub fn from_picture(
         picture: &EnvironmentPicture,
         rotation: &DMat3,
@@ -244,4 +240,13 @@ fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize, least: f64) -> 
         }
     }
     Ok(())
+}
+
+pub(super) fn texels_error(found: usize) -> InputError {
+    input_error!("crossbar::prt::light" => "expected {LIGHT_TEXELS} texels, six faces of 32x32, found {found}")
+}
+
+/// A sky or a rotation that makes no light.
+pub(super) fn of_light(error: InputError) -> InputError {
+    error.coded("crossbar::prt::light")
 }

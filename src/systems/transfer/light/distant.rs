@@ -7,7 +7,7 @@ use super::{CubeLight, Decimation, DiskSource};
 use crate::error::InputError;
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 use crate::transfer::grid::FINE_DIRECTIONS;
-use crate::transfer::light::error::of_light;
+use crate::transfer::light::cube_light::of_light;
 
 /// Distant light, before it is sampled by the cube's texels.
 #[derive(Debug)]
@@ -29,9 +29,6 @@ pub enum DistantLight {
 
 impl DistantLight {
     /// The cube of it, turned by a rotation.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn cube(&self, rotation: &DMat3, decimation: Decimation) -> Result<CubeLight, InputError> {
         match self {
             Self::Constant(radiance) => CubeLight::constant(*radiance),
@@ -45,9 +42,6 @@ impl DistantLight {
     }
 
     /// The radiances in the fine directions, 4 x 4 per texel: what [`Self::cube`] takes the means of.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
         match self {
             Self::Constant(radiance) => fine_samples(|_| *radiance, rotation, 0.0),
@@ -69,42 +63,4 @@ impl DistantLight {
 
 fn sum(one: &[[f64; 3]], other: &[[f64; 3]]) -> Vec<[f64; 3]> {
     one.iter().zip(other).map(|(a, b)| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS};
-
-    fn texel(direction: DVec3) -> usize {
-        let [face, column, row] = LIGHT_MAP.texel_of(direction);
-        (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
-    }
-
-    /// Truncated light has texels below 0, which stay what they are as it turns.
-    #[test]
-    fn signed_texels_turn_too() {
-        let texels: Vec<[f64; 3]> = (0..LIGHT_TEXELS).map(|at| [-(at as f64), 1.0, -0.5]).collect();
-        let light = DistantLight::Texels(CubeLight::signed(texels.clone()).expect("light"));
-        assert_eq!(light.cube(&DMat3::IDENTITY, Decimation::Plain).expect("light").texels(), &texels[..]);
-        let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z);
-        let turned = light.cube(&turn, Decimation::SolidAngle).expect("light");
-        let direction = DVec3::new(1.0, 0.3, -0.2);
-        assert!((turned.texels()[texel(turn * direction)][0] + texel(direction) as f64).abs() < 1e-9);
-    }
-
-    #[test]
-    fn texels_turn_with_the_cube() {
-        let texels: Vec<[f64; 3]> = (0..LIGHT_TEXELS).map(|at| [at as f64, 1.0, 0.5]).collect();
-        let light = DistantLight::Texels(CubeLight::new(texels.clone()).expect("light"));
-        let same = light.cube(&DMat3::IDENTITY, Decimation::SolidAngle).expect("light");
-        assert_eq!(same.texels(), &texels[..]);
-        // A quarter turn around z takes +x to +y: the middle of face +x comes to that of face +y.
-        let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z);
-        let turned = light.cube(&turn, Decimation::SolidAngle).expect("light");
-        let at = |direction: DVec3| turned.texels()[texel(direction)][0];
-        for direction in [DVec3::new(1.0, 0.3, -0.2), DVec3::new(-0.1, 0.2, 1.0), DVec3::new(0.4, -1.0, 0.6)] {
-            assert!((at(turn * direction) - texel(direction) as f64).abs() < 1e-9, "{direction}");
-        }
-    }
 }

@@ -9,11 +9,8 @@ mod coefficients;
 mod cube_light;
 mod disks;
 mod distant;
-mod error;
-mod truncation;
 
-pub use coefficients::HaarLight;
+pub use coefficients::{HaarLight, LightTruncation, TruncationPriority};
 pub use cube_light::{CubeLight, Decimation};
 pub use disks::DiskSource;
 pub use distant::DistantLight;
-pub use truncation::{LightTruncation, TruncationPriority};

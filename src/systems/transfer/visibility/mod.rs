@@ -5,7 +5,6 @@
 
 mod census;
 mod maps;
-mod sight;
 mod traced;
 
 pub use census::{SegmentCensus, segments_below_horizon};

@@ -2,14 +2,12 @@
 //! stored.
 
 use approx::assert_relative_eq;
-use crossbar::bi_scale::baselines::reference::dense_row;
 use crossbar::bi_scale::baselines::{RowClusterOptions, RowClusters, StoredTransfer};
 use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crossbar::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
 use crossbar::linalg::dot;
-use crossbar::transfer::Signal;
-use crossbar::transfer::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 
-use super::{light, transfer};
+use super::{dense_row, light, transfer};
 
 const FORMS: [CpcaForm; 2] = [CpcaForm::Affine, CpcaForm::Linear];
 

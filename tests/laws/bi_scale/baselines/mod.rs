@@ -28,6 +28,15 @@ fn light(seed: u64) -> Vec<f64> {
     light_vector(&(0..6144).map(|texel| 3.0 * random.unit(texel, 0, 0)).collect::<Vec<f64>>())
 }
 
+/// A row of a matrix, including all zeros.
+fn dense_row(matrix: &SparseMatrix, row: usize) -> Vec<f64> {
+    let mut dense = vec![0.0; matrix.columns()];
+    for entry in matrix.row(row) {
+        dense[entry.index as usize] = matrix.value(entry.value);
+    }
+    dense
+}
+
 /// Rows of light texels with blocks of values, some of them empty, some full, drawn at random.
 fn any_rows(seed: u64, count: usize) -> SparseMatrix {
     let random = CounterRng::new(seed);

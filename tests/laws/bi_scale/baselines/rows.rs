@@ -1,6 +1,6 @@
 //! Compressed rows are lossless.
 
-use crossbar::bi_scale::baselines::{LocalLightError, NarrowRows, StoredTransfer, WideRows};
+use crossbar::bi_scale::baselines::{CompressedRows, LocalLightError, StoredTransfer};
 use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crossbar::bi_scale::product::by_rows;
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ proptest! {
     #[test]
     fn layouts_agree_to_the_bit(seed: u64) {
         let (matrix, light) = (any_rows(seed, 30), light(seed));
-        let (narrow, wide) = (NarrowRows::new(&matrix).unwrap(), WideRows::new(&matrix).unwrap());
+        let (narrow, wide) = (CompressedRows::narrow(&matrix).unwrap(), CompressedRows::wide(&matrix).unwrap());
         let expected = by_rows(&matrix, &light);
         prop_assert_eq!(&narrow.multiply(&light), &expected);
         prop_assert_eq!(&wide.multiply(&light), &expected);
@@ -38,7 +38,7 @@ proptest! {
         let matrix = any_rows(seed, 20);
         let light: Vec<f64> = (0..6144).map(|texel| f64::from(texel * 7 % 64)).collect();
         let singles: Vec<[f32; 1]> = light.iter().map(|&light| [light as f32]).collect();
-        let found = NarrowRows::new(&matrix).unwrap().multiply_singles(&singles);
+        let found = CompressedRows::narrow(&matrix).unwrap().multiply_singles(&singles);
         prop_assert_eq!(found.into_iter().map(|[sum]| f64::from(sum)).collect::<Vec<_>>(), by_rows(&matrix, &light));
     }
 }
@@ -47,8 +47,8 @@ proptest! {
 fn sizes_are_of_entries_and_rows() {
     let matrix = any_rows(3, 25);
     let (entries, rows) = (matrix.nonzeros() as u64, 26);
-    assert_eq!(NarrowRows::new(&matrix).unwrap().sizes()[0].bytes, 3 * entries + 4 * rows);
-    assert_eq!(WideRows::new(&matrix).unwrap().sizes()[0].bytes, 8 * entries + 4 * rows);
+    assert_eq!(CompressedRows::narrow(&matrix).unwrap().sizes()[0].bytes, 3 * entries + 4 * rows);
+    assert_eq!(CompressedRows::wide(&matrix).unwrap().sizes()[0].bytes, 8 * entries + 4 * rows);
 }
 
 /// Columns and values out of range are refused, and fit into wider numbers.
@@ -57,7 +57,7 @@ fn what_has_no_room_is_refused() {
     let of = |columns, index, value| {
         let mut matrix = SparseMatrix::new(columns, 0).unwrap();
         matrix.push_row(&[MatrixEntry { index, value }]).unwrap();
-        (NarrowRows::new(&matrix).map(|_| ()), WideRows::new(&matrix).is_ok())
+        (CompressedRows::narrow(&matrix).map(|_| ()), CompressedRows::wide(&matrix).is_ok())
     };
     assert_eq!(of(70_000, 65_535, 127), (Ok(()), true));
     assert_eq!(
@@ -80,13 +80,13 @@ fn what_has_no_room_is_refused() {
     );
     let tenth = real_matrix(&[vec![0.1, 0.0]]);
     assert_eq!(
-        NarrowRows::new(&tenth).err(),
+        CompressedRows::narrow(&tenth).err(),
         Some(input_error!("expected {holds} in this layout, found {:e} in row 0: take one of wider numbers", 0.1))
     );
-    assert_eq!(WideRows::new(&tenth).unwrap().multiply(&[1.0, 1.0]), [f64::from(0.1_f32)]);
+    assert_eq!(CompressedRows::wide(&tenth).unwrap().multiply(&[1.0, 1.0]), [f64::from(0.1_f32)]);
     let (large, holds) = (real_matrix(&[vec![0.0], vec![1e300]]), "values within single precision");
     assert_eq!(
-        WideRows::new(&large).err(),
+        CompressedRows::wide(&large).err(),
         Some(input_error!("expected {holds} in this layout, found {:e} in row 1: take one of wider numbers", 1e300))
     );
 }
@@ -95,6 +95,6 @@ fn what_has_no_room_is_refused() {
 fn what_differs_is_found() {
     let light = light(1);
     let expected = by_rows(&any_rows(1, 20), &light);
-    let error = LocalLightError::new(&WideRows::new(&any_rows(2, 20)).unwrap().multiply(&light), &expected);
+    let error = LocalLightError::new(&CompressedRows::wide(&any_rows(2, 20)).unwrap().multiply(&light), &expected);
     assert!(error.relative > 0.1 && error.largest >= error.root_mean_square, "{error:?}");
 }

@@ -1,7 +1,6 @@
 //! Rows in wavelets, against plain loops.
 
 use approx::assert_relative_eq;
-use crossbar::bi_scale::baselines::reference::{by_largest_coefficients, dense_row};
 use crossbar::bi_scale::baselines::{
     CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows, StoredTransfer,
 };
@@ -9,7 +8,7 @@ use crossbar::bi_scale::matrix::SparseMatrix;
 use crossbar::bi_scale::product::by_rows;
 use crossbar::transfer::haar::Haar;
 
-use super::{any_rows, light, transfer};
+use super::{any_rows, dense_row, light, transfer};
 
 const PRIORITIES: [CoefficientPriority; 2] = [CoefficientPriority::Area, CoefficientPriority::Magnitude];
 
@@ -24,6 +23,34 @@ fn approximation(rows: &HaarRows, row: usize) -> Vec<f64> {
 fn singles(matrix: &SparseMatrix, keep: usize, priority: CoefficientPriority) -> HaarRows {
     let storage = CoefficientStorage::Single;
     HaarRows::new(matrix, HaarRowOptions { keep, priority, storage }).expect("rows")
+}
+
+/// A row from its `keep` largest wavelet coefficients: all six faces transformed, all coefficients sorted, the others
+/// set to 0, and transformed back.
+fn by_largest_coefficients(row: &[f64], keep: usize, priority: CoefficientPriority) -> Vec<f64> {
+    let face = 1024;
+    let mut haar = Haar::new(32);
+    let mut coefficients = row.to_vec();
+    for of_face in coefficients.chunks_exact_mut(face) {
+        haar.forward(of_face);
+    }
+    let mut order: Vec<(f64, usize)> = Vec::new();
+    for (at, value) in coefficients.iter().enumerate() {
+        let side = haar.support(at % face).side as f64;
+        let weight = match priority {
+            CoefficientPriority::Area => side * side,
+            CoefficientPriority::Magnitude => 1.0,
+        };
+        order.push((weight * value.abs(), at));
+    }
+    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    for &(_, at) in &order[keep.min(order.len())..] {
+        coefficients[at] = 0.0;
+    }
+    for of_face in coefficients.chunks_exact_mut(face) {
+        haar.inverse(of_face);
+    }
+    coefficients
 }
 
 /// Coefficients of quarters are multiples of powers of two: nothing is rounded.

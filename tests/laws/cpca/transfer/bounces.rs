@@ -1,6 +1,6 @@
 //! Interreflection: against the reference, and white furnaces.
 
-use crossbar::cpca::reference::Reference;
+use crossbar::cpca::paper::Reference;
 use crossbar::cpca::transfer::{Bounces, Incident, Response, Transfer};
 use crossbar::geom::Mesh;
 use crossbar::sphere::DirectionRule;

@@ -1,6 +1,6 @@
 //! Exact consequences of equation 1, and its relation to the double integral of section 3.1.
 
-use crossbar::cpca::reference::Reference;
+use crossbar::cpca::paper::Reference;
 use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
 use crossbar::geom::Mesh;
 use crossbar::linalg::Matrix;

@@ -6,6 +6,7 @@ use refsim::texture::TexelFormat;
 
 use super::run::{SystemInput, SystemRun, bunny, cameras};
 use crate::card::MeshView;
+use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::cpca::transfer::{Bounces, Incident};
 use crate::scene::Camera;
@@ -13,7 +14,6 @@ use crate::sphere::HarmonicLight;
 use crate::study::StudyError;
 use crate::study::prt::{ExitRadiance, Precomputation, no_cpca_card};
 use crate::transfer::brdf::{Brdf, ExitBasis};
-use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crate::transfer::{Tangents, Vertices};
 
 /// Order of the light: 9 coefficients.

@@ -10,7 +10,8 @@ use super::subject::BiScaleRendering;
 use super::subject::no_mesh_transfer;
 use super::surface::SurfacePixel;
 use crate::bi_scale::file::BiScaleMeaning;
-use crate::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene, reference};
+use crate::bi_scale::paper;
+use crate::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene};
 use crate::geom::exact::Sides;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, FoundTable, NamedPicture, false_color};
@@ -104,7 +105,7 @@ impl<'a> Causes<'a> {
     fn by_reference(&self, pixels: &[Option<SurfacePixel>], local: &LocalLight) -> Vec<[f64; 3]> {
         let color = |pixel: &Option<SurfacePixel>| {
             pixel.as_ref().map_or([0.0; 3], |pixel| {
-                reference::radiance(&self.rendering.textures[pixel.texture].samples, &local.rows, &pixel.shaded)
+                paper::radiance(&self.rendering.textures[pixel.texture].samples, &local.rows, &pixel.shaded)
             })
         };
         pixels.par_iter().map(color).collect()

@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use crate::bi_scale::file::BiScaleFile;
-use crate::bi_scale::product::{Gather, by_rows, reference};
+use crate::bi_scale::paper;
+use crate::bi_scale::product::{Gather, by_rows};
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::transfer::light::CubeLight;
 
@@ -45,7 +46,7 @@ impl LocalLight {
         let start = Instant::now();
         let (way, channels) = match (&file.matrix, &file.biclusters) {
             (Some(matrix), _) => ("rows", channels.map(|channel| by_rows(matrix, &channel))),
-            (None, Some(biclusters)) => ("biclusters", channels.map(|channel| reference(biclusters, &channel))),
+            (None, Some(biclusters)) => ("biclusters", channels.map(|channel| paper::multiply(biclusters, &channel))),
             (None, None) => return None,
         };
         let seconds = start.elapsed().as_secs_f64();

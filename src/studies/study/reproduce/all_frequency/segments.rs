@@ -7,8 +7,7 @@ use super::{HOST, RunResult, StudyError};
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::TransferSegment;
-use crate::transfer::Signal;
-use crate::transfer::clustering::{CpcaStep, CpcaStepKind};
+use crate::clustering::{CpcaStep, CpcaStepKind, Signal};
 use crate::transfer::grid::Segmentation;
 
 /// Bits per number in the coding of Haar coefficients alone: those of the earlier work.

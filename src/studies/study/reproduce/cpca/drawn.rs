@@ -3,8 +3,8 @@
 use super::mesh_cost::REGISTERS;
 use super::signals::ComputedSignal;
 use super::{HOST, RunResult, StudyError};
+use crate::clustering::Clustering;
 use crate::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
-use crate::transfer::clustering::Clustering;
 
 /// "Using a 5% error threshold".
 pub(super) const BUDGET: f64 = 0.05;

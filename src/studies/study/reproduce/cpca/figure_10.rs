@@ -9,9 +9,9 @@ use super::shared::iterative;
 use super::signals::BIRD;
 use super::{EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
 use crate::card::frame_time::FrameTime;
+use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
-use crate::transfer::clustering::{Clustering, CpcaMethod};
 
 /// Name, printed clusters and vectors, and the figures of squared error and frames per second, in the order of the
 /// figure. The errors of Figure 11 include that of CPCA.

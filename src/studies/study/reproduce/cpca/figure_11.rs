@@ -8,9 +8,9 @@ use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, ratio_row, unco
 use super::shared::iterative;
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
 use super::{Contradiction, EntryFindings, Method, PaperRow, Shared, StudyError, number, paragraph, printed, solved};
+use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
-use crate::transfer::clustering::{Clustering, CpcaMethod};
 
 const VECTORS: [usize; 4] = [2, 4, 8, 12];
 /// Signal, its name, the same in the names of its figures, and the figure of its frames per second with 8 vectors:

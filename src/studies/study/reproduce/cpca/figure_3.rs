@@ -2,9 +2,9 @@
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, solved};
+use crate::clustering::CpcaMethod;
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
-use crate::transfer::clustering::CpcaMethod;
 
 /// Number of clusters of both figures.
 const CLUSTERS: usize = 256;

@@ -3,8 +3,8 @@
 use super::figure_3::over_readings;
 use super::signals::{ComputedSignal, POLYGONS};
 use super::{EntryFindings, Shared, StudyError, number, paragraph};
+use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
-use crate::transfer::clustering::CpcaMethod;
 
 /// "m_c = 64"; Table 1's row for the figure has 32.
 const CLUSTERS: [usize; 2] = [64, 32];

@@ -4,9 +4,9 @@ use super::drawn::DrawnClusters;
 use super::mesh_cost::MeshCost;
 use super::signals::{ComputedSignal, SIGNALS};
 use super::{Shared, StudyError};
+use crate::clustering::{Clustering, CpcaMethod};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::shared::SharedResult;
-use crate::transfer::clustering::{Clustering, CpcaMethod};
 
 impl SharedResult for ComputedSignal {
     type Key = usize;

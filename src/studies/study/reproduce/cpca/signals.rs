@@ -1,6 +1,7 @@
 //! The signals of Table 1 and of Figures 2 to 4, on models of ours.
 
 use super::{ModelSize, RunResult, StudyError};
+use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions};
 use crate::geom::Mesh;
@@ -8,9 +9,8 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{ExitRadiance, Precomputation, Scatterer};
 use crate::subsurface::{Dipole, materials};
 use crate::transfer::brdf::{Brdf, ExitBasis};
-use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crate::transfer::file::PrtMeaning;
-use crate::transfer::{Signal, Tangents, Vertices};
+use crate::transfer::{Tangents, Vertices};
 
 /// Name of the host on which our values are computed.
 pub(super) const HOST: &str = "host";

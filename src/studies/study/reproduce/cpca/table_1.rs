@@ -8,9 +8,9 @@ use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, 
 use super::shared::iterative;
 use super::signals::SIGNALS;
 use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, printed, solved};
+use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
-use crate::transfer::clustering::CpcaMethod;
 
 /// Signals of the rows in the names of their figures.
 const IDS: [&str; 7] = [

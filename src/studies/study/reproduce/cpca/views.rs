@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use super::signals::ComputedSignal;
 use super::{HOST, RunResult, StudyError};
+use crate::clustering::Clustering;
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
 use crate::study::prt::{Lit, SeenSurface};
-use crate::transfer::clustering::Clustering;
 
 /// Side of the pictures, in pixels.
 const SIDE: u32 = 160;

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crossbar_studies::split::{KeptResults, SpentTime, SplitCommand};
 use crossbar_studies::study::reproduce::tested::{bunny_in_pieces, crossings, reaching};
-use crossbar_systems::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar_systems::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar_systems::transfer::synthetic::signal_at;
 
 /// Halfway between storages 1 and 4 by logarithms, 2, the first curve has the error 8.

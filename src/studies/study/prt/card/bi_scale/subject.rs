@@ -4,7 +4,7 @@ use glam::DMat3;
 
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, TexturedMesh};
-use crate::bi_scale::product::reference;
+use crate::bi_scale::paper;
 use crate::bi_scale::texture::BidirectionalTexture;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::error::InputError;
@@ -77,7 +77,7 @@ impl BiScaleOnCard {
     /// L~ in f64.
     pub(super) fn exact_local(&self, light: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let channel = |channel: usize| {
-            reference(&self.biclusters, &light.iter().map(|texel| texel[channel]).collect::<Vec<f64>>())
+            paper::multiply(&self.biclusters, &light.iter().map(|texel| texel[channel]).collect::<Vec<f64>>())
         };
         side_by_side([0, 1, 2].map(channel))
     }

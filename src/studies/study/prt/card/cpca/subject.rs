@@ -1,5 +1,6 @@
 //! A model with compressed transfer, lit and seen.
 
+use crate::clustering::Clustering;
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions};
 use crate::sphere::HarmonicLight;
@@ -9,7 +10,6 @@ use crate::study::prt::card::CardSetting;
 use crate::study::prt::exit_radiance::no_transfer;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
-use crate::transfer::clustering::Clustering;
 use crate::transfer::file::PrtMeaning;
 
 /// A model with compressed transfer, a light and a camera, and the card that draws it.

@@ -1,0 +1,199 @@
+//! The paper by plain loops in f64: Algorithm 1 on a dense matrix, Algorithm 2, and equation 3.
+
+use std::collections::BTreeSet;
+
+use super::bicluster::{Bicluster, BiclusterOptions, Biclustering, start};
+use super::matrix::{MatrixEntry, SparseMatrix};
+use super::shade::{ShadedPixel, TexelSamples};
+use super::texture::{BidirectionalTexture, ViewSamples};
+
+/// A submatrix T_b: its rows, and its columns with the values t of the bicluster.
+#[derive(Clone, Debug)]
+struct Submatrix {
+    rows: Vec<usize>,
+    columns: Vec<(usize, f64)>,
+}
+
+impl Submatrix {
+    /// Equation 9: 2 nnz(M) - (r + 2l - 1) - 2 nnz(M_R), where M_R is M less the bicluster.
+    fn reduction(&self, matrix: &[Vec<f64>]) -> i64 {
+        let mut nonzeros = 0;
+        let mut residual_nonzeros = 0;
+        for &row in &self.rows {
+            for (column, t) in &self.columns {
+                let value = matrix[row][*column];
+                nonzeros += i64::from(value != 0.0);
+                residual_nonzeros += i64::from(value != *t);
+            }
+        }
+        let cost = (self.rows.len() + 2 * self.columns.len()).cast_signed() as i64 - 1;
+        2 * nonzeros - cost - 2 * residual_nonzeros
+    }
+
+    /// The submatrix after an insertion or a deletion of a row; `None` if its last row would go.
+    fn with_row_changed(&self, row: usize) -> Option<Self> {
+        let mut changed = self.clone();
+        match changed.rows.iter().position(|&inside| inside == row) {
+            None => changed.rows.push(row),
+            Some(_) if changed.rows.len() == 1 => return None,
+            Some(at) => _ = changed.rows.remove(at),
+        }
+        Some(changed)
+    }
+
+    /// The same for a column. Also `None` if a column is 0 in all rows, and so has no value.
+    fn with_column_changed(&self, column: usize, matrix: &[Vec<f64>]) -> Option<Self> {
+        let mut changed = self.clone();
+        match changed.columns.iter().position(|(inside, _)| *inside == column) {
+            None => changed.columns.push((column, self.most_frequent(column, matrix)?)),
+            Some(_) if changed.columns.len() == 1 => return None,
+            Some(at) => _ = changed.columns.remove(at),
+        }
+        Some(changed)
+    }
+
+    /// The most frequent value other than 0 in the rows of a column, the lowest of equally frequent ones.
+    fn most_frequent(&self, column: usize, matrix: &[Vec<f64>]) -> Option<f64> {
+        let values = || self.rows.iter().map(|&row| matrix[row][column]).filter(|&value| value != 0.0);
+        let count = |value: f64| values().filter(|&other| other == value).count();
+        values().max_by(|&a, &b| count(a).cmp(&count(b)).then(b.total_cmp(&a)))
+    }
+
+    /// The bicluster; values are appended to `numbers`, and named by their index there.
+    fn bicluster(mut self, numbers: &mut Vec<f64>) -> Bicluster {
+        self.rows.sort_unstable();
+        self.columns.sort_unstable_by_key(|&(column, _)| column);
+        let entry = |(column, t): (usize, f64)| {
+            let value = i32::try_from(numbers.len()).expect("fewer numbers than 2^31");
+            numbers.push(t);
+            MatrixEntry { index: column as u32, value }
+        };
+        Bicluster {
+            rows: self.rows.iter().map(|&row| row as u32).collect(),
+            columns: self.columns.into_iter().map(entry).collect(),
+        }
+    }
+}
+
+/// Algorithm 1 with every operation tried, each by equation 9. A row or column costs a look at all of the matrix, so this
+/// is for small ones.
+///
+/// # Panics
+/// If the largest residual to drop is negative or not finite.
+pub fn biclusters(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
+    let mut left = dense(matrix);
+    assert!(options.drop >= 0.0, "a size");
+    let (mut dropped, mut numbers) = (BTreeSet::new(), Vec::new());
+    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
+    // Line 2: until no element is left.
+    while let Some((row, column)) = choose(&left, options.seed, found.len()) {
+        // Lines 5 and 6.
+        let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column])] };
+        // Lines 7 to 20.
+        while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
+            submatrix = better;
+        }
+        // Lines 15 and 16: what is taken away is the bicluster, so that the residual stays.
+        for &row in &submatrix.rows {
+            for (column, t) in &submatrix.columns {
+                let value = left[row][*column] - t;
+                let is_small = value != 0.0 && value.abs() <= options.drop;
+                let goes = is_small && dropped.insert((row, *column));
+                left[row][*column] = if goes { 0.0 } else { value };
+            }
+        }
+        found.push(&submatrix.bicluster(&mut numbers));
+    }
+    found.with_numbers(matrix.values().fraction_bits(), |index| numbers[index as usize])
+}
+
+fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
+    let row = |row| {
+        let mut values = vec![0.0; matrix.columns()];
+        for entry in matrix.row(row) {
+            values[entry.index as usize] = matrix.value(entry.value);
+        }
+        values
+    };
+    (0..matrix.rows()).map(row).collect()
+}
+
+/// The element that the next bicluster starts at, row and column.
+fn choose(left: &[Vec<f64>], seed: u64, number: usize) -> Option<(usize, usize)> {
+    let places = left.iter().enumerate().flat_map(|(row, values)| {
+        values.iter().enumerate().filter(|(_, value)| **value != 0.0).map(move |(column, _)| (row, column))
+    });
+    let places: Vec<(usize, usize)> = places.collect();
+    (!places.is_empty()).then(|| places[start(seed, number as u64, places.len() as u64) as usize])
+}
+
+/// The submatrix after the operation that reduces the cost most; `None` if none reduces it.
+fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>], deletion: bool) -> Option<Submatrix> {
+    let rows = (0..left.len()).filter(|row| deletion || !submatrix.rows.contains(row));
+    let is_inside = |column: usize| submatrix.columns.iter().any(|(inside, _)| *inside == column);
+    let columns = (0..left[0].len()).filter(|&column| deletion || !is_inside(column));
+    let after_rows = rows.filter_map(|row| submatrix.with_row_changed(row));
+    let after_columns = columns.filter_map(|column| submatrix.with_column_changed(column, left));
+    let mut best = None;
+    let mut most = submatrix.reduction(left);
+    for after in after_rows.chain(after_columns) {
+        let reduction = after.reduction(left);
+        if reduction > most {
+            (best, most) = (Some(after), reduction);
+        }
+    }
+    best
+}
+
+/// Algorithm 2 in f64, step by step.
+///
+/// # Panics
+/// If the light has not as many numbers as the matrix has columns.
+pub fn multiply(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
+    let [rows, columns] = biclusters.matrix_size();
+    assert_eq!(light.len(), columns, "as many numbers as columns");
+    // Lines 1 to 3: the bicluster buffer P.
+    let mut buffer = vec![0.0; biclusters.len()];
+    for (bicluster, sum) in buffer.iter_mut().enumerate() {
+        for entry in biclusters.columns_of(bicluster) {
+            *sum += biclusters.value(entry.value) * light[entry.index as usize];
+        }
+    }
+    // Lines 4 to 11, from the other side: rows take the biclusters in the same order.
+    let mut local = vec![0.0; rows];
+    for (bicluster, sum) in buffer.iter().enumerate() {
+        for &row in biclusters.rows_of(bicluster) {
+            local[row as usize] += sum;
+        }
+    }
+    local
+}
+
+/// Equation 3: B(x, e) = sum over d of b(u, e, d) L~(x, d). `local` is L~ of all vertices: row M p + j is local direction j of
+/// vertex p.
+///
+/// Sums begin with 0 and run over: directions of light; for each, the four views, for each the four texels; the three
+/// corners of the triangle.
+pub fn radiance(texture: &BidirectionalTexture, local: &[[f64; 3]], pixel: &ShadedPixel) -> [f64; 3] {
+    let lights = texture.light().directions().len();
+    let views = ViewSamples::around(texture.view(), pixel.view);
+    let texels = TexelSamples::around(texture.size(), pixel.place);
+    let mut radiance = [0.0; 3];
+    for light in 0..lights {
+        for (channel, radiance) in radiance.iter_mut().enumerate() {
+            let mut b = 0.0;
+            for (view, of_view) in views.numbers.into_iter().zip(views.weights) {
+                let patch = texture.patch(view, light);
+                for (texel, of_texel) in texels.numbers.into_iter().zip(texels.weights) {
+                    b += of_view * of_texel * f64::from(patch[texel][channel]);
+                }
+            }
+            let mut arriving = 0.0;
+            for (corner, weight) in pixel.corners.into_iter().zip(pixel.weights) {
+                arriving += weight * local[corner as usize * lights + light][channel];
+            }
+            *radiance += b * arriving;
+        }
+    }
+    radiance
+}

@@ -1,0 +1,111 @@
+//! Principal axes of a signal: along them a lower bound of a squared error costs a fraction of the error.
+//!
+//! With orthonormal axes B, no distance grows: |x - x_0 - V c| is at least |B (x - x_0) - B V c| for all weights c, so
+//! the distance of B x from the affine span of B V is at most the distance of x from the subspace. Both are taken
+//! relative to a center g. B V is made orthonormal; a vector is dropped if no more than the length [`NOTHING`] of it is
+//! left beside those before it.
+//!
+//! With S = |x - g| + |x_0 - g| and n' vectors, the dropped vectors lower a distance by at most sqrt(n') 2^-36 S, and the
+//! rounding of B x to f32 moves it by at most 2^-24 S, or 2^-146 where f32 is subnormal. The errors that decide are
+//! rounded in f64 by far less, and count as 0 up to 2^-40 S^2. [`SLACK`] (S + [`TINY`])^2 is more than all of them
+//! together.
+
+use rayon::prelude::*;
+use refsim::exec::batch::SimdLevel;
+
+use super::fit::principal_vectors;
+use super::products::{add_orthonormal, dots};
+use super::{AffineSubspace, CpcaForm, Signal};
+use crate::linalg::dot;
+
+/// Signals of fewer dimensions have no axes: their errors cost little more than bounds.
+const LEAST_DIMENSION: usize = 128;
+/// Dimensions per axis, and the largest number of axes.
+const PER_AXIS: usize = 4;
+const MOST: usize = 96;
+/// Points that the axes are found from.
+const SAMPLE: usize = 512;
+const NOTHING: f64 = 1.0 / (1u64 << 36) as f64;
+const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
+const TINY: f64 = 1e-36;
+
+/// A signal along its axes.
+#[derive(Debug)]
+pub(super) struct Axes {
+    center: Vec<f64>,
+    /// Orthonormal, concatenated.
+    axes: Vec<f64>,
+    /// B (x - g) of each point.
+    points: Signal,
+    /// |x - g| of each point.
+    lengths: Vec<f64>,
+}
+
+/// A subspace along the axes.
+#[derive(Debug)]
+pub(super) struct AlongAxes {
+    subspace: AffineSubspace,
+    /// |x_0 - g|.
+    length: f64,
+}
+
+impl Axes {
+    /// The principal axes of some of the points; none where they do not pay, or where f32 cannot hold the points along
+    /// them.
+    pub(super) fn new(signal: &Signal, form: CpcaForm, level: SimdLevel) -> Option<Self> {
+        let dimension = signal.dimension();
+        if dimension < LEAST_DIMENSION {
+            return None;
+        }
+        let center: Vec<f64> = match form {
+            CpcaForm::Affine => (0..dimension).into_par_iter().map(|j| component_mean(signal, j)).collect(),
+            // The mean of linear subspaces.
+            CpcaForm::Linear => vec![0.0; dimension],
+        };
+        let count = signal.points().min(SAMPLE);
+        let sample: Vec<u32> = (0..count).map(|at| (at * signal.points() / count) as u32).collect();
+        let axes = principal_vectors(signal, &sample, &center, MOST.min(dimension / PER_AXIS), level).ok()?;
+        let of_point = |point: usize| {
+            let values = signal.point(point).iter().zip(&center);
+            let residual: Vec<f64> = values.map(|(&value, g)| f64::from(value) - g).collect();
+            let along = project(&axes, &residual, level).into_iter().map(|value| value as f32);
+            (along.collect::<Vec<_>>(), dot(&residual, &residual).sqrt())
+        };
+        let (points, lengths): (Vec<_>, Vec<_>) = (0..signal.points()).into_par_iter().map(of_point).unzip();
+        let points = Signal::new(axes.len() / dimension, points.concat()).ok()?;
+        Some(Self { center, axes, points, lengths })
+    }
+
+    /// A subspace along the axes.
+    pub(super) fn along(&self, subspace: &AffineSubspace, level: SimdLevel) -> AlongAxes {
+        let mut vectors = Vec::new();
+        for vector in subspace.vectors() {
+            add_orthonormal(&mut vectors, project(&self.axes, vector, level), NOTHING);
+        }
+        let offset: Vec<f64> = subspace.mean.iter().zip(&self.center).map(|(mean, g)| mean - g).collect();
+        let mean = project(&self.axes, &offset, level);
+        let eigenvalues = vec![0.0; vectors.len() / mean.len()];
+        AlongAxes { subspace: AffineSubspace { mean, vectors, eigenvalues }, length: dot(&offset, &offset).sqrt() }
+    }
+
+    /// A lower bound of a point's squared error.
+    #[inline(always)]
+    pub(super) fn bound(&self, along: &AlongAxes, point: usize, residual: &mut Vec<f64>) -> f64 {
+        let size = self.lengths[point] + along.length + TINY;
+        along.subspace.squared_error(self.points.point(point), residual) - SLACK * size * size
+    }
+}
+
+fn project(axes: &[f64], vector: &[f64], level: SimdLevel) -> Vec<f64> {
+    let mut found = Vec::with_capacity(axes.len() / vector.len());
+    level.run(
+        #[inline(always)]
+        || dots(axes, vector, |along| found.push(along)),
+    );
+    found
+}
+
+fn component_mean(signal: &Signal, component: usize) -> f64 {
+    let values = signal.values().iter().skip(component).step_by(signal.dimension());
+    values.map(|&value| f64::from(value)).sum::<f64>() / signal.points() as f64
+}

@@ -1,0 +1,198 @@
+//! Options of the compression, and errors.
+
+use thiserror::Error;
+
+use super::Signal;
+use crate::error::InputError;
+use crate::geom::random::CounterRng;
+
+/// Options of the compression of a signal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CpcaOptions {
+    /// Number of clusters m_c: from 1 to the number of points.
+    pub clusters: usize,
+    /// Number of vectors per cluster n': from 0 (vector quantisation) to the signal's dimension.
+    pub vectors: usize,
+    /// Largest number of iterations of vector quantisation (LBG), before the first vector; at least 1.
+    pub vq_iterations: usize,
+    /// Largest number of iterations for each number of vectors from 1 on; at least 1. The paper takes 10 to 20.
+    pub iterations: usize,
+    /// The measure by which points are assigned to clusters.
+    pub method: CpcaMethod,
+    /// The kind of approximation within a cluster.
+    pub form: CpcaForm,
+    /// The first representatives.
+    pub start: StartPoints,
+}
+
+/// The kind of approximation within a cluster.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CpcaForm {
+    /// Affine subspaces: a mean and principal vectors of the residuals (this system's paper, section 3.3).
+    #[default]
+    Affine,
+    /// Linear subspaces: principal vectors of the raw second moment (equation 11 of the paper on all-frequency
+    /// transfer). Before the first vector, points are nevertheless assigned by their distance from means.
+    Linear,
+}
+
+/// The measure by which points are assigned to clusters.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
+pub enum CpcaMethod {
+    /// Distance from the means; then principal components are computed once per cluster.
+    ///
+    /// Section 4.1.
+    Static,
+    /// Error of the approximation, while vectors are added one by one.
+    ///
+    /// Section 4.2.
+    Iterative,
+    /// The same error, while the number of vectors is doubled: 1, 2, 4 and so on up to the requested number.
+    ///
+    /// Not in the papers; for signals with thousands of dimensions, where it saves most of the time.
+    Doubling,
+    /// As iterative, followed by redistribution of vectors among the clusters.
+    ///
+    /// Section 4.3.
+    Adaptive {
+        /// Largest number of rounds of redistribution.
+        rounds: usize,
+    },
+}
+
+/// The points that are the clusters' initial representatives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StartPoints {
+    /// Drawn at random without repetition.
+    Seed(u64),
+    /// Given, one per cluster, counted from 0.
+    Given(Vec<u32>),
+}
+
+/// Reasons for which a signal cannot be compressed. Points count from 0.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum CpcaError {
+    /// No clusters, or more than points.
+    #[error("expected 1 to {points} clusters, one per point at most, found {clusters}")]
+    Clusters { clusters: usize, points: usize },
+    /// More vectors than dimensions.
+    #[error("expected at most {dimension} vectors per cluster, one per dimension, found {vectors}")]
+    Vectors { vectors: usize, dimension: usize },
+    /// The linear form without vectors approximates nothing.
+    #[error("expected at least 1 vector per cluster in the linear form, which has no means, found 0")]
+    NothingLinear,
+    /// No iterations.
+    #[error("expected at least 1 iteration for each number of vectors, found 0")]
+    NoIterations,
+    /// The number of start points differs from that of clusters.
+    #[error("expected {clusters} start points, one per cluster, found {found}")]
+    StartCount { clusters: usize, found: usize },
+    /// A start point outside the signal.
+    #[error("expected start points below {points} (counted from 0), found {found}")]
+    StartRange { points: usize, found: u32 },
+    /// A repeated start point.
+    #[error("expected different start points, found {found} twice")]
+    StartTwice { found: u32 },
+    /// A line of a list of start points that is no number. Lines count from 1.
+    #[error("expected the number of a point in line {line} of the start points, found another text")]
+    StartText { line: usize },
+    /// The principal components of a cluster cannot be computed.
+    #[error("the principal components of cluster {cluster} cannot be found: {reason}")]
+    Factor { cluster: usize, reason: InputError },
+}
+
+impl From<CpcaError> for InputError {
+    fn from(error: CpcaError) -> Self {
+        Self::of("", error)
+    }
+}
+
+impl StartPoints {
+    /// Start points from text: the index of one point per line, counted from 0. Empty lines are skipped.
+    pub fn parse(text: &str) -> Result<Self, CpcaError> {
+        let lines = (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty());
+        let points = lines.map(|(line, text)| text.trim().parse().map_err(|_| CpcaError::StartText { line }));
+        points.collect::<Result<_, _>>().map(Self::Given)
+    }
+}
+
+impl CpcaMethod {
+    /// The method with this maximum number of rounds of redistribution, if it redistributes.
+    #[must_use]
+    pub const fn with_rounds(self, rounds: usize) -> Self {
+        match self {
+            Self::Adaptive { .. } => Self::Adaptive { rounds },
+            other => other,
+        }
+    }
+
+    /// The successive numbers of vectors per cluster, up to `vectors`.
+    pub(super) fn growth(self, vectors: usize) -> Vec<usize> {
+        match self {
+            Self::Static if vectors == 0 => Vec::new(),
+            Self::Static => vec![vectors],
+            Self::Iterative | Self::Adaptive { .. } => (1..=vectors).collect(),
+            Self::Doubling => {
+                let doubled =
+                    std::iter::successors(Some(1), |count| Some(2 * count)).take_while(|&count| count < vectors);
+                doubled.chain((vectors > 0).then_some(vectors)).collect()
+            }
+        }
+    }
+}
+
+impl CpcaOptions {
+    /// The start points, after a check of all options against a signal.
+    pub(super) fn start_points(&self, signal: &Signal) -> Result<Vec<u32>, CpcaError> {
+        let (points, dimension) = (signal.points(), signal.dimension());
+        let &Self { clusters, vectors, vq_iterations, iterations, .. } = self;
+        if !(1..=points).contains(&clusters) {
+            return Err(CpcaError::Clusters { clusters, points });
+        }
+        if vectors > dimension {
+            return Err(CpcaError::Vectors { vectors, dimension });
+        }
+        if self.form == CpcaForm::Linear && vectors == 0 {
+            return Err(CpcaError::NothingLinear);
+        }
+        if vq_iterations.min(iterations) == 0 {
+            return Err(CpcaError::NoIterations);
+        }
+        match &self.start {
+            StartPoints::Seed(seed) => Ok(draw(*seed, points as u32, clusters)),
+            StartPoints::Given(given) => check(given, points, clusters).map(|()| given.clone()),
+        }
+    }
+}
+
+fn check(given: &[u32], points: usize, clusters: usize) -> Result<(), CpcaError> {
+    if given.len() != clusters {
+        return Err(CpcaError::StartCount { clusters, found: given.len() });
+    }
+    if let Some(&found) = given.iter().find(|&&point| point as usize >= points) {
+        return Err(CpcaError::StartRange { points, found });
+    }
+    let mut sorted = given.to_vec();
+    sorted.sort_unstable();
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(CpcaError::StartTwice { found: pair[0] }),
+        None => Ok(()),
+    }
+}
+
+/// The first `count` of a random permutation of all points.
+fn draw(seed: u64, points: u32, count: usize) -> Vec<u32> {
+    let random = CounterRng::new(seed);
+    let mut deck: Vec<u32> = (0..points).collect();
+    for i in 0..count {
+        let rest = (deck.len() - i) as u128;
+        let at = (u128::from(random.bits(i as u64, 0, 0)) * rest) >> 64;
+        deck.swap(i, i + at as usize);
+    }
+    deck.truncate(count);
+    deck
+}

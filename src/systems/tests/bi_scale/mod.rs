@@ -1,0 +1,30 @@
+//! Directions, matrices and biclusters, textures and pixels, and the card that multiplies and shows them.
+
+mod blocks;
+mod display;
+mod gather;
+mod kernels;
+mod matrix;
+mod texture;
+
+use crossbar_systems::bi_scale::directions::LocalDirections;
+use crossbar_systems::bi_scale::texture::BidirectionalTexture;
+use refsim::device::Profile;
+use refsim::texture::TexelFormat;
+
+const FLOATS: TexelFormat = TexelFormat::Rgba32f;
+
+fn device(name: &str) -> Profile {
+    Profile::named(name).expect("a device")
+}
+
+fn directions(side: usize) -> LocalDirections {
+    LocalDirections::new(side).expect("directions")
+}
+
+/// A texture by a formula of the number of a sample.
+fn texture(size: usize, views: usize, lights: usize, value: impl Fn(usize) -> [f32; 3]) -> BidirectionalTexture {
+    let count = size * size * views * views * lights * lights;
+    let samples = (0..count).map(value).collect();
+    BidirectionalTexture::new(size, directions(views), directions(lights), samples).expect("a texture")
+}

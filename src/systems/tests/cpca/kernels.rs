@@ -1,0 +1,57 @@
+//! Vertex and pixel programs on the devices that have them.
+
+use crossbar_systems::cpca::kernels::{VertexKernel, VertexShading, programs};
+use refsim::device::Profile;
+use refsim::isa::Version;
+
+use crate::card::{WrittenKernel, checked};
+
+fn device(name: &str) -> Profile {
+    Profile::named(name).expect("a device")
+}
+
+#[test]
+fn every_program_runs_on_the_radeons() {
+    for name in ["r300", "r350", "nv35", "gt200", "ideal-fp32"] {
+        let profile = device(name);
+        for (name, text) in programs() {
+            checked(&profile, name, &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        }
+    }
+    for name in ["nv20", "nv25", "r200"] {
+        let kernel = VertexKernel { shading: VertexShading::DiffuseColor, vectors: 8, version: Version::Vs1_1 };
+        kernel.checked(&device(name)).unwrap_or_else(|e| panic!("{e}"));
+    }
+}
+
+#[test]
+fn slots_are_counted_as_the_device_counts_them() {
+    for registers in 1..=7 {
+        let shading = VertexShading::Glossy { registers };
+        for version in [Version::Vs1_1, Version::Vs2_0] {
+            let (slots, constants) = if version == Version::Vs1_1 { (128, 96) } else { (256, 256) };
+            let kernel = |vectors| VertexKernel { shading, vectors, version };
+            let fits = |&vectors: &usize| {
+                let (kernel, needed) = (kernel(vectors), registers * (vectors + 1));
+                kernel.slots() <= slots && kernel.first() + needed <= constants && vectors <= kernel.most_vectors()
+            };
+            let most = (0..64).filter(fits).max().expect("at least one");
+            kernel(most).checked(&device("r300")).unwrap_or_else(|e| panic!("{e}"));
+            let refused = kernel(most + 1).checked(&device("r300"));
+            assert!(refused.is_err(), "{}: {most} vectors are not the most", kernel(most).name());
+        }
+    }
+}
+
+/// Figure 10's pure principal components: 20 vectors of 24 functions exceed vs_1_1 in slots and in constants.
+#[test]
+fn twenty_vectors_need_vs_2_0() {
+    let shading = VertexShading::Glossy { registers: 6 };
+    let kernel = |version| VertexKernel { shading, vectors: 20, version };
+    kernel(Version::Vs2_0).checked(&device("r300")).unwrap_or_else(|e| panic!("{e}"));
+    let program = refsim::asm::assemble(&kernel(Version::Vs1_1).text()).expect("a program");
+    let report = refsim::check::check(program, &device("r300")).expect_err("refused");
+    let named = |what: &str| report.violations.iter().any(|violation| violation.message.contains(what));
+    assert!(named("138") && named("128"), "slots: {report:?}");
+    assert!(named("`c0` to `c95`"), "constants: {report:?}");
+}

@@ -1,0 +1,83 @@
+//! Numbers that follow from sizes: overdraw, registers, batches, work of the host.
+
+use crossbar_systems::cpca::coherence::{ConstantRegisters, overdraw};
+use crossbar_systems::cpca::on_card::model::TransferSize;
+
+#[test]
+fn overdraw_counts_clusters_of_triangles() {
+    let of_point = [0, 0, 1, 2];
+    let triangles = [[0, 1, 1], [0, 1, 2], [2, 1, 0], [1, 2, 3], [3, 3, 3]];
+    assert_eq!(overdraw(&triangles, &of_point), 1 + 2 + 2 + 3 + 1);
+}
+
+/// Table 1, and 256 registers without the six constants for transform, eye and scale.
+#[test]
+fn registers_of_the_papers_models() {
+    let fitting = |registers: ConstantRegisters, vectors| {
+        [256, 250].map(|limit| limit / ConstantRegisters { limit, ..registers }.needed(vectors))
+    };
+    for (rows, vectors, needed, clusters) in
+        [(16, 6, 28, [9, 8]), (24, 8, 54, [4, 4]), (25, 8, 63, [4, 3]), (24, 20, 126, [2, 1]), (24, 0, 6, [42, 41])]
+    {
+        let registers = ConstantRegisters::glossy(256, rows);
+        assert_eq!((registers.needed(vectors), fitting(registers, vectors)), (needed, clusters), "{rows} rows");
+    }
+    let diffuse = ConstantRegisters::diffuse(256);
+    assert_eq!((diffuse.needed(8), fitting(diffuse, 8), fitting(diffuse, 4)), (9, [28, 27], [51, 50]));
+}
+
+const fn size(vertices: usize, [rows, columns]: [usize; 2], clusters: usize, vectors: usize) -> TransferSize {
+    TransferSize { vertices, rows, columns, clusters, vectors }
+}
+
+/// The sizes of Table 1, with raw and stored numbers in millions, registers per cluster, and clusters per 256
+/// registers and per registers that remain beside transform, eye and constants.
+#[test]
+fn table_1_follows_from_its_sizes() {
+    let rows = [
+        (size(49_990, [16, 25], 256, 6), [20.0, 1.017], 28, [9, 8]),
+        (size(49_990, [24, 25], 256, 8), [30.0, 1.782], 54, [4, 4]),
+        (size(49_990, [25, 25], 256, 8), [31.2, 1.840], 63, [4, 3]),
+        (size(48_688, [24, 25], 256, 8), [29.2, 1.772], 54, [4, 4]),
+        (size(48_688, [1, 100], 256, 8), [4.87, 0.620], 9, [28, 27]),
+        (size(50_060, [16, 25], 256, 6), [20.0, 1.017], 28, [9, 8]),
+        (size(58_624, [1, 100], 32, 4), [5.86, 0.250], 5, [51, 50]),
+    ];
+    for (size, millions, registers, fitting) in rows {
+        let found = [size.raw_numbers(), size.stored_numbers()].map(|numbers| numbers as f64 / 1e6);
+        for ((found, printed), half_digit) in found.iter().zip(millions).zip([0.05, 0.0005]) {
+            assert!((found - printed).abs() <= half_digit, "{size:?}: {found}, {printed}");
+        }
+        assert_eq!(size.registers_per_cluster(), registers, "{size:?}");
+        assert_eq!([256, 250].map(|limit| size.clusters_per_batch(limit)), fitting, "{size:?}");
+    }
+}
+
+/// Section 6.2 for the bird: 54 constants, 4 clusters per batch, 64 batches; and Figures 10 and 11.
+#[test]
+fn batches_and_host_work_of_the_bird() {
+    let bird = |clusters, vectors| size(48_688, [24, 25], clusters, vectors);
+    assert_eq!(bird(256, 8).batches(256), Some(64));
+    for (vectors, registers, clusters, batches) in [(2, 18, 13, 20), (4, 30, 8, 32), (12, 78, 3, 86)] {
+        let bird = bird(256, vectors);
+        let found = (bird.registers_per_cluster(), bird.clusters_per_batch(250), bird.batches(250));
+        assert_eq!(found, (registers, clusters, Some(batches)), "{vectors} vectors");
+    }
+    let quantised = bird(1792, 0);
+    assert_eq!((quantised.registers_per_cluster(), quantised.batches(250)), (6, Some(44)));
+    assert_eq!(bird(1, 20).registers_per_cluster(), 126);
+    assert_eq!(bird(1, 20).batches(91), None, "vs_1_1 has 96 constants");
+    assert_eq!(bird(256, 8).uploaded_registers(), 41_472);
+    assert_eq!(bird(256, 8).host_multiply_adds(), 4_147_200);
+    assert_eq!(bird(256, 8).uncompressed_multiply_adds(), 87_638_400);
+}
+
+/// "For N = 25 and n' = 5 we save more than a factor of 4" (section 6): per vertex, products with six vectors of 25
+/// numbers instead of a 25 x 25 matrix.
+#[test]
+fn the_factor_of_four() {
+    let size = size(1, [25, 25], 1, 5);
+    let per_vertex = (size.vectors + 1) * size.rows;
+    let factor = (size.rows * size.columns) as f64 / per_vertex as f64;
+    assert!((factor - 25.0 / 6.0).abs() < 1e-12);
+}
