@@ -7,14 +7,12 @@ use crossbar::all_frequency::on_card::{
     FactoredCard, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors,
 };
 use crossbar::all_frequency::shade::TransferredRadiance;
-use crossbar::card::MeshView;
-use crossbar::scene::Camera;
 use crossbar::transfer::synthetic::{hills, signal_at};
 use crossbar::transfer::{Tangents, Vertices};
-use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 
-use crate::system::{bits, executors};
+use crate::rules::profile;
+use crate::system::pictures_agree;
 
 /// Hills with made-up transferred radiance.
 struct Hills {
@@ -39,26 +37,15 @@ impl Hills {
         Self { vertices, reflectance, transferred }
     }
 
-    /// Pictures from above and at a grazing angle, where hills hide each other and reads of maps leave the rim.
     fn agrees(&self, device: &str, format: TexelFormat, place: ProductPlace) {
         let Self { vertices, reflectance, transferred } = self;
         let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
-        let cameras = [[0.5, -1.4, 2.6], [2.2, -1.9, 0.45]]
-            .map(|eye| Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], 0.45, 29, 23).expect("a camera"));
-        let mut reference = None;
-        for (executor, how) in executors() {
-            let what = format!("{} terms, {device}, {format:?}, {place:?}, {executor}", reflectance.terms());
-            let profile = Profile::named(device).expect("a device");
-            let mut card = FactoredCard::new(profile, how, mesh, place).unwrap_or_else(|e| panic!("{what}: {e}"));
-            let seen = cameras.map(|camera| {
-                let view = MeshView { camera, exposure: 0.8, format };
-                let picture = card.view_texels(&view).unwrap_or_else(|e| panic!("{what}: {e}"));
-                let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value != 0.0)).count();
-                assert!(lit > 20, "{what}: {lit} pixels with light");
-                bits(&picture)
-            });
-            assert!(reference.get_or_insert_with(|| seen.clone()) == &seen, "{what}: differs from the scalar executor");
-        }
+        pictures_agree(
+            &format!("{} terms, {device}, {format:?}, {place:?}", reflectance.terms()),
+            format,
+            |executor| FactoredCard::new(profile(device), executor, mesh, place),
+            |card, view| card.view_texels(view),
+        );
     }
 }
 

@@ -1,5 +1,5 @@
-//! Coverage of the random cases: every feature of programs, devices and scenes occurs among the seeds of the short
-//! form.
+//! Coverage of the random cases: every feature of programs, devices and scenes occurs among the suites' own
+//! seeds.
 
 use crate::generate::{self, Layout};
 use crate::random::Random;

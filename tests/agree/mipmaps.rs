@@ -112,7 +112,7 @@ fn quad(scale: f32, r: &mut Random) -> [Vertex; 4] {
 
 #[test]
 fn generated_levels_are_read_alike() {
-    let (seeds, mut levels) = (seeds(40, 75), 0);
+    let (seeds, mut levels) = (seeds(20, 150), 0);
     for seed in seeds.clone() {
         let fixture = Fixture::new(seed);
         let drawn = |executor: &Executor| fixture.draw(executor).unwrap_or_else(|e| panic!("seed {seed}: {e}"));

@@ -8,6 +8,7 @@ use crate::shrink::shrink;
 use crate::suite::{self, Kind};
 use refsim::device::MadMode;
 use refsim::isa::Version;
+use strum::VariantArray as _;
 
 /// Instructions of ps_2_0 that are or contain a `mad`.
 const WITH_MAD: [&str; 4] = ["mad", "lrp", "crs", "sincos"];
@@ -56,9 +57,9 @@ fn a_planted_difference_is_cut_down_and_blamed() {
 
 #[test]
 fn every_shape_of_geometry_covers_pixels() {
-    for shape in Shape::ALL {
+    for &shape in Shape::VARIANTS {
         let suites = suite::all();
-        let suite = suites.iter().find(|s| s.name == format!("geometry::{}", shape.name()));
+        let suite = suites.iter().find(|s| s.name == format!("geometry::{}", <&str>::from(shape)));
         let suite = suite.unwrap_or_else(|| panic!("a suite of {shape:?}"));
         let covered = (0..suite.seeds).filter(|&seed| {
             let case = suite.case(seed);

@@ -1,18 +1,15 @@
 //! Compressed transfer: pictures of every kind of card on every executor. That the vertex programs give the host's sums
 //! is proved beside them.
 
-use crossbar::card::MeshView;
-use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
-use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;
 use crossbar::transfer::synthetic::{hills, signal_at};
 use crossbar::transfer::{Tangents, Vertices};
-use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 
-use crate::system::{bits, executors};
+use crate::rules::profile;
+use crate::system::pictures_agree;
 
 /// Compressed transfer of hills, 4 coefficients of light.
 struct Hills {
@@ -35,28 +32,17 @@ impl Hills {
     }
 }
 
-/// Pictures from above and at a grazing angle, where hills hide each other and map reads leave the rim.
 fn agrees(hills: &Hills, device: &str, format: TexelFormat, options: &PrtCardOptions) {
     let Hills { vertices, clustering, basis, vectors } = hills;
     let transfer =
         CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: *vectors, superclusters: None };
     let light = HarmonicLight::red_and_blue(2);
-    let cameras = [[0.5, -1.4, 2.6], [2.2, -1.9, 0.45]]
-        .map(|eye| Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], 0.45, 29, 23).expect("a camera"));
-    let mut reference = None;
-    for (executor, how) in executors() {
-        let what = format!("{} functions, {vectors} vectors, {device}, {format:?}, {executor}", basis.len());
-        let profile = Profile::named(device).expect("a device");
-        let mut card = PrtCard::new(profile, how, transfer, options).unwrap_or_else(|e| panic!("{what}: {e}"));
-        let seen = cameras.map(|camera| {
-            let view = MeshView { camera, exposure: 0.8, format };
-            let picture = card.view_texels(&light, &view).unwrap_or_else(|e| panic!("{what}: {e}"));
-            let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value > 0.0)).count();
-            assert!(lit > 20, "{what}: {lit} pixels with light");
-            bits(&picture)
-        });
-        assert!(reference.get_or_insert_with(|| seen.clone()) == &seen, "{what}: differs from the scalar executor");
-    }
+    pictures_agree(
+        &format!("{} functions, {vectors} vectors, {device}, {format:?}", basis.len()),
+        format,
+        |executor| PrtCard::new(profile(device), executor, transfer, options),
+        |card, view| card.view_texels(&light, view),
+    );
 }
 
 #[test]

@@ -9,9 +9,11 @@ use refsim::device::{
 use refsim::num::{DotOrder, Format};
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
+use strum::{IntoStaticStr, VariantArray};
 
 /// Formats that share an implementation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, IntoStaticStr, PartialEq, Eq, VariantArray)]
+#[strum(serialize_all = "snake_case")]
 pub(crate) enum Family {
     S3_12,
     ShortFixed,
@@ -23,21 +25,6 @@ pub(crate) enum Family {
 }
 
 impl Family {
-    pub(crate) const ALL: [Self; 7] =
-        [Self::S3_12, Self::ShortFixed, Self::LongFixed, Self::Fp16, Self::Fp24, Self::Fp32, Self::OddFloat];
-
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::S3_12 => "s3_12",
-            Self::ShortFixed => "short_fixed",
-            Self::LongFixed => "long_fixed",
-            Self::Fp16 => "fp16",
-            Self::Fp24 => "fp24",
-            Self::Fp32 => "fp32",
-            Self::OddFloat => "odd_float",
-        }
-    }
-
     pub(crate) fn formats(self) -> &'static [&'static str] {
         match self {
             Self::S3_12 => {
@@ -85,7 +72,8 @@ impl Family {
 }
 
 /// Rules that vary together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, IntoStaticStr, PartialEq, Eq, VariantArray)]
+#[strum(serialize_all = "snake_case")]
 pub(crate) enum Group {
     /// Arithmetic of instructions.
     Arithmetic,
@@ -98,17 +86,6 @@ pub(crate) enum Group {
 }
 
 impl Group {
-    pub(crate) const ALL: [Self; 4] = [Self::Arithmetic, Self::Sampling, Self::Pipeline, Self::Together];
-
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Arithmetic => "arithmetic",
-            Self::Sampling => "sampling",
-            Self::Pipeline => "pipeline",
-            Self::Together => "together",
-        }
-    }
-
     fn has(self, part: Self) -> bool {
         self == part || self == Self::Together
     }

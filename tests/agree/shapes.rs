@@ -4,9 +4,11 @@ use crate::random::Random;
 use crate::scene::Scene;
 use refsim::machine::StepRate;
 use refsim::raster::{Primitive, Vertex};
+use strum::{IntoStaticStr, VariantArray};
 
 /// A kind of geometry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, IntoStaticStr, PartialEq, Eq, VariantArray)]
+#[strum(serialize_all = "snake_case")]
 pub(crate) enum Shape {
     /// A few triangles in view.
     Ordinary,
@@ -26,32 +28,6 @@ pub(crate) enum Shape {
     Fine,
 }
 
-impl Shape {
-    pub(crate) const ALL: [Self; 8] = [
-        Self::Ordinary,
-        Self::Flat,
-        Self::Layers,
-        Self::Clipped,
-        Self::Huge,
-        Self::Degenerate,
-        Self::Special,
-        Self::Fine,
-    ];
-
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Ordinary => "ordinary",
-            Self::Flat => "flat",
-            Self::Layers => "layers",
-            Self::Clipped => "clipped",
-            Self::Huge => "huge",
-            Self::Degenerate => "degenerate",
-            Self::Special => "special",
-            Self::Fine => "fine",
-        }
-    }
-}
-
 /// Vertices and how they make triangles.
 pub(crate) struct Geometry {
     pub(crate) vertices: Vec<Vertex>,
@@ -61,7 +37,7 @@ pub(crate) struct Geometry {
 
 /// A shape for programs that are to be seen: mostly ordinary ones.
 pub(crate) fn ordinary(r: &mut Random) -> Shape {
-    if r.one_in(3) { r.of(&Shape::ALL) } else { Shape::Ordinary }
+    if r.one_in(3) { r.of(Shape::VARIANTS) } else { Shape::Ordinary }
 }
 
 /// Width and height of the targets: some within a tile, some over several, some of one row of quads.

@@ -1,4 +1,4 @@
-//! Suites: a name, the kind of cases, and the number of seeds in the short form.
+//! Suites: a name, the kind of cases, and the number of seeds.
 
 use crate::dice::{self, Options};
 use crate::files;
@@ -12,6 +12,7 @@ use refsim::isa::{Stage, Version};
 use refsim::machine::StepRate;
 use refsim::output::{BlendOp, CompareFunction, DepthFormat};
 use refsim::texture::{AddressMode, TexelFormat, TextureKind};
+use strum::VariantArray as _;
 
 /// The kind of cases of a suite: the properties that are fixed.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +50,7 @@ pub(crate) enum Kind {
 pub(crate) struct Suite {
     pub(crate) name: String,
     pub(crate) kind: Kind,
-    /// Seeds of the short form are 0 up to this number.
+    /// Its own seeds are 0 up to this number: all that the dice can throw is among them.
     pub(crate) seeds: u64,
 }
 
@@ -74,7 +75,7 @@ impl Suite {
         // Small programs, so that the suite's fixed property dominates the picture.
         let version = first_throws(r);
         let any = r.next();
-        let family = Family::ALL[seed as usize % Family::ALL.len()];
+        let family = Family::VARIANTS[seed as usize % Family::VARIANTS.len()];
         let together = Group::Together;
         match self.kind {
             Kind::Program(version, family, group) if version.stage() == Stage::Vertex => {
@@ -199,7 +200,7 @@ fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
 /// the storages and accumulators of pixel programs.
 fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     let any = |r: &mut Random| {
-        let formats = r.of(&Family::ALL).formats();
+        let formats = r.of(Family::VARIANTS).formats();
         r.of(formats).parse().expect("a format")
     };
     for storage in Storage::ALL.into_iter().filter(|_| version.stage() == Stage::Pixel) {
@@ -256,12 +257,13 @@ pub(crate) fn all() -> Vec<Suite> {
     let mut out = Vec::new();
     for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
         let vertex = version.stage() == Stage::Vertex;
-        for family in Family::ALL {
-            for group in Group::ALL {
+        for &family in Family::VARIANTS {
+            for &group in Group::VARIANTS {
                 if vertex && matches!(group, Group::Sampling | Group::Pipeline) {
                     continue;
                 }
-                let name = format!("programs::{}::{}::{}", version_name(version), family.name(), group.name());
+                let name =
+                    format!("programs::{}::{}::{}", version_name(version), <&str>::from(family), <&str>::from(group));
                 let seeds = if vertex { 12 } else { 6 };
                 out.push(Suite::new(name, Kind::Program(version, family, group), seeds));
             }
@@ -295,9 +297,9 @@ pub(crate) fn all() -> Vec<Suite> {
     for (blend, name) in BLENDS {
         out.push(Suite::new(format!("blending::{name}"), Kind::Blend(blend), 7));
     }
-    for shape in Shape::ALL {
+    for &shape in Shape::VARIANTS {
         let seeds = if shape == Shape::Fine { 150 } else { 14 };
-        out.push(Suite::new(format!("geometry::{}", shape.name()), Kind::Geometry(shape), seeds));
+        out.push(Suite::new(format!("geometry::{}", <&str>::from(shape)), Kind::Geometry(shape), seeds));
     }
     out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.short()));
     out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.short()));

@@ -1,10 +1,12 @@
 //! Shared by the suites of the systems: the card, all executors, and texels as bits.
 
-use crossbar::card::Texels;
+use crossbar::card::{CardError, MeshView, Texels};
+use crossbar::scene::Camera;
 use refsim::device::Profile;
 #[cfg(feature = "wgpu")]
 use refsim::exec::gpu::testing;
 use refsim::machine::{Executor, ExecutorKind};
+use refsim::texture::TexelFormat;
 
 /// The card of both systems.
 pub(crate) fn nv35() -> Profile {
@@ -29,4 +31,39 @@ fn on_gpu() -> Option<(&'static str, Executor)> {
 /// The bits of all texels.
 pub(crate) fn bits(texels: &Texels) -> Vec<[u32; 4]> {
     texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
+}
+
+/// Panics where what executors find differs from what the scalar one finds.
+pub(crate) fn all_find<T: PartialEq>(what: &str, mut found: impl FnMut(&str, Executor) -> T) {
+    let mut reference = None;
+    for (name, executor) in executors() {
+        let what = format!("{what}, {name}");
+        let found = found(&what, executor);
+        match &reference {
+            None => reference = Some(found),
+            Some(reference) => assert!(*reference == found, "{what}: differs from the scalar executor"),
+        }
+    }
+}
+
+/// Pictures from above and at a grazing angle, where hills hide each other and reads of maps leave the rim: the same of
+/// every executor's card, and lit.
+pub(crate) fn pictures_agree<C>(
+    what: &str,
+    format: TexelFormat,
+    card: impl Fn(Executor) -> Result<C, CardError>,
+    draw: impl Fn(&mut C, &MeshView) -> Result<Texels, CardError>,
+) {
+    let cameras = [[0.5, -1.4, 2.6], [2.2, -1.9, 0.45]]
+        .map(|eye| Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], 0.45, 29, 23).expect("a camera"));
+    all_find(what, |what, executor| {
+        let mut card = card(executor).unwrap_or_else(|e| panic!("{what}: {e}"));
+        cameras.map(|camera| {
+            let view = MeshView { camera, exposure: 0.8, format };
+            let picture = draw(&mut card, &view).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value > 0.0)).count();
+            assert!(lit > 20, "{what}: {lit} pixels with light");
+            bits(&picture)
+        })
+    });
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::support::file;
 use crossbar::{
     case::{Loaded, Scope, Setup, Side, compare},
     compare::{Number, TargetFormats, TraceDifference, TraceSide, TraceStage, first_difference, ulps},
@@ -72,8 +73,7 @@ proptest! {
 }
 
 fn example(name: &str) -> Setup {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/cases").join(name);
-    Setup::read(&path).unwrap_or_else(|error| panic!("{name}: {error}"))
+    Setup::read(&file("fixtures/cases").join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// The first difference between a pixel's trace and the same trace after a change.

@@ -23,5 +23,6 @@ mod report;
 mod scene;
 mod sphere;
 mod subsurface;
+mod support;
 mod timing;
 mod tracer;

@@ -1,44 +1,19 @@
-//! Time and values are apart: what is logged depends on no executor, and no clock changes a pixel.
+//! Time and values are apart: no clock changes a pixel. (That the log depends on no executor is held by `tests/agree`.)
 
+use crate::support::file;
 use crossbar::case::{self, Setup};
 use refsim::device::Profile;
 use refsim::event::Event;
-use refsim::machine::{Executor, ExecutorKind};
+use refsim::machine::ExecutorKind;
 use refsim::timing::{Level, Model};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 fn cases() -> Vec<(PathBuf, Setup)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/cases");
-    let files = std::fs::read_dir(folder).expect("the cases");
+    let files = std::fs::read_dir(file("fixtures/cases")).expect("the cases");
     let mut paths: Vec<PathBuf> = files.map(|f| f.expect("a file").path()).collect();
     paths.retain(|p| p.extension().is_some_and(|e| e == "toml"));
     paths.sort();
     paths.into_iter().map(|p| (p.clone(), Setup::read(&p).unwrap_or_else(|e| panic!("{}: {e}", p.display())))).collect()
-}
-
-fn executors() -> Vec<Executor> {
-    let mut all: Vec<Executor> = vec![ExecutorKind::Batch.into()];
-    #[cfg(feature = "wgpu")]
-    if let Ok(Some(gpu)) = refsim::exec::gpu::testing::shared() {
-        all.push(Executor::Gpu { gpu });
-    }
-    all.push(ExecutorKind::Scalar.into());
-    all
-}
-
-#[test]
-fn the_log_depends_on_no_executor_and_no_thread() {
-    for (path, setup) in cases() {
-        let reference = case::log(&setup, ExecutorKind::Scalar).expect("the case draws");
-        assert!(reference.iter().any(|e| matches!(e, Event::Draw(_))), "{}", path.display());
-        for executor in executors() {
-            for threads in [1, 3] {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-                let found = pool.install(|| case::log(&setup, &executor)).expect("the case draws");
-                assert!(found == reference, "{}: {:?} on {threads} threads", path.display(), executor.kind());
-            }
-        }
-    }
 }
 
 /// The device with every figure that the timing model reads a thousand times as large, or as small.

@@ -83,10 +83,10 @@ fn redrawn(browser: &mut Browser, act: impl FnOnce(&mut Browser)) -> (String, St
     (before, drawn(browser))
 }
 
-/// The short form draws two of the six fixed pictures, each of which takes SwiftShader ten seconds, and runs seven of
-/// fifteen traces.
+/// The short form draws one of the six fixed pictures, each of which takes SwiftShader ten seconds, runs four of fifteen
+/// traces, and changes the live view by its format alone.
 fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
-    let (pictures, traces, page) = if is_full() { (6, 5 * 3, file.to_owned()) } else { (2, 3 + 4, shortened(file)) };
+    let (pictures, traces, page) = if is_full() { (6, 5 * 3, file.to_owned()) } else { (1, 1 + 3, shortened(file)) };
     let mut browser = Browser::start(name, true);
     browser.open(&page);
     browser.wait("document.body.dataset.state !== 'loading'");
@@ -115,8 +115,10 @@ fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     assert_eq!(drawn(&mut browser), first);
     let (before, after) = redrawn(&mut browser, |browser| browser.press("fractions-of", "ArrowLeft", 37));
     assert!(before.starts_with("s3.12 ") && after.starts_with("s3.11 "), "{before} -> {after}");
-    let (before, after) = redrawn(&mut browser, |browser| browser.press("view", "ArrowLeft", 37));
-    assert_ne!(before, after, "the camera moves");
+    if is_full() {
+        let (before, after) = redrawn(&mut browser, |browser| browser.press("view", "ArrowLeft", 37));
+        assert_ne!(before, after, "the camera moves");
+    }
     let told = browser.value("document.getElementById('told').textContent").to_string();
     assert!(told.contains("leak") && told.contains("double precision"), "{told}");
 
@@ -183,16 +185,14 @@ fn pictures(data: &mut Value, view: usize) -> &mut Vec<Value> {
     data["teapot"]["views"][view]["pictures"].as_array_mut().expect("pictures")
 }
 
-/// A picture of each view: in fixed point, and in half precision. All formats of one program, one of each other.
+/// One picture, in fixed point. Of the first program one format, of the second all.
 fn shortened(file: &Path) -> PathBuf {
     changed(file, "short.html", |data| {
         let programs = data["programs"]["programs"].as_array_mut().expect("programs");
-        for (_, program) in programs.iter_mut().enumerate().filter(|(at, _)| *at != 1) {
-            program["variants"].as_array_mut().expect("variants").truncate(1);
-        }
+        programs.truncate(2);
+        programs[0]["variants"].as_array_mut().expect("variants").truncate(1);
+        data["teapot"]["views"].as_array_mut().expect("views").truncate(1);
         pictures(data, 0).truncate(1);
-        pictures(data, 1).truncate(2);
-        pictures(data, 1).remove(0);
     })
 }
 

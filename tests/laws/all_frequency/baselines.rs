@@ -97,7 +97,7 @@ fn a_fixed_view_under_the_whole_light_is_the_reference() {
 /// of an open Lambert vertex in a furnace: its albedo, up to fine texels cut by the horizon.
 #[test]
 fn harmonics_of_a_furnace_are_the_albedo() {
-    let open = Clutter::new(&flat(&[observer(DVec3::new(0.3, -0.5, 0.9).normalize())]), BasisWidth::TwoTexels);
+    let open = Clutter::new(&flat(observer(DVec3::new(0.3, -0.5, 0.9).normalize()).to_vec()), BasisWidth::TwoTexels);
     let lambert = Brdf::Lambert { albedo: 0.7 };
     let white = CubeLight::constant([1.0, 2.0, 0.5]).expect("a light");
     for order in [2, 3, 5] {

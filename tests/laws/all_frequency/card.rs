@@ -1,6 +1,7 @@
 //! All-frequency transfer on a card: the triangles that pixels show, the error of each precision against f64, and the
 //! time of a frame.
 
+use crate::support::profile;
 use approx::assert_relative_eq;
 use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
@@ -16,7 +17,6 @@ use crossbar::study::prt::{factored_precision, variants_table};
 use crossbar::transfer::synthetic::{hills, signal_at};
 use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
-use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::{Executor, ExecutorKind};
 use refsim::texture::TexelFormat;
@@ -58,8 +58,8 @@ impl Hills {
 #[test]
 fn pixels_show_what_their_rays_meet() {
     let hills = Hills::new();
-    let profile = Profile::named("ideal-fp32").expect("a device");
-    let seen = seen_pixels(&profile, hills.vertices.geometry(), &camera()).expect("pixels");
+    let ideal = profile("ideal-fp32");
+    let seen = seen_pixels(&ideal, hills.vertices.geometry(), &camera()).expect("pixels");
     let eye = DVec3::from(camera().eye().map(f64::from));
     let mut worst = 0.0_f64;
     for (number, seen) in (0..).zip(&seen) {
@@ -72,7 +72,7 @@ fn pixels_show_what_their_rays_meet() {
         worst = worst.max(beside.length() / pixel);
         assert!(seen.weights.iter().all(|&weight| weight > -1e-5), "{seen:?}");
     }
-    assert!(worst < 2.0 / f64::from(1 << profile.rules.subpixel_bits), "{worst} pixels");
+    assert!(worst < 2.0 / f64::from(1 << ideal.rules.subpixel_bits), "{worst} pixels");
     assert!(seen.iter().flatten().count() > 700);
 }
 
@@ -82,8 +82,7 @@ fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
     let ways = factored_precision(hills.mesh(), &executor, camera(), 2.5, &mut |_| ()).expect("pictures");
-    let seen =
-        seen_pixels(&Profile::named("r350").expect("a card"), hills.vertices.geometry(), &camera()).expect("pixels");
+    let seen = seen_pixels(&profile("r350"), hills.vertices.geometry(), &camera()).expect("pixels");
     let brightest = seen.iter().flatten().flat_map(|seen| {
         let (view, eye) = (ViewNumbers::Coordinates, camera().eye());
         pixel_of_products(&hills.mesh(), view, eye, seen.corners, seen.weights).map(|value| 2.5 * value)
@@ -125,7 +124,7 @@ fn the_host_is_that_of_table_1() {
 fn a_frame_is_counted_and_timed() {
     let hills = Hills::new();
     let (vertices, triangles) = (hills.vertices.len() as u64, hills.vertices.triangles().len() as u64);
-    let (r350, host) = (Profile::named("r350").expect("a card"), host_of_table_1().expect("a host"));
+    let (r350, host) = (profile("r350"), host_of_table_1().expect("a host"));
     let steps = Multiplies { per_cluster: 300_000, per_vertex: 200_000 };
     let per_channel = ProductOptions { is_pass_per_channel: true, ..ProductOptions::default() };
     for (place, bytes, passes) in [
@@ -166,7 +165,7 @@ fn a_frame_is_counted_and_timed() {
 /// time.
 #[test]
 fn the_card_waits_for_the_host_of_table_1() {
-    let (r350, host) = (Profile::named("r350").expect("a card"), host_of_table_1().expect("a host"));
+    let (r350, host) = (profile("r350"), host_of_table_1().expect("a host"));
     let teapot = TABLE_1[1];
     // 32 patches of 40 x 40 quads.
     let frame = FactoredFrame {

@@ -89,27 +89,6 @@ fn open_diffuse_vertices_under_light_1_give_back_pi() {
 }
 
 #[test]
-fn no_step_raises_the_error_while_the_number_of_vectors_stays() {
-    let mesh = clutter(8, 40, 1.0);
-    let vertices = vertices(&mesh);
-    let maps = trace(&mesh, &vertices, &all(&vertices));
-    for part in segments(&vertices, &maps, &Reflectance::Factored(factors(3))).into_iter().take(3) {
-        for method in [CpcaMethod::Iterative, CpcaMethod::Doubling] {
-            let mut steps: Vec<CpcaStep> = Vec::new();
-            let options = SegmentOptions { points_per_cluster: 20, vectors: 5, method, ..SegmentOptions::default() };
-            let vertices = part.vertices.clone();
-            CompressedSegment::new(part.segment, vertices, &part.signal, &options, |step| steps.push(*step))
-                .expect("compressed");
-            let squares = part.signal.sum_of_squares();
-            for pair in steps.windows(2).filter(|pair| pair[0].vectors == pair[1].vectors) {
-                assert!(pair[1].squared_error <= pair[0].squared_error + 1e-11 * squares, "{pair:?}");
-            }
-            assert!(steps.last().expect("steps").squared_error < 0.1 * squares);
-        }
-    }
-}
-
-#[test]
 fn bits_of_coded_transfer_do_not_depend_on_threads() {
     let mesh = clutter(8, 20, 1.0);
     let vertices = vertices(&mesh);

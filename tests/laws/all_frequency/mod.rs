@@ -16,6 +16,7 @@ mod symmetry;
 mod transfer;
 mod visibility;
 
+use crate::support::{close, flat, in_threads};
 use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductFactors, Supersamples};
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Sides};
@@ -24,18 +25,6 @@ use crossbar::tracer::HostTracer;
 use crossbar::transfer::visibility::VisibilityMaps;
 use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
-
-/// Triangles that keep their own corners and have the normals of their planes.
-fn flat(triangles: &[[[f32; 3]; 3]]) -> Mesh {
-    let positions = triangles.as_flattened().to_vec();
-    let normals = triangles.iter().flat_map(|corners| {
-        let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)));
-        [(b - a).cross(c - a).normalize().as_vec3().to_array(); 3]
-    });
-    let normals = normals.collect();
-    let faces = (0..triangles.len() as u32).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
-    Mesh::new(positions, faces).and_then(|mesh| mesh.with_normals(normals)).expect("a mesh")
-}
 
 /// A triangle at the origin that looks along a normal, too small to matter: its first corner is vertex 0.
 fn observer(normal: DVec3) -> [[f32; 3]; 3] {
@@ -53,7 +42,7 @@ fn clutter(seed: u64, count: u64, size: f64) -> Mesh {
             (place + size * (random.unit(triangle, 1 + corner, k) - 0.5)) as f32
         })
     };
-    flat(&(0..count).map(|triangle| [0, 1, 2].map(|at| corner(triangle, at))).collect::<Vec<_>>())
+    flat((0..count).flat_map(|triangle| [0, 1, 2].map(|at| corner(triangle, at))).collect())
 }
 
 /// Factors of Cook and Torrance's model on small maps.
@@ -75,10 +64,6 @@ fn trace(mesh: &Mesh, vertices: &Vertices, of: &[u32]) -> VisibilityMaps {
     VisibilityMaps::trace(vertices, of, &mut HostTracer::new(mesh, Sides::Both), &mut |_, _| ()).expect("traced")
 }
 
-fn in_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(work)
-}
-
 /// The texel of a cube of a side that a direction lies in: by its largest component.
 fn texel_of(direction: DVec3, side: usize) -> usize {
     let face = (0..6)
@@ -92,8 +77,4 @@ fn texel_of(direction: DVec3, side: usize) -> usize {
             as usize
     };
     (face * side + place(axes.down)) * side + place(axes.right)
-}
-
-fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found} is not {expected} to {tolerance:e}");
 }

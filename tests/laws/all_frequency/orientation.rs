@@ -35,7 +35,7 @@ fn one_texel(face: &str, row: usize, column: usize) -> CubeLight {
 
 /// The radiance of a white Lambert surface, M L, that looks along a normal.
 fn seen(light: &HaarLight, normal: DVec3) -> f64 {
-    let mesh = flat(&[observer(normal)]);
+    let mesh = flat(observer(normal).to_vec());
     let vertices = vertices(&mesh);
     let (maps, hats) = (trace(&mesh, &vertices, &[0]), LinearBasis::new(BasisWidth::TwoTexels));
     let response = |s: DVec3, into: &mut [f64]| into[0] = s.z;

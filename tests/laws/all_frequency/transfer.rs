@@ -78,7 +78,7 @@ fn an_open_vertex_in_a_furnace_shows_its_albedo() {
     assert!(worst < FURNACE && worst > FURNACE / 1.2, "{worst:e}");
     let light = HaarLight::new(&CubeLight::constant([1.0; 3]).expect("a light"), Segmentation::Quarters);
     for (width, normal) in WIDTHS.into_iter().flat_map(|width| axes.map(|normal| (width, normal.normalize()))) {
-        let mesh = flat(&[observer(normal)]);
+        let mesh = flat(observer(normal).to_vec());
         let vertices = vertices(&mesh);
         let found = radiance(&segments(&vertices, &mesh, width, 1, cosine), &light, 0, 1)[0][0] / PI;
         // One rounding to f32 of each number of M; here all are positive.
@@ -98,7 +98,7 @@ fn a_square_overhead_shadows_its_form_factor() {
         let [cos, sin] = on_circle(turns);
         let corner = |a: f64, b: f64| [(x * (a * cos - b * sin)) as f32, (x * (a * sin + b * cos)) as f32, 1.0];
         let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-        let mesh = flat(&[observer(DVec3::Z), [a, b, c], [a, c, d]]);
+        let mesh = flat([observer(DVec3::Z), [a, b, c], [a, c, d]].concat());
         let vertices = vertices(&mesh);
         let found = radiance(&segments(&vertices, &mesh, BasisWidth::TwoTexels, 1, cosine), &light, 0, 1)[0][0] / PI;
         let root = (1.0 + x * x).sqrt();

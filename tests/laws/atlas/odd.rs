@@ -1,5 +1,6 @@
 //! Odd meshes, odd sizes, and what must not matter.
 
+use crate::support::{in_threads, soup};
 use crossbar::atlas::{Atlas, AtlasQuality, Census, MAX_SIDE};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
@@ -110,9 +111,7 @@ fn crowds_are_mapped() {
 #[test]
 fn repeated_vertices_are_one_place() {
     let whole = ring([8, 6]);
-    let positions = whole.iter_corners().flatten().collect();
-    let triangles = (0..whole.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
-    let torn = Mesh::new(positions, triangles).expect("a mesh");
+    let torn = soup(whole.iter_corners().flatten().collect());
     let [whole, torn] = [whole, torn].map(|mesh| Atlas::new(&mesh, 32).expect("an atlas"));
     assert_eq!(whole.tree(), torn.tree());
     assert_eq!(whole.texels(), torn.texels());
@@ -179,10 +178,7 @@ proptest! {
     /// The same atlas with any number of threads.
     #[test]
     fn threads_do_not_matter((sample, side) in atlases()) {
-        let on = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            pool.install(|| Atlas::new(&sample.mesh, side).expect("an atlas"))
-        };
+        let on = |threads| in_threads(threads, || Atlas::new(&sample.mesh, side).expect("an atlas"));
         let [one, three] = [1, 3].map(on);
         prop_assert_eq!(one.tree(), three.tree());
         prop_assert_eq!(one.texels(), three.texels());

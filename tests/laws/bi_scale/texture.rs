@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use crate::support::in_threads;
 use approx::assert_relative_eq;
 use crossbar::bi_scale::directions::{LocalDirections, hemisphere};
 use crossbar::bi_scale::texture::{
@@ -213,8 +214,7 @@ fn textures_hold_the_response() {
     let (view, light) = (directions(3), directions(4));
     let sampling = |samples| TextureSampling { size: 8, view: view.clone(), light: light.clone(), samples };
     let made = |samples, threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| patch.texture(&sampling(samples), &mut |_, _| ()).expect("a texture"))
+        in_threads(threads, || patch.texture(&sampling(samples), &mut |_, _| ()).expect("a texture"))
     };
     let texture = made(1, 1);
     assert_eq!(texture, made(1, 3));

@@ -6,7 +6,6 @@ use crossbar::bi_scale::matrix::MatrixEntry;
 use crossbar::bi_scale::product::by_rows;
 use crossbar::bi_scale::transfer::{light_vector, transfer_matrix};
 use crossbar::sphere::CUBE_FACES;
-use crossbar::transfer::file::MeshDigest;
 use crossbar::transfer::visibility::Horizon;
 use glam::DVec3;
 
@@ -70,28 +69,4 @@ fn light_arrives_once() {
         let expected: f64 = (0..6144).map(|texel| share(texel) * light[texel]).sum();
         assert_relative_eq!(rows.iter().sum::<f64>(), expected, max_relative = 1e-12);
     }
-}
-
-/// Light of a single texel straight above arrives in a local direction near the normal of level ground, on the side of
-/// the texel.
-#[test]
-fn a_texel_arrives_where_it_comes_from() {
-    let (vertices, maps) = sight(0, Horizon::Normal);
-    let directions = LocalDirections::new(8).expect("a side");
-    let matrix = transfer_matrix(&vertices, &maps, &directions).expect("a matrix");
-    for texel in (0..6144).step_by(5) {
-        for (vertex, frame) in vertices.frames().iter().enumerate() {
-            let arrives: Vec<usize> = (0..64)
-                .filter(|&local| matrix.row(64 * vertex + local).iter().any(|entry| entry.index as usize == texel))
-                .collect();
-            let sees = maps.is_visible(vertex, texel);
-            assert_eq!(arrives.len(), usize::from(sees), "texel {texel}, vertex {vertex}");
-            for &local in &arrives {
-                let direction = frame.to_global(directions.directions()[local]);
-                // A cell of 8 x 8 local directions is at most 0.6 rad long.
-                assert!(direction.dot(center(texel)) > 0.9, "texel {texel}, vertex {vertex}, direction {local}");
-            }
-        }
-    }
-    assert_eq!(MeshDigest::new(&vertices).vertices as usize, vertices.len());
 }

@@ -1,6 +1,8 @@
 //! Cards draw the front faces of open models alone, as rays of the host meet them, for each kind of transfer. An ideal
 //! card differs from values interpolated in f64 by less than the snapping of vertices to subpixels explains.
 
+use super::{exits, interpolated};
+use crate::support::{cluster_options, profile};
 use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crossbar::all_frequency::kernels::{MapFilter, ViewNumbers};
@@ -24,6 +26,7 @@ use crossbar::sphere::HarmonicLight;
 use crossbar::study::Study;
 use crossbar::study::prt::{CardSetting, LitView, OnCard};
 use crossbar::transfer::brdf::ExitBasis;
+use crossbar::clustering::{Clustering, compress};
 use crossbar::transfer::file::PrtMeaning;
 use crossbar::transfer::synthetic::signal_at;
 use crossbar::transfer::{Tangents, Vertices};
@@ -111,15 +114,7 @@ impl Scene {
     fn clusters(&self, basis: &ExitBasis) -> Clustering {
         let place = |at: usize| self.place(at as u32).to_array();
         let signal = signal_at(self.vertices.len(), basis.len() * 9, 3, place);
-        let options = CpcaOptions {
-            clusters: 64.min(self.vertices.len() / 4),
-            vectors: 6,
-            vq_iterations: 2,
-            iterations: 2,
-            method: CpcaMethod::Iterative,
-            form: CpcaForm::Affine,
-            start: StartPoints::Seed(4),
-        };
+        let options = cluster_options(64.min(self.vertices.len() / 4), 6, 2, 4);
         compress(&signal, &options, |_| ()).expect("compressed").clustering
     }
 
@@ -175,7 +170,7 @@ impl Scene {
 }
 
 fn ideal() -> Profile {
-    Profile::named("ideal-fp32").expect("a device")
+    profile("ideal-fp32")
 }
 
 fn scenes() -> [Scene; 2] {
@@ -215,30 +210,8 @@ fn compressed_transfer_shows_front_faces() {
             let mut card = PrtCard::new(ideal(), ExecutorKind::Batch, transfer, &options).expect("a card");
             let view = MeshView { camera: scene.camera, exposure: 0.5, format: FLOATS };
             let texels = card.view_texels(&light, &view).expect("a picture");
-            let exits: Vec<[Vec<f64>; 3]> = (0..vertices.len())
-                .map(|vertex| {
-                    let mut matrix = vec![0.0; clustering.dimension()];
-                    clustering.approximation(vertex, &mut matrix);
-                    let product = |row: &[f64], light: &[f64]| row.iter().zip(light).map(|(m, l)| m * l).sum::<f64>();
-                    let rows = |light: &Vec<f64>| matrix.chunks(9).map(|row| 0.5 * product(row, light)).collect();
-                    light.channels().each_ref().map(rows)
-                })
-                .collect();
-            let eye = DVec3::from(scene.camera.eye().map(f64::from));
-            let value = |seen: &SeenPixel| {
-                let parts = || seen.corners.into_iter().zip(seen.weights);
-                let local = |v: u32| vertices.frames()[v as usize].to_local(eye - scene.place(v));
-                let view = parts().map(|(v, weight)| weight * local(v)).sum::<DVec3>().normalize();
-                // Maps end at the horizon, so grazing views are not compared.
-                if transfer.is_glossy() && view.z < 0.05 {
-                    return None;
-                }
-                let mut y = vec![0.0; basis.len()];
-                basis.values(view, &mut y);
-                let mix =
-                    |c: usize, row: usize| parts().map(|(v, weight)| weight * exits[v as usize][c][row]).sum::<f64>();
-                Some([0, 1, 2].map(|c| y.iter().enumerate().map(|(row, y)| y * mix(c, row)).sum()))
-            };
+            let (exits, eye) = (exits(clustering, &light), scene.camera.eye());
+            let value = |seen: &SeenPixel| interpolated(vertices, basis, &exits, eye, seen);
             scene.check(if transfer.is_glossy() { "glossy" } else { "diffuse" }, &texels, share, &value);
         }
     }
@@ -339,7 +312,7 @@ fn a_study_blames_no_back_face() {
 /// Half precision has no number for this exposure: pixels that are not finite are counted, and seen.
 #[test]
 fn pixels_that_are_not_finite_are_not_right() {
-    let found = difference(Profile::named("ideal-fp16").expect("a device"), Some(1e9));
+    let found = difference(profile("ideal-fp16"), Some(1e9));
     assert!(found["not_finite"].as_u64().is_some_and(|count| count > 0), "{found}");
     assert!(found["rms_255ths"] == "inf" && found["visible_share"].as_f64() > Some(0.0), "{found}");
 }

@@ -1,9 +1,11 @@
 //! Fewer triangles drawn: within the budget, never more, and never at the cost of error where none is allowed.
 
-use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
+use crate::support::cluster_options;
 use crossbar::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
+use crossbar::clustering::Signal;
+use crossbar::clustering::{Clustering, compress};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -26,16 +28,7 @@ fn ragged(size: u32, noise: f32) -> Signal {
 }
 
 fn clustered(signal: &Signal, clusters: usize) -> Clustering {
-    let options = CpcaOptions {
-        clusters,
-        vectors: 1,
-        vq_iterations: 6,
-        iterations: 6,
-        method: CpcaMethod::Iterative,
-        form: CpcaForm::Affine,
-        start: StartPoints::Seed(4),
-    };
-    compress(signal, &options, |_| ()).expect("compressed").clustering
+    compress(signal, &cluster_options(clusters, 1, 6, 4), |_| ()).expect("compressed").clustering
 }
 
 fn mean(drawn: u64, triangles: &[[u32; 3]]) -> f64 {

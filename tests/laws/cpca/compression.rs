@@ -1,7 +1,11 @@
 //! Compression against plain loops, closed forms, and what must hold of every step.
 
+use crate::environment::by_form;
+use crate::support::cluster_options;
+use crossbar::linalg::{Matrix, SymmetricEigen};
+use crossbar::clustering::Signal;
 use crossbar::clustering::{
-    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress, paper,
+    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, StartPoints, compress, reference,
 };
 use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::transfer::synthetic::torus_signal;
@@ -14,15 +18,7 @@ const METHODS: [CpcaMethod; 4] =
 const FORMS: [CpcaForm; 2] = [CpcaForm::Affine, CpcaForm::Linear];
 
 fn options(clusters: usize, vectors: usize, method: CpcaMethod) -> CpcaOptions {
-    CpcaOptions {
-        clusters,
-        vectors,
-        vq_iterations: 8,
-        iterations: 8,
-        method,
-        form: CpcaForm::Affine,
-        start: StartPoints::Seed(3),
-    }
+    CpcaOptions { method, ..cluster_options(clusters, vectors, 8, 3) }
 }
 
 fn compressed(signal: &Signal, options: &CpcaOptions) -> Compression {
@@ -62,10 +58,11 @@ fn check_steps(signal: &Signal, form: CpcaForm, compression: &Compression) {
     assert!(near(last.squared_error, direct, energy), "{last:?} but {direct} by the approximations");
 }
 
+/// The short form has one signal of each size.
 #[test]
 fn clusters_are_those_of_plain_loops() {
     for (points, dimension, clusters, vectors) in [(500, 4, 12, 2), (700, 9, 10, 4), (300, 25, 6, 3), (90, 40, 5, 6)] {
-        for seed in 0..3 {
+        for seed in 0..by_form(1, 3) {
             let signal = torus_signal(points, dimension, seed);
             for (method, form) in METHODS.into_iter().flat_map(|method| FORMS.map(|form| (method, form))) {
                 let options = CpcaOptions { form, ..options(clusters, vectors, method) };
@@ -248,7 +245,7 @@ proptest! {
         (Just(signal), 1..=points, 0..=dimension, prop::sample::select(METHODS.to_vec()), prop::sample::select(FORMS.to_vec()), 0..9_u64)
     })) {
         let form = if vectors == 0 { CpcaForm::Affine } else { form };
-        let options = CpcaOptions { clusters, vectors, vq_iterations: 5, iterations: 5, method, form, start: StartPoints::Seed(seed) };
+        let options = CpcaOptions { method, form, ..cluster_options(clusters, vectors, 5, seed) };
         let compression = compressed(&signal, &options);
         check_steps(&signal, form, &compression);
         let clustering = &compression.clustering;

@@ -6,6 +6,7 @@ use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoint
 use crossbar::geom::Mesh;
 use crossbar::io::npz::MAGIC;
 use crossbar::io::{NumberTable, parse_npy, parse_number_table, write_npy};
+use crossbar::clustering::{CpcaMethod, CpcaOptions, compress};
 use crossbar::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt, parse_prt, save_prt, write_prt};
 use crossbar::transfer::synthetic::torus_signal;
 use crossbar::transfer::{Tangents, Vertices, load_signal};
@@ -13,6 +14,8 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use crate::archive::{archive, members, with_member, with_metadata};
+use crate::environment::by_form;
+use crate::support::{cluster_options, damage_is_seen, forgery_does_no_harm, in_threads};
 
 fn name() -> &'static Path {
     Path::new("a.npz")
@@ -38,16 +41,7 @@ fn digest(tangents: Tangents) -> MeshDigest {
 /// A small file with everything: 12 points of 2 x 4 numbers in 3 clusters with different numbers of vectors.
 fn small() -> PrtFile {
     let signal = torus_signal(12, 8, 1);
-    let method = CpcaMethod::Adaptive { rounds: 2 };
-    let options = CpcaOptions {
-        clusters: 3,
-        vectors: 2,
-        vq_iterations: 3,
-        iterations: 3,
-        method,
-        form: CpcaForm::Affine,
-        start: StartPoints::Seed(1),
-    };
+    let options = CpcaOptions { method: CpcaMethod::Adaptive { rounds: 2 }, ..cluster_options(3, 2, 3, 1) };
     let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
     let meaning =
         PrtMeaning::Transfer { channels: 1, exit_functions: vec![0, 3], light_order: 2, includes_albedo: true };
@@ -84,19 +78,11 @@ fn what_is_written_is_read_in_all_its_parts() {
     }
 }
 
-/// Bits that no reader looks at, such as the date of a member, change nothing.
 #[test]
 fn every_flipped_bit_and_every_cut_is_seen() {
     let file = small();
     let whole = bytes(&file);
-    for length in 0..whole.len() {
-        assert!(parsed(&whole[..length]).is_err(), "{length} of {} bytes", whole.len());
-    }
-    for at in 0..8 * whole.len() {
-        let mut damaged = whole.clone();
-        damaged[at / 8] ^= 1 << (at % 8);
-        assert!(parsed(&damaged).is_ok_and(|read| read == file) || parsed(&damaged).is_err(), "bit {at}");
-    }
+    damage_is_seen(&file, &whole, by_form(1, 8), parsed);
     // Every bit of an array and of its header is under its checksum.
     let at = whole.windows(6).position(|bytes| bytes == b"\x93NUMPY").expect("an array");
     let mut damaged = whole;
@@ -233,10 +219,7 @@ fn forged_arrays_are_refused_by_name() {
 /// The same bytes for any number of threads.
 #[test]
 fn bytes_do_not_depend_on_threads() {
-    let of_threads = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| bytes(&small()))
-    };
+    let of_threads = |threads| in_threads(threads, || bytes(&small()));
     assert_eq!(of_threads(1), of_threads(3));
 }
 
@@ -248,10 +231,7 @@ proptest! {
         let whole = values.len() / dimension * dimension;
         prop_assume!(whole > 0);
         let signal = Signal::new(dimension, values[..whole].to_vec()).expect("a signal");
-        let clusters = signal.points().min(3);
-        let options = CpcaOptions {
-            clusters, vectors: 1, vq_iterations: 2, iterations: 2, method: CpcaMethod::Iterative, form: CpcaForm::Affine, start: StartPoints::Seed(7),
-        };
+        let options = cluster_options(signal.points().min(3), 1, 2, 7);
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         let file = PrtFile {
             meaning: PrtMeaning::Numbers { dimension: dimension as u32 },
@@ -268,13 +248,7 @@ proptest! {
     #[test]
     fn noise_is_no_file(noise in prop::collection::vec(any::<u8>(), 0..200), which: prop::sample::Index, at: prop::sample::Index, with: u8) {
         prop_assert!(parsed(&[MAGIC, &noise].concat()).is_err());
-        let mut members = members(&bytes(&small()));
-        let which = which.index(members.len());
-        let at = at.index(members[which].1.len());
-        members[which].1[at] = with;
-        if let Ok(read) = parsed(&archive(&members)) {
-            prop_assert_eq!(parsed(&bytes(&read)), Ok(read));
-        }
+        forgery_does_no_harm(&bytes(&small()), (which, at, with), parsed, bytes);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::path::Path;
 use crossbar::case::{self, CaseError, Setup};
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use proptest::prelude::*;
+use proptest::sample::Index;
 use refsim::machine::ExecutorKind;
 
 /// The good cases, which the mutations start from.
@@ -55,101 +56,40 @@ fn deep_nesting_does_not_overflow_the_stack() {
 }
 
 /// Words and numbers, some of which mean something in a case.
-const PIECES: &[&str] = &[
-    "0",
-    "-1",
-    "1e39",
-    "nan",
-    "-inf",
-    "4294967295",
-    "4294967296",
-    "9223372036854775807",
-    "true",
-    "[]",
-    "[[]]",
-    "{}",
-    "\"\"",
-    "\"0x7fc00001\"",
-    "\"rgba32f\"",
-    "\"l6v5u5\"",
-    "\"d32f\"",
-    "\"ideal-s1.2:rtz\"",
-    "\"ps_1_3\"",
-    "\"vs_2_0\"",
-    "\"cube\"",
-    "\"volume\"",
-    "\"linear\"",
-    "\"automatic\"",
-    "\"mirror\"",
-    "\"less\"",
-    "\"../..\"",
-    "\"add.psa\"",
-    "\"\\u0000\"",
-    "[1]",
-    "[0, 0]",
-    "[65536, 65536]",
-    "[1, 2, 3, 4, 5]",
-    "\n[[texture]]\n",
-    "\n[blend]\nsource = \"one\"\ndestination = \"one\"\n",
-    "\n[geometry]\n",
-    "é",
-    "\"\"\"",
-];
+const WORDS: &str = r#"0 -1 1e39 nan -inf 4294967295 4294967296 9223372036854775807 true [] [[]] {} """ "" "0x7fc00001"
+"rgba32f" "l6v5u5" "d32f" "ideal-s1.2:rtz" "ps_1_3" "vs_2_0" "cube" "volume" "linear" "automatic" "mirror" "less"
+"../.." "add.psa" "\u0000" [1] [0,0] [65536,65536] [1,2,3,4,5] é"#;
+const TABLES: [&str; 3] = ["\n[[texture]]\n", "\n[blend]\nsource = \"one\"\ndestination = \"one\"\n", "\n[geometry]\n"];
 
-/// A mutation of the text at a place, given as a fraction of the text's length.
-#[derive(Clone, Debug)]
-enum Mutation {
-    Replace(usize, u8),
-    Remove(usize, usize),
-    Insert(usize, usize),
-    ReplaceValue(usize, usize),
-    SwapLines(usize, usize),
-}
-
-fn mutation() -> impl Strategy<Value = Mutation> {
-    let at = any::<usize>();
-    prop_oneof![
-        (at, any::<u8>()).prop_map(|(at, byte)| Mutation::Replace(at, byte)),
-        (at, 1..40_usize).prop_map(|(at, length)| Mutation::Remove(at, length)),
-        (at, at).prop_map(|(at, piece)| Mutation::Insert(at, piece)),
-        (at, at).prop_map(|(line, piece)| Mutation::ReplaceValue(line, piece)),
-        (at, at).prop_map(|(a, b)| Mutation::SwapLines(a, b)),
-    ]
-}
-
-fn mutate(text: &mut Vec<u8>, mutation: &Mutation) {
-    let length = text.len().max(1);
-    match *mutation {
-        Mutation::Replace(at, byte) => {
-            if let Some(place) = text.get_mut(at % length) {
-                *place = byte;
+/// A good case with some bytes replaced or taken out, words put in or in the place of values, or lines exchanged.
+fn mutated() -> impl Strategy<Value = Vec<u8>> {
+    let pieces: Vec<&str> = WORDS.split_whitespace().chain(TABLES).collect();
+    let edit = (0..5_u8, any::<[Index; 2]>(), prop::sample::select(pieces));
+    (prop::sample::select(&CASES[..]), prop::collection::vec(edit, 1..6)).prop_map(|((_, good), edits)| {
+        let mut text = good.as_bytes().to_vec();
+        for (kind, [at, other], piece) in edits {
+            let length = text.len();
+            let place = at.index(length + 1);
+            let until = |count: usize| place..(place + count).min(length);
+            match kind {
+                0 => drop(text.splice(until(1), [other.index(256) as u8])),
+                1 => drop(text.drain(until(1 + other.index(40)))),
+                2 => drop(text.splice(place..place, piece.bytes())),
+                _ => {
+                    let mut lines: Vec<Vec<u8>> = text.split(|&b| b == b'\n').map(<[u8]>::to_vec).collect();
+                    let [line, other] = [at, other].map(|at| at.index(lines.len()));
+                    if kind == 3 {
+                        lines.swap(line, other);
+                    } else if let Some(equals) = lines[line].iter().position(|&b| b == b'=') {
+                        lines[line].truncate(equals + 1);
+                        lines[line].extend(piece.bytes());
+                    }
+                    text = lines.join(&b'\n');
+                }
             }
         }
-        Mutation::Remove(at, count) => {
-            let start = (at % length).min(text.len());
-            text.drain(start..(start + count).min(text.len()));
-        }
-        Mutation::Insert(at, piece) => {
-            let start = (at % length).min(text.len());
-            text.splice(start..start, PIECES[piece % PIECES.len()].bytes());
-        }
-        Mutation::ReplaceValue(line, piece) => {
-            let mut lines: Vec<Vec<u8>> = text.split(|&b| b == b'\n').map(<[u8]>::to_vec).collect();
-            let count = lines.len();
-            let line = &mut lines[line % count];
-            if let Some(equals) = line.iter().position(|&b| b == b'=') {
-                line.truncate(equals + 1);
-                line.extend(PIECES[piece % PIECES.len()].bytes());
-            }
-            *text = lines.join(&b'\n');
-        }
-        Mutation::SwapLines(a, b) => {
-            let mut lines: Vec<&[u8]> = text.split(|&b| b == b'\n').collect();
-            let count = lines.len();
-            lines.swap(a % count, b % count);
-            *text = lines.join(&b'\n');
-        }
-    }
+        text
+    })
 }
 
 proptest! {
@@ -161,14 +101,7 @@ proptest! {
     }
 
     #[test]
-    fn mutated_cases_do_not_panic(
-        case in 0..CASES.len(),
-        mutations in proptest::collection::vec(mutation(), 1..6),
-    ) {
-        let mut text = CASES[case].1.as_bytes().to_vec();
-        for mutation in &mutations {
-            mutate(&mut text, mutation);
-        }
+    fn mutated_cases_do_not_panic(text in mutated()) {
         if let Some(setup) = read(&text) {
             draw(&setup);
         }

@@ -9,6 +9,7 @@ use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png, rgb8};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
+use crate::support::file;
 
 const SIZE: [u32; 2] = [5, 3];
 const PIXELS: usize = 15;
@@ -118,8 +119,7 @@ fn exposures_of_hdr_files_are_undone() {
 }
 
 fn fixture(name: &str) -> Result<Picture, InputError> {
-    PictureFile::open(&Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/pictures").join(name))
-        .and_then(|file| file.decode())
+    PictureFile::open(&file("fixtures/pictures").join(name)).and_then(|file| file.decode())
 }
 
 /// A picture is what an EXR file displays: 4 x 3 pixels from (-1, 10). Red is 1 + column + 10 row where the data window
@@ -220,7 +220,7 @@ fn what_is_wrong_is_said() {
     assert_eq!(refused, "expected channels R, G and B, or Y; found id");
     let missing = PictureFile::open(Path::new("no/such.exr")).expect_err("no file");
     assert_eq!(missing.to_string(), "cannot read the picture no/such.exr");
-    let shader = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+    let shader = file("Cargo.toml");
     assert!(
         PictureFile::open(&shader)
             .is_err_and(|error| error.to_string().contains(": expected a PNG, Radiance HDR or OpenEXR picture, "))

@@ -8,6 +8,7 @@ use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, parse_ply};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
+use crate::support::file;
 
 const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 
@@ -138,7 +139,7 @@ fn faces_with_a_fault_are_named() {
 
 #[test]
 fn the_fixture_is_the_square() {
-    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
+    let models = file("fixtures/models");
     let ply = load_mesh(&models.join("square.ply")).expect("a mesh");
     let obj = load_mesh(&models.join("square.obj")).expect("a mesh");
     assert!(ply.iter_corners().eq(obj.iter_corners()));

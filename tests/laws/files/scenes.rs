@@ -14,6 +14,7 @@ use crossbar::scene::{Material, Scene, Surface, built};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
+use crate::support::file;
 
 const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 .5 0\nvn 0 0 1\nvn .6 0 .8\nusemtl red\nf 1//1 2//2 3//-1\n\
                    usemtl glass\nf 1 2 3 4\nusemtl mirror\nf 1/1/1 -1/2/1 \\\n-2/3/1\n";
@@ -82,7 +83,7 @@ fn built_scenes_read_back_whole() {
 /// machine.
 #[test]
 fn fixtures_are_the_scenes() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes");
+    let folder = file("fixtures/scenes");
     for name in ["cornell-box", "office", "office-floor", "teapot-room"] {
         let scene = built::build(name).expect("a scene");
         for (file, bytes) in scene_files(&scene, &name.replace('-', "_")).expect("files") {
@@ -213,7 +214,7 @@ fn materials_of_modellers_are_scaled_and_noted() {
 /// A model with y up gives the same bits as its z-up version, and so does its scene; glTF has y up by definition.
 #[test]
 fn models_stand_up() {
-    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
+    let models = file("fixtures/models");
     let up = |up| ModelOptions { up, strict: true };
     for name in ["square.obj", "square.stl", "square.ply", "square.gltf"] {
         let path = models.join(name);

@@ -1,6 +1,7 @@
 //! Meshes and rays at the ends of what f32 holds: nobody panics, hangs or invents numbers; and zeros of both signs are
 //! one direction.
 
+use crate::support::{profile, soup};
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
 use crossbar::oracle::{Oracle, Tolerance, assert_hits_eq, hard_rays, hits_equal};
@@ -8,14 +9,12 @@ use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
 use crossbar::tracer::HostTracer;
 use crossbar::tracer::octree::OctreeParameters;
-use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 const FINE: OctreeParameters = OctreeParameters { most_triangles: 1, most_depth: 20 };
 
 /// Every path's answers, by name: the host, the engine on a card, the cards alone.
 fn paths(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<(&'static str, Vec<Option<Hit>>)> {
-    let profile = |name| Profile::named(name).expect("a profile");
     let mut found = vec![("host", HostTracer::with_octree(mesh, FINE, sides).nearest_all(rays).0)];
     let parameters = EngineParameters { octree: FINE, triangles: 1..=4, rays: 2, sides, ..EngineParameters::default() };
     let mut engine = RayEngine::new(mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
@@ -176,8 +175,7 @@ fn a_ray_from_far_away_finds_the_first_of_many() {
         let corner = |x: f32, y: f32, z: f32| [x, y, z].map(|x| unit * (x - 4.0 * sheet as f32));
         corners.extend([corner(3.0, 0.0, 0.0), corner(0.0, 3.0, 0.0), corner(0.0, 0.0, 3.0)]);
     }
-    let triangles = (0..6).map(|sheet| [3 * sheet, 3 * sheet + 1, 3 * sheet + 2]).collect();
-    let mesh = Mesh::new(corners, triangles).expect("a mesh");
+    let mesh = soup(corners);
     right_everywhere(&mesh, &[ray([far; 3], [-far; 3]), ray([far; 3], [-1.0; 3])], Sides::Front);
 }
 

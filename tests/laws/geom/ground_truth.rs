@@ -1,5 +1,6 @@
 //! The filter and the tree of the ground truth against plain integers.
 
+use crate::support::in_threads;
 use crossbar::geom::exact::{self, ExactT, Guess, Sides, Tracer, filter, integer};
 use crossbar::geom::{Mesh, Ray, aimed, teapot};
 use num_bigint::BigUint;
@@ -158,10 +159,7 @@ fn rays_aimed_at_the_teapot_agree_on_all_paths() {
 fn threads_do_not_change_the_answer() {
     let mesh = teapot::teapot(3).expect("a teapot");
     let rays: Vec<Ray> = aimed::aimed_at_edges(&mesh, [2.9, -7.7, 5.3], 2, 5).iter().map(|aimed| aimed.ray).collect();
-    let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| exact::nearest_all(&mesh, &rays, Sides::Front))
-    };
+    let with = |threads| in_threads(threads, || exact::nearest_all(&mesh, &rays, Sides::Front));
     assert_eq!(with(1), with(2));
     assert_eq!(with(1), with(3));
 }

@@ -1,13 +1,11 @@
 //! fixtures/probes/open: for each open switch of a card a small case that tells its values apart, for whoever has
 //! the card. docs/measuring.md lists them.
 
-mod draft;
-mod search;
+mod probe;
 
-use crate::environment::writes_files;
 use crate::pages::hold;
-use std::path::{Path, PathBuf};
-use std::{env, fs};
+use crate::support::{file, profile};
+use std::fs;
 
 use crossbar::case::Setup;
 use refsim::device::{Profile, Switch};
@@ -38,50 +36,31 @@ fn undrawn(device: &str, switch: &str) -> Option<&'static str> {
     UNDRAWN.iter().find(|(name, of, _)| *name == device && *of == switch).map(|(_, _, why)| *why)
 }
 
-fn file(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
-
 fn place(device: &str, switch: &str) -> String {
     format!("fixtures/probes/open/{device}/{switch}.toml")
 }
 
 /// Open switches that a drawing decides.
 fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
-    search::open(profile).filter(|switch| undrawn(&profile.name, &switch.name).is_none())
+    probe::open(profile).filter(|switch| undrawn(&profile.name, &switch.name).is_none())
 }
 
 /// A value of each switch draws other codes than another one, and the batch executor has the bits of the reference.
-/// `INSTA_UPDATE=always` searches cases that are missing.
 #[test]
 fn each_open_switch_has_a_probe() {
-    let mut missing = Vec::new();
     for device in CARDS {
-        let profile = Profile::named(device).expect("a card");
-        for switch in drawn(&profile) {
+        for switch in drawn(&profile(device)) {
             let path = place(device, &switch.name);
-            let tells = |text: &String| search::groups(text, switch).is_some_and(|groups| groups.len() > 1);
-            let there = fs::read_to_string(file(&path)).ok().filter(tells);
-            let text = match there {
-                None if writes_files() => search::smallest(&profile, switch).map(|draft| draft.text(device)),
-                there => there,
-            };
-            let Some(text) = text else {
-                missing.push(path);
-                continue;
-            };
-            if writes_files() {
-                fs::create_dir_all(file(&path).parent().expect("a folder")).expect("it can be made");
-                fs::write(file(&path), &text).expect("it can be written");
-            }
+            let text = fs::read_to_string(file(&path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+            let groups = probe::groups(&text, switch);
+            assert!(groups.is_some_and(|groups| groups.len() > 1), "{path} tells no values apart");
             for value in &switch.values {
                 let [scalar, batch] = [ExecutorKind::Scalar, ExecutorKind::Batch]
-                    .map(|kind| search::codes(&text, (&switch.name, value), kind));
+                    .map(|kind| probe::codes(&text, (&switch.name, value), kind));
                 assert!(scalar.is_some() && scalar == batch, "{path}, {value}");
             }
         }
     }
-    assert!(missing.is_empty(), "no case tells the values apart: run with INSTA_UPDATE=always to search {missing:?}");
 }
 
 /// The folder has no other files, so that a switch that was settled leaves no probe behind.
@@ -89,8 +68,7 @@ fn each_open_switch_has_a_probe() {
 fn there_are_no_other_probes() {
     let mut expected: Vec<String> = Vec::new();
     for device in CARDS {
-        let profile = Profile::named(device).expect("a card");
-        expected.extend(drawn(&profile).map(|switch| place(device, &switch.name)));
+        expected.extend(drawn(&profile(device)).map(|switch| place(device, &switch.name)));
     }
     for device in fs::read_dir(file("fixtures/probes/open")).expect("the folder").map(|entry| entry.expect("a folder"))
     {
@@ -108,15 +86,14 @@ fn the_page_lists_the_probes() {
     let mut table =
         "| card | switch | default | told apart | probe | measured |\n|---|---|---|---|---|---|\n".to_owned();
     for device in CARDS {
-        let profile = Profile::named(device).expect("a card");
-        for switch in search::open(&profile) {
+        for switch in probe::open(&profile(device)) {
             let row = match undrawn(device, &switch.name) {
                 Some(why) => format!("{} | none: {why} | ", switch.values.join(", ")),
                 None => {
                     let path = place(device, &switch.name);
                     let setup = Setup::read(&file(&path)).expect("a case");
                     let text = fs::read_to_string(file(&path)).expect("a case");
-                    let groups = search::groups(&text, switch).expect("it can be drawn");
+                    let groups = probe::groups(&text, switch).expect("it can be drawn");
                     let told: Vec<String> = groups.iter().map(|values| values.join(", ")).collect();
                     let depth = if setup.depth.is_some() { ", depth" } else { "" };
                     let [width, height] = setup.size;

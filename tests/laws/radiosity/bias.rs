@@ -1,12 +1,12 @@
 //! Half precision makes a room dark: how dark, by patches, packing and rounding, against what rounding to the sum's
 //! step predicts.
 
+use crate::support::profile;
 use approx::abs_diff_eq;
 use crossbar::radiosity::bias::{Accumulator, predicted};
 use crossbar::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::solve::Solver;
-use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::cornell;
@@ -16,7 +16,7 @@ use super::cornell;
 fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
     let system = cornell(patches);
     let truth = system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity();
-    let mut nv35 = Profile::named("nv35").expect("a device");
+    let mut nv35 = profile("nv35");
     nv35.set_switch("rounding", rounding).expect("a value of the switch");
     let format = nv35.rules.partial.expect("half floats");
     let block = Fit::of(&nv35, packing).expect("a fit").block;

@@ -1,10 +1,10 @@
 //! The end of an iteration on a card: a fixed point, a cycle, or the limit of iterations.
 
+use crate::support::profile;
 use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::on_card::{CardOptions, CardSolution, CardSolver, Cycle, Storage};
 use crossbar::radiosity::packing::{self, Packing};
 use crossbar::radiosity::{FormFactors, System};
-use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::{cornell, random_system};
@@ -13,8 +13,7 @@ use super::{cornell, random_system};
 const ENDLESS: CardOptions = CardOptions { tolerance: 0.0, most_iterations: 400, check_every: 1 };
 
 fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
-    let nv35 = Profile::named("nv35").expect("a device");
-    CardSolver::new(nv35, ExecutorKind::Batch, system, packing, storage).expect("a card")
+    CardSolver::new(profile("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
 }
 
 /// A random room of a few patches.

@@ -1,5 +1,6 @@
 //! The card's picture: what a pixel shows is what exact arithmetic finds there.
 
+use crate::support::profile;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::{narrow, wide};
@@ -7,19 +8,19 @@ use crossbar::geom::{Mesh, Ray};
 use crossbar::radiosity::display::{Display, at_corners};
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision, kernels};
-use crossbar::scene::{Camera, Material, Scene};
+use crossbar::scene::{Camera, Scene};
 use glam::DVec3;
-use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind, Machine};
 
 use super::all_pictures::{FLOATS, all_pictures, colours, pixels, rooms_and_cameras};
+use super::white;
 
 /// Corners are snapped to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 32 of one, and rounding adds a
 /// little.
 const SNAPPED: f64 = 0.05;
 
 fn card(device: &str) -> Machine {
-    Machine::new(Profile::named(device).expect("a device"), ExecutorKind::Batch)
+    Machine::new(profile(device), ExecutorKind::Batch)
 }
 
 /// A point of the picture as a ray, in pixels from the upper left corner.
@@ -168,9 +169,7 @@ fn disc(triangles: u32) -> Scene {
     positions.extend((0..triangles).map(turn));
     let order = (0..triangles).step_by(2).chain((1..triangles).step_by(2));
     let list: Vec<[u32; 3]> = order.map(|k| [0, 1 + k, 1 + (k + 1) % triangles]).collect();
-    let mesh = Mesh::new(positions, list).expect("a mesh");
-    let count = mesh.len();
-    Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0; count], Vec::new()).expect("a scene")
+    white(Mesh::new(positions, list).expect("a mesh"))
 }
 
 #[test]
@@ -206,7 +205,7 @@ fn scalar_and_batch_draw_the_same_pictures() {
 #[test]
 fn every_program_runs_on_both_cards() {
     for device in ["nv30", "nv35"] {
-        let profile = Profile::named(device).expect("a device");
+        let profile = profile(device);
         for kernel in kernels::DRAWING {
             let program = refsim::asm::assemble(kernel.text).unwrap_or_else(|e| panic!("{}: {e}", kernel.name));
             refsim::check::check(program, &profile).unwrap_or_else(|e| panic!("{} on {device}: {e}", kernel.name));

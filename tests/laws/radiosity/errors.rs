@@ -5,48 +5,34 @@ use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, MAX_PATCHES, Patches, Subdivision, System, packing};
 use crossbar::scene::{Material, Scene, Surface};
 
-fn scene(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>, material: Material) -> Scene {
-    let count = triangles.len();
-    Scene::new(Mesh::new(positions, triangles).expect("a mesh"), vec![material], vec![0; count], Vec::new())
-        .expect("a scene")
-}
-
-fn white() -> Material {
-    Material::diffuse("white", [0.5; 3])
-}
+use super::white;
 
 #[test]
 fn scenes_that_make_no_patches() {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0]];
     let one = Subdivision::PerSide(1);
-    assert_eq!(
-        Patches::new(&Scene::default(), one).unwrap_err().to_string(),
-        "expected a scene with surfaces, found none"
-    );
-    let flat = scene(corners.clone(), vec![[0, 1, 2], [0, 1, 3]], white());
+    let scene = |positions: &[[f32; 3]], triangles: &[[u32; 3]]| {
+        white(Mesh::new(positions.to_vec(), triangles.to_vec()).expect("a mesh"))
+    };
+    let said = |scene: &Scene, cut| Patches::new(scene, cut).unwrap_err().to_string();
+    let nothing = "expected a scene with surfaces, found none";
+    assert_eq!(said(&Scene::default(), one), nothing);
+    let flat = scene(&corners, &[[0, 1, 2], [0, 1, 3]]);
     let patches = Patches::new(&flat, one).expect("a triangle without area has no patch");
     assert_eq!((patches.list().len(), patches.list()[0].area()), (1, 0.5));
-    assert_eq!(
-        Patches::new(&scene(corners.clone(), vec![[0, 1, 3]], white()), one).unwrap_err().to_string(),
-        "expected a scene with surfaces, found none"
-    );
-    let thin = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 1e-30]];
-    assert_eq!(
-        Patches::new(&scene(thin, vec![[0, 1, 2]], white()), one).unwrap_err().to_string(),
-        "triangle 0 (counted from 0) is too thin for a patch; remove it, or merge its corners"
-    );
-    let good = scene(corners.clone(), vec![[0, 1, 2]], white());
-    assert_eq!(
-        Patches::new(&good, Subdivision::PerSide(0)).unwrap_err().to_string(),
-        "expected sides cut into 1 part or more, found 0"
-    );
-    let refused = Patches::new(&good, Subdivision::PerSide(200)).unwrap_err().to_string();
-    assert_eq!(refused, format!("expected at most {MAX_PATCHES} patches, found 40000; cut the faces into fewer"));
+    assert_eq!(said(&scene(&corners, &[[0, 1, 3]]), one), nothing);
+    let thin = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 1e-30]];
+    let expected = "triangle 0 (counted from 0) is too thin for a patch; remove it, or merge its corners";
+    assert_eq!(said(&scene(&thin, &[[0, 1, 2]]), one), expected);
+    let good = scene(&corners, &[[0, 1, 2]]);
+    assert_eq!(said(&good, Subdivision::PerSide(0)), "expected sides cut into 1 part or more, found 0");
+    let expected = format!("expected at most {MAX_PATCHES} patches, found 40000; cut the faces into fewer");
+    assert_eq!(said(&good, Subdivision::PerSide(200)), expected);
     assert!(Patches::new(&good, Subdivision::AtMost(MAX_PATCHES)).is_ok());
-    let mirror = Material { surface: Surface::Mirror { reflectance: [1.0; 3] }, ..white() };
-    let found = Patches::new(&scene(corners, vec![[0, 1, 2]], mirror), one);
+    let mirror = Material { surface: Surface::Mirror { reflectance: [1.0; 3] }, ..good.materials()[0].clone() };
+    let mirror = Scene::new(good.mesh().clone(), vec![mirror], vec![0], Vec::new()).expect("a scene");
     let expected = "material `white` is a mirror, expected a diffuse surface: radiosity knows no other";
-    assert_eq!(found.unwrap_err().to_string(), expected);
+    assert_eq!(said(&mirror, one), expected);
 }
 
 #[test]

@@ -7,10 +7,10 @@ use crossbar::radiosity::form_factor::rectangles::{Bounded, parallel, perpendicu
 use crossbar::radiosity::form_factor::{VisibilityParameters, point_to_polygon};
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision};
-use crossbar::scene::{Material, Scene};
+use crossbar::scene::Scene;
 use glam::DVec3;
 
-use super::{are_closed, tracer};
+use super::{are_closed, tracer, white};
 
 /// Quadrature error of the row sums of a subdivided room (docs/papers/radiosity.md derives it).
 const QUADRATURE: f64 = 2e-7;
@@ -133,8 +133,7 @@ fn reciprocity_error(factors: &FormFactors) -> f64 {
 fn tetrahedron() -> Scene {
     let corners = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-    let mesh = Mesh::new(corners, triangles).expect("a mesh");
-    Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0; 4], Vec::new()).expect("a scene")
+    white(Mesh::new(corners, triangles).expect("a mesh"))
 }
 
 #[test]
@@ -209,21 +208,12 @@ fn an_empty_room_keeps_its_factors_to_the_bit_when_rays_are_asked() {
 #[test]
 fn a_screen_hides_what_is_behind_it() {
     let screen = |share: f32| {
-        let mut positions = vec![
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.0, 1.0, 1.0],
-            [1.0, 1.0, 1.0],
-            [1.0, 0.0, 1.0],
-            [0.0, 0.0, 1.0],
-        ];
-        positions.extend([[-1.0, -1.0, 0.5], [share, -1.0, 0.5], [share, 2.0, 0.5], [-1.0, 2.0, 0.5]]);
+        let wall = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let (floor, ceiling) = (wall.map(|[x, y]| [x, y, 0.0]), wall.map(|[x, y]| [x, 1.0 - y, 1.0]));
+        let between = [[-1.0, -1.0, 0.5], [share, -1.0, 0.5], [share, 2.0, 0.5], [-1.0, 2.0, 0.5]];
         let triangles =
             (0..3).flat_map(|quad| [[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|k| 4 * quad + k))).collect();
-        let mesh = Mesh::new(positions, triangles).expect("a mesh");
-        Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0; 6], Vec::new()).expect("a scene")
+        white(Mesh::new([floor, ceiling, between].concat(), triangles).expect("a mesh"))
     };
     let parameters = VisibilityParameters { side: 40, ..VisibilityParameters::default() };
     let factor = |share: f32| {

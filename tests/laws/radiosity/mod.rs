@@ -15,12 +15,12 @@ mod others;
 mod solvers;
 mod textures;
 
-use crossbar::geom::Sides;
 use crossbar::geom::random::CounterRng;
+use crossbar::geom::{Mesh, Sides};
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
-use crossbar::scene::Scene;
+use crossbar::scene::{Material, Scene};
 use crossbar::tracer::HostTracer;
 
 /// The Cornell box without blocks, its factors made to close.
@@ -34,6 +34,12 @@ fn cornell(patches: usize) -> System {
 /// Whether every row of form factors sums to 1 within a tolerance, but for patches that see nothing at all.
 fn are_closed(factors: &FormFactors, tolerance: f64) -> bool {
     factors.row_sums().into_iter().all(|sum| sum == 0.0 || (sum - 1.0).abs() <= tolerance)
+}
+
+/// A mesh whose surface reflects half of the light.
+fn white(mesh: Mesh) -> Scene {
+    let count = mesh.len();
+    Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0; count], Vec::new()).expect("a scene")
 }
 
 fn tracer(scene: &Scene) -> HostTracer {

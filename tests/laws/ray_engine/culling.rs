@@ -2,6 +2,7 @@
 //! finds.
 
 use crate::environment::by_form;
+use crate::support::{bits, profile, soup};
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
@@ -11,7 +12,6 @@ use crossbar::ray_engine::{Answer, Crossbar, RayBatch};
 use crossbar::scene::Camera;
 use crossbar::tracer::octree::OctreeParameters;
 use proptest::prelude::*;
-use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 /// Numbers from -1 to 1 and, more often than by chance, 0 and the ends.
@@ -60,8 +60,7 @@ fn triangles(random: CounterRng, count: u64, size: f64, wild: bool) -> Mesh {
             positions.push(shared.unwrap_or(corner.map(|x| (x * size) as f32)));
         }
     }
-    let ids = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    Mesh::new(positions, ids).expect("finite corners")
+    soup(positions)
 }
 
 /// Rays from a box, most of them into a cone, some at corners and edges and from points of the triangles.
@@ -91,10 +90,6 @@ fn drawn(answer: &Answer) -> u64 {
     answer.events.fragments.generated / 64
 }
 
-fn bits(answer: &Answer) -> Vec<Option<(u32, u32)>> {
-    answer.hits.iter().map(|hit| hit.map(|h| (h.triangle, h.t.to_bits()))).collect()
-}
-
 const DEVICES: [&str; 7] = ["ideal-fp32", "r200", "r300", "nv35", "ideal-s3.12", "ideal-fp16", "ideal-s2.8"];
 
 proptest! {
@@ -111,12 +106,11 @@ proptest! {
         let mesh = triangles(random, 12, size, true);
         let rays = rays(random, &mesh, size, [origins, directions]);
         let all: Vec<u32> = (0..mesh.len() as u32).collect();
-        let profile = Profile::named(DEVICES[device]).expect("a profile");
-        let crossbar = Crossbar::new(profile, ExecutorKind::Batch);
+        let crossbar = Crossbar::new(profile(DEVICES[device]), ExecutorKind::Batch);
         let sides = if both { Sides::Both } else { Sides::Front };
         let pass = |cull| crossbar.intersect_pass(&mesh, &all, &rays, sides, cull).expect("the card works");
         let (plain, culled) = (pass(false), pass(true));
-        prop_assert_eq!(bits(&culled), bits(&plain), "{} {:?}", DEVICES[device], sides);
+        prop_assert_eq!(bits(&culled.hits), bits(&plain.hits), "{} {:?}", DEVICES[device], sides);
         prop_assert_eq!(drawn(&plain), 12);
     }
 }
@@ -125,7 +119,7 @@ proptest! {
 #[test]
 fn much_of_what_can_be_culled_is() {
     for (device, least) in [("ideal-fp32", 400), ("r300", 400), ("r200", 200)] {
-        let crossbar = Crossbar::new(Profile::named(device).expect("a profile"), ExecutorKind::Batch);
+        let crossbar = Crossbar::new(profile(device), ExecutorKind::Batch);
         for (sides, share) in [(Sides::Front, 1), (Sides::Both, 2)] {
             let mut gone = 0;
             for seed in 0..60 {
@@ -148,8 +142,8 @@ fn the_engine_finds_the_same_and_draws_less() {
     let run = |cull, sides| {
         let octree = OctreeParameters { most_triangles: 4, most_depth: 6 };
         let parameters = EngineParameters { octree, cull, sides, ..EngineParameters::default() };
-        let profile = Profile::named("ideal-fp32").expect("a profile");
-        let mut engine = RayEngine::new(&mesh, profile, ExecutorKind::Batch, parameters).expect("an engine");
+        let mut engine =
+            RayEngine::new(&mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
         (engine.trace(&rays).expect("the card works"), engine.counts())
     };
     for sides in [Sides::Front, Sides::Both] {

@@ -1,7 +1,7 @@
 //! The engine on every kind of card and on every executor.
 
 use crate::environment::is_full;
-use crossbar::geom::Hit;
+use crate::support::{bits, profile};
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
@@ -10,13 +10,8 @@ use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crossbar::scene::Camera;
 use crossbar::tracer::octree::OctreeParameters;
-use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::{Executor, ExecutorKind};
-
-fn profile(name: &str) -> Profile {
-    Profile::named(name).expect("a profile")
-}
 
 /// Part of the teapot, and rays of more than one origin at its triangles.
 fn scene() -> (Mesh, Vec<Ray>) {
@@ -32,10 +27,6 @@ fn scene() -> (Mesh, Vec<Ray>) {
     };
     let rays = (0..384).map(ray).collect();
     (mesh, rays)
-}
-
-fn bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, u32)>> {
-    hits.iter().map(|hit| hit.map(|h| (h.triangle, h.t.to_bits()))).collect()
 }
 
 /// One GPU cell, the whole scene, and one pass of as many rays as the list has: then program, rays and units are those

@@ -1,10 +1,10 @@
 //! Requests to a card are the same for every executor, and recording them changes no hit and no count.
 
+use crate::support::profile;
 use crossbar::geom::exact::Sides;
 use crossbar::geom::teapot::teapot;
 use crossbar::ray_engine::{Crossbar, RayBatch};
 use crossbar::scene::Camera;
-use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 
@@ -14,7 +14,7 @@ fn the_crossbar_asks_the_same_of_every_executor() {
     let camera = Camera::teapot(40, 36).expect("a camera");
     let rays = RayBatch::new(40, 36, camera.rays()).expect("rays");
     for device in ["r200", "r300"] {
-        let card = |executor| Crossbar::new(Profile::named(device).expect("a card"), executor);
+        let card = |executor| Crossbar::new(profile(device), executor);
         let plain = card(ExecutorKind::Batch).intersect(&mesh, &rays, Sides::Front).expect("hits");
         assert!(plain.log.is_empty(), "nothing is written down unasked");
         let recorded = |executor| card(executor).intersect_recorded(&mesh, &rays, Sides::Front).expect("hits");

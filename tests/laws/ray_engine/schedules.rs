@@ -1,6 +1,6 @@
 //! However the engine schedules, the hits are the same.
 
-use crossbar::geom::Hit;
+use crate::support::{bits, in_threads, profile};
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
@@ -10,15 +10,10 @@ use crossbar::ray_engine::ray_tree::RayTreeParameters;
 use crossbar::scene::Camera;
 use crossbar::tracer::HostTracer;
 use crossbar::tracer::octree::OctreeParameters;
-use refsim::device::Profile;
 use refsim::event::{Event, HostOperation};
 use refsim::machine::ExecutorKind;
 
 const SMALL: OctreeParameters = OctreeParameters { most_triangles: 4, most_depth: 6 };
-
-fn profile() -> Profile {
-    Profile::named("ideal-fp32").expect("a profile")
-}
 
 /// Eye rays, and rays from everywhere to everywhere.
 fn rays(count: usize) -> Vec<Ray> {
@@ -36,13 +31,9 @@ fn rays(count: usize) -> Vec<Ray> {
 }
 
 fn trace<'a>(mesh: &'a Mesh, rays: &[Ray], parameters: EngineParameters) -> (Vec<Option<(u32, u32)>>, RayEngine<'a>) {
-    let mut engine = RayEngine::new(mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
+    let mut engine = RayEngine::new(mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
     let hits = engine.trace(rays).expect("the card works");
-    (hits.iter().map(bits).collect(), engine)
-}
-
-fn bits(hit: &Option<Hit>) -> Option<(u32, u32)> {
-    hit.map(|h| (h.triangle, h.t.to_bits()))
+    (bits(&hits), engine)
 }
 
 #[test]
@@ -50,8 +41,7 @@ fn schedules_change_counts_and_never_a_hit() {
     let (mesh, rays) = (teapot(3).expect("a teapot"), rays(3000));
     for sides in [Sides::Front, Sides::Both] {
         let base = EngineParameters { octree: SMALL, sides, ..EngineParameters::default() };
-        let truth: Vec<_> =
-            HostTracer::with_octree(&mesh, SMALL, sides).nearest_all(&rays).0.iter().map(bits).collect();
+        let truth = bits(&HostTracer::with_octree(&mesh, SMALL, sides).nearest_all(&rays).0);
         let variants = [
             base.clone(),
             EngineParameters { card: false, ..base.clone() },
@@ -83,16 +73,16 @@ fn order_and_bundles_do_not_show() {
     let (mut backward, _) = trace(&mesh, &reversed, parameters.clone());
     backward.reverse();
     assert_eq!(forward, backward);
-    let mut engine = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
+    let mut engine = RayEngine::new(&mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
     let mut hits = vec![None; rays.len()];
     for bundle in rays.chunks(77) {
         engine.submit(bundle).expect("the card works");
     }
     engine.finish().expect("the card works");
     for (ticket, hit) in engine.take_answers() {
-        hits[ticket.0 as usize] = bits(&hit);
+        hits[ticket.0 as usize] = hit;
     }
-    assert_eq!(forward, hits);
+    assert_eq!(forward, bits(&hits));
 }
 
 #[test]
@@ -100,8 +90,7 @@ fn threads_do_not_show() {
     let (mesh, rays) = (teapot(3).expect("a teapot"), rays(1500));
     let parameters = EngineParameters { octree: SMALL, rays: 32, record: true, ..EngineParameters::default() };
     let run = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        let (hits, mut engine) = pool.install(|| trace(&mesh, &rays, parameters.clone()));
+        let (hits, mut engine) = in_threads(threads, || trace(&mesh, &rays, parameters.clone()));
         (hits, engine.counts(), engine.take_log())
     };
     assert!(run(1) == run(3), "hits, counts and log");
@@ -111,7 +100,7 @@ fn threads_do_not_show() {
 fn rays_wait_until_the_cache_is_full_or_a_result_is_needed() {
     let (mesh, rays) = (teapot(3).expect("a teapot"), rays(2000));
     let parameters = EngineParameters { octree: SMALL, waiting: 1500, ..EngineParameters::default() };
-    let mut engine = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
+    let mut engine = RayEngine::new(&mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
     engine.submit(&rays[..1499]).expect("the card works");
     assert!(engine.take_answers().is_empty() && engine.counts().passes == 0, "there is room for one more");
     engine.submit(&rays[1499..1600]).expect("the card works");
@@ -149,7 +138,7 @@ fn every_pass_is_in_the_log_with_the_work_around_it() {
 fn a_million_rays_fit_in_200_megabytes() {
     let mesh = teapot(3).expect("a teapot");
     let waiting = EngineParameters { waiting: usize::MAX, ..EngineParameters::default() };
-    let mut engine = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, waiting).expect("an engine");
+    let mut engine = RayEngine::new(&mesh, profile("ideal-fp32"), ExecutorKind::Batch, waiting).expect("an engine");
     let bundle = rays(10_000);
     for _ in 0..100 {
         engine.submit(&bundle).expect("nothing is drawn yet");

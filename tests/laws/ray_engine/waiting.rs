@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use crate::support::profile;
 use crossbar::geom::Hit;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine, Readback};
 use crossbar::scene::Camera;
 use crossbar::tracer::octree::OctreeParameters;
-use refsim::device::Profile;
 use refsim::event::{Event, FenceId, ReadBackMode};
 use refsim::machine::ExecutorKind;
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation};
@@ -22,11 +22,10 @@ struct Run {
 }
 
 fn run(mesh: &Mesh, rays: &[Ray], parameters: EngineParameters) -> Run {
-    let profile = Profile::named("ideal-fp32").expect("a profile");
     let octree = OctreeParameters { most_triangles: 4, most_depth: 6 };
     // A small tree: buckets leave it while rays still come in.
     let parameters = EngineParameters { octree, rays: 32, waiting: 600, record: true, ..parameters };
-    let mut engine = RayEngine::new(mesh, profile, ExecutorKind::Batch, parameters).expect("an engine");
+    let mut engine = RayEngine::new(mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
     let hits = engine.trace(rays).expect("the card works");
     Run { hits, counts: engine.counts(), log: engine.take_log() }
 }
@@ -51,7 +50,7 @@ fn host_work(log: &[Event]) -> HostCounts {
 
 /// The run on the time axis: the log says what was asked, a card's figures how long it takes.
 fn timed(run: &Run, host: &HostModel) -> Replay {
-    let model = Model::new(Level::Pipeline, &Profile::named("nv35").expect("a card")).expect("a model");
+    let model = Model::new(Level::Pipeline, &profile("nv35")).expect("a model");
     replay(&run.log, &model, &Options { host: Some(host), ..Options::of(Level::Pipeline) }).expect("a good log")
 }
 

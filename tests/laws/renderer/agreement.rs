@@ -1,10 +1,10 @@
 //! Renderers that estimate the same integral agree, pixel by pixel, within what chance allows.
 
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{RayKind, RenderedPicture, Settings, distributed, path};
+use crossbar::renderer::{RenderedPicture, Settings};
 use crossbar::scene::{Scene, Surface};
 
-use super::{host, of, room, room_camera, settings, white};
+use super::{by_distributed_rays, by_paths, host, of, room, room_camera, settings, white};
 
 /// At most so many standard deviations between two pixels: by a normal law one of 1.7 million channels lies further
 /// off, so a right picture of 16 x 16 fails once in 2,000 seeds.
@@ -15,8 +15,7 @@ fn paths(scene: &Scene, settings: &Settings, direct: Direct) -> RenderedPicture 
 }
 
 fn of_size(size: u32, scene: &Scene, settings: &Settings, direct: Direct) -> RenderedPicture {
-    let picture = path::render(scene, &room_camera(size, size), settings, direct, &mut host(scene), &mut |_| {});
-    picture.expect("a picture")
+    by_paths(scene, &room_camera(size, size), settings, direct)
 }
 
 /// Walks find the lamp seldom: it takes many samples of few pixels before a normal law holds for each.
@@ -80,12 +79,10 @@ fn distributed_rays_are_paths_with_one_diffuse_hit() {
     let scene = room(1.0, &white(0.5));
     let once = |seed| Settings { samples: 64, depth: 1, seed, ..settings() };
     let camera = room_camera(16, 16);
-    let rays = distributed::render(&scene, &camera, &once(6), &mut host(&scene), &mut |_| {}).expect("a picture");
-    agree(&rays, &paths(&scene, &once(7), Direct::Both));
+    agree(&by_distributed_rays(&scene, &camera, &once(6)), &paths(&scene, &once(7), Direct::Both));
     // A mirror between: one hit more for both, and no light between diffuse surfaces that only the walk would find.
     let mirror = room(1.0, &of(Surface::Mirror { reflectance: [0.9; 3] }));
-    let picture = distributed::render(&mirror, &camera, &once(8), &mut host(&mirror), &mut |_| {}).expect("a picture");
-    assert!(picture.counts.of(RayKind::Reflection) > 0);
+    assert!(by_distributed_rays(&mirror, &camera, &once(8)).counts.of(RayKind::Reflection) > 0);
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! The same picture, to the bit, for every number of threads, size of bundles and caster.
 
+use crate::support::{in_threads, profile};
 use crossbar::geom::exact::Sides;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
 use crossbar::renderer::photon::Photons;
 use crossbar::renderer::{Lens, RenderedPicture, Settings, distributed, eye, path, photon, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 use crossbar::tracer::Caster;
-use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::{host, of, room, room_camera, settings};
@@ -62,8 +62,7 @@ fn bundles_and_threads_do_not_show() {
             );
         }
         for threads in [1, 3] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            let found = pool.install(|| essence(render(&scene, &camera, &usual(), &mut host(&scene))));
+            let found = in_threads(threads, || essence(render(&scene, &camera, &usual(), &mut host(&scene))));
             assert!(found == expected, "{name}, {threads} threads");
         }
     }
@@ -72,12 +71,11 @@ fn bundles_and_threads_do_not_show() {
 #[test]
 fn the_engine_makes_the_same_picture() {
     let (scene, camera) = (scene(), room_camera(9, 7));
-    let profile = Profile::named("ideal-fp32").expect("a profile");
     for (name, render) in RENDERERS {
         let expected = essence(render(&scene, &camera, &usual(), &mut host(&scene)));
         let parameters = EngineParameters { sides: Sides::Both, rays: 16, ..EngineParameters::default() };
         let mut engine =
-            RayEngine::new(scene.mesh(), profile.clone(), ExecutorKind::Batch, parameters).expect("an engine");
+            RayEngine::new(scene.mesh(), profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
         let found = essence(render(&scene, &camera, &usual(), &mut engine));
         assert!(found == expected, "{name}");
         assert_eq!(engine.counts().rays, found.counts.rays());

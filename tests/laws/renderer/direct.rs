@@ -5,11 +5,11 @@ use std::f64::consts::PI;
 use approx::abs_diff_eq;
 use crossbar::geom::vector::wide;
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{RenderedPicture, Settings, distributed, path};
+use crossbar::renderer::{RenderedPicture, Settings};
 use crossbar::scene::Scene;
 use glam::DVec3;
 
-use super::{Builder, host, lamp, needle, settings, white, within_chance};
+use super::{Builder, by_distributed_rays, by_paths, lamp, needle, settings, white, within_chance};
 
 /// The form factor from a small area at the origin, that looks along z, to a polygon above it: each side adds the angle
 /// at which it is seen times the cosine between z and the normal of the plane through it and the origin.
@@ -42,10 +42,9 @@ fn lit(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (Scene, f64) {
 fn pictures(scene: &Scene, samples: u32) -> Vec<RenderedPicture> {
     let camera = needle([-2.0, 0.1, 0.3], [0.0; 3]);
     let settings = Settings { samples, depth: 1, ..settings() };
-    let path =
-        |direct| path::render(scene, &camera, &settings, direct, &mut host(scene), &mut |_| {}).expect("a picture");
-    let distributed = distributed::render(scene, &camera, &settings, &mut host(scene), &mut |_| {}).expect("a picture");
-    vec![distributed, path(Direct::Emitters), path(Direct::Both), path(Direct::Walk)]
+    let ways = [Direct::Emitters, Direct::Both, Direct::Walk];
+    let paths = ways.map(|direct| by_paths(scene, &camera, &settings, direct));
+    paths.into_iter().chain([by_distributed_rays(scene, &camera, &settings)]).collect()
 }
 
 fn check(scene: &Scene, factor: f64) {

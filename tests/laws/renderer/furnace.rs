@@ -1,13 +1,15 @@
 //! White furnaces: where everything shines alike, nothing can be seen, and the sum of all paths is known.
 
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{RenderedPicture, Settings, distributed, path, whitted};
+use crossbar::renderer::{RenderedPicture, Settings};
 use crossbar::scene::{Camera, Material, Scene, Surface};
 
-use super::{Builder, FAR, host, near, needle, of, settings, white, within_chance};
+use super::{
+    Builder, FAR, by_distributed_rays, by_paths, by_whitted_rays, near, needle, of, settings, white, within_chance,
+};
 
 fn trace(scene: &Scene, camera: &Camera, settings: &Settings, direct: Direct) -> RenderedPicture {
-    let picture = path::render(scene, camera, settings, direct, &mut host(scene), &mut |_| {}).expect("a picture");
+    let picture = by_paths(scene, camera, settings, direct);
     assert_eq!(picture.not_finite, 0);
     picture
 }
@@ -77,9 +79,7 @@ fn what_loses_nothing_vanishes() {
         if matches!(surface, Surface::Diffuse { .. }) {
             continue;
         }
-        let picture =
-            distributed::render(&scene, &camera, &settings, &mut host(&scene), &mut |_| {}).expect("a picture");
-        for color in picture.color {
+        for color in by_distributed_rays(&scene, &camera, &settings).color {
             near(color, [1.0; 3], 1e-9);
         }
     }
@@ -89,8 +89,7 @@ fn what_loses_nothing_vanishes() {
 fn whitted_loses_only_the_branches_that_it_drops() {
     let (camera, settings) = around(1);
     let scene = floating(Surface::Glass { index: 1.5, transmittance: [1.0; 3] });
-    let picture = whitted::render(&scene, &camera, &settings, &mut host(&scene), &mut |_| {}).expect("a picture");
-    for color in picture.color {
+    for color in by_whitted_rays(&scene, &camera, &settings).color {
         assert!(color[0] <= 1.0 + 1e-9 && color[0] > 0.99, "{color:?}");
     }
 }

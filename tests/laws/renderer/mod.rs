@@ -9,27 +9,25 @@ mod photons;
 mod points;
 mod whitted;
 
+use crate::support::soup;
+use crossbar::geom::Ray;
 use crossbar::geom::exact::Sides;
-use crossbar::geom::{Mesh, Ray};
-use crossbar::renderer::{RenderedPicture, Settings};
+use crossbar::renderer::path::Direct;
+use crossbar::renderer::photon::Photons;
+use crossbar::renderer::{RenderedPicture, Settings, distributed, path, photon};
 use crossbar::scene::{Camera, Color, Material, Scene, Surface};
 use crossbar::tracer::HostTracer;
 
 /// Squares and triangles with a material each, put together.
 #[derive(Default)]
 struct Builder {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
+    corners: Vec<[f32; 3]>,
     materials: Vec<Material>,
-    material_of: Vec<u32>,
 }
 
 impl Builder {
     fn triangle(&mut self, corners: [[f32; 3]; 3], material: Material) {
-        let first = self.positions.len() as u32;
-        self.positions.extend(corners);
-        self.triangles.push([first, first + 1, first + 2]);
-        self.material_of.push(self.materials.len() as u32);
+        self.corners.extend(corners);
         self.materials.push(material);
     }
 
@@ -57,8 +55,8 @@ impl Builder {
     }
 
     fn scene(self) -> Scene {
-        let mesh = Mesh::new(self.positions, self.triangles).expect("a mesh");
-        Scene::new(mesh, self.materials, self.material_of, Vec::new()).expect("a scene")
+        let material_of = (0..self.materials.len() as u32).collect();
+        Scene::new(soup(self.corners), self.materials, material_of, Vec::new()).expect("a scene")
     }
 }
 
@@ -76,6 +74,22 @@ fn of(surface: Surface) -> Material {
 
 fn host(scene: &Scene) -> HostTracer {
     HostTracer::new(scene.mesh(), Sides::Both)
+}
+
+fn by_paths(scene: &Scene, camera: &Camera, settings: &Settings, direct: Direct) -> RenderedPicture {
+    path::render(scene, camera, settings, direct, &mut host(scene), &mut |_| {}).expect("a picture")
+}
+
+fn by_distributed_rays(scene: &Scene, camera: &Camera, settings: &Settings) -> RenderedPicture {
+    distributed::render(scene, camera, settings, &mut host(scene), &mut |_| {}).expect("a picture")
+}
+
+fn by_whitted_rays(scene: &Scene, camera: &Camera, settings: &Settings) -> RenderedPicture {
+    crossbar::renderer::whitted::render(scene, camera, settings, &mut host(scene), &mut |_| {}).expect("a picture")
+}
+
+fn by_photons(scene: &Scene, camera: &Camera, settings: &Settings, photons: &Photons) -> RenderedPicture {
+    photon::render(scene, camera, settings, photons, &mut host(scene), &mut |_| {}).expect("a picture")
 }
 
 /// A camera of one pixel, a needle's eye wide.

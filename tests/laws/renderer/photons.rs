@@ -2,11 +2,11 @@
 
 use crate::environment::by_form;
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::photon::{self, Photons};
-use crossbar::renderer::{RayKind, RenderedPicture, Settings, path};
+use crossbar::renderer::photon::Photons;
+use crossbar::renderer::{RenderedPicture, Settings};
 use crossbar::scene::{Material, Scene, Surface};
 
-use super::{host, of, room, room_camera, settings, white};
+use super::{by_paths, by_photons, of, room, room_camera, settings, white};
 
 /// The mean of a picture and its variance, the lamp's own pixels left out.
 fn mean(picture: &RenderedPicture, scene: &Scene) -> [[f64; 2]; 3] {
@@ -32,11 +32,10 @@ fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     let full = by_form(1, 20);
     let settings = |samples: u32| Settings { samples: samples * full, depth: 30, ..settings() };
     let photons = Photons { global: 20_000, caustic: 20_000, nearest: 50, radius: 0.3, gather };
-    let mapped = photon::render(&scene, &camera, &settings(16), &photons, &mut host(&scene), &mut |_| {});
-    let mapped = mapped.expect("a picture");
+    let mapped = by_photons(&scene, &camera, &settings(16), &photons);
     assert!(mapped.counts.of(RayKind::Photon) >= 20_000 && mapped.not_finite == 0);
-    let walked = path::render(&scene, &camera, &settings(144), Direct::Both, &mut host(&scene), &mut |_| {});
-    let (a, b) = (mean(&mapped, &scene), mean(&walked.expect("a picture"), &scene));
+    let walked = by_paths(&scene, &camera, &settings(144), Direct::Both);
+    let (a, b) = (mean(&mapped, &scene), mean(&walked, &scene));
     for channel in 0..3 {
         let ([mapped, chance], [walked, more]) = (a[channel], b[channel]);
         let (bias, chance) = (mapped / walked - 1.0, 3.0 * (chance + more).sqrt() / walked);

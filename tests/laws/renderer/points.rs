@@ -3,12 +3,15 @@
 use std::f64::consts::PI;
 
 use crossbar::error::InputError;
+use crossbar::renderer::Settings;
+use crossbar::renderer::path::Direct;
 use crossbar::renderer::photon::{self, Photons};
-use crossbar::renderer::{RenderedPicture, Settings, distributed, path, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 use glam::DVec3;
 
-use super::{Builder, host, lamp, near, needle, of, settings, white};
+use super::{
+    Builder, by_distributed_rays, by_paths, by_photons, by_whitted_rays, host, lamp, near, needle, of, settings, white,
+};
 
 const EXPONENT: f32 = 20.0;
 const SPECULAR: [f64; 3] = [0.75, 0.5, 0.25];
@@ -40,10 +43,6 @@ fn radiance(albedo: f64, light: DVec3, share: f64) -> [f64; 3] {
     std::array::from_fn(|channel| (albedo / PI + SPECULAR[channel] * lobe) * irradiance[channel])
 }
 
-fn mapped(scene: &Scene, camera: &Camera, photons: &Photons, settings: &Settings) -> RenderedPicture {
-    photon::render(scene, camera, settings, photons, &mut host(scene), &mut |_| {}).expect("a picture")
-}
-
 fn photons(gather: u32) -> Photons {
     Photons { global: 100, caustic: 100, nearest: 10, radius: 0.3, gather }
 }
@@ -55,17 +54,17 @@ fn every_renderer_shows_the_highlight_of_a_point_light() {
         let scene = floor(albedo, |_| {});
         let expected = radiance(f64::from(albedo), LIGHT, 1.0);
         let pictures = [
-            whitted::render(&scene, &camera, &settings(), &mut host(&scene), &mut |_| {}).expect("a picture"),
-            distributed::render(&scene, &camera, &settings(), &mut host(&scene), &mut |_| {}).expect("a picture"),
-            path::render(&scene, &camera, &settings(), path::Direct::Both, &mut host(&scene), &mut |_| {})
-                .expect("a picture"),
-            mapped(&scene, &camera, &photons(4), &settings()),
+            by_whitted_rays(&scene, &camera, &settings()),
+            by_distributed_rays(&scene, &camera, &settings()),
+            by_paths(&scene, &camera, &settings(), Direct::Both),
+            by_photons(&scene, &camera, &settings(), &photons(4)),
         ];
         for picture in pictures {
             near(picture.color[0], expected, 1e-5);
         }
         // The map shows the diffuse part roughly, the highlight is still exact.
-        let picture = mapped(&scene, &camera, &Photons { global: 200_000, nearest: 500, ..photons(0) }, &settings());
+        let photons = Photons { global: 200_000, nearest: 500, ..photons(0) };
+        let picture = by_photons(&scene, &camera, &settings(), &photons);
         near(picture.color[0], expected, 1e-5 + 0.2 * f64::from(albedo) * expected[0]);
     }
 }
@@ -77,8 +76,8 @@ fn photons_and_distributed_rays_agree_on_gloss_under_a_point_light() {
     for albedo in [0.0, 0.3] {
         let scene = floor(albedo, |_| {});
         let settings = Settings { samples: 4, ..settings() };
-        let rays = distributed::render(&scene, &camera, &settings, &mut host(&scene), &mut |_| {}).expect("a picture");
-        let mapped = mapped(&scene, &camera, &photons(3), &settings);
+        let rays = by_distributed_rays(&scene, &camera, &settings);
+        let mapped = by_photons(&scene, &camera, &settings, &photons(3));
         assert!(rays.color.iter().any(|color| color[0] > 0.1));
         for (rays, mapped) in rays.color.iter().zip(&mapped.color) {
             near(*mapped, *rays, 1e-12);
@@ -97,7 +96,7 @@ fn a_mirror_casts_a_point_light_on_gloss() {
     });
     let (direct, mirrored) = (radiance(0.0, LIGHT, 1.0), radiance(0.0, image, 0.5));
     let photons = Photons { caustic: 1_000_000, nearest: 2000, radius: 0.2, ..photons(4) };
-    let found = mapped(&scene, &needle(EYE, [0.0; 3]), &photons, &settings()).color[0];
+    let found = by_photons(&scene, &needle(EYE, [0.0; 3]), &settings(), &photons).color[0];
     for channel in 0..3 {
         // About 600 photons, a standard deviation of 4 %; the lobe over the disk of the estimate is bent a little.
         let share = (found[channel] - direct[channel]) / mirrored[channel];
@@ -122,8 +121,7 @@ fn the_two_rays_of_glass_are_independent() {
         let scene = builder.scene();
         let settings = Settings { samples: 20_000, depth: 2, ..settings() };
         let camera = needle([-3.0, 0.0, 0.36], [0.0; 3]);
-        let picture = distributed::render(&scene, &camera, &settings, &mut host(&scene), &mut |_| {});
-        picture.expect("a picture").variance[0][0]
+        by_distributed_rays(&scene, &camera, &settings).variance[0][0]
     };
     let (refracted, reflected, both) = (variance(0.5, 0.0), variance(0.0, 0.5), variance(0.5, 0.5));
     assert!(refracted > 0.05 * reflected && reflected > 0.05 * refracted, "{refracted} and {reflected}");

@@ -5,14 +5,16 @@ use std::f64::consts::PI;
 use crossbar::renderer::{RayKind, Settings, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 
-use super::{Builder, host, lamp, near, needle, of, settings, white};
+use crate::support::profile;
+
+use super::{Builder, by_whitted_rays, lamp, near, needle, of, settings, white};
 
 fn glass() -> Surface {
     Surface::Glass { index: 1.5, transmittance: [1.0; 3] }
 }
 
 fn render(scene: &Scene, camera: &Camera, settings: &Settings) -> crossbar::renderer::RenderedPicture {
-    let picture = whitted::render(scene, camera, settings, &mut host(scene), &mut |_| {}).expect("a picture");
+    let picture = by_whitted_rays(scene, camera, settings);
     assert_eq!(picture.not_finite, 0);
     picture
 }
@@ -157,9 +159,8 @@ fn cards_of_short_formats_see_no_shadow_of_their_own() {
     let dark = |rounding| {
         let parameters =
             EngineParameters { sides: Sides::Both, triangles: 1..=15, rays: 8, ..EngineParameters::default() };
-        let profile = refsim::device::Profile::named("ideal-fp24").expect("a profile");
         let executor = refsim::machine::ExecutorKind::Batch;
-        let mut engine = RayEngine::new(scene.mesh(), profile, executor, parameters).expect("an engine");
+        let mut engine = RayEngine::new(scene.mesh(), profile("ideal-fp24"), executor, parameters).expect("an engine");
         let told = Settings { rounding, ..settings() };
         let picture = whitted::render(&scene, &camera, &told, &mut engine, &mut |_| {}).expect("a picture");
         picture.color.iter().filter(|color| color[0] <= 0.0).count()

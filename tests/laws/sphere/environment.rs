@@ -9,6 +9,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::distance;
+use crate::support::in_threads;
 
 /// Pictures of all layouts, and where a pixel near each axis lies: +x, -x, +y, -y, +z, -z.
 const LABELLED: [(EnvironmentLayout, [u32; 2], [[u32; 2]; 6]); 4] = [
@@ -181,9 +182,6 @@ proptest! {
 #[test]
 fn threads_change_no_bit() {
     let picture = gradient(128, 128);
-    let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| light(7, &picture))
-    };
+    let on = |threads| in_threads(threads, || light(7, &picture));
     assert_eq!(on(1), on(3));
 }

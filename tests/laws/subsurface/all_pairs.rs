@@ -1,21 +1,15 @@
 //! The reference over all pairs of texels, from texels far below the mean free path to far above the diffusion length.
 
+use crate::support::plate;
 use approx::assert_relative_eq;
-use crossbar::atlas::Atlas;
-use crossbar::geom::Mesh;
 use crossbar::quadrature::SIXTEEN;
 use crossbar::subsurface::{Coefficients, Dipole, Reference};
 use glam::DVec3;
 
 use super::links_models::{atlas, medium};
 
+/// Of a square of side 1, whose texels have sides of about 1/16.
 const SIDE: u32 = 16;
-
-/// A square of side 1, whose texels have sides of about 1/16.
-fn plate() -> Atlas {
-    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    atlas(&Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh"), SIDE)
-}
 
 fn media() -> [Dipole; 3] {
     let marble = Dipole::new(Coefficients { sigma_s_prime: 2.62, sigma_a: 0.0041 }, 1.5).expect("a medium");
@@ -27,7 +21,7 @@ fn media() -> [Dipole; 3] {
 /// least.
 #[test]
 fn a_plate_of_any_size_returns_the_half_space_s_total() {
-    let atlas = plate();
+    let atlas = atlas(&plate(1.0, 1.0), SIDE);
     // The texel nearest to the middle.
     let middle = DVec3::new(0.5, 0.5, 0.0);
     let distance = |texel: &usize| atlas.texels()[*texel].point.distance(middle);
@@ -83,7 +77,7 @@ pub(super) fn parallelograms(dipole: &Dipole, [e, f]: [DVec3; 2], [k, l]: [f64; 
 
 #[test]
 fn pairs_of_texels_have_equation_10_at_any_size() {
-    let atlas = plate();
+    let atlas = atlas(&plate(1.0, 1.0), SIDE);
     let corners = |texel: u32| -> Vec<DVec3> { atlas.part(texel).polygons().flatten().copied().collect() };
     let whole = |texel: u32| atlas.part(texel).polygons().count() == 1 && corners(texel).len() == 4;
     let face = |texel: u32| atlas.texels()[texel as usize].face;

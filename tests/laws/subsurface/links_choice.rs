@@ -1,10 +1,11 @@
 //! Laws of links: they tile the atlas once, gather what their factors say, and have the same bits on any number of
 //! threads.
 
+use crate::support::in_threads;
 use approx::assert_relative_eq;
+use crossbar::subsurface::Dipole;
 use crossbar::subsurface::links::{EncodedLinks, IrradianceMeans, LinkChoice, LinkPlace, Links, MeanWeighting};
 use crossbar::subsurface::multipole::{ClusterId, Factors, SurfaceMoments};
-use crossbar::subsurface::{Dipole, Reference};
 use refsim::num::Format;
 
 use super::links_models::{atlas, figure_7, medium, root, sphere, surface, texels};
@@ -101,23 +102,6 @@ fn gathering_is_linear_in_the_light() {
     }
 }
 
-/// Links to every texel are equation 9: the difference to the reference is at most the tolerance times the row sum,
-/// and the same share again for the reference's far pairs.
-#[test]
-fn links_to_every_texel_are_equation_9() {
-    let atlas = atlas(&sphere(3, 0.2), SIDE);
-    let surface = surface(&atlas, 4.0);
-    let links = links(&surface, &[figure_7()], LinkChoice::Fixed { level: 0 });
-    let light: Vec<f64> = (0..256).map(uneven).collect();
-    let reference = Reference::new(&atlas, 4.0, &figure_7()).expect("a scale");
-    let exact = reference.radiosity(&light, &mut |_, _| ()).expect("one per texel");
-    let values: Vec<[f64; 3]> = light.iter().map(|value| [*value; 3]).collect();
-    let means = IrradianceMeans::new(&surface, &values, MeanWeighting::Area).expect("one per texel");
-    for (found, exact) in links.gather(&means).iter().zip(&exact) {
-        assert_relative_eq!(found[0], *exact, max_relative = 0.02);
-    }
-}
-
 #[test]
 fn three_channels_have_the_factors_of_each() {
     let surface = dented();
@@ -138,10 +122,7 @@ fn three_channels_have_the_factors_of_each() {
 fn bits_do_not_depend_on_the_number_of_threads() {
     let surface = dented();
     for choice in [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 16 }] {
-        let found = [1, 3].map(|threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            pool.install(|| links(&surface, &[figure_7()], choice))
-        });
+        let found = [1, 3].map(|threads| in_threads(threads, || links(&surface, &[figure_7()], choice)));
         assert_eq!(found[0], found[1]);
     }
 }

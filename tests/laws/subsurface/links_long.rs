@@ -2,6 +2,7 @@
 //! pieces.
 
 use crate::environment::by_form;
+use crate::support::{cuboid, plate};
 use crossbar::atlas::Atlas;
 use crossbar::geom::Mesh;
 use crossbar::subsurface::links::{IrradianceMeans, LinkChoice, Links, MeanWeighting};
@@ -31,19 +32,6 @@ fn folded([length, width, other]: [f32; 3], degrees: f32) -> Mesh {
     let corners = [[0.0, -width, 0.0], [0.0, 0.0, 0.0], [0.0, y, z]];
     let positions = corners.iter().flat_map(|&[_, y, z]| [[0.0, y, z], [length, y, z]]).collect();
     Mesh::new(positions, vec![[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]]).expect("a mesh")
-}
-
-/// A plate of four corners.
-fn plate(length: f32, width: f32) -> Mesh {
-    let corners = vec![[0.0, 0.0, 0.0], [length, 0.0, 0.0], [length, width, 0.0], [0.0, width, 0.0]];
-    Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh")
-}
-
-fn cuboid([x, y, z]: [f32; 3]) -> Mesh {
-    let corner = |k: u8| [x * f32::from(k & 1), y * f32::from(k >> 1 & 1), z * f32::from(k >> 2)];
-    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-    Mesh::new((0..8).map(corner).collect(), triangles).expect("a mesh")
 }
 
 /// The corners of a texel, in mm.
@@ -134,7 +122,7 @@ fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
         ("300 x 40 mm", plate(300.0, 40.0), 16, adaptive),
         ("40 x 40 mm", plate(40.0, 40.0), 4, adaptive),
         ("700 x 2 mm", plate(700.0, 2.0), 16, adaptive),
-        ("a cube of 300 mm", cuboid([300.0; 3]), 16, LinkChoice::Fixed { level: 2 }),
+        ("a cube of 300 mm", cuboid([0.0; 3], [300.0; 3]), 16, LinkChoice::Fixed { level: 2 }),
     ];
     // The plate of 700 mm and the cube take a minute together.
     for (name, mesh, side, choice) in models.into_iter().take(by_form(2, 4)) {
@@ -159,7 +147,7 @@ fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
 fn a_thin_sheet_has_light_from_both_sides() {
     for ([length, width], media) in [([1e5, 8e4], &media()[..]), ([300.0, 240.0], &media()[..1])] {
         for height in [0.1, 1.0] {
-            let atlas = atlas(&cuboid([length, width, height]), 16);
+            let atlas = atlas(&cuboid([0.0; 3], [length, width, height]), 16);
             let surface = surface(&atlas, 1.0);
             let is_inside = |point: DVec3| {
                 let from_rim = |at: f64, side: f32| at.min(f64::from(side) - at) / f64::from(side);

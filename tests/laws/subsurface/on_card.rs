@@ -1,5 +1,6 @@
 //! Passes 1 and 2 on a card against the formulas of section 4, in f64.
 
+use crate::support::profile;
 use crossbar::atlas::Atlas;
 use crossbar::card::{CardError, Texels};
 use crossbar::geom::Mesh;
@@ -22,7 +23,7 @@ pub(super) const SIDE: u32 = 16;
 pub(super) const ETA: f64 = 1.3;
 
 pub(super) fn nv35() -> Profile {
-    Profile::named("nv35").expect("a card")
+    profile("nv35")
 }
 
 /// A cube around 0 with edges of `size`: 12 faces, flat by their normals.
@@ -306,8 +307,7 @@ fn what_does_not_fit_the_card_is_named() {
     };
     let refused = |result: Result<SubsurfaceCard, CardError>| result.expect_err("refused").to_string();
     let usual = SubsurfaceCardOptions::default();
-    let r300 = Profile::named("r300").expect("a card");
-    let words = refused(new(r300, &links, ETA, usual));
+    let words = refused(new(profile("r300"), &links, ETA, usual));
     assert!(
         words.starts_with("device `r300` refuses the passes: it runs no `!!FP1.0` and `vs_2_0` programs"),
         "{words}"

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::environment::by_form;
+use crate::support::in_threads;
 use crossbar::all_frequency::factor::{
     Denominators, DiffuseFactor, DiscSamples, FactorSampling, Factorization, FresnelForm, Lobe, ProductFunction,
     ProductSymmetry, ProductTable, Shadowing, Supersamples,
@@ -177,18 +179,18 @@ fn reciprocity_makes_a_symmetric_table() {
     }
 }
 
-/// At the paper's size, the same bits on any number of threads.
+/// The same bits on any number of threads; in the full form at the paper's size.
 #[test]
 fn bits_do_not_depend_on_threads() {
     let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| {
-            let sampling = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
+        in_threads(threads, || {
+            let side = by_form(16, FactorSampling::default().side);
+            let sampling = FactorSampling { side, supersamples: Supersamples::NONE, ..FactorSampling::default() };
             let table = sampling.table(&SCHLICK, &mut |_, _| ()).expect("a table");
             let found = Factorization::new(&table, 10).expect("terms");
             let errors = DiscSamples::new(&table).errors(&found.factors(10));
             let factors = found.factors(10);
-            let texels = (0..1024).flat_map(|at| [factors.view_texel(at), factors.light_texel(at)]).flatten();
+            let texels = (0..side * side).flat_map(|at| [factors.view_texel(at), factors.light_texel(at)]).flatten();
             let bits: Vec<u64> = texels.chain(found.singular_values()).map(|value| value.to_bits()).collect();
             (bits, errors.rms.to_bits(), errors.max.to_bits())
         })

@@ -1,8 +1,8 @@
 //! Tables of reflectance from files of any kind.
 
 use std::fs;
-use std::path::Path;
 
+use crate::support::file;
 use crossbar::all_frequency::factor::{Factorization, load_product_table};
 use proptest::prelude::*;
 
@@ -44,7 +44,7 @@ proptest! {
 /// The example has terms; a table of zeros has none.
 #[test]
 fn the_example_has_terms() {
-    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/reflectance.csv");
+    let example = file("docs/examples/reflectance.csv");
     let table = load_product_table(&example).expect("a table");
     let found = Factorization::new(&table, 4).expect("terms");
     assert_eq!(([table.view().side(), table.light().side()], found.terms()), ([4, 4], 4));

@@ -6,8 +6,11 @@ use crossbar::bi_scale::baselines::{RowClusterOptions, RowClusters, StoredTransf
 use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crossbar::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
 use crossbar::linalg::dot;
+use crossbar::clustering::Signal;
+use crossbar::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, compress};
 
-use super::{dense_row, light, transfer};
+use super::{light, transfer};
+use crate::support::{cluster_options, in_threads};
 
 const FORMS: [CpcaForm; 2] = [CpcaForm::Affine, CpcaForm::Linear];
 
@@ -57,16 +60,7 @@ fn rounds_begin_with_the_clusters_of_the_dense_signal() {
     let values = lit.iter().flat_map(|&row| dense_row(&matrix, row)).map(|value| value as f32);
     let signal = Signal::new(6144, values.collect()).expect("a signal");
     for form in FORMS {
-        let start = StartPoints::Seed(1);
-        let dense = CpcaOptions {
-            clusters: 5,
-            vectors: 3,
-            vq_iterations: 4,
-            iterations: 4,
-            method: CpcaMethod::Doubling,
-            form,
-            start,
-        };
+        let dense = CpcaOptions { method: CpcaMethod::Doubling, form, ..cluster_options(5, 3, 4, 1) };
         let dense = compress(&signal, &dense, |_| ()).expect("compressed").clustering;
         let found = clusters(&matrix, &RowClusterOptions { rounds: 0, ..options(form) });
         let mut residual = 0.0;
@@ -125,10 +119,7 @@ fn rows_of_low_rank_are_met() {
 #[test]
 fn threads_change_nothing() {
     let matrix = transfer().1;
-    let of = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| clusters(&matrix, &options(CpcaForm::Affine)))
-    };
+    let of = |threads| in_threads(threads, || clusters(&matrix, &options(CpcaForm::Affine)));
     assert!(of(1) == of(3));
 }
 

@@ -13,6 +13,7 @@ mod scattering;
 
 use std::f64::consts::PI;
 
+use crate::support::{close, flat, soup};
 use crossbar::cpca::transfer::TracedRays;
 use crossbar::geom::{Mesh, Sides};
 use crossbar::sphere::DirectionRule;
@@ -47,18 +48,12 @@ impl Soup {
     }
 
     fn mesh(self) -> Mesh {
-        let faces = (0..self.0.len() as u32 / 3).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
-        Mesh::new(self.0, faces).expect("a mesh")
+        soup(self.0)
     }
 
     /// With the normals of its triangles.
     fn flat(self) -> Mesh {
-        let normals = self.0.chunks(3).flat_map(|corners| {
-            let [a, b, c] = [0, 1, 2].map(|k| DVec3::from(corners[k].map(f64::from)));
-            [(b - a).cross(c - a).normalize().as_vec3().to_array(); 3]
-        });
-        let normals = normals.collect();
-        self.mesh().with_normals(normals).expect("normals")
+        flat(self.0)
     }
 }
 
@@ -91,10 +86,6 @@ fn uniform(count: usize) -> Vec<f64> {
 /// Some light of every function.
 fn mixed(count: usize) -> Vec<f64> {
     (0..count).map(|index| if index == 0 { 3.0 } else { ((index * 37 % 23) as f64 - 11.0) / 15.0 }).collect()
-}
-
-fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found}, expected {expected} to {tolerance:e}");
 }
 
 /// A unit ball of 8 n^2 triangles.

@@ -9,6 +9,7 @@ use crossbar::transfer::{Tangents, Vertices};
 use glam::{DMat3, DVec3};
 
 use super::{close, mixed, step};
+use crate::support::in_threads;
 
 const AXIS: DVec3 = DVec3::new(0.3, 1.0, 0.2);
 
@@ -70,8 +71,7 @@ fn turning_mesh_tangents_and_light_changes_nothing() {
 fn threads_change_no_bit() {
     let mesh = step();
     let of = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| {
+        in_threads(threads, || {
             let vertices = Vertices::new(&mesh, Tangents::Along(AXIS)).expect("vertices");
             let (_, rays, response) = transfer(&mesh, AXIS);
             let bounces = Bounces::Tolerance { share: 1e-3, most: 5 };

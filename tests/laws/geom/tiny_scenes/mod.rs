@@ -11,6 +11,7 @@ mod cause;
 mod scene;
 
 use crate::environment::by_form;
+use crate::support::profile;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::LazyLock;
@@ -24,7 +25,6 @@ use crossbar::ray_engine::ray_tree::RayTreeParameters;
 use crossbar::tracer::HostTracer;
 use crossbar::tracer::octree::{GpuCells, OctreeParameters};
 use rayon::prelude::*;
-use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 use scene::Scene;
 
@@ -133,14 +133,13 @@ fn the_octree_finds_what_all_pairs_find() {
 #[test]
 fn the_card_and_the_engine_find_what_all_pairs_find() {
     let step = every(ON_CARD);
-    let profile = || Profile::named("ideal-fp32").expect("a profile");
     sum(step, |number, yardstick| {
         let scene = &yardstick.scene;
         let mut differing = 0;
         // A t far below a batch's largest loses bits in the depth buffer, and one beyond it is lost: scenes of moderate
         // size have no such t.
         if scene.moderate {
-            let card = Crossbar::new(profile(), ExecutorKind::Batch).all_pairs(true);
+            let card = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch).all_pairs(true);
             let hits = card.intersect_list(&scene.mesh, &scene.rays, scene.sides).expect("the card works");
             differing += yardstick.hold("card", number, &hits);
         }
@@ -153,7 +152,8 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
             sides: scene.sides,
             ..EngineParameters::default()
         };
-        let mut engine = RayEngine::new(&scene.mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
+        let mut engine =
+            RayEngine::new(&scene.mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
         let hits = engine.trace(&scene.rays).expect("the card works");
         differing + yardstick.hold("engine", number, &hits)
     });

@@ -1,5 +1,6 @@
 //! Scenes by number: some triangles, anywhere, of sizes from a thousandth to all of the scene, and a square of rays.
 
+use crate::support::soup;
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Ray};
@@ -43,8 +44,7 @@ impl Scene {
         }
         let single = |p: [f64; 3]| p.map(|x| (x * size) as f32);
         let positions = corners.iter().copied().map(single).collect();
-        let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let mesh = Mesh::new(positions, triangles).expect("finite corners");
+        let mesh = soup(positions);
         let eye = add(middle, point(9, 0), [0.1, 1.0, 3.0][(random.bits(9, 1, 0) % 3) as usize]);
         let spread = [0.0, 0.0, 1e-3, 0.1, 1.0][(random.bits(9, 2, 0) % 5) as usize];
         let ray = |i: u64| {
