@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crossbar::geom::vector::wide;
 use crossbar::geom::{Hit, Mesh};
-use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
+use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
 use proptest::sample::Index;
 use refsim::device::Profile;
 
