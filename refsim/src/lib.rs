@@ -99,9 +99,11 @@ pub mod event;
 pub mod exec;
 pub mod isa;
 pub mod machine;
-pub mod num;
 pub mod output;
 pub mod raster;
 mod texel;
 pub mod texture;
 pub mod timing;
+
+#[doc(inline)]
+pub use refsim_lanes::num;

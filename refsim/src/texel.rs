@@ -313,30 +313,3 @@ impl DepthFormat {
         }
     }
 }
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn records_hold_together() {
-        for &format in TexelFormat::ALL {
-            let record = format.record();
-            let mut used = 0u128;
-            for channel in record.stored() {
-                assert!((1..=32).contains(&channel.bits), "{format}: channel width");
-                let mask = ((1u128 << channel.bits) - 1) << channel.shift;
-                assert_eq!(used & mask, 0, "{format}: channels overlap");
-                used |= mask;
-            }
-            assert!(used.leading_zeros() >= 128 - 8 * u32::from(record.bytes), "{format}: channels leave the texel");
-            for source in record.components {
-                if let ComponentSource::Channel(i) = source {
-                    assert!(i < record.channel_count, "{format}: component of a channel that is not stored");
-                }
-            }
-            assert_eq!(TexelFormat::named(format.name()), Some(format));
-        }
-        assert_eq!(TexelFormat::named("D3DFMT_A8R8G8B8"), Some(TexelFormat::Bgra8));
-        assert_eq!(TexelFormat::named(""), None);
-    }
-}

@@ -2,8 +2,11 @@
 
 #[path = "common/adapter.rs"]
 mod adapter;
+#[path = "../src/exec/gpu/arena.rs"]
+mod arena;
 
-use refsim::exec::gpu::{Access, Gpu, GpuError};
+use arena::Arena;
+use refsim::exec::gpu::{Access, Adapter, AdapterKind, Gpu, GpuError, choose};
 use std::process::ExitCode;
 use std::sync::Arc;
 
@@ -15,7 +18,9 @@ const DOUBLE: &str = "
 }";
 
 fn main() -> ExitCode {
-    adapter::run(adapter::trials![on_adapter: words_go_there_and_back, faults_are_errors])
+    let mut trials = adapter::trials![on_host: room_is_used_again, adapters_are_picked_by_name_and_kind];
+    trials.extend(adapter::trials![on_adapter: words_go_there_and_back, faults_are_errors]);
+    adapter::run(trials)
 }
 
 fn words_go_there_and_back(gpu: &Arc<Gpu>) {
@@ -41,4 +46,47 @@ fn faults_are_errors(gpu: &Arc<Gpu>) {
     let double = gpu.pipeline(DOUBLE, "double", &[Access::Read, Access::ReadWrite]).unwrap_or_else(|e| panic!("{e}"));
     assert!(matches!(gpu.dispatch(&double, &[&buffer], [1, 1, 1]), Err(GpuError::Device { .. })));
     assert!(matches!(Gpu::open(Some("no such card")), Err(GpuError::UnknownAdapter { .. } | GpuError::NoAdapter)));
+}
+
+fn room_is_used_again() {
+    let mut arena = Arena::default();
+    let places = [10, 20, 30, 40].map(|words| arena.take(words));
+    assert_eq!(places, [0, 10, 30, 60]);
+    arena.give(10, 20);
+    arena.give(0, 10);
+    assert_eq!(arena.take(25), 0, "holes beside each other are one");
+    assert_eq!(arena.take(6), 100);
+    arena.give(100, 6);
+    arena.give(60, 40);
+    assert_eq!(arena.end, 60);
+    assert_eq!(arena.take(5), 25);
+}
+
+fn known_adapter(name: &str, kind: AdapterKind) -> Adapter {
+    Adapter { name: name.to_owned(), kind, backend: String::new(), driver: String::new(), largest_buffer: 0 }
+}
+
+fn adapters_are_picked_by_name_and_kind() {
+    let known = [
+        known_adapter("llvmpipe (LLVM 15)", AdapterKind::Software),
+        known_adapter("Radeon 8500", AdapterKind::Discrete),
+        known_adapter("Radeon 9700", AdapterKind::Discrete),
+        known_adapter("Radeon", AdapterKind::Integrated),
+    ];
+    assert_eq!(choose(&known, None), Ok(1));
+    assert_eq!(choose(&known[..1], None), Ok(0));
+    assert_eq!(choose(&known, Some("LLVMpipe")), Ok(0));
+    assert_eq!(choose(&known, Some("9700")), Ok(2));
+    // A full name takes precedence over names that contain it.
+    assert_eq!(choose(&known, Some("radeon")), Ok(3));
+    assert_eq!(choose(&[], None), Err(GpuError::NoAdapter));
+    assert_eq!(choose(&[], Some("x")), Err(GpuError::NoAdapter));
+    assert!(
+        matches!(choose(&known[1..3], Some("radeon")), Err(GpuError::AmbiguousAdapter { found, .. }) if found.len() == 2)
+    );
+    let unknown = choose(&known[..2], Some("voodoo")).err().map(|e| e.to_string());
+    assert_eq!(
+        unknown.as_deref(),
+        Some("no GPU adapter is called `voodoo`; there are: llvmpipe (LLVM 15), Radeon 8500")
+    );
 }

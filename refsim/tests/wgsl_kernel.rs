@@ -1,7 +1,10 @@
-//! The texts of the pixel kernel and of the trace kernel are valid modules.
+//! The texts of the pixel kernel and of the trace kernel are valid modules; images as their words.
 
 use refsim::exec::wgsl::parts::{self, Parts};
+use refsim::exec::wgsl::texture::{image_size, image_words, texel_words, words_to_image};
 use refsim::exec::wgsl::{follow, kernel, program, texture};
+use refsim::num::Format;
+use refsim::texture::{ChannelClass, Image, TexelFormat, TextureError, TextureKind};
 
 fn is_valid(text: &str, entry: &str, size: usize) {
     let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
@@ -33,4 +36,58 @@ fn the_modules_are_valid_with_all_their_parts_and_with_few() {
             assert!(few.len() < all.len() * 2 / 3, "{entry} with {feature}");
         }
     }
+}
+
+#[test]
+fn arms_blocks_and_functions_go_with_their_parts() {
+    let text = "const A: u32 = 1u;\nfn low() {\n}\nfn high() { low(); }\nfn cube() {\n    if (HAS_CUBES) {\n        high();\n    }\n}\n\
+                @compute @workgroup_size(1)\nfn main() {\n    switch op {\n        case N_EXP2, N_SUB: { cube(); } // both\n        \
+                case N_FLOOR: { // one {\n            high();\n        }\n        default: {}\n    }\n}\n";
+    let parts = Parts::default();
+    let found = parts.of(text, "main");
+    assert!(
+        found.ends_with(
+            "const A: u32 = 1u;\nfn cube() {\n}\n@compute @workgroup_size(1)\nfn main() {\n    switch op {\n\
+         case N_SUB: { cube(); } // both\n        default: {}\n    }\n}\n"
+        ),
+        "{found}"
+    );
+    assert!(Parts::all().covers(&parts) && !parts.covers(&Parts::all()));
+    assert!(Parts::all().of(text, "main").contains("high();"));
+}
+
+#[test]
+fn channels_are_what_the_text_takes_them_for() {
+    for &format in TexelFormat::ALL {
+        assert!([1, 2, 4].contains(&texel_words(format)), "{format}");
+        for channel in format.record().stored() {
+            let (low, high) = (channel.shift / 32, (channel.shift + channel.bits - 1) / 32);
+            assert_eq!(low, high, "{format}: a channel crosses a word");
+            match channel.class {
+                ChannelClass::Float(f) => {
+                    assert!([Format::FP16, Format::FP24, Format::FP32].contains(&f), "{format}");
+                    assert!(format.record().is_float(), "{format}: floats and ratios in one texel");
+                }
+                _ => assert!(channel.bits <= 16, "{format}: a ratio of {} bits", channel.bits),
+            }
+        }
+    }
+}
+
+#[test]
+fn words_are_undone_exactly() -> Result<(), TextureError> {
+    for &format in TexelFormat::ALL {
+        let mut image = Image::new(format, TextureKind::Volume, [5, 3, 2], 3)?;
+        for (i, byte) in image.bytes_mut().iter_mut().enumerate() {
+            *byte = (i * 37 + 11) as u8;
+        }
+        let words = image_words(&image);
+        assert_eq!(words.len(), image_size(&image), "{format}");
+        assert_eq!(words[0].to_le_bytes()[0], 11, "{format}");
+        let mut back = Image::new(format, TextureKind::Volume, [5, 3, 2], 3)?;
+        words_to_image(&words, &mut back)?;
+        assert_eq!(back, image, "{format}");
+        assert!(words_to_image(&words[1..], &mut back).is_err());
+    }
+    Ok(())
 }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::circles::room;
-use crate::source::Crate;
+use crate::source::{Crate, SOURCES};
 
 /// In how many rooms a type name may be defined.
 const MAX_ROOMS: usize = 2;
@@ -11,7 +11,7 @@ const MAX_ROOMS: usize = 2;
 #[test]
 fn a_type_name_tells_its_room() {
     let mut rooms: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for folder in ["refsim/src", "src"] {
+    for folder in SOURCES {
         for module in Crate::read(folder).modules.values().filter(|module| !module.is_test) {
             for name in &module.types {
                 rooms.entry(name.clone()).or_default().insert(format!("{folder}/{}", room(&module.file)));

@@ -45,6 +45,9 @@ pub(crate) struct Crate {
 /// as those of one crate.
 const MEMBERS: [&str; 4] = ["base", "ground", "systems", "studies"];
 
+/// The folders of the crates: the lower part of the emulator, the emulator, and the members' sources as one crate.
+pub(crate) const SOURCES: [&str; 3] = ["refsim/lanes/src", "refsim/src", "src"];
+
 pub(crate) fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
@@ -69,11 +72,11 @@ fn read(file: &Path) -> String {
 }
 
 impl Crate {
-    /// The crate whose source is in `refsim/src` or `src`, read once.
+    /// The crate whose source is in one of the [`SOURCES`], read once.
     pub(crate) fn read(folder: &str) -> &'static Self {
-        static EMULATOR: LazyLock<Crate> = LazyLock::new(|| Crate::of_folder("refsim/src"));
-        static SYSTEMS: LazyLock<Crate> = LazyLock::new(|| Crate::of_folder("src"));
-        if folder == "src" { &SYSTEMS } else { &EMULATOR }
+        static CRATES: LazyLock<[Crate; 3]> = LazyLock::new(|| SOURCES.map(Crate::of_folder));
+        let known = SOURCES.iter().position(|source| *source == folder).expect("one of the folders");
+        &CRATES[known]
     }
 
     fn of_folder(folder: &str) -> Self {

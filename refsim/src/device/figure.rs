@@ -206,33 +206,3 @@ impl Section<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn counts(figure: &str) -> Result<Option<String>, &'static str> {
-        let figure: RawFigure = toml::from_str(figure).expect("a figure");
-        Ok(figure.counts()?.map(|counts| counts.to_string()))
-    }
-
-    #[test]
-    fn counts_support_the_value() {
-        let switch = "value = 'cut'\nvalues = ['nearest', 'cut']\nsource = 'x'\nconfidence = ";
-        let with = |rest: &str| counts(&format!("{switch}{rest}"));
-        assert_eq!(with("'measured'"), Ok(None));
-        let whole = "'measured'\nof = 'NV2A'\nall = 52\nright = { cut = 52, nearest = 24 }";
-        assert_eq!(with(whole), Ok(Some("NV2A: cut 52, nearest 24 of 52".to_owned())));
-        for wrong in [
-            whole.replace("of = 'NV2A'\n", ""),
-            whole.replace("all = 52\n", ""),
-            whole.replace("measured", "guess"),
-            whole.replace("cut = 52, ", ""),
-            whole.replace("nearest = 24", "nearest = 52"),
-            whole.replace("all = 52", "all = 51"),
-            whole.replace("nearest = 24", "ceiling = 24"),
-        ] {
-            assert!(with(&wrong).is_err(), "{wrong}");
-        }
-    }
-}

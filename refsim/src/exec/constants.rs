@@ -211,21 +211,3 @@ pub fn delivered_color(rules: &Rules, bits: u32) -> u32 {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// All codes survive the way through single precision, and what lies between two codes goes to the lower one.
-    #[test]
-    fn bytes_are_cut_as_a_driver_cuts_them() {
-        for k in 0..=255_u32 {
-            let code = num::from_ratio(Format::FP32, false, k.into(), 255).bits;
-            assert_eq!(cut_255ths(code), k, "{k}/255");
-            let between = num::from_ratio(Format::FP32, false, u128::from(2 * k + 1), 510).bits;
-            assert_eq!(cut_255ths(between), k, "{k}.5/255");
-            assert_eq!(unorm_steps(code, 255), k);
-        }
-        assert_eq!([0, 1, 0x3f7f_ffff, FP32_ONE, 0x7f80_0000, 0x7fc0_0000].map(cut_255ths), [0, 0, 254, 255, 255, 0]);
-    }
-}

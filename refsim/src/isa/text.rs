@@ -101,19 +101,3 @@ impl Eq for ProgramText {}
 impl std::hash::Hash for ProgramText {
     fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn positions_count_lines_and_characters() {
-        let text = ProgramText::new("\u{feff}ps_1_4\r\nmov r0, µ\n");
-        assert_eq!(text.position(3), Some((1, 1)));
-        assert_eq!(text.position(11), Some((2, 1)));
-        let end = text.as_str().len() as u32;
-        assert_eq!(text.position(end - 1), Some((2, 10)));
-        assert_eq!(text.position(end), Some((3, 1)));
-        assert_eq!(text.position(end + 1), None);
-    }
-}

@@ -130,39 +130,3 @@ fn crossing(inside: &ClipVertex, d_inside: u32, outside: &ClipVertex, d_outside:
         begins_edge,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Adjacent triangles traverse their common edge in opposite directions and must get the same corners.
-    #[test]
-    fn corners_do_not_depend_on_the_direction_of_an_edge() {
-        let mut seed = 1u64;
-        let mut number = |low: f32, high: f32| {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            low + (high - low) * ((seed >> 40) as f32 / 16_777_216.0)
-        };
-        let mut cut = 0;
-        for _ in 0..500 {
-            let [a, b, c] = std::array::from_fn(|_| Vertex {
-                position: [number(-30.0, 30.0), number(-30.0, 30.0), number(-1.0, 2.0), number(-0.5, 3.0)]
-                    .map(f32::to_bits),
-                fog: number(0.0, 1.0).to_bits(),
-                ..Vertex::default()
-            });
-            for space in [ClipSpace::Direct3d, ClipSpace::OpenGl] {
-                let corners = |triangle: [&Vertex; 3]| {
-                    let polygon = clip(triangle, space);
-                    let mut list: Vec<_> = polygon.corners().iter().map(|c| (c.position, c.components)).collect();
-                    list.sort_unstable();
-                    list
-                };
-                let forward = corners([&a, &b, &c]);
-                assert_eq!(forward, corners([&c, &b, &a]));
-                cut += usize::from(forward.len() > 3);
-            }
-        }
-        assert!(cut > 100, "too few triangles were cut to say anything: {cut}");
-    }
-}

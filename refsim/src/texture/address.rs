@@ -128,36 +128,3 @@ pub(crate) fn cube_axes(direction: [u32; 3]) -> (CubeFace, u32, u32, u32) {
         (face, s, flip(y), size(x))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_largest_number_below_one_is_in_the_last_texel() {
-        let below_one = 0x3f7f_ffff;
-        assert_eq!(nearest_index(AddressMode::Clamp, below_one, 2048, 2048), Some(2047));
-        assert_eq!(nearest_index(AddressMode::Wrap, value::ONE, 2048, 2048), Some(0));
-        assert_eq!(nearest_index(AddressMode::Border, value::ONE, 2048, 2048), None);
-        assert_eq!(nearest_index(AddressMode::Mirror, value::ONE, 2048, 2048), Some(2047));
-        assert_eq!(nearest_index(AddressMode::Wrap, 0x8000_0001, 2048, 2048), Some(2047));
-        assert_eq!(nearest_index(AddressMode::Wrap, value::NAN, 2048, 2048), Some(0));
-    }
-
-    #[test]
-    fn texel_centres_have_no_second_tap() {
-        for i in 0..8u32 {
-            let centre = ((i as f32 + 0.5) / 8.0).to_bits();
-            for rounding in [WeightRounding::Nearest, WeightRounding::Cut] {
-                let (taps, weight) = linear_taps(AddressMode::Clamp, centre, 8, 8, 8, rounding);
-                assert_eq!((taps[0], weight), (Some(i), 0));
-            }
-        }
-        let (taps, weight) = linear_taps(AddressMode::Wrap, value::ZERO, 8, 8, 8, WeightRounding::Nearest);
-        assert_eq!((taps, weight), ([Some(7), Some(0)], 128));
-        // Half a step beyond a centre.
-        let beyond = (1.5f32 / 8.0 + 1.0 / 4096.0).to_bits();
-        let weight = |rounding| linear_taps(AddressMode::Clamp, beyond, 8, 8, 8, rounding).1;
-        assert_eq!([WeightRounding::Nearest, WeightRounding::Cut].map(weight), [1, 0]);
-    }
-}

@@ -106,25 +106,3 @@ fn half_log2(bits: u32, fraction_bits: u8) -> u32 {
     }
     value::from_fixed(result >> 1, fraction_bits)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::texture::TexelFormat;
-
-    #[test]
-    fn powers_of_two_are_exact() {
-        let image = Image::new_2d(TexelFormat::L8, 64, 64).unwrap();
-        let lod = |step: f32| {
-            let d = [step.to_bits(), 0, 0, 0];
-            f32::from_bits(lod_from_derivatives(&image, [0; 4], d, [0; 4], 8))
-        };
-        assert_eq!(lod(1.0 / 64.0), 0.0);
-        assert_eq!(lod(4.0 / 64.0), 2.0);
-        assert_eq!(lod(0.5 / 64.0), -1.0);
-        assert_eq!(lod(0.0), -127.0);
-        assert_eq!(lod(f32::NAN), 0.0);
-        // log2(3) = 1.58496..., floored to 1/256.
-        assert_eq!(lod(3.0 / 64.0), 405.0 / 256.0);
-    }
-}

@@ -173,18 +173,3 @@ fn repeated(bits: u32, width: u8) -> u8 {
     let top = (bits << (8 - width)) as u8;
     (0..8).step_by(usize::from(width)).fold(0, |byte, filled| byte | top >> filled)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bits_are_repeated_from_the_highest() {
-        assert_eq!([3, 7, 24, 28].map(|k| repeated(k, 5)), [24, 57, 198, 231]);
-        assert_eq!([11, 12, 63].map(|k| repeated(k, 6)), [44, 48, 255]);
-        assert_eq!([0, 1].map(|k| repeated(k, 1)), [0, 255]);
-        assert_eq!((repeated(0b101, 3), repeated(9, 4), repeated(0x1a5, 8)), (0b1011_0110, 0x99, 0xa5));
-        // Five bits become a signed byte.
-        assert_eq!([15, 16].map(|k| repeated(k, 5).cast_signed()), [123, -124]);
-    }
-}

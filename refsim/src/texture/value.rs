@@ -182,30 +182,3 @@ pub(crate) fn from_fixed(value: i64, bits: u8) -> u32 {
 pub(crate) fn ratio(format: Format, numerator: i64, denominator: u64) -> u32 {
     num::from_ratio(format, numerator < 0, u128::from(numerator.unsigned_abs()), u128::from(denominator)).bits
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn integers_round_as_the_host_does() {
-        let mut value = 1i64;
-        for step in 0..4000i64 {
-            value = value.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(step);
-            let v = value >> (step % 60);
-            assert_eq!(from_integer(v), (v as f32).to_bits(), "{v}");
-        }
-    }
-
-    #[test]
-    fn floors_are_floors() {
-        let bits = |v: f32| v.to_bits();
-        assert_eq!(scaled_floor(bits(-0.25), 4, 0, false), -1);
-        assert_eq!(scaled_floor(bits(-0.26), 4, 0, false), -2);
-        assert_eq!(scaled_floor(bits(0.999), 4, 0, false), 3);
-        assert_eq!(scaled_floor(bits(0.125), 4, 0, true), 1);
-        assert_eq!(scaled_floor(bits(-1e-40), 2048, 8, false), -1);
-        assert_eq!(scaled_floor(bits(1e-40), 2048, 8, true), 0);
-        assert_eq!(scaled_floor(bits(f32::MAX), 2048, 8, true), 1 << 62);
-    }
-}

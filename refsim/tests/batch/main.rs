@@ -7,5 +7,7 @@ mod environment;
 mod guarded_rows;
 mod lanes;
 mod large_textures;
+mod log_table;
+mod pieces;
 #[path = "../common/random.rs"]
 mod random;

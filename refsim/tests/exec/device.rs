@@ -243,3 +243,35 @@ fn variants_differ_from_their_card_in_rates_alone() {
         assert!(differ.iter().all(|key| key.starts_with("rates.")), "{name}: {differ:?}");
     }
 }
+
+const NV20: &str = include_str!("../../src/device/profiles/nv20.toml");
+const NV30: &str = include_str!("../../src/device/profiles/nv30.toml");
+
+#[test]
+fn clocks_are_of_instructions() {
+    let slip = NV30.replace("\nrsq = {", "\nrqs = {");
+    let error = Profile::from_toml("nv30", &slip).expect_err("no instruction").to_string();
+    assert!(error.contains("clocks.rqs: no such instruction; expected one of ") && error.contains(" rsq "), "{error}");
+}
+
+#[test]
+fn counts_of_a_measured_figure_support_its_value() {
+    let whole = r#""measured", of = "NV2A", all = 52, right = { 4 = 52, 8 = 16 }"#;
+    assert!(NV20.contains(whole));
+    let figures = Profile::from_toml("nv20", NV20).expect("a card").figures();
+    let counted = figures.iter().find(|row| row.key.ends_with("subpixel-bits")).and_then(|row| row.counts.as_ref());
+    assert_eq!(counted.map(ToString::to_string).as_deref(), Some("NV2A: 4 52, 8 16 of 52"));
+    let wrong = |problem: &str, figure: &str| {
+        let error = Profile::from_toml("nv20", &NV20.replace(whole, figure)).expect_err(figure).to_string();
+        assert!(error.contains("subpixel-bits") && error.contains(problem), "{figure}: {error}");
+    };
+    assert!(Profile::from_toml("nv20", &NV20.replace(whole, r#""measured""#)).is_ok());
+    for part in [r#" of = "NV2A","#, " all = 52,"] {
+        wrong("counts consist of `of`, `all` and `right`", &whole.replace(part, ""));
+    }
+    wrong("only a measured figure has counts", &whole.replace("measured", "guess"));
+    for (from, to) in [("4 = 52, ", ""), ("8 = 16", "8 = 52"), ("all = 52", "all = 51")] {
+        wrong("the value must predict more than another hypothesis", &whole.replace(from, to));
+    }
+    wrong("every value of the switch", &whole.replace("8 = 16", "7 = 16"));
+}

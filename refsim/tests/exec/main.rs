@@ -19,3 +19,4 @@ mod rules;
 mod running;
 mod step_budget;
 mod storage_formats;
+mod vertex_cache;

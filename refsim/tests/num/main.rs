@@ -9,11 +9,13 @@
 //! | `normalized` | sums, products, conversions of `n3.8` and the like with their definition |
 //! | `small` | every operation of every format of at most 6 bits with exact rational arithmetic |
 //! | `transcendental` | `exp2` and `log2` with series and roots of their own |
+//! | `enclosures` | enclosures of transcendental functions with finer ones |
 //! | `tables` | short floats, scales and MX blocks with ml_dtypes and gfloat |
 //! | `laws` | what must hold for all formats and values |
 //!
 //! By default each test covers a sample of its range; `CROSSBAR_FULL=1` covers everything.
 
+mod enclosures;
 #[path = "../common/environment.rs"]
 mod environment;
 mod fixed;

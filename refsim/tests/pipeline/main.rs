@@ -4,4 +4,6 @@ mod output;
 #[path = "../common/random.rs"]
 mod random;
 mod raster;
+#[path = "../common/sampling.rs"]
+mod sampling;
 mod texture;

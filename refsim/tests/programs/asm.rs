@@ -3,8 +3,8 @@
 use miette::Diagnostic as _;
 use refsim::asm::{AssembleErrors, ErrorKind, assemble, print};
 use refsim::isa::{
-    Comparison, ConstantValue, Modifier, Opcode, Program, Register, RegisterFile, Relative, Span, Swizzle, Usage,
-    Version,
+    Comparison, ConstantValue, Modifier, Opcode, Program, ProgramText, Register, RegisterFile, Relative, Span, Swizzle,
+    Usage, Version,
 };
 use std::{collections::BTreeSet, fmt::Write as _, fs, path::PathBuf};
 
@@ -300,4 +300,15 @@ fn canonical_text() {
     let want = "ps_1_4\ndef c0, 1, -0.5, 1e10, 1e-6\ntexcrd r0.xy, t0_dw.xyw\nphase\nmad_x2_sat r0, 1-r0, -c0_bias.w, r1.xy\n+mov r0.w, v0\n";
     assert_eq!(print(&good(text)), want);
     assert_eq!(good(want).instructions[2].sources[1].swizzle, Swizzle::replicate(3));
+}
+
+#[test]
+fn positions_count_lines_and_characters() {
+    let text = ProgramText::new("\u{feff}ps_1_4\r\nmov r0, µ\n");
+    assert_eq!(text.position(3), Some((1, 1)));
+    assert_eq!(text.position(11), Some((2, 1)));
+    let end = text.as_str().len() as u32;
+    assert_eq!(text.position(end - 1), Some((2, 10)));
+    assert_eq!(text.position(end), Some((3, 1)));
+    assert_eq!(text.position(end + 1), None);
 }

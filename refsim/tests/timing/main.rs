@@ -6,3 +6,4 @@ mod model;
 mod queue;
 #[path = "../common/running.rs"]
 mod running;
+mod units;

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::lanes::SimdLevel;
+use refsim_lanes::SimdLevel;
+
 use super::run::TextureTables;
 use super::tile::{BatchTiles, PixelPrograms};
 use super::vertex::{BatchVertices, VertexPrograms};

@@ -1,8 +1,8 @@
 //! The batch executor: executes programs on whole tiles of fragments with the host's SIMD instructions. Bit-identical
 //! to [`super::scalar`], with which it shares no arithmetic; tested by `tests/agree` and `refsim/tests/batch/lanes.rs`.
 //!
-//! - `lanes`: arithmetic of number formats. `schedule`: schedules the graph of `super::lower` as steps. `run`: executes
-//!   steps on rows.
+//! - The package `refsim-lanes`: arithmetic of number formats, on rows. `formats`: those of a program. `schedule`:
+//!   schedules the graph of `super::lower` as steps. `run`: executes steps on rows.
 //! - `vertex`: attributes to triangles. `tile`: triangles to targets.
 //! - `cache`: caches of decoded data; [`BatchExecutor`]: their owner.
 //!
@@ -11,14 +11,13 @@
 
 mod cache;
 mod executor;
-mod lanes;
+mod formats;
 mod run;
 mod schedule;
 mod tile;
 mod vertex;
 
 pub use executor::BatchExecutor;
-pub use lanes::{SimdLevel, convert, evaluate, exact_dot};
-pub use run::ArrayOperation;
+pub use refsim_lanes::{ArrayOperation, SimdLevel, convert, evaluate, exact_dot};
 pub use tile::{BatchTiles, TileRound};
 pub use vertex::{AttributeRows, BatchVertices, Instances, Surfaces, VertexRows};

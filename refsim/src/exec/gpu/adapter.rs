@@ -84,7 +84,9 @@ pub(super) fn pick(asked: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
     all.into_iter().nth(chosen).ok_or(GpuError::NoAdapter)
 }
 
-fn choose(known: &[Adapter], asked: Option<&str>) -> Result<usize, GpuError> {
+/// The choice of [`Gpu::open`](super::Gpu::open) among known adapters: its index.
+#[doc(hidden)] // Public for its test: no host has these adapters.
+pub fn choose(known: &[Adapter], asked: Option<&str>) -> Result<usize, GpuError> {
     let rank = |kind| match kind {
         AdapterKind::Discrete => 0,
         AdapterKind::Integrated | AdapterKind::Virtual => 1,
@@ -109,40 +111,5 @@ fn choose(known: &[Adapter], asked: Option<&str>) -> Result<usize, GpuError> {
             Err(GpuError::UnknownAdapter { asked: asked.to_owned(), found: names(&everybody) })
         }
         _ => Err(GpuError::AmbiguousAdapter { asked: asked.to_owned(), found: names(&fitting) }),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn adapter(name: &str, kind: AdapterKind) -> Adapter {
-        Adapter { name: name.to_owned(), kind, backend: String::new(), driver: String::new(), largest_buffer: 0 }
-    }
-
-    #[test]
-    fn adapters_are_picked_by_name_and_kind() {
-        let known = [
-            adapter("llvmpipe (LLVM 15)", AdapterKind::Software),
-            adapter("Radeon 8500", AdapterKind::Discrete),
-            adapter("Radeon 9700", AdapterKind::Discrete),
-            adapter("Radeon", AdapterKind::Integrated),
-        ];
-        assert_eq!(choose(&known, None), Ok(1));
-        assert_eq!(choose(&known[..1], None), Ok(0));
-        assert_eq!(choose(&known, Some("LLVMpipe")), Ok(0));
-        assert_eq!(choose(&known, Some("9700")), Ok(2));
-        // A full name takes precedence over names that contain it.
-        assert_eq!(choose(&known, Some("radeon")), Ok(3));
-        assert_eq!(choose(&[], None), Err(GpuError::NoAdapter));
-        assert_eq!(choose(&[], Some("x")), Err(GpuError::NoAdapter));
-        assert!(
-            matches!(choose(&known[1..3], Some("radeon")), Err(GpuError::AmbiguousAdapter { found, .. }) if found.len() == 2)
-        );
-        let unknown = choose(&known[..2], Some("voodoo")).err().map(|e| e.to_string());
-        assert_eq!(
-            unknown.as_deref(),
-            Some("no GPU adapter is called `voodoo`; there are: llvmpipe (LLVM 15), Radeon 8500")
-        );
     }
 }

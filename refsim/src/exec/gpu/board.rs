@@ -1,5 +1,6 @@
 //! GPU memory of an emulated card: one buffer for textures, targets and depth buffers, and the buffers of a draw.
 
+use super::arena::Arena;
 use super::{Access, Buffer, Gpu, GpuError, Pipeline};
 use std::sync::Arc;
 
@@ -192,68 +193,5 @@ impl Board {
     /// [`GpuError::Device`].
     pub fn counts(&self, words: usize) -> Result<Vec<u32>, GpuError> {
         self.gpu.read(&self.counts.buffer, 0..words)
-    }
-}
-
-/// Allocator of words in `video`.
-#[derive(Debug, Default)]
-struct Arena {
-    /// End of the allocated range.
-    end: usize,
-    /// Free ranges below it in ascending order: first word, length.
-    holes: Vec<(usize, usize)>,
-}
-
-impl Arena {
-    fn take(&mut self, words: usize) -> usize {
-        if let Some(i) = self.holes.iter().position(|hole| hole.1 >= words) {
-            let (base, length) = self.holes[i];
-            if length == words {
-                self.holes.remove(i);
-            } else {
-                self.holes[i] = (base + words, length - words);
-            }
-            return base;
-        }
-        let base = self.end;
-        self.end += words;
-        base
-    }
-
-    fn give(&mut self, base: usize, words: usize) {
-        let i = self.holes.partition_point(|hole| hole.0 < base);
-        self.holes.insert(i, (base, words));
-        // Merges adjacent holes; a hole at the end is removed.
-        let mut merged: Vec<(usize, usize)> = Vec::with_capacity(self.holes.len());
-        for &(base, words) in &self.holes {
-            match merged.last_mut() {
-                Some(last) if last.0 + last.1 == base => last.1 += words,
-                _ => merged.push((base, words)),
-            }
-        }
-        if merged.last().is_some_and(|last| last.0 + last.1 == self.end) {
-            self.end = merged.pop().map_or(self.end, |last| last.0);
-        }
-        self.holes = merged;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn room_is_used_again() {
-        let mut arena = Arena::default();
-        let places = [10, 20, 30, 40].map(|words| arena.take(words));
-        assert_eq!(places, [0, 10, 30, 60]);
-        arena.give(10, 20);
-        arena.give(0, 10);
-        assert_eq!(arena.take(25), 0, "holes beside each other are one");
-        assert_eq!(arena.take(6), 100);
-        arena.give(100, 6);
-        arena.give(60, 40);
-        assert_eq!(arena.end, 60);
-        assert_eq!(arena.take(5), 25);
     }
 }

@@ -9,11 +9,14 @@
 //! words.
 
 mod adapter;
+mod arena;
 mod board;
 mod error;
 mod opened;
 pub mod testing;
 
+#[doc(hidden)]
+pub use adapter::choose;
 pub use adapter::{Adapter, AdapterKind, adapters};
 pub use board::{BINDINGS, Board, LoadedProgram};
 pub use error::GpuError;

@@ -1,7 +1,8 @@
 //! Arithmetic as graph nodes, under the rules of a device.
 
+use refsim_lanes::TRUE;
+
 use super::formats::Formats;
-use super::graph::TRUE;
 use super::graph::{Arith, Graph, NodeId, NodeKind};
 use crate::device::{LrpMode, MadMode, PRODUCTS, Rules};
 use crate::isa::Version;

@@ -3,7 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::graph::{Arith, NodeId, NodeKind, Slot};
+use refsim_lanes::Slot;
+
+use super::graph::{Arith, NodeId, NodeKind};
 use super::program::translate_instruction;
 use super::translate::{Effect, RegisterComponent, Translator};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};

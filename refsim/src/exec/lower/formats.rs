@@ -1,7 +1,12 @@
-//! Number formats of a program, and the executors' raw representation of numbers.
+//! Number formats of a program, and the raw representation of numbers in `batch` and `wgsl`.
+//!
+//! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32
+//! pattern of the same number, which exists for every format of registers ([`Format::for_registers`]); NaN is always
+//! `0x7fc0_0000`.
+
+use refsim_lanes::AnyLane;
 
 use super::graph::{Arith, NAMED_FORMATS};
-use super::raw;
 use crate::device::{PRODUCTS, Rules};
 use crate::exec::FragmentFormats;
 use crate::isa::Program;
@@ -59,12 +64,12 @@ impl Formats {
 
     /// Converts a bit pattern to a raw value.
     pub(crate) fn decode(&self, arith: Arith, bits: u32) -> u32 {
-        raw::decode(&self.format(arith), bits)
+        AnyLane::new(self.format(arith)).decode(bits)
     }
 
     /// Converts a raw value to a bit pattern.
     pub(crate) fn encode(&self, arith: Arith, raw: u32) -> u32 {
-        raw::encode(&self.format(arith), raw)
+        AnyLane::new(self.format(arith)).encode(raw)
     }
 
     /// Evaluates the comparison `operation` (`a < b`, `a <= b` or `a == b`) on raw values.

@@ -1,8 +1,9 @@
 //! OpenGL fragment programs as graph nodes: three precisions, condition codes, packing. The scalar executor's
 //! `fragment` documents the instructions.
 
+use refsim_lanes::TRUE;
+
 use super::arith::NodeVector;
-use super::graph::TRUE;
 use super::graph::{Arith, Detail, NodeId, NodeKind};
 use super::translate::{CodeNodes, Effect, Translator};
 use crate::isa::{

@@ -3,14 +3,11 @@
 //! Equal computations share a node, and unused nodes are never scheduled: masked components, repeated `dp3` results and
 //! moves cost nothing at run time.
 
-use crate::num::NumberOperation as Op;
 use std::collections::BTreeMap;
 
-/// Index of a slot, in which an executor stores a value for all its lanes.
-pub(in crate::exec) type Slot = u16;
+use refsim_lanes::Slot;
 
-/// Value of a mask that is true.
-pub(in crate::exec) const TRUE: u32 = u32::MAX;
+use crate::num::NumberOperation as Op;
 
 /// A value of the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

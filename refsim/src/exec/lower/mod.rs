@@ -4,7 +4,6 @@
 //! - [`Graph`]: values computed by [`crate::num::NumberOperation`]s; [`Formats`]: their number formats.
 //! - `arith`, `macros`, `translate`, `translate_texture`, `fragment`: translation of instructions to nodes.
 //! - `program`, `flow`: translation of programs without and with flow control.
-//! - `raw`: representation of numbers in the executors.
 
 mod arith;
 mod flow;
@@ -13,14 +12,13 @@ mod fragment;
 mod graph;
 mod macros;
 mod program;
-mod raw;
 mod translate;
 mod translate_texture;
 
 pub(super) use flow::{ACTIVE, COUNTER, DECIDED, KILLED, MaskedInstruction, MaskedProgram};
 pub(super) use formats::Formats;
 pub(super) use fragment::of_file;
-pub(super) use graph::{Arith, Detail, Graph, NodeId, NodeKind, Slot, TRUE};
+pub(super) use graph::{Arith, Detail, Graph, NodeId, NodeKind};
 pub(super) use program::{Ends, has_flow, translate_straight, translate_straight_vertex};
-pub(super) use raw::{FloatLayout, pow2};
+pub(super) use refsim_lanes::{Slot, TRUE};
 pub(super) use translate::{CONSTANT_INPUTS, Effect, RegisterComponent, Translator};

@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use refsim_lanes::{Slot, TRUE};
+
 use super::arith::{GraphBuilder, NodeVector};
 use super::formats::Formats;
 use super::graph::{Arith, NodeId, NodeKind};
-use super::graph::{Slot, TRUE};
 use crate::device::{ColorIterator, ResultRange, Rules, Storage};
 use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{

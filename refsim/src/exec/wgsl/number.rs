@@ -5,26 +5,6 @@
 
 use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials};
 
-/// Names of the operations in shaders. Values are raw; comparisons return masks.
-impl NumberOperation {
-    /// Number of the operation in shaders.
-    pub const fn word(self) -> u32 {
-        self as u32
-    }
-
-    /// Name of the operation's constant in shaders: `N_` and its name in capitals.
-    pub fn constant(self) -> String {
-        let mut name = String::from("N");
-        for (i, c) in format!("{self:?}").chars().enumerate() {
-            if c.is_ascii_uppercase() || i == 0 {
-                name.push('_');
-            }
-            name.push(c.to_ascii_uppercase());
-        }
-        name
-    }
-}
-
 /// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
 /// rounding, overflow, denormals, special values, and the denominator of a normalized format, else 0. Shaders take a
 /// normalized format for one of fixed point without fraction bits, whose numbers are divided by the denominator.

@@ -237,26 +237,3 @@ fn reachable(text: &str, entry: &str) -> String {
         .map(|(_, text)| text.as_str())
         .collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arms_blocks_and_functions_go_with_their_parts() {
-        let text = "const A: u32 = 1u;\nfn low() {\n}\nfn high() { low(); }\nfn cube() {\n    if (HAS_CUBES) {\n        high();\n    }\n}\n\
-                    @compute @workgroup_size(1)\nfn main() {\n    switch op {\n        case N_ADD, N_SUB: { cube(); } // both\n        \
-                    case N_MUL: { // one {\n            high();\n        }\n        default: {}\n    }\n}\n";
-        let parts = Parts(BTreeSet::from(["N_SUB".to_owned()]));
-        let found = parts.of(text, "main");
-        assert!(
-            found.ends_with(
-                "const A: u32 = 1u;\nfn cube() {\n}\n@compute @workgroup_size(1)\nfn main() {\n    switch op {\n\
-             case N_SUB: { cube(); } // both\n        default: {}\n    }\n}\n"
-            ),
-            "{found}"
-        );
-        assert!(Parts::all().covers(&parts) && !parts.covers(&Parts::all()));
-        assert!(Parts::all().of(text, "main").contains("high();"));
-    }
-}

@@ -53,8 +53,9 @@ fn coordinate() -> impl Strategy<Value = f32> {
         -4.0f32..4.0,
         (-64i32..64, 1u32..2048).prop_map(|(i, n)| i as f32 / n as f32),
         -1e-3f32..1e-3,
+        (0i32..64, 1u32..64).prop_map(|(i, n)| (i as f32 + 0.5) / n as f32),
         prop::num::f32::SUBNORMAL,
-        Just(-0.0),
+        prop::sample::select(vec![-0.0, f32::from_bits(0x8000_0001), 1.0 - f32::EPSILON / 2.0, 1.0]),
     ]
 }
 
@@ -82,14 +83,18 @@ proptest! {
         }
     }
 
-    /// Coordinates of any magnitude wrap as in exact arithmetic.
+    /// Coordinates of any magnitude go where exact arithmetic has them.
     #[test]
-    fn huge_coordinates_wrap_exactly(bits in any::<u32>(), n in 1u32..5000) {
+    fn huge_coordinates_are_addressed_exactly(bits in any::<u32>(), n in 1u32..5000) {
         let u = f32::from_bits(bits);
         prop_assume!(u.is_finite());
         let p = position(u, n, 1, 0);
         let fold = |p: &BigInt, m: i64| i64::try_from(((p % m) + m) % m).unwrap();
         prop_assert_eq!(nearest_index(AddressMode::Wrap, bits, n, n), Some(fold(&p, i64::from(n)) as u32));
+        let clamped = p.clone().clamp(BigInt::from(0), BigInt::from(n - 1));
+        let outside = p != clamped;
+        prop_assert_eq!(nearest_index(AddressMode::Clamp, bits, n, n), Some(u32::try_from(clamped).unwrap()));
+        prop_assert_eq!(nearest_index(AddressMode::Border, bits, n, n).is_none(), outside);
         prop_assert_eq!(nearest_index(AddressMode::Mirror, bits, n, n), naive(AddressMode::Mirror, fold(&p, 2 * i64::from(n)), i64::from(n)));
     }
 }
@@ -110,6 +115,7 @@ fn rectangles_are_addressed_in_texels() {
     for (u, index) in [(0.0f32, 0), (0.99, 0), (1.0, 1), (6.5, 6), (7.0, 6), (-3.0, 0)] {
         assert_eq!(nearest_index(AddressMode::Clamp, u.to_bits(), 7, 1), Some(index), "{u}");
     }
+    assert_eq!(nearest_index(AddressMode::Wrap, f32::NAN.to_bits(), 2048, 2048), Some(0));
 }
 
 /// The Direct3D table: for each face the direction of its centre, of increasing u and of increasing v.

@@ -56,3 +56,9 @@ fn float_texels_come_back_as_they_were_stored() {
         }
     }
 }
+
+#[test]
+fn formats_have_names_of_direct3d_too() {
+    assert_eq!(TexelFormat::named("D3DFMT_A8R8G8B8"), Some(TexelFormat::Bgra8));
+    assert_eq!(TexelFormat::named(""), None);
+}

@@ -4,7 +4,9 @@
 mod addressing;
 mod decoding;
 mod filtering;
+mod layout;
 mod mipmaps;
+mod pixels;
 mod rational;
 mod robust;
 mod storing;

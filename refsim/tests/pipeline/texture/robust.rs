@@ -3,24 +3,11 @@
 use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{
-    AddressMode, BorderStorage, Filter, FilterArithmetic, Image, Lod, MipFilter, MissingChannels, SampleRules,
-    SamplerState, SignedTexelMinimum, TexelFormat, TexelValues, TextureKind, WeightRounding, lod_from_derivatives,
-    sample,
+    AddressMode, Filter, Image, Lod, MipFilter, SampleRules, SamplerState, SignedTexelMinimum, TexelFormat,
+    TextureKind, lod_from_derivatives, sample,
 };
 
-/// The sampling rules with two values each, chosen by the bits of a number.
-fn switched(number: u32) -> (WeightRounding, FilterArithmetic, TexelValues, MissingChannels, BorderStorage) {
-    fn of<T: Copy>(all: &[T], bit: u32) -> T {
-        all[bit as usize & 1]
-    }
-    (
-        of(WeightRounding::ALL, number),
-        of(FilterArithmetic::ALL, number >> 1),
-        of(TexelValues::ALL, number >> 2),
-        of(MissingChannels::ALL, number >> 3),
-        of(BorderStorage::ALL, number >> 4),
-    )
-}
+use crate::sampling::switched;
 
 fn mode() -> impl Strategy<Value = AddressMode> {
     prop::sample::select(&super::addressing::MODES[..])

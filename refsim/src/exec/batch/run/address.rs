@@ -1,7 +1,8 @@
 //! Texture addressing in rows: converts coordinates to texel indices and filter weights, in double precision, in which
 //! every step is exact.
 
-use crate::exec::batch::lanes::{LANES, LaneRow};
+use refsim_lanes::{LANES, LaneRow};
+
 use crate::texture::{AddressMode, WeightRounding};
 
 /// Coordinates from here on are even integers that address alike, so they are clamped to it.

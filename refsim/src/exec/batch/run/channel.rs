@@ -1,29 +1,25 @@
 //! Conversion of texel channels to lane values.
 
-use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, odd, with_any_lane};
+use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel, div_odd_long};
+
 use crate::num::Format;
 use crate::texture::{Channel, ChannelValue};
 
 /// Divides doubles by an integer below 2^24 and rounds to the format.
-#[inline(always)]
-pub(crate) fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut LaneRow) {
+pub(crate) fn ratios(lane: &AnyLane, simd: SimdLevel, values: &[f64; LANES], divisor: f64, out: &mut LaneRow) {
     if divisor == 1.0 {
-        for i in 0..LANES {
-            out[i] = L::store(lane.round_f64(values[i]));
-        }
-    } else {
-        for i in 0..LANES {
-            out[i] = L::store(lane.round_f64(odd::div_odd_long(values[i], divisor)));
-        }
+        return lane.round_row(simd, values, out);
     }
-}
-
-/// Rounds singles to the format.
-#[inline(always)]
-pub(crate) fn singles<L: Lane>(lane: &L, values: &LaneRow, out: &mut LaneRow) {
-    for i in 0..LANES {
-        out[i] = L::store(lane.round_single(f32::from_bits(values[i])));
-    }
+    let mut quotients = [0.0; LANES];
+    simd.run(
+        #[inline(always)]
+        || {
+            for i in 0..LANES {
+                quotients[i] = div_odd_long(values[i], divisor);
+            }
+        },
+    );
+    lane.round_row(simd, &quotients, out);
 }
 
 /// Converts a half-precision pattern to single precision; exact, including subnormals.
@@ -59,16 +55,12 @@ pub(crate) fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
 
 /// Converts a channel's value to the register format, as a raw value.
 pub(crate) fn channel_in_slot(channel: ChannelValue, format: Format, lane: &AnyLane) -> u32 {
-    fn rounded<L: Lane>(lane: &L, x: f64) -> u32 {
-        L::store(lane.round_f64(x))
-    }
     match channel {
         // Both below 2^24: one division, rounded to odd.
         ChannelValue::Ratio { numerator, denominator }
             if numerator.unsigned_abs() < 1 << 24 && denominator < 1 << 24 =>
         {
-            let x = odd::div_odd_long(numerator as f64, f64::from(denominator));
-            with_any_lane!(lane, |lane| { rounded(lane, x) })
+            lane.round(div_odd_long(numerator as f64, f64::from(denominator)))
         }
         _ => lane.decode(channel.to_format(format)),
     }

@@ -1,7 +1,8 @@
 //! Sources of the components of a filtered read, and their values before the filter.
 
+use refsim_lanes::AnyLane;
+
 use super::channel::{channel_in_slot, channel_of};
-use crate::exec::batch::lanes::AnyLane;
 use crate::num::Format;
 use crate::texture::{
     AddressMode, Channel, ChannelValue, FilterArithmetic, SampleRules, SampledComponent, SampledSource, SamplerState,

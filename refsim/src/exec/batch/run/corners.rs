@@ -1,7 +1,8 @@
 //! Linear filtering: texels at the corners of a cell, their weights, weighted sums and interpolation.
 
+use refsim_lanes::{LANES, LaneRow};
+
 use super::address::AxisTaps;
-use crate::exec::batch::lanes::{LANES, LaneRow};
 
 /// Index of the border texel.
 pub(super) const BORDER: u32 = u32::MAX;

@@ -4,69 +4,14 @@
 //! [`crate::texture::lod_from_derivatives`] defines. The logarithm is the exponent plus a table lookup by the leading
 //! bits of the fraction.
 
-use super::slots::Slots;
-use crate::exec::batch::lanes::{LANES, LaneRow, SimdLevel};
+use refsim_lanes::{LANES, LaneRow, SimdLevel, Slots};
+
+use super::log_table::LogTable;
 use crate::exec::batch::schedule::{FetchDetail, FetchStep};
 use crate::texture::{Filter, Image, MipFilter, SampleRules, SamplerState, TextureKind};
 
-/// Fraction bits of a single.
-const FRACTION: u32 = 23;
-/// Leading fraction bits that index the table. Intervals are narrower than the steps of 2^(1/256), so that none
-/// contains two.
-const LEADING: u32 = 9;
 /// Maximum magnitude of a level of detail, in levels.
 const FARTHEST: i32 = 128;
-
-/// Table of `floor(2^bits log2 m)` for significands `m` from 1 to 2.
-#[derive(Debug)]
-struct LogTable {
-    bits: u8,
-    /// By leading bits of the fraction: the value at the start of the interval, and the fraction at which it increases
-    /// by one.
-    entries: Vec<(i32, u32)>,
-}
-
-impl LogTable {
-    /// Creates the table for `bits` fraction bits, at most 8.
-    ///
-    /// The fraction at which the logarithm reaches `k 2^-bits` is rounded up from a product of at most eight roots of
-    /// 2, in double precision. Its error is less than 2^-24 units in the last place of a single, and none of the 255
-    /// numbers `2^(k/256)` is closer to a single than 2^-16 units.
-    fn new(bits: u8) -> Self {
-        let one = f64::from(1u32 << FRACTION);
-        let steps = 1i32 << bits;
-        let reached = |k: i32| {
-            let (mut root, mut power) = (2.0_f64, one);
-            for bit in (0..bits).rev() {
-                root = root.sqrt();
-                power *= if k >> bit & 1 == 1 { root } else { 1.0 };
-            }
-            power.ceil() as u32 - (1 << FRACTION)
-        };
-        let thresholds: Vec<u32> = (1..steps).map(reached).collect();
-        let entry = |leading: u32| {
-            let first = leading << (FRACTION - LEADING);
-            let value = thresholds.partition_point(|&threshold| threshold <= first);
-            ((value as u32).cast_signed(), thresholds.get(value).copied().unwrap_or(u32::MAX))
-        };
-        Self { bits, entries: (0..1 << LEADING).map(entry).collect() }
-    }
-
-    /// Computes log2(x) / 2 of a non-negative single, rounded down to the table's bits.
-    #[inline(always)]
-    fn half_log2(&self, x: f32) -> f32 {
-        // Subnormal singles are normal doubles.
-        let bits = f64::from(x).to_bits();
-        let fraction = (bits >> (52 - FRACTION)) as u32 & ((1 << FRACTION) - 1);
-        let (value, threshold) = self.entries[(fraction >> (FRACTION - LEADING)) as usize & ((1 << LEADING) - 1)];
-        let exponent = (bits >> 52) as i32 - 1023;
-        let whole = (exponent << self.bits) + value + i32::from(fraction >= threshold);
-        let finite = (whole >> 1) as f32 * (1.0 / (1u32 << self.bits) as f32);
-        let large = if x == f32::INFINITY { 127.0 } else { finite };
-        let some = if x == 0.0 { -127.0 } else { large };
-        if x.is_nan() { 0.0 } else { some }
-    }
-}
 
 /// Parameters of level selection of a sampler.
 #[derive(Debug)]
@@ -201,48 +146,5 @@ fn add_difference(coordinate: &LaneRow, bit: usize, scale: f32, begins: bool, su
         let across = f32::from_bits(coordinate[i | bit]) - f32::from_bits(coordinate[i & !bit]);
         let texels = across * scale;
         sum[i] = if begins { texels * texels } else { sum[i] + texels * texels };
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::texture::{TexelFormat, lod_from_derivatives};
-
-    /// Compares with `texture`: derivatives of every magnitude, along the single axis of a one-texel texture. Squares
-    /// of singles cover few singles; the next test covers every significand.
-    #[test]
-    fn levels_are_those_of_the_texture_room() {
-        let image = Image::new(TexelFormat::L8, TextureKind::D1, [1, 1, 1], 1).unwrap();
-        for bits in 0..=8 {
-            let table = LogTable::new(bits);
-            for pattern in (0..=0x7f80_0001u32).step_by(9973).chain([0, 1, 0x7f7f_ffff, 0x7f80_0000, 0x7fc0_0000]) {
-                let expected = lod_from_derivatives(&image, [0; 4], [pattern, 0, 0, 0], [0; 4], bits);
-                let length = f32::from_bits(pattern);
-                assert_eq!(table.half_log2(length * length).to_bits(), expected, "{pattern:#x}, {bits} bits");
-            }
-        }
-    }
-
-    /// Compares with squaring in integers with 62 bits kept, for all significands (one in eleven in the short form).
-    #[test]
-    fn every_significand_has_its_logarithm() {
-        let step = if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { 11 };
-        let table = LogTable::new(8);
-        for fraction in (0..1u32 << FRACTION).step_by(step) {
-            let mut mantissa = u128::from(fraction | 1 << FRACTION) << (62 - FRACTION);
-            let mut expected = 0;
-            for _ in 0..8 {
-                mantissa = (mantissa * mantissa) >> 62;
-                let carry = mantissa >> 63;
-                mantissa >>= carry;
-                expected = 2 * expected + carry as i32;
-            }
-            for exponent in [0, 1] {
-                let x = f32::from_bits(fraction | (127 + exponent) << FRACTION);
-                let found = table.half_log2(x) * 256.0;
-                assert_eq!(found as i32, (expected + (exponent << 8).cast_signed()) >> 1, "{x}");
-            }
-        }
     }
 }

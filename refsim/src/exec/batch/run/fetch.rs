@@ -4,14 +4,15 @@
 
 use std::sync::Arc;
 
+use refsim_lanes::{AnyLane, LANES, LaneRow, Slots};
+
 use super::filter::FilteredLevel;
 use super::leveled::LeveledTexture;
-use super::slots::Slots;
 use super::stored::Stored;
 use super::table::TexelTable;
 use crate::exec::SamplerBinding;
 use crate::exec::batch::cache::Cache;
-use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::{FetchDetail, FetchStep};
 use crate::exec::lower::Arith;
 use crate::num::{Format, ops};

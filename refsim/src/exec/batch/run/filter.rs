@@ -6,14 +6,15 @@
 
 use std::sync::OnceLock;
 
+use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel, Slots};
+
 use super::address::{AxisTaps, TexelAxis, Weights, cube, linear};
 use super::channel::{channel_in_slot, channel_of, pays_by_code, ratios};
 use super::component::FilteredComponent;
 use super::corners::{BORDER, add_weighted, combine, combine_bytes, corner_numbers, corner_weights};
-use super::slots::Slots;
 use super::table::MAX_TABLE_TEXELS;
 use crate::exec::SamplerBinding;
-use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel, with_any_lane};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::FetchStep;
 use crate::exec::lower::Arith;
 use crate::texture::{
@@ -208,13 +209,7 @@ impl FilteredLevel {
                 FilteredComponent::Ratio(_, denominator) => denominator,
                 FilteredComponent::Single(_) => 1.0,
             };
-            let (row, out) = (&rows[c], slots.row_mut(to));
-            with_any_lane!(lane, |lane| {
-                simd.run(
-                    #[inline(always)]
-                    || ratios(lane, row, divisor, out),
-                )
-            });
+            ratios(lane, simd, &rows[c], divisor, slots.row_mut(to));
         }
     }
 

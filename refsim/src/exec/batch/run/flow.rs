@@ -1,9 +1,9 @@
 //! Execution of a program with flow control: mask of active lanes, and the current instruction.
 
-use super::slots::Slots;
+use refsim_lanes::{LANES, LaneRow, Slots};
+
 use super::steps::{Surroundings, run_steps};
 use crate::event::SAMPLERS;
-use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::exec::batch::schedule::{FlowPlan, PlannedInstruction};
 use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::exec::lower::{ACTIVE, COUNTER, DECIDED, KILLED, TRUE};
@@ -100,7 +100,7 @@ impl<'p> FlowRun<'p> {
                 run_steps(&instruction.block.steps, self.around, self.run, slots);
                 // Swapping rows avoids copying them.
                 for (&root, &to) in instruction.block.roots.iter().zip(&instruction.to) {
-                    slots.rows.swap(root.into(), to.into());
+                    slots.swap(root, to);
                 }
             }
             at += 1;

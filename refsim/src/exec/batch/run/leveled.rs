@@ -4,13 +4,14 @@
 //! Most tiles need one level, or two adjacent ones. Values stay unrounded until levels are combined: exact sums for
 //! fixed point, bytes where the device interpolates them, singles for floats.
 
+use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel, Slots};
+
 use super::component::FilteredComponent;
 use super::corners::byte_between;
 use super::detail::{LevelChoice, PickedLevels};
 use super::filter::{FilteredLevel, FilteredRows, TexelSource};
-use super::slots::Slots;
 use crate::exec::SamplerBinding;
-use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::FetchStep;
 use crate::texture::{Image, MipFilter, SampleRules, TextureKind};
 

@@ -1,9 +1,9 @@
 //! Execution of scheduled steps.
 
+use refsim_lanes::{LANES, LaneRow, Slots, div_odd_long};
+
 use super::fetch::BatchTexture;
-use super::ops;
-use super::slots::Slots;
-use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow, odd};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::{BatchStep, StepBlock};
 use crate::exec::lower::{Arith, Slot};
 use crate::num::ops as definition;
@@ -33,7 +33,7 @@ pub(crate) fn run_steps(steps: &[BatchStep], around: &Surroundings<'_>, run: &La
     for step in steps {
         match step {
             BatchStep::Lanes(arith, lane_ops) => {
-                ops::run(around.formats.lane(*arith), around.formats.simd(), lane_ops, slots)
+                refsim_lanes::run(around.formats.lane(*arith), around.formats.simd(), lane_ops, slots)
             }
             BatchStep::Unorm { steps, from } => to_steps(*steps, *from, slots),
             BatchStep::Fetch(fetch) => {
@@ -76,7 +76,7 @@ fn to_steps(steps: u32, from: u16, slots: &mut Slots) {
         let low = if x > 0.0 { x } else { 0.0 };
         let clamped = if low < 1.0 { low } else { 1.0 };
         // 24 and 16 bits: the product is exact, and so is the sum near an integer.
-        slots.wide[i] = odd::div_odd_long((clamped * count + 0.5).floor(), count);
+        slots.wide_mut()[i] = div_odd_long((clamped * count + 0.5).floor(), count);
     }
 }
 

@@ -1,8 +1,9 @@
 //! Nearest reads of images that are too large for a table: texels are decoded on each read, for enabled lanes only.
 
-use super::channel::{channel_in_slot, channel_of, half_to_single, ratios, singles};
-use super::slots::Slots;
-use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow, with_any_lane};
+use refsim_lanes::{LANES, LaneRow, Slots};
+
+use super::channel::{channel_in_slot, channel_of, half_to_single, ratios};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::FetchStep;
 use crate::exec::lower::Arith;
 use crate::num::Format;
@@ -108,20 +109,10 @@ impl<'a> Stored<'a> {
             let (kept, out) = (&kept[c], slots.row_mut(to));
             match self.components[c] {
                 Component::Constant(value) => out.fill(channel_in_slot(value, self.rules.format, lane)),
-                Single(_) | Half(_) => with_any_lane!(lane, |lane| {
-                    formats.simd().run(
-                        #[inline(always)]
-                        || singles(lane, kept, out),
-                    )
-                }),
+                Single(_) | Half(_) => lane.round_singles(formats.simd(), kept, out),
                 Component::Ratio(_, denominator) => {
                     let numerators = std::array::from_fn(|i| f64::from(kept[i].cast_signed()));
-                    with_any_lane!(lane, |lane| {
-                        formats.simd().run(
-                            #[inline(always)]
-                            || ratios(lane, &numerators, denominator, out),
-                        )
-                    });
+                    ratios(lane, formats.simd(), &numerators, denominator, out);
                 }
                 Component::Other(channel) => {
                     out.fill(0);

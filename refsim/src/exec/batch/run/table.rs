@@ -1,9 +1,10 @@
 //! Nearest reads in rows from decoded 1-D, 2-D and rectangle textures.
 
+use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel};
+
 use super::address::{TexelAxis, nearest};
 use super::channel::{channel_in_slot, channel_of, pays_by_code, ratios};
 use crate::exec::SamplerBinding;
-use crate::exec::batch::lanes::{AnyLane, LANES, LaneRow, SimdLevel, with_any_lane};
 use crate::num::Format;
 use crate::texture::{
     AddressMode, Channel, ChannelValue, Image, SampleRules, SampledSource, SamplerState, TextureKind, fetch_nearest,
@@ -145,12 +146,7 @@ fn decode_block<'t>(
     }
     // The bits do not depend on the SIMD level, so the table is built with the widest one.
     let mut rounded = [0; LANES];
-    with_any_lane!(lane, |lane| {
-        SimdLevel::widest().run(
-            #[inline(always)]
-            || ratios(lane, &values, divisor, &mut rounded),
-        )
-    });
+    ratios(lane, SimdLevel::widest(), &values, divisor, &mut rounded);
     for (i, &value) in rounded.iter().enumerate().filter(|&(i, _)| raw[i] != 0) {
         put(i, value);
     }

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::code::{LaneCode, LaneOp, OPERANDS};
+use refsim_lanes::{LaneCode, LaneOp, OPERANDS};
+
 use super::fuse::{Fused, Fusion};
 use crate::exec::lower::{Arith, Detail, Graph, NodeId, NodeKind, Slot};
 

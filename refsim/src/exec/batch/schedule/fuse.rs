@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use super::code::{LaneCode, OPERANDS};
+use refsim_lanes::{LaneCode, OPERANDS};
+
 use crate::exec::lower::{Arith, Graph, NodeId, NodeKind};
 use crate::num::NumberOperation as Op;
 

@@ -3,7 +3,9 @@
 
 use std::ops::Sub;
 
-use crate::exec::batch::lanes::{AnyLane, Lane, LaneFormats, with_any_lane};
+use refsim_lanes::AnyLane;
+
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::lower::Arith;
 use crate::output::{BlendEquation, BlendFactor, BlendOp, BlendState};
 use crate::texture::{ChannelClass, ComponentSource, TargetRounding, TexelFormat};
@@ -81,7 +83,7 @@ impl Blender {
         channels: impl Iterator<Item = ChannelPlace>,
         formats: &LaneFormats,
     ) -> [u32; 4] {
-        let main = formats.lane(Arith::Main);
+        let main = formats.lane(Arith::Main).reading();
         let mut new = [0; 4];
         let mut put = |channel: ChannelPlace, bits: u32| new[channel.word] |= bits << channel.shift;
         let stored = |zero: u32, one: u32| {
@@ -94,8 +96,7 @@ impl Blender {
         match &self.values {
             BlendValues::Steps(one, nearest) => {
                 let half = if *nearest { 0.5 } else { 0.0 };
-                let source =
-                    color.map(|raw| with_any_lane!(main, |lane| { code(lane, raw, *one as f64, half) }).into());
+                let source = color.map(|raw| main.to_steps(raw, *one as f64, half).into());
                 let destination = stored(0, *one as u32).map(i64::from);
                 for channel in channels {
                     let code = self.steps((*one, *nearest), source, destination, channel.component);
@@ -103,14 +104,13 @@ impl Blender {
                 }
             }
             BlendValues::Floats(lane) => {
-                let source = color.map(|raw| with_any_lane!(main, |lane| { double(lane, raw) }) as f32);
+                let source = color.map(|raw| main.to_f64(raw) as f32);
                 // The pattern of 0 is 0 in every format; that of 1 depends on the format.
-                let one = with_any_lane!(&**lane, |lane| { lane.encode(lane.round_f64(1.0)) });
-                let destination = stored(0, one)
-                    .map(|bits| with_any_lane!(&**lane, |lane| { lane.to_f64(lane.decode(bits)) as f32 }));
+                let encoded = |value: f64| lane.encode(lane.round(value));
+                let destination = stored(0, encoded(1.0)).map(|bits| f32::from_bits(lane.decode(bits)));
                 for channel in channels {
                     let value = f64::from(self.floats(source, destination, channel.component));
-                    put(channel, with_any_lane!(&**lane, |lane| { lane.encode(lane.round_f64(value)) }));
+                    put(channel, encoded(value));
                 }
             }
         }
@@ -187,12 +187,4 @@ fn factor<T: Copy + PartialOrd + Sub<Output = T>>(
             if free < source[3] { free } else { source[3] }
         }
     }
-}
-
-fn double<L: Lane>(lane: &L, raw: u32) -> f64 {
-    lane.to_f64(L::load(raw))
-}
-
-fn code<L: Lane>(lane: &L, raw: u32, scale: f64, half: f64) -> u32 {
-    lane.steps(L::load(raw), scale, half)
 }

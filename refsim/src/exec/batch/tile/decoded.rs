@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use refsim_lanes::Slots;
+
 use super::shader::TileShader;
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::batch::cache::{Cache, Pool};
-use crate::exec::batch::run::Slots;
 use crate::exec::batch::schedule::{FlowPlan, StraightPlan, StraightProgram};
 use crate::exec::fragment::zero_components;
 use crate::exec::lower::{Formats, has_flow};

@@ -1,10 +1,12 @@
 //! Early depth test, for programs that do not affect its outcome.
 
+use refsim_lanes::{LANES, LaneRow};
+
 use super::output::{OutputStage, depth_test, population};
 use super::packed::PackedLanes;
 use super::store::{Survivors, quantise};
 use crate::event::FragmentCounts;
-use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::ResultSlots;
 use crate::exec::lower::{Arith, TRUE};
 use crate::output::DepthFormat;

@@ -1,12 +1,13 @@
 //! Output stage in rows: kill, alpha test, depth test, texels. Unsupported cases (some blending, signed or small float
 //! channels) are processed by [`crate::output`], fragment by fragment.
 
+use refsim_lanes::{LANES, LaneRow, Reading, SimdLevel, Slots};
+
 use super::packed::PackedLanes;
 use super::store::{Survivors, quantise, write_lane, write_rows};
 use super::targets::Targets;
 use crate::event::FragmentCounts;
-use crate::exec::batch::lanes::{LANES, Lane, LaneFormats, LaneRow, SimdLevel, with_any_lane};
-use crate::exec::batch::run::Slots;
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::ResultSlots;
 use crate::exec::lower::{Arith, Slot, TRUE};
 use crate::num::{Format, ops};
@@ -256,24 +257,32 @@ fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, alive: &mut LaneRow) -> u32 {
     let reference = main.decode(ops::convert(&Format::FP32, formats.format(Arith::Main), test.reference).bits);
     let zero = [0; LANES];
     let alpha = shaded.results.colors[0].map_or(&zero, |c| shaded.slots.row(c[3]));
-    with_any_lane!(main, |lane| {
-        formats.simd().run(
-            #[inline(always)]
-            || compare(lane, alpha, reference, test.function, alive),
-        )
-    })
+    let float = main.reading() == Reading::Float;
+    formats.simd().run(
+        #[inline(always)]
+        || match float {
+            true => compare(f32::from_bits, alpha, reference, test.function, alive),
+            false => compare(u32::cast_signed, alpha, reference, test.function, alive),
+        },
+    )
 }
 
 /// Takes the lanes whose value fails a comparison with the reference out of `alive`; returns how many are left. NaN is
 /// unordered.
 #[inline(always)]
-fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFunction, alive: &mut LaneRow) -> u32 {
-    let r = L::load(reference);
+fn compare<T: PartialOrd>(
+    number: impl Fn(u32) -> T,
+    row: &LaneRow,
+    reference: u32,
+    function: CompareFunction,
+    alive: &mut LaneRow,
+) -> u32 {
+    let r = number(reference);
     let [less, equal, greater] = function.orders();
     let mut left = 0;
     for i in 0..LANES {
-        let value = L::load(row[i]);
-        let [below, same, above] = [lane.lt(value, r), lane.eq(value, r), lane.lt(r, value)];
+        let value = number(row[i]);
+        let [below, same, above] = [value < r, value == r, value > r];
         let unordered = !(below | same | above) & less & greater;
         let holds = below & less | same & equal | above & greater | unordered;
         alive[i] &= if holds { TRUE } else { 0 };

@@ -5,9 +5,10 @@
 //! the output stage processes fragments in order of submission. For programs that read neighbouring lanes, whole quads
 //! are packed, including helper lanes.
 
+use refsim_lanes::{LANES, LaneRow, SimdLevel};
+
 use super::raster::TileFrame;
 use crate::exec::Overrun;
-use crate::exec::batch::lanes::{LANES, LaneRow, SimdLevel};
 use crate::exec::batch::vertex::Surfaces;
 use crate::raster::TriangleSetup;
 use crate::texture::Region;

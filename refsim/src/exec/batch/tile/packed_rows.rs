@@ -1,9 +1,10 @@
 //! Interpolation in packed lanes, each of which belongs to a triangle of its own.
 
+use refsim_lanes::{AnyLane, LANES, LaneRow, Slots};
+
 use super::packed::{PackedFragment, PackedLanes};
 use super::shader::InputSlots;
-use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow};
-use crate::exec::batch::run::Slots;
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::vertex::{PlaneRows, Surfaces};
 use crate::exec::lower::{Arith, TRUE};
 use crate::num::Format;

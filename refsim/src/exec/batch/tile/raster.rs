@@ -1,7 +1,8 @@
 //! Rasterisation of a triangle within a tile: coverage by exact edge functions, interpolation in the host's single
 //! precision with the steps defined by [`crate::raster`].
 
-use crate::exec::batch::lanes::{AnyLane, LANES, LaneRow, SimdLevel};
+use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel};
+
 use crate::exec::lower::TRUE;
 use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, interpolated};

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use refsim_lanes::{LANES, Slots};
 
 use super::decoded::{DecodedPixel, PixelCode, plan};
 use super::shader::InputSlots;
 use crate::event::FragmentCounts;
 use crate::exec::batch::cache::Pool;
-use crate::exec::batch::lanes::LANES;
-use crate::exec::batch::run::{Slots, Surroundings, fill_constants, first_lanes, run_steps};
+use crate::exec::batch::run::{Surroundings, fill_constants, first_lanes, run_steps};
 use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPlan, StraightProgram};
 use crate::exec::batch::vertex::{Surfaces, Triangle};
 use crate::raster::{ComponentMask, POSITION_COMPONENT};

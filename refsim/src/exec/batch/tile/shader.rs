@@ -5,10 +5,11 @@
 //! halves of a quad, or neighbours in a mesh. Lanes are independent, so one pass of the program processes all of them,
 //! each lane with the components of its triangle. Bits and counts equal those of processing the triangles one by one.
 
+use refsim_lanes::{LANES, LaneRow, SimdLevel, Slots};
+
 use super::packed::PackedLanes;
 use super::raster::{TileFrame, TileShape, TileWeights, cover, lay_over, quads};
-use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow, SimdLevel};
-use crate::exec::batch::run::Slots;
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::vertex::Surfaces;
 use crate::exec::lower::{Arith, Slot};
 use crate::raster::Plane;

@@ -1,6 +1,8 @@
 //! A thread's work on a tile: shades triangles. Large triangles are shaded part by part, with lanes at their pixels;
 //! small ones are packed.
 
+use refsim_lanes::LaneRow;
+
 use super::decoded::DecodedPixel;
 use super::output::{Fragment, OutputStage, Shaded};
 use super::packed::packable;
@@ -11,7 +13,6 @@ use super::store::Survivors;
 use super::targets::Targets;
 use crate::event::FragmentCounts;
 use crate::exec::Overrun;
-use crate::exec::batch::lanes::LaneRow;
 use crate::exec::batch::run::{FlowRun, Surroundings, run_steps};
 use crate::output::DepthFormat;
 use crate::texture::Region;

@@ -1,7 +1,9 @@
 //! Encoding of values for targets: texels of targets in rows, and depth patterns.
 
-use super::targets::{Coding, ColorRows, PackedChannel, Packing};
-use crate::exec::batch::lanes::{LANES, Lane, LaneFormats, LaneRow, with_any_lane};
+use refsim_lanes::{LANES, LaneRow};
+
+use super::targets::{Coding, ColorRows, Packing};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::lower::Arith;
 use crate::num::FormatKind;
 use crate::output::DepthFormat;
@@ -33,7 +35,7 @@ const FEW: u32 = 24;
 
 /// Writes one texel.
 pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, formats: &LaneFormats) {
-    let main = formats.lane(Arith::Main);
+    let main = formats.lane(Arith::Main).reading();
     if let Some(blender) = &rows.packing.blender {
         let mut old = [0; 4];
         old.iter_mut().zip(&rows.words).for_each(|(old, word)| *old = word[lane]);
@@ -47,7 +49,12 @@ pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, fo
         word[lane] &= !bits;
     }
     for channel in &rows.packing.channels {
-        let value = with_any_lane!(main, |l| { code(l, color[channel.place.component], channel.coding) });
+        let raw = color[channel.place.component];
+        let value = match channel.coding {
+            Coding::Steps(scale, half) => main.to_steps(raw, scale, half),
+            Coding::Single => main.to_single(raw),
+            Coding::Blended => 0,
+        };
         rows.words[channel.place.word][lane] |= value << channel.place.shift;
     }
 }
@@ -60,19 +67,27 @@ pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors:
         }
         return;
     }
-    let (main, simd) = (formats.lane(Arith::Main), formats.simd());
+    let (main, simd) = (formats.lane(Arith::Main).reading(), formats.simd());
     let Packing { channels, written, .. } = &rows.packing;
-    let mut texels = [0; LANES];
+    let (mut texels, mut codes) = ([0; LANES], [0; LANES]);
     for (number, word) in rows.words.iter_mut().enumerate().filter(|&(i, _)| written[i] != 0) {
         texels.fill(0);
         for channel in channels.iter().filter(|c| c.place.word == number) {
             let row = colors[channel.place.component];
-            with_any_lane!(main, |l| {
-                simd.run(
-                    #[inline(always)]
-                    || pack(l, row, channel, &mut texels),
-                )
-            });
+            match channel.coding {
+                Coding::Steps(scale, half) => main.row_to_steps(simd, row, (scale, half), &mut codes),
+                Coding::Single => main.row_to_singles(simd, row, &mut codes),
+                Coding::Blended => continue,
+            }
+            let shift = channel.place.shift;
+            simd.run(
+                #[inline(always)]
+                || {
+                    for i in 0..LANES {
+                        texels[i] |= codes[i] << shift;
+                    }
+                },
+            );
         }
         let (alive, bits) = (&survivors.alive, written[number]);
         simd.run(
@@ -85,45 +100,6 @@ pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors:
             },
         );
     }
-}
-
-#[inline(always)]
-fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut LaneRow) {
-    match channel.coding {
-        Coding::Steps(scale, half) => {
-            for i in 0..LANES {
-                texels[i] |= lane.steps(L::load(row[i]), scale, half) << channel.place.shift;
-            }
-        }
-        Coding::Single => {
-            for i in 0..LANES {
-                texels[i] |= single(lane, row[i]);
-            }
-        }
-        Coding::Blended => {}
-    }
-}
-
-/// Encodes a value for a channel.
-fn code<L: Lane>(lane: &L, raw: u32, coding: Coding) -> u32 {
-    match coding {
-        Coding::Steps(scale, half) => lane.steps(L::load(raw), scale, half),
-        Coding::Single => single(lane, raw),
-        Coding::Blended => 0,
-    }
-}
-
-#[inline(always)]
-fn single<L: Lane>(lane: &L, raw: u32) -> u32 {
-    let x = lane.to_f64(L::load(raw)) as f32;
-    if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }
-}
-
-/// Clamps a value to [0, 1]; NaN gives 0.
-#[inline(always)]
-fn clamped(x: f64) -> f64 {
-    let low = if x > 0.0 { x } else { 0.0 };
-    if low < 1.0 { low } else { 1.0 }
 }
 
 /// Encodes values, clamped to [0, 1], as depth patterns.
@@ -152,21 +128,9 @@ pub(crate) fn quantise(
                 || fixed_to_steps(row, frac_bits.into(), bits, nearest, to),
             );
         }
-        FormatKind::Normalized { .. } if bits > 0 => {
+        FormatKind::Normalized { .. } | FormatKind::Float { .. } if bits > 0 => {
             let (scale, half) = (f64::from((1u32 << bits) - 1), if nearest { 0.5 } else { 0.0 });
-            return with_any_lane!(lane, |l| {
-                simd.run(
-                    #[inline(always)]
-                    || normalized_to_steps(l, row, scale, half, to),
-                )
-            });
-        }
-        FormatKind::Float { .. } if bits > 0 => {
-            let (scale, half) = (f64::from((1u32 << bits) - 1), if nearest { 0.5 } else { 0.0 });
-            return simd.run(
-                #[inline(always)]
-                || float_to_steps(row, scale, half, to),
-            );
+            return lane.reading().row_to_steps(simd, row, (scale, half), to);
         }
         FormatKind::Float { .. } if depth == DepthFormat::Float32 => {
             return simd.run(
@@ -208,21 +172,7 @@ fn fixed_to_single(row: &LaneRow, frac: u32, out: &mut LaneRow) {
     }
 }
 
-#[inline(always)]
-fn normalized_to_steps<L: Lane>(lane: &L, row: &LaneRow, scale: f64, half: f64, out: &mut LaneRow) {
-    for i in 0..LANES {
-        out[i] = lane.steps(L::load(row[i]), scale, half);
-    }
-}
-
 /// Numbers of every float format are stored as host singles.
-#[inline(always)]
-fn float_to_steps(row: &LaneRow, scale: f64, half: f64, out: &mut LaneRow) {
-    for i in 0..LANES {
-        out[i] = (clamped(f64::from(f32::from_bits(row[i]))) * scale + half) as u32;
-    }
-}
-
 #[inline(always)]
 fn float_to_single(row: &LaneRow, out: &mut LaneRow) {
     for i in 0..LANES {

@@ -1,9 +1,10 @@
 //! Targets of one tile as rows in lane order: depth patterns, and texels of colour targets in 32-bit words. They stay
 //! in the first-level cache while all triangles of the tile are drawn, and are copied back once.
 
+use refsim_lanes::{LANES, LaneRow};
+
 use super::blend::{Blender, ChannelPlace};
 use super::raster::TileFrame;
-use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::output::{ColorTile, MAX_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
 use crate::texture::{ChannelClass, Region, TargetRounding, TexelFormat};
 

@@ -2,6 +2,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use refsim_lanes::SimdLevel;
+
 use super::decoded::{DecodedPixel, PixelCode, PixelPrograms, decoded};
 use super::output::{Fragment, OutputStage};
 use super::pieces::Pieces;
@@ -10,7 +12,7 @@ use super::shader::TileShader;
 use super::shading::{IntoTargets, KeptFragments, TileShading};
 use super::targets::Targets;
 use crate::event::FragmentCounts;
-use crate::exec::batch::lanes::{LaneFormats, SimdLevel};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::run::{BatchTexture, Surroundings, TextureTables, fill_constants, fill_plan, raw_constants};
 use crate::exec::batch::vertex::Surfaces;
 use crate::exec::budget::straight_exceeds;

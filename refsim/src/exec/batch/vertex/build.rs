@@ -2,12 +2,12 @@
 //! positions; planes are computed in rows.
 
 use rayon::prelude::*;
+use refsim_lanes::SimdLevel;
 
 use super::rows::VertexRows;
 use super::surfaces::{PlaneRows, Surfaces, Triangle};
 use super::window::{ClipResult, Window};
 use crate::event::PrimitiveCounts;
-use crate::exec::batch::lanes::SimdLevel;
 use crate::num::Format;
 use crate::raster::{ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, shape};
 

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use refsim_lanes::{LANES, SimdLevel, Slots};
 
 use super::rows::VertexRows;
 use crate::device::{ColorClamp, Rules};
 use crate::event::SAMPLERS;
 use crate::exec::batch::cache::{Cache, Pool};
-use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneFormats, SimdLevel, with_any_lane};
+use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::run::{
-    FlowRun, Slots, Surroundings, fill_constants, fill_plan, first_lanes, raw_constants, run_steps,
+    FlowRun, Surroundings, fill_constants, fill_plan, first_lanes, raw_constants, run_steps,
 };
 use crate::exec::batch::schedule::{FlowPlan, StepBlock, schedule};
 use crate::exec::budget::straight_exceeds;
@@ -246,24 +247,17 @@ impl BatchVertices {
         let Some(slot) = slot else { return vec![0; count] };
         let main = self.formats.lane(Arith::Main);
         let color = place.0 == RegisterFile::DiffuseOut && self.color_clamp == ColorClamp::Program;
-        let value = |&raw: &u32| self.single(if color { saturated(main, raw) } else { raw });
+        let value = |&raw: &u32| self.single(if color { main.saturate(raw) } else { raw });
         slots.row(slot)[..count].iter().map(value).collect()
     }
 
     /// Contents of a slot as a single-precision pattern.
     fn single(&self, raw: u32) -> u32 {
-        fn wide<L: Lane>(lane: &L, raw: u32) -> f64 {
-            lane.to_f64(L::load(raw))
-        }
-        fn narrow<L: Lane>(lane: &L, x: f64) -> u32 {
-            lane.encode(lane.round_f64(x))
-        }
         let (main, single) = (self.formats.lane(Arith::Main), self.formats.lane(Arith::Single));
         if self.formats.format(Arith::Main) == Format::FP32 {
             return main.encode(raw);
         }
-        let x = with_any_lane!(main, |lane| { wide(lane, raw) });
-        with_any_lane!(single, |lane| { narrow(lane, x) })
+        single.encode(single.round(main.reading().to_f64(raw)))
     }
 }
 
@@ -311,11 +305,4 @@ fn straight(
 /// Makes NaN canonical in a single-precision pattern.
 fn canonical(bits: &u32) -> u32 {
     if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { *bits }
-}
-
-fn saturated(lane: &AnyLane, raw: u32) -> u32 {
-    fn saturate<L: Lane>(lane: &L, raw: u32) -> u32 {
-        L::store(lane.saturate(L::load(raw)))
-    }
-    with_any_lane!(lane, |lane| { saturate(lane, raw) })
 }

@@ -2,10 +2,10 @@
 //! [`crate::raster`].
 
 use rayon::prelude::*;
+use refsim_lanes::SimdLevel;
 
 use super::rows::VertexRows;
 use crate::device::SubpixelRounding;
-use crate::exec::batch::lanes::SimdLevel;
 use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRules, RasterState, cut_origin};
 
 /// Vertices per task.

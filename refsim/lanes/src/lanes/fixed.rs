@@ -1,0 +1,504 @@
+//! Lane arithmetic of the fixed-point formats `sI.F`, in host integers.
+
+use super::float::GeneralLane;
+use super::lane::Lane;
+use super::power;
+use super::reading::Reading;
+use super::round::{AWAY, EVEN, UP, ZERO, rounding_index};
+use crate::num::Format;
+
+/// How to divide by a power of two with rounding, the same way for every rounding: `(v + more + (v >> at & mask)) >>
+/// count`.
+///
+/// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
+/// - Nearest away is half a unit up, one less where `v` is negative.
+/// - Toward zero is up to the next unit where `v` is negative, and up is that everywhere.
+#[derive(Clone, Copy, Debug)]
+struct Shift {
+    count: u32,
+    /// Half a unit, and the mask of what is dropped; zero if nothing is.
+    half: i64,
+    dropped: i64,
+    more: i64,
+    mask: i64,
+    /// `true` if the mask applies to the sign of `v`, not to its lowest remaining bit.
+    by_sign: bool,
+}
+
+impl Shift {
+    #[inline(always)]
+    const fn new(rounding: u8, count: u32) -> Shift {
+        let dropped = 1_i64.wrapping_shl(count).wrapping_sub(1);
+        let (half, some) = (dropped.wrapping_add(1) >> 1 & dropped, 1 & dropped);
+        let (more, mask) = match rounding {
+            EVEN => (half.wrapping_sub(some), some),
+            AWAY => (half, some.wrapping_neg()),
+            ZERO => (0, dropped),
+            UP => (dropped, 0),
+            _ => (0, 0),
+        };
+        Shift { count, half, dropped, more, mask, by_sign: rounding != EVEN }
+    }
+}
+
+/// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
+pub(super) const PIVOT: f64 = 6_755_399_441_055_744.0;
+
+/// The nearest integer, ties to even, of a double below 2^51.
+#[inline(always)]
+pub(super) fn by_pivot(x: f64) -> f64 {
+    (x + PIVOT) - PIVOT
+}
+
+/// The same in a single, for numbers of up to 22 bits, and its bits.
+const SINGLE_PIVOT: f32 = 12_582_912.0;
+const SINGLE_PIVOT_BITS: i32 = SINGLE_PIVOT.to_bits().cast_signed();
+
+/// Rounding of a double to an integer: the nearest integer (ties to even) of the number or of its magnitude, corrected
+/// by one depending on the distance of the number from it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct IntegerRounding {
+    /// Mask of the bits that are kept: all, or all but the sign.
+    sign: u64,
+    /// Distances below which one is subtracted, and from which one is added.
+    pub(super) lower: f64,
+    pub(super) upper: f64,
+}
+
+impl IntegerRounding {
+    /// The number that is rounded: it, or its magnitude.
+    #[inline(always)]
+    pub(super) fn magnitude(&self, x: f64) -> f64 {
+        f64::from_bits(x.to_bits() & self.sign)
+    }
+
+    /// The rounded magnitude, with the sign of the number if that was taken off.
+    #[inline(always)]
+    pub(super) fn signed(&self, rounded: f64, x: f64) -> f64 {
+        f64::from_bits(rounded.to_bits() | x.to_bits() & !self.sign)
+    }
+
+    pub(super) const fn new(rounding: u8) -> IntegerRounding {
+        const SIZE: u64 = u64::MAX >> 1;
+        let never = f64::INFINITY;
+        match rounding {
+            EVEN => IntegerRounding { sign: u64::MAX, lower: -never, upper: never },
+            AWAY => IntegerRounding { sign: SIZE, lower: -never, upper: 0.5 },
+            ZERO => IntegerRounding { sign: SIZE, lower: 0.0, upper: never },
+            UP => IntegerRounding { sign: u64::MAX, lower: -never, upper: f64::from_bits(1) },
+            _ => IntegerRounding { sign: u64::MAX, lower: 0.0, upper: never },
+        }
+    }
+}
+
+/// Masks of when a quotient becomes the integer beside its nearest even one: one less if it lies below, one more if
+/// beyond, by its sign; any quotient, or ties alone.
+#[derive(Clone, Copy, Debug)]
+struct Beside {
+    less: [i32; 2],
+    more: [i32; 2],
+    any: i32,
+}
+
+impl Beside {
+    const fn new(rounding: u8) -> Beside {
+        match rounding {
+            EVEN => Beside { less: [0, 0], more: [0, 0], any: 0 },
+            AWAY => Beside { less: [0, -1], more: [-1, 0], any: 0 },
+            ZERO => Beside { less: [-1, 0], more: [0, -1], any: -1 },
+            UP => Beside { less: [0, 0], more: [-1, -1], any: -1 },
+            _ => Beside { less: [-1, -1], more: [0, 0], any: -1 },
+        }
+    }
+}
+
+/// The arithmetic of one fixed-point format: `WIDE` whether it has more than 16 bits, `WRAP` whether it wraps.
+///
+/// Up to 16 bits a product, and a product plus a shifted addend, fits an `i32`: both factors are at most 2^15, so
+/// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
+/// ones use `i64`, where the same holds with 2^62.
+///
+/// So no sum or product of numbers of the format leaves its type. The common operations are wrapping ones all the same:
+/// where a build checks each for overflow, its loops are no vector code.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
+    rounding: u8,
+    frac: u32,
+    int: u32,
+    width: u32,
+    low: i32,
+    high: i32,
+    one: i32,
+    product: Shift,
+    whole: IntegerRounding,
+    beside: Beside,
+}
+
+/// Divides by `2^count`, rounding: one body for both widths.
+macro_rules! round_shift {
+    ($name:ident, $t:ty, $sign:literal) => {
+        #[inline(always)]
+        fn $name(&self, v: $t, shift: &Shift) -> $t {
+            let at = if shift.by_sign { $sign } else { shift.count };
+            let correction = v.wrapping_shr(at) & shift.mask as $t;
+            v.wrapping_add(shift.more as $t).wrapping_add(correction).wrapping_shr(shift.count)
+        }
+    };
+}
+
+impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
+    /// The arithmetic of a fixed-point format with these bits.
+    pub(crate) fn new(format: &Format, int_bits: u8, frac_bits: u8) -> Self {
+        let bits = u32::from(int_bits) + u32::from(frac_bits);
+        let high = ((1i64 << bits) - 1) as i32;
+        let one = (1i64 << frac_bits).min(i64::from(high)) as i32;
+        FixedLane {
+            rounding: rounding_index(format.rounding),
+            frac: u32::from(frac_bits),
+            int: u32::from(int_bits),
+            width: bits + 1,
+            low: -high - 1,
+            high,
+            one,
+            product: Shift::new(rounding_index(format.rounding), frac_bits.into()),
+            whole: IntegerRounding::new(rounding_index(format.rounding)),
+            beside: Beside::new(rounding_index(format.rounding)),
+        }
+    }
+
+    round_shift!(round32, i32, 31);
+    round_shift!(round64, i64, 63);
+    round_shift!(round128, i128, 127);
+
+    /// The low bits of the width, sign-extended.
+    #[inline(always)]
+    fn residue(&self, v: i32) -> i32 {
+        let spare = 32_u32.wrapping_sub(self.width);
+        v.wrapping_shl(spare).wrapping_shr(spare)
+    }
+
+    #[inline(always)]
+    pub(super) fn fit32(&self, v: i32) -> i32 {
+        if WRAP { self.residue(v) } else { v.max(self.low).min(self.high) }
+    }
+
+    #[inline(always)]
+    fn fit64(&self, v: i64) -> i32 {
+        if WRAP { self.residue(v as i32) } else { v.max(i64::from(self.low)).min(i64::from(self.high)) as i32 }
+    }
+
+    fn fit128(&self, v: i128) -> i32 {
+        if WRAP { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
+    }
+
+    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; what is out of range
+    /// stays so, since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which
+    /// wrap: still far from where the order of integers would break.
+    #[inline(always)]
+    pub(super) fn fused_sum_of<const N: usize>(&self, unit: f32, a: [i32; N], b: [i32; N]) -> i32 {
+        let (low, high) = (SINGLE_PIVOT + self.low as f32, SINGLE_PIVOT + self.high as f32);
+        let (mut sum, mut offset) = (0i32, 0i32);
+        for k in 0..N {
+            #[expect(clippy::disallowed_methods, reason = "one rounding is meant, and the host has the instruction")]
+            let product = (a[k] as f32 * unit).mul_add(b[k] as f32, SINGLE_PIVOT);
+            let above = if product > low { product } else { low };
+            let fitted = if above < high { above } else { high };
+            sum = sum.wrapping_add(fitted.to_bits().cast_signed());
+            offset = offset.wrapping_add(SINGLE_PIVOT_BITS);
+            if k > 0 {
+                sum = sum.max(self.low.wrapping_add(offset)).min(self.high.wrapping_add(offset));
+            }
+        }
+        sum.wrapping_sub(offset)
+    }
+
+    fn extreme(&self, negative: bool) -> i32 {
+        if negative { self.low } else { self.high }
+    }
+
+    /// Returns `a / 0`.
+    #[inline(always)]
+    pub(super) fn by_zero(&self, a: i32) -> i32 {
+        let extreme = self.extreme(a < 0);
+        if a == 0 { 0 } else { extreme }
+    }
+
+    /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and fitted; anything if `d` is zero.
+    ///
+    /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and
+    /// the double errs by one in `2^22` at most: it rounds as the quotient does. What saturates is clamped first; what
+    /// wraps is an integer of at most 31 bits.
+    #[inline(always)]
+    pub(super) fn quotient(&self, n: i32, d: i32) -> i32 {
+        let exact = f64::from(n) / f64::from(d);
+        let (low, high) = (f64::from(self.low) - 1.0, f64::from(self.high) + 1.0);
+        let above = if exact > low { exact } else { low };
+        let clamped = if above < high { above } else { high };
+        let near = (if WRAP { exact } else { clamped } + PIVOT).to_bits() as i32;
+        // Positive where the exact quotient lies above the integer.
+        let rest = n.wrapping_sub(near.wrapping_mul(d)).wrapping_mul(d.signum());
+        let (below, beyond) = (rest >> 31, rest.wrapping_neg() >> 31);
+        let positive = !((n ^ d) >> 31);
+        let tie = if rest.unsigned_abs().wrapping_mul(2) == d.unsigned_abs() { -1 } else { 0 };
+        let Beside { less, more, any } = self.beside;
+        let down = below & (positive & less[0] | !positive & less[1]);
+        let up = beyond & (positive & more[0] | !positive & more[1]);
+        self.fit32(near.wrapping_add(down.wrapping_sub(up) & (tie | any)))
+    }
+
+    /// `magnitude / 2^guard` units, and a bit more if `sticky`, rounded and fitted; `guard` at least 2 with `sticky`.
+    pub(super) fn finish(&self, negative: bool, magnitude: u128, guard: u32, sticky: bool) -> i32 {
+        // Two guard bits and the sticky bit beneath them say all; the rest folds into the last.
+        let (kept, guard, sticky) = if guard > 3 {
+            let drop = (guard - 3).min(127);
+            (magnitude >> drop, 3, sticky || magnitude & ((1 << drop) - 1) != 0)
+        } else {
+            (magnitude, guard, sticky)
+        };
+        let exact = (kept << 1 | u128::from(sticky)).cast_signed();
+        self.fit128(self.round128(if negative { -exact } else { exact }, &Shift::new(self.rounding, guard + 1)))
+    }
+}
+
+impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
+    type T = i32;
+    type General = GeneralLane;
+
+    #[inline(always)]
+    fn decode(&self, bits: u32) -> i32 {
+        self.residue(bits.cast_signed())
+    }
+
+    #[inline(always)]
+    fn encode(&self, x: i32) -> u32 {
+        x as u32 & u32::MAX.wrapping_shr(32_u32.wrapping_sub(self.width))
+    }
+
+    #[inline(always)]
+    fn to_f64(&self, x: i32) -> f64 {
+        f64::from(x) / (1u64 << self.frac) as f64
+    }
+
+    fn reading(&self) -> Reading {
+        Reading::Integer { one: self.one, units: (1u64 << self.frac) as f64 }
+    }
+
+    #[inline(always)]
+    fn round_f64(&self, x: f64) -> i32 {
+        // In units; scaling by a power of two, the nearest integer and the rest are exact.
+        let units = x * (1u64 << self.frac) as f64;
+        let value = self.whole.magnitude(units);
+        let near = value.round_ties_even();
+        let rest = value - near;
+        let less = if rest < self.whole.lower { 1.0 } else { 0.0 };
+        let more = if rest >= self.whole.upper { 1.0 } else { 0.0 };
+        let rounded = self.whole.signed(near - less + more, units);
+        let (low, high) = (f64::from(self.low), f64::from(self.high));
+        let above_low = if rounded > low { rounded } else { low };
+        let clamped = if above_low < high { above_low } else { high };
+        // Modulo the width: in [0, 2^width), and one more fold makes it signed.
+        let size = (1u64 << self.width) as f64;
+        let residue = rounded - (rounded * (1.0 / size)).floor() * size;
+        let folded = residue - if residue > high { size } else { 0.0 };
+        let value = if WRAP && units.abs() < f64::INFINITY { folded } else { clamped };
+        let number = if x.is_nan() { 0.0 } else { value };
+        (number + PIVOT).to_bits() as i32
+    }
+
+    #[inline(always)]
+    fn add(&self, a: i32, b: i32) -> i32 {
+        if WIDE { self.fit64(i64::from(a).wrapping_add(i64::from(b))) } else { self.fit32(a.wrapping_add(b)) }
+    }
+
+    #[inline(always)]
+    fn sub(&self, a: i32, b: i32) -> i32 {
+        if WIDE { self.fit64(i64::from(a).wrapping_sub(i64::from(b))) } else { self.fit32(a.wrapping_sub(b)) }
+    }
+
+    #[inline(always)]
+    fn mul(&self, a: i32, b: i32) -> i32 {
+        if WIDE {
+            self.fit64(self.round64(i64::from(a).wrapping_mul(i64::from(b)), &self.product))
+        } else {
+            self.fit32(self.round32(a.wrapping_mul(b), &self.product))
+        }
+    }
+
+    const FUSED: bool = !WIDE && !WRAP;
+
+    #[inline(always)]
+    fn is_fused(&self) -> bool {
+        Self::FUSED && self.rounding == EVEN
+    }
+
+    /// The exact product plus the pivot, rounded once, is the product rounded to nearest even.
+    #[inline(always)]
+    fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
+        self.fused_sum_of(1.0 / (1u64 << self.frac) as f32, a, b)
+    }
+
+    /// The double rounds to nearest even as the quotient does ([`Self::quotient`]); there is nothing to correct.
+    #[inline(always)]
+    fn fused_div(&self, a: i32, b: i32) -> i32 {
+        let exact = f64::from(a.wrapping_shl(self.frac)) / f64::from(b);
+        let (low, high) = (f64::from(self.low), f64::from(self.high));
+        let above = if exact > low { exact } else { low };
+        let fitted = if above < high { above } else { high };
+        let near = (fitted + PIVOT).to_bits() as i32;
+        if b == 0 { self.by_zero(a) } else { near }
+    }
+
+    #[inline(always)]
+    fn fused_mad(&self, a: i32, b: i32, c: i32) -> i32 {
+        if WIDE {
+            let addend = i64::from(c).wrapping_shl(self.frac);
+            self.fit64(self.round64(i64::from(a).wrapping_mul(i64::from(b)).wrapping_add(addend), &self.product))
+        } else {
+            let sum = a.wrapping_mul(b).wrapping_add(c.wrapping_shl(self.frac));
+            self.fit32(self.round32(sum, &self.product))
+        }
+    }
+
+    #[inline(always)]
+    fn exact_dot<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
+        if WIDE {
+            let mut sum = 0i128;
+            for k in 0..N {
+                sum += i128::from(a[k]) * i128::from(b[k]);
+            }
+            self.fit128(self.round128(sum, &self.product))
+        } else {
+            let mut sum = 0i64;
+            for k in 0..N {
+                sum = sum.wrapping_add(i64::from(a[k].wrapping_mul(b[k])));
+            }
+            self.fit64(self.round64(sum, &self.product))
+        }
+    }
+
+    #[inline(always)]
+    fn div(&self, a: i32, b: i32) -> i32 {
+        if !WIDE {
+            let quotient = self.quotient(a.wrapping_shl(self.frac), b);
+            return if b == 0 { self.by_zero(a) } else { quotient };
+        }
+        if b == 0 {
+            return self.by_zero(a);
+        }
+        let dividend = u128::from(a.unsigned_abs()) << (self.frac + 2);
+        let divisor = u128::from(b.unsigned_abs());
+        self.finish((a < 0) != (b < 0), dividend / divisor, 2, !dividend.is_multiple_of(divisor))
+    }
+
+    fn sqrt(&self, a: i32) -> i32 {
+        if a <= 0 {
+            return 0;
+        }
+        // sqrt(a 2^F) units, with 16 guard bits.
+        let square = (a as u128) << (self.frac + 32);
+        let root = square.isqrt();
+        self.finish(false, root, 16, root * root != square)
+    }
+
+    #[inline(always)]
+    fn rcp(&self, a: i32) -> i32 {
+        if !WIDE {
+            let quotient = self.quotient(1 << (2 * self.frac), a);
+            return if a == 0 { self.high } else { quotient };
+        }
+        if a == 0 {
+            return self.high;
+        }
+        let dividend = 1u128 << (2 * self.frac + 2);
+        let divisor = u128::from(a.unsigned_abs());
+        self.finish(a < 0, dividend / divisor, 2, !dividend.is_multiple_of(divisor))
+    }
+
+    fn rsq(&self, a: i32) -> i32 {
+        if a <= 0 {
+            return if a == 0 { self.high } else { 0 };
+        }
+        // sqrt(2^3F / a) units; the guard bits fill what 127 bits leave, 16 at least.
+        let guard = (126 - 3 * self.frac) / 2;
+        let (dividend, divisor) = (1u128 << (3 * self.frac + 2 * guard), a as u128);
+        let square = dividend / divisor;
+        let root = square.isqrt();
+        let exact = dividend.is_multiple_of(divisor) && root * root == square;
+        self.finish(false, root, guard, !exact)
+    }
+
+    fn exp2(&self, a: i32) -> i32 {
+        // Past the range there is no residue to take.
+        if a >> self.frac >= self.int.cast_signed() && WRAP {
+            return self.high;
+        }
+        self.round_f64(power::exp2(self.to_f64(a)))
+    }
+
+    fn log2(&self, a: i32) -> i32 {
+        match a {
+            0 => self.low,
+            1.. => self.round_f64(power::log2(self.to_f64(a))),
+            _ => 0,
+        }
+    }
+
+    #[inline(always)]
+    fn min(&self, a: i32, b: i32) -> i32 {
+        a.min(b)
+    }
+
+    #[inline(always)]
+    fn max(&self, a: i32, b: i32) -> i32 {
+        a.max(b)
+    }
+
+    #[inline(always)]
+    fn floor(&self, a: i32) -> i32 {
+        a & !(self.product.dropped as i32)
+    }
+
+    #[inline(always)]
+    fn frc(&self, a: i32) -> i32 {
+        a & self.product.dropped as i32
+    }
+
+    #[inline(always)]
+    fn neg(&self, a: i32) -> i32 {
+        self.sub(0, a)
+    }
+
+    #[inline(always)]
+    fn abs(&self, a: i32) -> i32 {
+        let negated = self.sub(0, a);
+        if a < 0 { negated } else { a }
+    }
+
+    #[inline(always)]
+    fn scale(&self, a: i32, shift: i32) -> i32 {
+        if !WIDE && shift >= 0 {
+            self.fit32(a.wrapping_shl(shift.unsigned_abs()))
+        } else if !WIDE {
+            self.fit32(self.round32(a, &Shift::new(self.rounding, shift.unsigned_abs())))
+        } else if shift >= 0 {
+            self.fit64(i64::from(a).wrapping_shl(shift.unsigned_abs()))
+        } else {
+            self.fit64(self.round64(i64::from(a), &Shift::new(self.rounding, shift.unsigned_abs())))
+        }
+    }
+
+    #[inline(always)]
+    fn saturate(&self, a: i32) -> i32 {
+        a.max(0).min(self.one)
+    }
+
+    #[inline(always)]
+    fn above_half(&self, a: i32) -> bool {
+        a > self.product.half as i32
+    }
+
+    #[inline(always)]
+    fn factor(&self, a: i32, _: i32) -> i32 {
+        a
+    }
+}

@@ -1,0 +1,177 @@
+//! Interface of the arithmetic of a number format, in which the tile interpreter runs programs.
+
+use std::fmt::Debug;
+
+use super::layout::pow2;
+use super::reading::Reading;
+
+/// A number as registers hold it: an integer or a float of the host.
+pub(crate) trait RegisterNumber: Copy + Default + Send + Sync + Debug + PartialOrd {
+    /// The number with these host bits.
+    fn from_bits(bits: u32) -> Self;
+    /// The host bits of a number.
+    fn to_bits(self) -> u32;
+}
+
+impl RegisterNumber for f32 {
+    #[inline(always)]
+    fn from_bits(bits: u32) -> f32 {
+        f32::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn to_bits(self) -> u32 {
+        f32::to_bits(self)
+    }
+}
+
+impl RegisterNumber for i32 {
+    #[inline(always)]
+    fn from_bits(bits: u32) -> i32 {
+        bits.cast_signed()
+    }
+
+    #[inline(always)]
+    fn to_bits(self) -> u32 {
+        self.cast_unsigned()
+    }
+}
+
+/// The arithmetic of one number format on single lanes.
+///
+/// Every method is the exact real result rounded once into the format, as `refsim::num` defines it; none of the
+/// code is shared with `num`, so that agreement of the two proves something. The methods that matter for speed
+/// have no branches that depend on the data: called in a plain loop over a fixed array, the compiler turns them
+/// into vector code for whatever instruction set the loop was dispatched to.
+///
+/// Registers hold `T`: the number itself, as a host integer or a host float that holds every value of the format
+/// exactly. Bits are made only when a value leaves the executor ([`Lane::encode`]); a NaN is one value here.
+pub(crate) trait Lane: Copy + Send + Sync {
+    /// Type of a register component.
+    type T: RegisterNumber;
+    /// Type of [`Lane::general`].
+    type General: Lane;
+
+    /// The number behind a bit pattern of the format.
+    fn decode(&self, bits: u32) -> Self::T;
+    /// The bit pattern of a number; NaN gives the canonical one.
+    fn encode(&self, x: Self::T) -> u32;
+    /// The number that a slot holds.
+    #[inline(always)]
+    fn load(raw: u32) -> Self::T {
+        Self::T::from_bits(raw)
+    }
+    /// The number as a slot holds it: its host bits, whatever the format.
+    #[inline(always)]
+    fn store(x: Self::T) -> u32 {
+        x.to_bits()
+    }
+    /// The number as a double: exact, or of a normalized format the nearest one.
+    fn to_f64(&self, x: Self::T) -> f64;
+    /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]), or what
+    /// [`Lane::to_f64`] gives.
+    fn round_f64(&self, x: f64) -> Self::T;
+    /// Rounds a single into the format.
+    #[inline(always)]
+    fn round_single(&self, x: f32) -> Self::T {
+        self.round_f64(f64::from(x))
+    }
+    /// How a slot's number is read.
+    fn reading(&self) -> Reading;
+
+    /// False for an arithmetic that vector instructions make no faster.
+    const VECTORS: bool = true;
+
+    /// True if [`Lane::is_guarded`] can say yes.
+    const GUARDED: bool = false;
+    /// Returns `true` if results of this arithmetic are right only where they are finite; [`Lane::general`] computes
+    /// the rest.
+    #[inline(always)]
+    fn is_guarded(&self) -> bool {
+        false
+    }
+    /// The arithmetic that is always right, for formats that have infinities and NaN.
+    fn general(&self) -> Option<Self::General> {
+        None
+    }
+
+    /// `a + b`
+    fn add(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// `a - b`
+    #[inline(always)]
+    fn sub(&self, a: Self::T, b: Self::T) -> Self::T {
+        self.add(a, self.neg(b))
+    }
+    /// `a b`
+    fn mul(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// Products added in order, each product and each sum rounded; `N` at least 1.
+    #[inline(always)]
+    fn sum<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T {
+        let mut sum = self.mul(a[0], b[0]);
+        for k in 1..N {
+            sum = self.add(sum, self.mul(a[k], b[k]));
+        }
+        sum
+    }
+    /// True if [`Lane::is_fused`] can say yes.
+    const FUSED: bool = false;
+    /// Returns `true` if [`Lane::fused_sum`] and [`Lane::fused_div`] are [`Lane::sum`] and [`Lane::div`] in fewer
+    /// instructions on a host with fused multiply-add.
+    #[inline(always)]
+    fn is_fused(&self) -> bool {
+        false
+    }
+    /// [`Lane::sum`], where [`Lane::is_fused`].
+    #[inline(always)]
+    fn fused_sum<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T {
+        self.sum(a, b)
+    }
+    /// [`Lane::div`], where [`Lane::is_fused`].
+    #[inline(always)]
+    fn fused_div(&self, a: Self::T, b: Self::T) -> Self::T {
+        self.div(a, b)
+    }
+    /// `a b + c`, rounded once.
+    fn fused_mad(&self, a: Self::T, b: Self::T, c: Self::T) -> Self::T;
+    /// The sum of `N` products, rounded once.
+    fn exact_dot<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T;
+    /// `a / b`
+    fn div(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// Square root.
+    fn sqrt(&self, a: Self::T) -> Self::T;
+    /// `1 / a`
+    fn rcp(&self, a: Self::T) -> Self::T;
+    /// `1 / sqrt(a)`
+    fn rsq(&self, a: Self::T) -> Self::T;
+    /// `2^a`
+    fn exp2(&self, a: Self::T) -> Self::T;
+    /// The logarithm of `a` to base 2.
+    fn log2(&self, a: Self::T) -> Self::T;
+
+    /// The smaller one.
+    fn min(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// The larger one.
+    fn max(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// The largest integer not above `a`.
+    #[inline(always)]
+    fn floor(&self, a: Self::T) -> Self::T {
+        self.round_f64(self.to_f64(a).floor())
+    }
+    /// `a - floor(a)`
+    fn frc(&self, a: Self::T) -> Self::T;
+    /// `-a`
+    fn neg(&self, a: Self::T) -> Self::T;
+    /// `|a|`
+    fn abs(&self, a: Self::T) -> Self::T;
+    /// `a 2^shift`, `shift` within -3 to 3.
+    #[inline(always)]
+    fn scale(&self, a: Self::T, shift: i32) -> Self::T {
+        self.round_f64(self.to_f64(a) * pow2(shift))
+    }
+    /// `a` clamped to [0, 1].
+    fn saturate(&self, a: Self::T) -> Self::T;
+    /// `a > 1/2`, the half exact; false for NaN.
+    fn above_half(&self, a: Self::T) -> bool;
+    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
+    fn factor(&self, a: Self::T, b: Self::T) -> Self::T;
+}

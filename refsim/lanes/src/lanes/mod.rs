@@ -1,0 +1,33 @@
+//! The arithmetic of number formats on single lanes, and the vector instructions that it is compiled for.
+//!
+//! - `row`: rows of lanes; `lane`: what an arithmetic has to offer; `layout`: fields of floats; `fixed`, `normalized`,
+//!   `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's; `toward`:
+//!   in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
+//! - `any`: which format gets which; `reading`: what slots hold as numbers of the host.
+//! - `simd`: vector instructions; `evaluate`: one operation on many operands, for the proof.
+
+mod any;
+mod evaluate;
+mod fixed;
+mod float;
+mod ieee;
+mod lane;
+mod layout;
+mod normalized;
+mod odd;
+mod power;
+mod reading;
+mod round;
+mod row;
+mod simd;
+mod toward;
+
+pub use any::AnyLane;
+pub(crate) use any::{Arithmetic, narrow, with_any_lane};
+pub(crate) use evaluate::{apply, is_finite};
+pub use evaluate::{convert, evaluate, exact_dot};
+pub(crate) use lane::{Lane, RegisterNumber};
+pub use odd::div_odd_long;
+pub use reading::Reading;
+pub use row::{LANES, LaneRow, TRUE};
+pub use simd::SimdLevel;

@@ -1,0 +1,104 @@
+//! Numbers in slots as numbers of the host: floats as they are, integers in units of their format. The same for all
+//! formats of a kind, whatever their rules.
+
+use super::row::{LANES, LaneRow};
+use super::simd::SimdLevel;
+
+/// How a slot's number is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// Bits of a single of the host.
+    Float,
+    /// An integer of `1 / units`.
+    Integer {
+        /// The integer of 1, or the largest one below.
+        one: i32,
+        /// Units of 1.
+        units: f64,
+    },
+}
+
+impl Reading {
+    /// The number as a double: exact, or of a normalized format the nearest one.
+    #[inline(always)]
+    pub fn to_f64(self, raw: u32) -> f64 {
+        match self {
+            Self::Float => f64::from(f32::from_bits(raw)),
+            Self::Integer { units, .. } => f64::from(raw.cast_signed()) / units,
+        }
+    }
+
+    /// Bits of the nearest single, of which NaN has one pattern.
+    #[inline(always)]
+    pub fn to_single(self, raw: u32) -> u32 {
+        let x = self.to_f64(raw) as f32;
+        if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }
+    }
+
+    /// The number clamped to [0, 1] (NaN gives 0), times `scale` plus `half`, truncated.
+    ///
+    /// Exact for 24 bits times 24, and where the quotient by `units` is an integer.
+    #[inline(always)]
+    pub fn to_steps(self, raw: u32, scale: f64, half: f64) -> u32 {
+        match self {
+            Self::Float => {
+                let x = f64::from(f32::from_bits(raw));
+                let low = if x > 0.0 { x } else { 0.0 };
+                let clamped = if low < 1.0 { low } else { 1.0 };
+                (clamped * scale + half) as u32
+            }
+            Self::Integer { one, units } => {
+                (f64::from(raw.cast_signed().max(0).min(one)) * scale / units + half) as u32
+            }
+        }
+    }
+
+    /// [`Self::to_f64`] for a row.
+    pub(crate) fn row_to_f64(self, simd: SimdLevel, row: &LaneRow, out: &mut [f64; LANES]) {
+        simd.run(
+            #[inline(always)]
+            || each(self, row, out, Self::to_f64),
+        );
+    }
+
+    /// [`Self::to_single`] for a row.
+    pub fn row_to_singles(self, simd: SimdLevel, row: &LaneRow, out: &mut LaneRow) {
+        simd.run(
+            #[inline(always)]
+            || each(self, row, out, Self::to_single),
+        );
+    }
+
+    /// [`Self::to_steps`] for a row.
+    pub fn row_to_steps(self, simd: SimdLevel, row: &LaneRow, (scale, half): (f64, f64), out: &mut LaneRow) {
+        simd.run(
+            #[inline(always)]
+            || {
+                each(
+                    self,
+                    row,
+                    out,
+                    #[inline(always)]
+                    |reading, raw| reading.to_steps(raw, scale, half),
+                );
+            },
+        );
+    }
+}
+
+/// A function of all lanes, in a loop for each kind.
+#[inline(always)]
+fn each<R>(reading: Reading, row: &LaneRow, out: &mut [R; LANES], f: impl Fn(Reading, u32) -> R) {
+    match reading {
+        Reading::Float => {
+            for i in 0..LANES {
+                out[i] = f(Reading::Float, row[i]);
+            }
+        }
+        Reading::Integer { one, units } => {
+            for i in 0..LANES {
+                out[i] = f(Reading::Integer { one, units }, row[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Rounding a number of the host into a narrower float format, without branches: constants of the format, and one body
+//! for both widths of the host.
+
+use super::layout::pow2;
+use crate::num::{Denormals, Encoding, Format, Overflow, Rounding};
+
+/// The number of a rounding: what lanes have as a constant.
+pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
+    match rounding {
+        Rounding::NearestEven => EVEN,
+        Rounding::NearestAway => AWAY,
+        // Devices refuse the other (`Format::for_registers`).
+        Rounding::TowardZero | Rounding::Stochastic(_) => ZERO,
+        Rounding::Down => DOWN,
+        Rounding::Up => UP,
+        Rounding::Odd => ODD,
+    }
+}
+
+pub(crate) const EVEN: u8 = 0;
+pub(crate) const AWAY: u8 = 1;
+pub(crate) const ZERO: u8 = 2;
+pub(crate) const DOWN: u8 = 3;
+pub(crate) const UP: u8 = 4;
+pub(crate) const ODD: u8 = 5;
+
+macro_rules! rounder {
+    ($name:ident, $float:ty, $bits:ty, $mantissa:literal) => {
+        /// How numbers of the host become numbers of a format.
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct $name {
+            /// Exponent bits of the smallest normal number: below it the unit in the last place stays the same.
+            lowest: $bits,
+            /// Added to the exponent bits of a number makes one and a half times the number whose unit in the last
+            /// place is the format's there.
+            pivot: $bits,
+            /// A binade times this is that unit.
+            unit: $float,
+            /// Numbers below this become zero: the smallest normal number under [`Denormals::Flush`], else 0.
+            flush: $float,
+            /// The largest finite number.
+            max: $float,
+            /// From where on an exact magnitude becomes infinite, by sign; NaN if none does, infinities neither.
+            infinite: [$float; 2],
+            /// The number beyond: infinity, or NaN in encodings without it.
+            beyond: $float,
+        }
+
+        impl $name {
+            const SIGN: $bits = 1 << (<$bits>::BITS - 1);
+            const EXPONENT: $bits = Self::SIGN - (1 << $mantissa);
+
+            /// For a format with these bits.
+            pub(crate) fn new(format: &Format, man_bits: u8) -> Self {
+                let m = <$bits>::from(man_bits);
+                let (emin, emax) = format.exponents();
+                let min_normal = pow2(emin) as $float;
+                let last = pow2(emax - i32::from(man_bits));
+                // The pattern behind the largest number of IEEE 754 is infinity's, that of a finite one NaN's.
+                let short = format.encoding == Encoding::Finite && format.canonical_nan().is_some();
+                let exact_max = pow2(emax) * 2.0 - if short { 2.0 } else { 1.0 } * last;
+                let max = exact_max as $float;
+                let never = <$float>::INFINITY;
+                let ieee = format.encoding == Encoding::Ieee;
+                let infinite = match (format.overflow, format.rounding) {
+                    (_, _) if format.canonical_nan().is_none() => [<$float>::NAN; 2],
+                    (Overflow::Saturate, _) if !ieee => [<$float>::NAN; 2],
+                    (Overflow::Saturate, _) => [never; 2],
+                    (Overflow::Nv30, _) => [(pow2(emax) * 2.0) as $float; 2],
+                    (_, Rounding::NearestEven | Rounding::NearestAway) => {
+                        let half = (exact_max + last / 2.0) as $float;
+                        // To even, a tie stays if the largest number is even.
+                        let stays = short && format.rounding == Rounding::NearestEven;
+                        [<$float>::from_bits(half.to_bits() + <$bits>::from(stays)); 2]
+                    }
+                    (_, Rounding::TowardZero | Rounding::Odd | Rounding::Stochastic(_)) => [never; 2],
+                    (_, Rounding::Down) => [never, <$float>::from_bits(max.to_bits() + 1)],
+                    (_, Rounding::Up) => [<$float>::from_bits(max.to_bits() + 1), never],
+                };
+                Self {
+                    lowest: min_normal.to_bits(),
+                    pivot: ($mantissa - m) << $mantissa | 1 << ($mantissa - 1),
+                    unit: pow2(-i32::from(man_bits)) as $float,
+                    flush: if format.denormals == Denormals::Flush { min_normal } else { 0.0 },
+                    max,
+                    infinite,
+                    beyond: if ieee { never } else { <$float>::NAN },
+                }
+            }
+
+            /// Rounds a number of any size; infinities and NaN pass. The pivot must be a number: exponents of the host
+            /// reach as far beyond those of `x` as its mantissa is longer.
+            #[inline(always)]
+            pub(crate) fn round(&self, rounding: u8, x: $float) -> $float {
+                let exponent = (x.to_bits() & Self::EXPONENT).max(self.lowest);
+                let kept = self.near(rounding, x, exponent);
+                self.fit(rounding, x, kept)
+            }
+
+            /// All ones for a negative number or `-0`.
+            #[inline(always)]
+            fn negative(x: $float) -> $bits {
+                (x.to_bits() >> (<$bits>::BITS - 1)).wrapping_neg()
+            }
+
+            /// The magnitude rounded to the unit of the binade with these exponent bits.
+            ///
+            /// Adding the pivot and taking it away rounds to nearest even; the other roundings compare what that gives
+            /// with what there was. The pivot of an infinity or a NaN is some finite number, so that they come through.
+            #[inline(always)]
+            fn near(&self, rounding: u8, x: $float, exponent: $bits) -> $float {
+                let pivot = <$float>::from_bits(exponent.wrapping_add(self.pivot));
+                let unit = <$float>::from_bits(exponent) * self.unit;
+                // Up is down of the number turned round.
+                let value = match rounding {
+                    DOWN => x,
+                    UP => -x,
+                    _ => x.abs(),
+                };
+                let near = (value + pivot) - pivot;
+                let below = (near - if near > value { unit } else { 0.0 }).abs();
+                match rounding {
+                    EVEN => near,
+                    AWAY => near + if value - near >= 0.5 * unit { unit } else { 0.0 },
+                    ODD => {
+                        let pairs = 0.5 * (below / unit);
+                        below + if value > below && pairs == pairs.floor() { unit } else { 0.0 }
+                    }
+                    _ => below,
+                }
+            }
+
+            /// Applies the denormal and overflow rules to a rounded magnitude, with the sign of `x`.
+            #[inline(always)]
+            fn fit(&self, rounding: u8, x: $float, kept: $float) -> $float {
+                let kept = if kept < self.flush { 0.0 } else { kept };
+                // In this order a NaN stays.
+                let limited = if self.max < kept { self.max } else { kept };
+                let by_sign = (self.infinite[0].to_bits() ^ self.infinite[1].to_bits()) & Self::negative(x);
+                let differs = if rounding == DOWN || rounding == UP { by_sign } else { 0 };
+                let infinite = <$float>::from_bits(self.infinite[0].to_bits() ^ differs);
+                let fits = if x.abs() >= infinite { self.beyond } else { limited };
+                <$float>::from_bits(fits.to_bits() | x.to_bits() & Self::SIGN)
+            }
+        }
+    };
+}
+
+rounder!(SingleRounder, f32, u32, 23);
+rounder!(DoubleRounder, f64, u64, 52);
+
+impl SingleRounder {
+    /// As [`Self::round`], for the roundings other than nearest even: normal numbers by their bits, so that there is no
+    /// pivot that could be too large.
+    #[inline(always)]
+    pub(crate) fn cut(&self, rounding: u8, x: f32) -> f32 {
+        let size = x.to_bits() & !Self::SIGN;
+        let dropped = self.dropped();
+        let carry = match rounding {
+            AWAY => (dropped >> 1).wrapping_add(1),
+            DOWN => Self::negative(x) & dropped,
+            _ => 0,
+        };
+        let normal = f32::from_bits(size.wrapping_add(carry) & !dropped);
+        let small = self.near(rounding, x, self.lowest);
+        self.fit(rounding, x, if size < self.lowest { small } else { normal })
+    }
+
+    /// Bits that a normal number of the format does not have. (No arithmetic here is checked: a check is a branch.)
+    #[inline(always)]
+    fn dropped(&self) -> u32 {
+        1u32.wrapping_shl(self.pivot >> 23).wrapping_sub(1)
+    }
+
+    /// Makes a subnormal number of binary32 zero, if the format asks for it.
+    #[inline(always)]
+    pub(crate) fn flushed(&self, x: f32) -> f32 {
+        let kept = if self.flush == 0.0 { u32::MAX } else { Self::SIGN };
+        // No branch: the mask is a constant of the loop, and one bit test decides.
+        if x.to_bits() & Self::EXPONENT == 0 { f32::from_bits(x.to_bits() & kept) } else { x }
+    }
+}
+
+impl DoubleRounder {
+    /// Rounds a double into single precision to nearest even by the host's conversion, for the layout of binary32.
+    #[inline(always)]
+    pub(crate) fn convert(&self, x: f64) -> f32 {
+        let (size, max) = (x.abs(), f64::from(f32::MAX));
+        let limited = if max < size { max } else { size };
+        let fits = if size >= self.infinite[0] { f64::INFINITY } else { limited };
+        f64::from_bits(fits.to_bits() | x.to_bits() & Self::SIGN) as f32
+    }
+}
+
+/// How numbers of single precision become numbers of a format of at most eleven bits and six exponent bits, in
+/// roundings other than nearest even; subnormal numbers are kept, and what is too large becomes infinite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShortRounder {
+    /// Exponent bits of the smallest normal number, and of the power of two that is too large.
+    binades: [u32; 2],
+    /// Less the exponent bits of a binade it is the reciprocal of its unit.
+    per_unit: u32,
+    /// Added to the exponent bits of a binade makes its unit, stretched so that what is too large is so for the host.
+    unit: u32,
+    /// Undoes the stretching.
+    shrink: f32,
+}
+
+impl ShortRounder {
+    /// For a format with these bits.
+    pub(crate) fn new(exp_bits: u8, man_bits: u8) -> Self {
+        const BIAS: u32 = 127;
+        let (m, emax) = (u32::from(man_bits), (1 << (exp_bits - 1)) - 1);
+        Self {
+            binades: [(BIAS + 1).wrapping_sub(emax) << 23, (BIAS + 1 + emax) << 23],
+            per_unit: (2 * BIAS + m) << 23,
+            unit: BIAS.wrapping_sub(emax).wrapping_sub(m) << 23,
+            shrink: pow2(emax.cast_signed() - 127) as f32,
+        }
+    }
+
+    /// Rounds a number that comes from numbers of the format; infinities and NaN pass.
+    ///
+    /// In units of its binade it has eleven bits before the point, where the host rounds to an integer in the way asked
+    /// for. Half a unit is added without an error that matters: numbers of less than a unit come from products, which
+    /// have 22 bits.
+    #[inline(always)]
+    pub(crate) fn round(&self, rounding: u8, x: f32) -> f32 {
+        let [lowest, highest] = self.binades;
+        let binade = (x.to_bits() & 0x7f80_0000).max(lowest).min(highest);
+        let units = x * f32::from_bits(self.per_unit.wrapping_sub(binade));
+        let whole = match rounding {
+            AWAY => (units + 0.5_f32.copysign(units)).trunc(),
+            DOWN => units.floor(),
+            _ => units.trunc(),
+        };
+        whole * f32::from_bits(binade.wrapping_add(self.unit)) * self.shrink
+    }
+}

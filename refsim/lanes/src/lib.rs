@@ -1,0 +1,18 @@
+//! Number formats and the arithmetic in them: exact by definition ([`num`]), and in vector code of the host.
+//!
+//! The lower part of the emulator `refsim`, which re-exports what its users need as `refsim::num` and
+//! `refsim::exec::batch`. It is a package of its own because it is most of the emulator's machine code: a change of the
+//! assembler, the checker or the machine compiles none of it again. Use `refsim` instead.
+//!
+//! - [`num`]: the definition, by integer operations alone.
+//! - `lanes`: the same arithmetic on single lanes, written apart from `num`, for each format the fastest way that gives
+//!   the same bits.
+//! - `rows`: operations on rows of 256 lanes, compiled for each level of vector instructions.
+
+pub mod num;
+
+mod lanes;
+mod rows;
+
+pub use lanes::{AnyLane, LANES, LaneRow, Reading, SimdLevel, TRUE, convert, div_odd_long, evaluate, exact_dot};
+pub use rows::{ArrayOperation, LaneCode, LaneOp, OPERANDS, Slot, Slots, run};

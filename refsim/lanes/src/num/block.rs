@@ -1,0 +1,179 @@
+//! Blocks of numbers with a shared scale: the MX formats of OCP's Microscaling specification, version 1.0.
+//!
+//! A block is a scale ([`Format::E8M0`], a power of two) and elements of a short format; a number is the scale times an
+//! element. [`BlockFormat::quantize`] and [`BlockFormat::dequantize`] convert to and from plain numbers.
+//!
+//! ```
+//! use refsim_lanes::num::{Format, block::BlockFormat};
+//!
+//! let mx: BlockFormat = "mxfp4".parse()?;
+//! let numbers = [1.0f32, -0.4, 96.0, 40.0].map(f32::to_bits);
+//! let block = mx.quantize(&Format::FP32, &numbers);
+//! // The largest element is 6 = 1.5 * 2^2 of 96 = 1.5 * 2^6: the scale is 2^4.
+//! assert_eq!((block.scale, block.elements.as_slice()), (131, &[0, 8, 7, 4][..]));
+//! let back = mx.dequantize(Format::FP32, block.scale, &block.elements);
+//! let back: Vec<f32> = back.iter().map(|number| f32::from_bits(number.bits)).collect();
+//! assert_eq!(back, [0.0, -0.0, 96.0, 32.0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::env::Env;
+use super::flags::{Flags, Outcome};
+use super::format::Format;
+use super::round::{infinite, round_quotient};
+use super::rules::{Encoding, Overflow};
+use super::unpack::{Unpacked, nan_bits, unpack};
+
+/// Elements of a block in every format of the specification.
+pub const BLOCK: usize = 32;
+
+/// A block format: which format the elements have. Written `mxfp8-e4m3`, `mxfp8-e5m2`, `mxfp6-e2m3`, `mxfp6-e3m2`,
+/// `mxfp4` or `mxint8`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct BlockFormat {
+    name: &'static str,
+    element: Format,
+}
+
+const fn element(exp_bits: u8, man_bits: u8, encoding: Encoding) -> Format {
+    let Some(format) = Format::float(exp_bits, man_bits) else { panic!("a float") };
+    format.with_encoding(encoding).with_overflow(Overflow::Saturate)
+}
+
+/// A text that names no block format.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[error("block format `{text}`: expected one of {expected}")]
+#[diagnostic(code(num::block_format), help("the names are those of OCP's Microscaling specification, in lower case"))]
+pub struct BlockFormatError {
+    /// The text.
+    pub text: String,
+    /// The names that exist, separated by spaces.
+    pub expected: String,
+}
+
+/// A block of numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The scale, a pattern of [`Format::E8M0`].
+    pub scale: u32,
+    /// The elements, patterns of [`BlockFormat::element`].
+    pub elements: Vec<u32>,
+    /// The exceptions of all elements.
+    pub flags: Flags,
+}
+
+impl BlockFormat {
+    /// Every block format.
+    pub const ALL: [Self; 6] = [
+        Self { name: "mxfp8-e4m3", element: element(4, 3, Encoding::Finite) },
+        Self { name: "mxfp8-e5m2", element: element(5, 2, Encoding::Ieee) },
+        Self { name: "mxfp6-e2m3", element: element(2, 3, Encoding::Finite) },
+        Self { name: "mxfp6-e3m2", element: element(3, 2, Encoding::Finite) },
+        Self { name: "mxfp4", element: element(2, 1, Encoding::Finite) },
+        Self { name: "mxint8", element: INT8 },
+    ];
+
+    /// The name.
+    pub const fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// The format of the elements: saturating, to nearest even. That of `mxint8` is `s1.6`.
+    pub const fn element(self) -> Format {
+        self.element
+    }
+
+    /// Converts numbers of a format to one block ([`BLOCK`] of them in the specification; any number works).
+    ///
+    /// The scale is `2^(e - E)`, where `2^e` is the largest power of two that the largest magnitude reaches, and `2^E`
+    /// that of the largest element; within the range of scales, and the smallest one if all numbers are zero. Each
+    /// number over the scale is rounded once, to nearest even; what is too large becomes the largest element
+    /// (specification 6.3). The specification leaves infinities and NaN open: a block with one has the scale NaN,
+    /// elements of zero, and raises `INVALID`.
+    pub fn quantize(self, from: &Format, numbers: &[u32]) -> Block {
+        let values: Vec<Unpacked> = numbers.iter().map(|&bits| unpack(from, bits)).collect();
+        let mut largest = None;
+        for value in &values {
+            match *value {
+                Unpacked::Finite { sig: 0, .. } => {}
+                Unpacked::Finite { sig, exp, den, .. } => largest = largest.max(Some(log2_floor(sig, den) + exp)),
+                Unpacked::Inf { .. } | Unpacked::Nan { .. } => {
+                    let elements = vec![0; numbers.len()];
+                    return Block { scale: nan_bits(&Format::E8M0), elements, flags: Flags::INVALID };
+                }
+            }
+        }
+        let (least, most) = Format::E8M0.exponents();
+        let power = largest.map_or(least, |exponent| (exponent - self.largest_exponent()).clamp(least, most));
+        let env = Env::from(self.element);
+        let rounded = values.iter().map(|value| match *value {
+            Unpacked::Finite { sign, sig, exp, den } => round_quotient(&env, sign, sig, exp - power, den.into()),
+            Unpacked::Inf { .. } | Unpacked::Nan { .. } => Outcome::exact(0),
+        });
+        let mut flags = Flags::empty();
+        let elements = rounded.map(|outcome| {
+            flags |= outcome.flags;
+            outcome.bits
+        });
+        let elements = elements.collect();
+        Block { scale: (power - least).unsigned_abs(), elements, flags }
+    }
+
+    /// Converts a block to numbers of a format, each the scale times an element, rounded once. A scale that is NaN
+    /// makes every number NaN (0, and `INVALID`, in formats without).
+    pub fn dequantize(self, to: impl Into<Env>, scale: u32, elements: &[u32]) -> Vec<Outcome> {
+        let to = to.into();
+        let none = if to.format.canonical_nan().is_none() { Flags::INVALID } else { Flags::empty() };
+        let number = |&bits: &u32| match (unpack(&Format::E8M0, scale), unpack(&self.element, bits)) {
+            (Unpacked::Finite { exp: power, .. }, Unpacked::Finite { sign, sig, exp, den }) => {
+                round_quotient(&to, sign, sig, exp + power, den.into())
+            }
+            (Unpacked::Finite { .. }, Unpacked::Inf { sign }) => infinite(&to.format, sign),
+            _ => Outcome::new(nan_bits(&to.format), none),
+        };
+        elements.iter().map(number).collect()
+    }
+
+    /// The exponent of the largest element: 8 of `mxfp8-e4m3`, 0 of `mxint8`.
+    const fn largest_exponent(self) -> i32 {
+        self.element.exponents().1
+    }
+}
+
+/// Two's complement in units of `2^-6`.
+const INT8: Format = match Format::fixed(1, 6) {
+    Some(format) => format,
+    None => panic!("a format"),
+};
+
+/// `floor(log2(sig / den))`; neither is 0.
+fn log2_floor(sig: u64, den: u32) -> i32 {
+    let den = u64::from(den);
+    let guess = sig.ilog2().cast_signed() - den.ilog2().cast_signed();
+    let below = if guess >= 0 {
+        u128::from(sig) < u128::from(den) << guess
+    } else {
+        (u128::from(sig) << -guess) < u128::from(den)
+    };
+    guess - i32::from(below)
+}
+
+impl FromStr for BlockFormat {
+    type Err = BlockFormatError;
+
+    fn from_str(text: &str) -> Result<Self, BlockFormatError> {
+        Self::ALL.into_iter().find(|format| format.name == text).ok_or_else(|| BlockFormatError {
+            text: text.chars().take(40).collect(),
+            expected: Self::ALL.map(Self::name).join(" "),
+        })
+    }
+}
+
+impl fmt::Display for BlockFormat {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.pad(self.name)
+    }
+}

@@ -1,0 +1,225 @@
+//! Execution of lane operations, of which decoded programs consist.
+
+use super::code::{LaneCode, LaneOp};
+use super::loops::{Largest, difference, dot, dot_by, largest_of, one, three, two};
+use super::masks::{combine_patterns, compare_numbers};
+use super::slots::Slots;
+use super::{guard, pack};
+use crate::lanes::{AnyLane, LANES, Lane, LaneRow, SimdLevel, is_finite, narrow, with_any_lane};
+use crate::num::NumberOperation as Op;
+
+/// Executes operations in the arithmetic of a format, in vector code of this level.
+pub fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
+    with_any_lane!(lane, |lane| { run_at(lane, simd, ops, slots) });
+}
+
+/// A function per arithmetic and level: one of all would be compiled slowly.
+#[inline(never)]
+fn run_at<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
+    if L::VECTORS {
+        simd.run(
+            #[inline(always)]
+            || run_lanes(lane, simd, ops, slots),
+        );
+    } else {
+        run_lanes(lane, simd, ops, slots);
+    }
+}
+
+/// Forced inlining: out of line, longer lane functions would be compiled for the baseline processor.
+#[inline(always)]
+fn run_lanes<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
+    // Below, a fused multiply-add would be a call of a function.
+    let fused = L::FUSED && lane.is_fused() && simd >= SimdLevel::Avx2;
+    for op in ops {
+        let largest = match op.code {
+            LaneCode::Dot(2) => dot::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            LaneCode::Dot(3) => dot::<L, 3>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            LaneCode::Dot(_) => dot::<L, 4>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            LaneCode::Sum(2) => sum::<L, 2>(lane, fused, op, slots),
+            LaneCode::Sum(3) => sum::<L, 3>(lane, fused, op, slots),
+            LaneCode::Sum(_) => sum::<L, 4>(lane, fused, op, slots),
+            LaneCode::Difference => dot::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))),
+            ),
+            LaneCode::SumBy(1) => sum_by::<L, 1>(lane, fused, op, slots),
+            LaneCode::SumBy(2) => sum_by::<L, 2>(lane, fused, op, slots),
+            LaneCode::SumBy(3) => sum_by::<L, 3>(lane, fused, op, slots),
+            LaneCode::SumBy(_) => sum_by::<L, 4>(lane, fused, op, slots),
+            LaneCode::Widen => {
+                let Slots { rows, wide, .. } = slots;
+                lane.reading().row_to_f64(simd, &rows[usize::from(op.args[0])], wide);
+                continue;
+            }
+            _ => step(lane, (simd, fused), op, slots),
+        };
+        if op.zero_wins || lane.is_guarded() && op.code.is_guarded() {
+            // Where there is never a guard the loops don't look for the largest.
+            let largest = if L::GUARDED { largest } else { largest_of(&slots.scratch) };
+            if !is_finite(largest) {
+                guard::mend(lane.general(), op, slots);
+            }
+        }
+        slots.commit(op.to);
+    }
+}
+
+/// A sum of products of rows.
+#[inline(always)]
+fn sum<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &mut Slots) -> Largest {
+    if L::FUSED && fused {
+        return dot::<L, N>(
+            op,
+            slots,
+            #[inline(always)]
+            |a, b| lane.fused_sum(a, b),
+        );
+    }
+    dot::<L, N>(
+        op,
+        slots,
+        #[inline(always)]
+        |a, b| lane.sum(a, b),
+    )
+}
+
+/// A sum of products of uniform values and rows.
+#[inline(always)]
+fn sum_by<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &mut Slots) -> Largest {
+    if L::FUSED && fused {
+        return dot_by::<L, N>(
+            op,
+            slots,
+            #[inline(always)]
+            |a, b| lane.fused_sum(a, b),
+        );
+    }
+    dot_by::<L, N>(
+        op,
+        slots,
+        #[inline(always)]
+        |a, b| lane.sum(a, b),
+    )
+}
+
+/// An operation of the table, or of neighbours. An operation that is never guarded gives 0.
+#[inline(always)]
+fn step<L: Lane>(l: &L, (simd, fused): (SimdLevel, bool), op: &LaneOp, slots: &mut Slots) -> Largest {
+    let Slots { rows, scratch, values, wide, .. } = slots;
+    let (out, wide): (&mut LaneRow, &[f64; LANES]) = (scratch, wide);
+    let [a, b, c] = [0, 1, 2].map(|k| &**rows[usize::from(op.args[k])]);
+    let uniform = L::load(values[usize::from(op.args[0])]);
+    match op.code {
+        LaneCode::Plain(Op::Add) => two::<L>(a, b, out, |a, b| l.add(a, b)),
+        LaneCode::Plain(Op::Sub) => two::<L>(a, b, out, |a, b| l.sub(a, b)),
+        LaneCode::Plain(Op::Mul) => two::<L>(a, b, out, |a, b| l.mul(a, b)),
+        LaneCode::AddTo => one::<L>(b, out, |b| l.add(uniform, b)),
+        LaneCode::SubFrom => one::<L>(b, out, |b| l.sub(uniform, b)),
+        LaneCode::SubOff => one::<L>(b, out, |b| l.sub(b, uniform)),
+        LaneCode::MadBy => two::<L>(b, c, out, |b, c| l.add(l.mul(uniform, b), c)),
+        LaneCode::Plain(Op::Div) if L::FUSED && fused => two::<L>(a, b, out, |a, b| l.fused_div(a, b)),
+        LaneCode::Plain(Op::Div) => two::<L>(a, b, out, |a, b| l.div(a, b)),
+        LaneCode::Plain(Op::Mad) => three::<L>(a, b, c, out, |a, b, c| l.add(l.mul(a, b), c)),
+        LaneCode::Plain(Op::FusedMad) => three::<L>(a, b, c, out, |a, b, c| l.fused_mad(a, b, c)),
+        LaneCode::Plain(Op::Min) => two::<L>(a, b, out, |a, b| l.min(a, b)),
+        LaneCode::Plain(Op::Max) => two::<L>(a, b, out, |a, b| l.max(a, b)),
+        LaneCode::Plain(Op::Neg) => one::<L>(a, out, |a| l.neg(a)),
+        LaneCode::Plain(Op::Abs) => one::<L>(a, out, |a| l.abs(a)),
+        LaneCode::Plain(operation @ (Op::Floor | Op::AddressFloor)) => {
+            let largest = one::<L>(a, out, |a| l.floor(a));
+            if operation == Op::AddressFloor {
+                pack::to_addresses(l.reading(), out);
+            }
+            largest
+        }
+        LaneCode::Plain(Op::Frc) => one::<L>(a, out, |a| l.frc(a)),
+        LaneCode::Plain(Op::Rcp) => one::<L>(a, out, |a| l.rcp(a)),
+        LaneCode::Plain(Op::Rsq) => one::<L>(a, out, |a| l.rsq(a)),
+        LaneCode::Plain(Op::Exp2) => one::<L>(a, out, |a| l.exp2(a)),
+        LaneCode::Plain(Op::Log2) => one::<L>(a, out, |a| l.log2(a)),
+        LaneCode::Plain(Op::Saturate) => one::<L>(a, out, |a| l.saturate(a)),
+        LaneCode::Immediate(Op::Scale, shift) => {
+            let shift = i32::from(shift);
+            one::<L>(a, out, |a| l.scale(a, shift))
+        }
+        LaneCode::Plain(Op::Factor) => two::<L>(a, b, out, |a, b| l.factor(a, b)),
+        LaneCode::Plain(Op::SelectAboveHalf) => three::<L>(a, b, c, out, |a, b, c| if l.above_half(a) { b } else { c }),
+        LaneCode::Neighbors(down) => difference(l, a, out, if down { 16 } else { 1 }),
+        LaneCode::Plain(Op::Sqrt) => one::<L>(a, out, |a| l.sqrt(a)),
+        code => {
+            apart(l, simd, code, [a, b, c], wide, out);
+            0
+        }
+    }
+}
+
+/// An operation whose results are no numbers of the format, or are never guarded. Only rounding, decoding and encoding
+/// are compiled for each format.
+#[inline(always)]
+fn apart<L: Lane>(
+    l: &L,
+    simd: SimdLevel,
+    code: LaneCode,
+    [a, b, c]: [&LaneRow; 3],
+    wide: &[f64; LANES],
+    out: &mut LaneRow,
+) {
+    match code {
+        LaneCode::Plain(Op::Less | Op::LessEqual | Op::Equal | Op::SelectNonNegative) | LaneCode::OrLess => {
+            compare_numbers::<L::T>(simd, code, [a, b, c], out);
+        }
+        LaneCode::Plain(Op::Select | Op::And | Op::Or | Op::AndNot) => {
+            combine_patterns(simd, code, [a, b, c], out);
+        }
+        LaneCode::Narrow
+        | LaneCode::Plain(Op::AddressNearest)
+        | LaneCode::Immediate(Op::SplitShort | Op::SplitByte | Op::SplitSignedByte, _) => {
+            let parts = pack::parts(l.reading(), code, a);
+            narrow(l, parts.as_deref().unwrap_or(wide), out);
+            if code == LaneCode::Plain(Op::AddressNearest) {
+                pack::to_addresses(l.reading(), out);
+            }
+        }
+        LaneCode::Immediate(Op::JoinShort | Op::JoinByte | Op::JoinSignedByte, _) => {
+            pack::join(l.reading(), code, [a, b], out);
+        }
+        LaneCode::Plain(Op::Encode) | LaneCode::Immediate(Op::JoinPattern, _) => {
+            let numbers = if code == LaneCode::Plain(Op::Encode) { a } else { b };
+            for i in 0..LANES {
+                out[i] = l.encode(L::load(numbers[i]));
+            }
+            if let LaneCode::Immediate(_, shift) = code {
+                pack::join_patterns(a, shift, out);
+            }
+        }
+        LaneCode::Plain(Op::Decode) | LaneCode::Immediate(Op::SplitPattern, _) => {
+            let (shift, mask) = match code {
+                LaneCode::Immediate(_, shift) => (shift, 0xffff),
+                _ => (0, u32::MAX),
+            };
+            for i in 0..LANES {
+                out[i] = L::store(l.decode(a[i] >> shift & mask));
+            }
+        }
+        // Executed by the caller, or by separate steps.
+        _ => {}
+    }
+}
