@@ -1,6 +1,7 @@
 //! Compressed transfer: pictures of every kind of card on every executor. That the vertex programs give the host's sums
 //! is proved beside them.
 
+use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;

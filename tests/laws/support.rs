@@ -3,9 +3,9 @@
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
+use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
 use crossbar::geom::vector::wide;
 use crossbar::geom::{Hit, Mesh};
-use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
 use proptest::sample::Index;
 use refsim::device::Profile;
 

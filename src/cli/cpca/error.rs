@@ -9,7 +9,7 @@ use crate::cli::Problem;
 use crate::cli::words::{counted, measured};
 use crate::report::Findings;
 use crate::study::prt::CompressionError;
-use crate::transfer::load_signal_and_meaning;
+use crate::transfer::load_signal;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,7 +32,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
+    let (meaning, mesh, signal) = load_signal(&args.signal)?;
     let (file, clustering) = clusters(&args.compressed)?;
     let shapes = [(signal.points(), signal.dimension()), (clustering.points(), clustering.dimension())];
     if shapes[0] != shapes[1] {

@@ -63,7 +63,8 @@ fn values_are_found_by_their_names_and_no_others() {
 
 #[test]
 fn help_is_the_first_paragraph() {
-    let values = variants::<Count>().possible_values().into_iter().flatten();
+    let parser = variants::<Count>();
+    let values = parser.possible_values().into_iter().flatten();
     let help: Vec<String> = values.filter_map(|value| value.get_help().map(ToString::to_string)).collect();
     assert_eq!(help, ["A texel alone", "All of 2.5"]);
 }

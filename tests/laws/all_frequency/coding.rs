@@ -5,7 +5,6 @@ use crossbar::all_frequency::code::{CodeOptions, CodedTransfer};
 use crossbar::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
 use crossbar::all_frequency::shade::{Shader, plain};
 use crossbar::all_frequency::transfer::{TransferSegment, transfer_of};
-use crossbar::clustering::{CpcaMethod, CpcaStep};
 use crossbar::transfer::Vertices;
 use crossbar::transfer::grid::Segmentation;
 use crossbar::transfer::light::{CubeLight, HaarLight};

@@ -3,11 +3,11 @@
 mod front_faces;
 
 use crossbar::card::SeenPixel;
+use crossbar::clustering::Clustering;
 use crossbar::geom::vector::wide;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::brdf::ExitBasis;
-use crossbar::clustering::Clustering;
 
 /// Exit radiance coefficients of all vertices under light of order 3 and half its radiance: rows of red, green and blue.
 pub(crate) fn exits(clustering: &Clustering, light: &HarmonicLight) -> Vec<[Vec<f64>; 3]> {

@@ -1,11 +1,10 @@
 //! Fewer triangles drawn: within the budget, never more, and never at the cost of error where none is allowed.
 
 use crate::support::cluster_options;
+use crossbar::clustering::{Clustering, Signal, compress};
 use crossbar::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
-use crossbar::clustering::Signal;
-use crossbar::clustering::{Clustering, compress};
 use glam::DVec3;
 use proptest::prelude::*;
 

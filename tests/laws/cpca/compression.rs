@@ -2,10 +2,8 @@
 
 use crate::environment::by_form;
 use crate::support::cluster_options;
-use crossbar::linalg::{Matrix, SymmetricEigen};
-use crossbar::clustering::Signal;
 use crossbar::clustering::{
-    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, StartPoints, compress, reference,
+    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress, paper,
 };
 use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::transfer::synthetic::torus_signal;

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
+use crossbar::clustering::{CpcaMethod, CpcaOptions, Signal, compress};
 use crossbar::geom::Mesh;
 use crossbar::io::npz::MAGIC;
 use crossbar::io::{NumberTable, parse_npy, parse_number_table, write_npy};
-use crossbar::clustering::{CpcaMethod, CpcaOptions, compress};
 use crossbar::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt, parse_prt, save_prt, write_prt};
 use crossbar::transfer::synthetic::torus_signal;
 use crossbar::transfer::{Tangents, Vertices, load_signal};

@@ -12,7 +12,6 @@ use refsim::asm::assemble;
 use refsim::check::{RuleId, check};
 use refsim::machine::ExecutorKind;
 
-use super::bound::{ErrorBound, before, bounded_step, contraction};
 use super::cornell;
 
 fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {

@@ -62,7 +62,7 @@ proptest! {
 fn a_texture_that_the_card_does_not_have_is_refused() {
     let matrix = Matrix::zeros([40; 2]).expect("small");
     let refused = packing::rgb_matrix([&matrix; 3], 32).expect_err("40 > 32");
-    assert_eq!((refused.limit, refused.width, refused.height), (32, 40, 40));
+    assert!(refused.to_string().contains("32 x 32 texels, the card's largest, found 40 x 40"), "{refused}");
     assert!(packing::luminance_matrix(&matrix, 32).is_err(), "it has 40 rows");
     assert!(packing::block_channel_matrix(&matrix, 32).is_ok(), "20 x 20");
     assert!(packing::rgb_vector(&[[0.0; 3]; 33], 32).is_err());

@@ -1,7 +1,7 @@
 //! Renderers that estimate the same integral agree, pixel by pixel, within what chance allows.
 
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{RenderedPicture, Settings};
+use crossbar::renderer::{RayKind, RenderedPicture, Settings};
 use crossbar::scene::{Scene, Surface};
 
 use super::{by_distributed_rays, by_paths, host, of, room, room_camera, settings, white};

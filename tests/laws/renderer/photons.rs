@@ -3,7 +3,7 @@
 use crate::environment::by_form;
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::photon::Photons;
-use crossbar::renderer::{RenderedPicture, Settings};
+use crossbar::renderer::{RayKind, RenderedPicture, Settings};
 use crossbar::scene::{Material, Scene, Surface};
 
 use super::{by_paths, by_photons, of, room, room_camera, settings, white};

@@ -45,7 +45,7 @@ fn limited(formats: &[&str]) -> (Vec<FormatLimits>, Vec<String>) {
         listed: None,
         configurations: formats.iter().zip('a'..).map(label).collect(),
         executor: ExecutorKind::Batch.into(),
-        options: LeakyTeapotOptions { rays_per_edge: 0, seed: 1, sides: Sides::Front, all_pairs: false },
+        options: LeakyTeapotOptions { rays_per_edge: 0, sides: Sides::Front, all_pairs: false },
     };
     let outcome = run(&parameters, &mut |_, _, _| {}).expect("it is traced");
     let said = findings(&parameters).conclusions().to_vec();

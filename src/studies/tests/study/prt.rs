@@ -13,13 +13,13 @@ use crossbar_studies::study::prt::{
 use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{FactorSampling, Supersamples};
 use crossbar_systems::all_frequency::file::AllFrequencyFile;
+use crossbar_systems::clustering::{AffineSubspace, Clustering, Signal};
 use crossbar_systems::transfer::brdf::Brdf;
-use crossbar_systems::clustering::{AffineSubspace, Clustering};
 use crossbar_systems::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
 use crossbar_systems::transfer::grid::texel_center;
 use crossbar_systems::transfer::light::{CubeLight, Decimation, DiskSource, DistantLight};
 use crossbar_systems::transfer::linear_basis::BasisWidth;
-use crossbar_systems::transfer::{Signal, Tangents, Vertices};
+use crossbar_systems::transfer::{Tangents, Vertices};
 use glam::{DMat3, DVec3};
 
 use super::StudyFiles;

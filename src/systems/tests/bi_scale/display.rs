@@ -240,7 +240,11 @@ fn parts_that_do_not_go_together_are_refused() {
         let card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, mesh, DisplayOptions::default());
         messages.push(card.map(|_| ()).expect_err("refused").to_string());
     }
-    messages.push(corner_coordinates(&hills(2), [1.0; 2]).expect_err("refused").to_string());
+    messages.push(
+        corner_coordinates(&crossbar_systems::transfer::synthetic::hills(2), [1.0; 2])
+            .expect_err("refused")
+            .to_string(),
+    );
     insta::assert_snapshot!(messages.join("\n"), @r"
     expected 144 numbers of local light, found 143
     expected an exposure of 0 to 1e30, found -1

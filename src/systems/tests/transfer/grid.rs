@@ -44,8 +44,8 @@ fn inside_a_face_hats_are_bilinear() {
 fn beyond_an_edge_lies_the_next_face() {
     // The texels with a weight in the fine direction at a corner of a texel of +x.
     let around = |row: usize, column: usize| {
-        let found = BasisWeights::of(BasisWidth::TwoTexels, row * 128 + column).iter();
-        found.map(|(texel, _)| texel).collect::<Vec<_>>()
+        let weights = BasisWeights::of(BasisWidth::TwoTexels, row * 128 + column);
+        weights.iter().map(|(texel, _)| texel).collect::<Vec<_>>()
     };
     // +x has -z to its right, +y above; beyond its right border lies -z's left column.
     assert_eq!(around(31, 127), [7 * 32 + 31, 5 * 1024 + 7 * 32, 8 * 32 + 31, 5 * 1024 + 8 * 32]);

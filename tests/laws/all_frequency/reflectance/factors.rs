@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 use crate::environment::by_form;
 use crate::support::in_threads;
+use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::factor::{
-    Denominators, DiffuseFactor, DiscSamples, FactorSampling, Factorization, FresnelForm, Lobe, ProductFunction,
-    ProductSymmetry, ProductTable, Shadowing, Supersamples,
+    Denominators, DiscSamples, FactorSampling, Factorization, FresnelForm, Lobe, ProductFunction, ProductSymmetry,
+    ProductTable, Shadowing, Supersamples,
 };
 use crossbar::geom::random::CounterRng;
 use crossbar::io::NumberTable;
@@ -223,10 +224,16 @@ fn a_white_furnace_shows_what_terms_lose() {
         }
     }
     // Exact for a diffuse surface: the albedo.
-    let diffuse = DiffuseFactor { albedo: 0.6 };
-    let reflected = diffuse.view() * DirectionRule::hemisphere(9).integral(DiffuseFactor::light);
-    assert!((reflected - 0.6).abs() < 1e-14, "{reflected}");
-    assert_eq!(diffuse.view(), 0.6 / PI);
+    let factor = |write: &dyn Fn(&mut [f64])| {
+        let mut value = [0.0];
+        write(&mut value);
+        value[0]
+    };
+    let view = factor(&|into| Reflectance::Diffuse.view(DVec3::Z, into));
+    let light = |direction| factor(&|into| Reflectance::Diffuse.light(direction, into));
+    let reflected = view * DirectionRule::hemisphere(9).integral(light);
+    assert!((reflected - 1.0).abs() < 1e-14, "{reflected}");
+    assert_eq!((view, light(DVec3::NEG_Z)), (1.0 / PI, 0.0));
 }
 
 /// Singular values of isotropic lobes come in pairs: a number of terms that splits a pair is reported, others are not.

@@ -4,12 +4,10 @@
 use approx::assert_relative_eq;
 use crossbar::bi_scale::baselines::{RowClusterOptions, RowClusters, StoredTransfer};
 use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
+use crossbar::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal, compress};
 use crossbar::linalg::dot;
-use crossbar::clustering::Signal;
-use crossbar::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, compress};
 
-use super::{light, transfer};
+use super::{dense_row, light, transfer};
 use crate::support::{cluster_options, in_threads};
 
 const FORMS: [CpcaForm; 2] = [CpcaForm::Affine, CpcaForm::Linear];

@@ -9,7 +9,7 @@ const LEADING: u32 = 9;
 /// Table of `floor(2^bits log2 m)` for significands `m` from 1 to 2.
 #[derive(Debug)]
 pub(super) struct LogTable {
-    bits: u8,
+    pub(super) bits: u8,
     /// By leading bits of the fraction: the value at the start of the interval, and the fraction at which it increases
     /// by one.
     entries: Vec<(i32, u32)>,
