@@ -44,7 +44,7 @@
 //!
 //! - [`oracle`]: every hit of an intersector of yours that is wrong, and rays on which intersectors differ
 //! - [`ray_engine`], [`radiosity`], [`subsurface`], [`cpca`], [`all_frequency`], [`bi_scale`]: the six systems; each
-//!   has its paper's equations on the host, the programs of the card, and a `reference` to be read beside the paper
+//!   has its paper's equations on the host, the programs of the card, and a module `paper` to be read beside it
 //! - [`scene`], [`geom`], [`tracer`], [`renderer`]: models and scenes, meshes and rays, a fast caster and pictures
 //! - [`study`]: what the program's commands compute, as parameters that answer with findings
 //! - `refsim`: programs, cards, number formats, durations

@@ -41,7 +41,8 @@ const REFSIM: Law = (
 );
 
 /// The package below the emulator, which re-exports its `num`.
-const LANES: Law = ("refsim/lanes/src", &[], &[("num", ""), ("lanes", "num"), ("rows", "num lanes"), ("lib", "")]);
+const LANES: Law =
+    ("refsim/lanes/src", &[], &[("num", ""), ("lanes", "num"), ("rows", "num lanes"), ("lib", "lanes rows")]);
 
 const CROSSBAR: Law = (
     "src",

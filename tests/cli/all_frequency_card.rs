@@ -24,7 +24,7 @@ fn glossy(folder: &Path) -> [String; 2] {
 }
 
 fn drawn(file: &str, out: &str, options: &[&str]) -> Value {
-    let fixed = ["all-frequency", "card", file, "--model", MODEL, "--size", "48x36", "--out", out];
+    let fixed = ["all-frequency", "card", file, "--model", MODEL, "--size", "48x36", "--exposure", "0.5", "--out", out];
     document(&[&fixed[..], options].concat())
 }
 

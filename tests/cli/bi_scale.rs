@@ -267,7 +267,7 @@ fn the_card_draws_what_the_host_draws() {
     document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
     let texture = "--texture tiles --texture-size 8 --texture-views 4 --repeat 4";
     let on_card = |options: &str| {
-        let fixed = format!("--model {COURT} --size 40x30 --light sky:1,-1,1 {texture}");
+        let fixed = format!("--model {COURT} --size 40x30 --light sky:1,-1,1 --exposure 0.5 {texture}");
         document(&format!("bi-scale card {biclusters} {fixed} {options} --out {out}"))
     };
     let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);

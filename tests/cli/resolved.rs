@@ -7,7 +7,7 @@ use crate::crossbar_in;
 fn resolved(arguments: &[&str]) -> String {
     let folder = copy_of_the_repository();
     let room = std::fs::read(folder.path().join("docs/examples/room.obj")).expect("a model");
-    std::fs::write(folder.path().join("it's.obj"), room).expect("written");
+    std::fs::write(folder.path().join("docs/examples/it's.obj"), room).expect("written");
     let ran = crossbar_in(folder.path(), &[arguments, &["--json"]].concat(), "");
     assert_eq!(ran.code, Some(0), "{arguments:?}: {}", ran.stderr);
     let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
@@ -35,7 +35,7 @@ fn defaults_are_filled_in_and_what_changes_nothing_is_left_out() {
 #[test]
 fn what_is_resolved_resolves_to_itself() {
     let quoted = "leaky-teapot --size 8x8 --rays-per-edge 0 --device";
-    let quoted = quoted.split(' ').chain(["Radeon 8500", "--mesh", "it's.obj"]).collect::<Vec<_>>();
+    let quoted = quoted.split(' ').chain(["Radeon 8500", "--mesh", "docs/examples/it's.obj"]).collect::<Vec<_>>();
     let again = |line: &str| {
         let words = shlex::split(line).expect("a line that a shell reads");
         resolved(&words[1..].iter().map(String::as_str).collect::<Vec<_>>())

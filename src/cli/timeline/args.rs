@@ -32,10 +32,13 @@ pub(in crate::cli) struct Args {
     #[arg(required_unless_present = "eye_rays", conflicts_with = "eye_rays")]
     pub(super) case: Option<PathBuf>,
 
-    /// Instead of a case: the Ray Engine's crossbar on the teapot (8 x 8 quads per patch) with so many eye rays, bucket
-    /// after bucket on one card
+    /// Instead of a case: the Ray Engine's crossbar with so many eye rays, bucket after bucket on one card
     #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
     pub(super) eye_rays: Option<Size>,
+
+    /// With --eye-rays: the mesh, a Wavefront OBJ, PLY, STL or glTF file [default: the teapot, 8 x 8 quads per patch]
+    #[arg(long, value_name = "M.obj", requires = "eye_rays", conflicts_with = "case")]
+    pub(super) mesh: Option<PathBuf>,
 
     /// The card [default: the case's; r200 for --eye-rays]
     #[arg(long, value_name = "D")]

@@ -1,5 +1,7 @@
 //! The input of the timing model, and its replay.
 
+use std::path::Path;
+
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
 use refsim::event::{Event, TexelObserver};
@@ -11,10 +13,11 @@ use refsim::timing::{Level, Model, TimingError};
 use super::args::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup, device_named};
-use crate::cli::Problem;
+use crate::cli::{Problem, model_file, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
+use crate::options::Size;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
@@ -22,11 +25,13 @@ use crate::scene::Camera;
 const DEFAULT_DEVICE: &str = "r200";
 /// Quads along each side of each patch of the teapot.
 const TESSELLATION: u32 = 8;
+/// Tangent of half the vertical field of view, for meshes.
+const TANGENT: f32 = 0.375;
 
-/// A case, or eye rays on the teapot.
+/// A case, or rays on a mesh.
 pub(super) enum Input {
     Case(Box<Setup>),
-    Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch> },
+    Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch>, name: String },
 }
 
 impl Input {
@@ -40,10 +45,9 @@ impl Input {
             }
             (None, Some(size)) => {
                 let profile = device.map_or_else(|| device_named(DEFAULT_DEVICE), Ok)?;
-                let mesh = teapot(TESSELLATION).into_diagnostic()?;
-                let camera = Camera::teapot(size.width, size.height).into_diagnostic()?;
+                let (mesh, camera, name) = scene(args.mesh.as_deref(), size)?;
                 let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
-                Ok(Self::Rays { profile: Box::new(profile), mesh: Box::new(mesh), rays: Box::new(rays) })
+                Ok(Self::Rays { profile: Box::new(profile), mesh: Box::new(mesh), rays: Box::new(rays), name })
             }
             _ => Err(Problem::usage("expected a case or `--eye-rays`", "name one of them").into()),
         }
@@ -60,8 +64,8 @@ impl Input {
     pub(super) fn title(&self) -> String {
         match self {
             Self::Case(setup) => setup.title.clone().unwrap_or_else(|| "a case".to_owned()),
-            Self::Rays { mesh, rays, .. } => {
-                format!("{}x{} rays on the teapot, {} triangles", rays.width(), rays.height(), mesh.len())
+            Self::Rays { mesh, rays, name, .. } => {
+                format!("{}x{} rays on {name}, {} triangles", rays.width(), rays.height(), mesh.len())
             }
         }
     }
@@ -98,6 +102,21 @@ impl Input {
 /// A figure that the timing model needs and the device lacks.
 fn no_figure(error: TimingError) -> Problem {
     Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
+}
+
+/// A mesh, a camera that sees it, and a name for both.
+fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, String)> {
+    match mesh {
+        Some(path) => {
+            let mesh = model_file::mesh(path)?;
+            let camera = view::framing(&mesh, size, TANGENT, (None, None, [0.0, 0.0, 1.0]))?;
+            Ok((mesh, camera, path.display().to_string()))
+        }
+        None => {
+            let camera = Camera::teapot(size.width, size.height).into_diagnostic()?;
+            Ok((teapot(TESSELLATION).into_diagnostic()?, camera, "the teapot".to_owned()))
+        }
+    }
 }
 
 /// One model's view of a log.

@@ -1,4 +1,4 @@
-//! The picture of a model: which one, from where, how large.
+//! The picture of a model: which one, from where, how large, how bright.
 
 use std::path::{Path, PathBuf};
 
@@ -6,6 +6,7 @@ use crate::cli::model_name;
 use crate::cli::scene_name::EyeArgs;
 use crate::geom::Mesh;
 use crate::options::Size;
+use crate::options::number;
 use crate::study::prt::LitView;
 
 /// A picture of a model.
@@ -21,6 +22,11 @@ pub(in crate::cli) struct PictureArgs {
 
     #[command(flatten)]
     eye: EyeArgs,
+
+    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// average]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    exposure: Option<f64>,
 }
 
 impl PictureArgs {
@@ -32,6 +38,6 @@ impl PictureArgs {
     /// The view of the model under a light of this name.
     pub(in crate::cli) fn view(&self, mesh: &Mesh, light: String) -> miette::Result<LitView> {
         let camera = self.eye.framing(mesh, self.size)?;
-        Ok(LitView { model: self.model.display().to_string(), light, camera, exposure: None })
+        Ok(LitView { model: self.model.display().to_string(), light, camera, exposure: self.exposure })
     }
 }

@@ -270,7 +270,7 @@ impl EntryValues {
             }
             Some(table) => {
                 let found = table.binary_search_by(|other| other.total_cmp(&value));
-                found.ok().map(|index| (index + 1) as i32)
+                found.ok().and_then(|index| i32::try_from(index + 1).ok())
             }
         }
     }

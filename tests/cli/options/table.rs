@@ -20,7 +20,7 @@ macro_rules! eye {
 /// The options of a picture under distant light.
 macro_rules! picture {
     ($model:literal) => {
-        concat!(eye!(), " --model=white-box --model-up=y --strict@", $model, " --light=red-and-blue")
+        concat!(eye!(), " --exposure=0.3 --model=white-box --model-up=y --strict@", $model, " --light=red-and-blue")
     };
 }
 
@@ -147,9 +147,13 @@ pub(super) const TABLE: &[Tried] = &[
         ),
     },
     Tried {
-        bases: &["timeline docs/examples/product.toml", "timeline --eye-rays 4x4"],
-        options: "--eye-rays=5x4 --device=nv20 --timing=rates --readback=async --double-buffer --cache --sensitivity \
-                  --perfetto=trace.json",
+        bases: &[
+            "timeline docs/examples/product.toml",
+            "timeline --eye-rays 4x4 --mesh odd.obj",
+            "timeline --eye-rays 4x4",
+        ],
+        options: "--eye-rays=5x4 --mesh=square.obj --device=nv20 --timing=rates --readback=async --double-buffer --cache \
+                  --sensitivity --perfetto=trace.json --model-up=y@0,1 --strict@0,1",
     },
     Tried {
         bases: &[

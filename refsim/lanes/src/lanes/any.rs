@@ -57,6 +57,7 @@ arithmetics! {
     DoubleDown(FloatLane<DOUBLE, DOWN>),
     General(FloatLane<GENERAL, ANY>),
 }
+#[expect(clippy::single_component_path_imports, reason = "the path of a macro that a macro defines")]
 pub(crate) use with_any_lane;
 
 impl Arithmetic {

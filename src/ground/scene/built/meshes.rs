@@ -9,8 +9,10 @@ use crate::geom::Mesh;
 const CHAIR: &str = "bi-scale-chair";
 const TEMPLE: &str = "bi-scale-temple";
 
+type Builder = fn() -> Mesh;
+
 /// Name, one-line description and builder of each mesh.
-const MESHES: &[(&str, &str, fn() -> Mesh)] = &[
+const MESHES: &[(&str, &str, Builder)] = &[
     ("all-frequency-buddha", "54,100 vertices, closed, a standing Buddha", || TransferModel::Buddha.mesh(1)),
     ("all-frequency-bunny", "11,556 vertices, closed, the Stanford bunny refined", || TransferModel::Bunny.mesh(1)),
     ("all-frequency-teapot", "51,361 vertices, 32 patches of 40 x 40 quads", teapot),

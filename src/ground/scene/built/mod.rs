@@ -45,8 +45,10 @@ use white_box::white_box;
 
 pub use parts::SEED;
 
+type Builder = fn() -> Scene;
+
 /// Name, one-line description and builder of each scene.
-const SCENES: &[(&str, &str, fn() -> Scene)] = &[
+const SCENES: &[(&str, &str, Builder)] = &[
     ("cornell-box", "the Cornell box with its two blocks", cornell_box),
     ("cornell-room", "a Cornell box closed in front, without blocks: the radiosity paper's scene", || {
         rooms::cornell(rooms::CornellBox { blocks: false, open: false })

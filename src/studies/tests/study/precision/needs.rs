@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::rc::Rc;
 
+use crossbar_base::elementary::pow;
 use crossbar_studies::study::StudyError;
 use crossbar_studies::study::precision::{
     FragmentResults, Goal, Measured, PrecisionMeasure, RoundedInstruction, SampledResults, StudiedProgram,
@@ -183,7 +184,7 @@ fn rules_of_a_card_are_kept_within_its_family() {
 fn a_falling_error_is_bisected() {
     for smallest in 1..=23_u8 {
         let told = Told::new(FormatFamily::Float, "<=1", move |formats| {
-            let value = |format: Layout| 1.5 * (f64::from(smallest) - f64::from(format.digits) - 1.0).exp2();
+            let value = |format: Layout| 1.5 * pow(2.0, f64::from(smallest) - f64::from(format.digits) - 1.0);
             formats.into_iter().flatten().map(value).fold(0.0, f64::max)
         });
         let seen = Rc::clone(&told.seen);

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crossbar_base::elementary::pow;
 use crossbar_studies::study::precision::{
     FragmentResults, Measured, PaperSystem, PixelSteps, PrecisionSubject, RefutingDevices, RoundedInstruction,
     WorstPlace, spread,
@@ -116,7 +117,7 @@ fn largest_error(exact: &FragmentResults, rounded: &FragmentResults) -> f64 {
             return 0.0;
         }
         let exponent = ((exact.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-        let error = (exact - rounded).abs() / f64::from(exponent.max(-126) - 4).exp2();
+        let error = (exact - rounded).abs() / pow(2.0, f64::from(exponent.max(-126) - 4));
         if error.is_nan() { f64::INFINITY } else { error }
     };
     exact.values().zip(rounded.values()).map(error).fold(0.0, f64::max)
