@@ -2,9 +2,11 @@
 
 use std::cell::Cell;
 use std::fs;
+use std::rc::Rc;
 
 use crossbar_base::error::InputError;
 use crossbar_studies::split::{KeptResults, PartNumber, SpentTime, SplitCommand};
+use crossbar_studies::study::reproduce::tested::bunny_in_pieces;
 
 #[test]
 fn every_item_is_in_one_part() {
@@ -130,4 +132,27 @@ fn a_folder_that_cannot_be_made_is_said() {
     let kept = KeptResults::new(file.path().join("folder"), command("1", "a"), clock).expect("no inputs");
     let error = kept.get("one", || Ok::<_, InputError>(1)).expect_err("no folder").to_string();
     assert!(error.starts_with("cannot write into the folder "), "{error}");
+}
+
+/// A run that goes on from another's segments, or takes its model, finds what a run without pieces finds.
+#[test]
+fn pieces_make_the_same_model() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept = || {
+        let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
+        let kept = KeptResults::new(folder.path().to_owned(), command, SpentTime::default);
+        Some(Rc::new(kept.expect("no inputs")))
+    };
+    let [without, first, taken] = [None, kept(), kept()].map(|kept| bunny_in_pieces(kept).expect("compressed"));
+    assert_eq!((&first.0, &taken.0), (&without.0, &without.0), "computed and kept, and taken");
+    assert_eq!([first.1, taken.1], [true, false], "a model that is taken needs no visibility");
+    // Stopped before the last segment.
+    let path = |piece: &str| folder.path().join(format!("{piece}.part"));
+    for piece in ["bunny", "bunny-segment-21"] {
+        fs::remove_file(path(piece)).expect("a piece");
+    }
+    let written = || fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
+    let before = written();
+    assert_eq!(bunny_in_pieces(kept()).expect("compressed").0, without.0, "gone on");
+    assert_eq!(written(), before, "taken, and not written again");
 }

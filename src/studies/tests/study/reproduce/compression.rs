@@ -1,11 +1,6 @@
-//! What entries on compression rely on: interpolations of their curves, errors by the number of vectors, and pieces of
-//! long work.
+//! What entries on compression rely on: interpolations of their curves, and errors by the number of vectors.
 
-use std::fs;
-use std::rc::Rc;
-
-use crossbar_studies::split::{KeptResults, SpentTime, SplitCommand};
-use crossbar_studies::study::reproduce::tested::{bunny_in_pieces, crossings, reaching};
+use crossbar_studies::study::reproduce::tested::{crossings, reaching};
 use crossbar_systems::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar_systems::transfer::synthetic::signal_at;
 
@@ -56,27 +51,4 @@ fn errors_by_vectors_are_those_of_compressions() {
         let error = of(vectors, CpcaMethod::Iterative).clustering.squared_error(&signal);
         assert!(near(last.squared_error, error), "{vectors} vectors");
     }
-}
-
-/// A run that goes on from another's segments, or takes its model, finds what a run without pieces finds.
-#[test]
-fn pieces_make_the_same_model() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let kept = || {
-        let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
-        let kept = KeptResults::new(folder.path().to_owned(), command, SpentTime::default);
-        Some(Rc::new(kept.expect("no inputs")))
-    };
-    let [without, first, taken] = [None, kept(), kept()].map(|kept| bunny_in_pieces(kept).expect("compressed"));
-    assert_eq!((&first.0, &taken.0), (&without.0, &without.0), "computed and kept, and taken");
-    assert_eq!([first.1, taken.1], [true, false], "a model that is taken needs no visibility");
-    // Stopped before the last segment.
-    let path = |piece: &str| folder.path().join(format!("{piece}.part"));
-    for piece in ["bunny", "bunny-segment-21"] {
-        fs::remove_file(path(piece)).expect("a piece");
-    }
-    let written = || fs::metadata(path("bunny-segment-00")).and_then(|file| file.modified()).expect("a piece");
-    let before = written();
-    assert_eq!(bunny_in_pieces(kept()).expect("compressed").0, without.0, "gone on");
-    assert_eq!(written(), before, "taken, and not written again");
 }
