@@ -49,7 +49,7 @@ fn what_is_resolved_resolves_to_itself() {
         "radiosity cornell-room --patches 30 --factors unoccluded --size 8x8 --picture-after 1,2 --solver card --solver \
          direct --switch rounding=rtz",
         "all-frequency factor --brdf phong --side 4 --terms 2",
-        "render cornell-box --size 8x8 --samples 1 --eye -0.5,-2,0.5",
+        "leaky-teapot --size 8x8 --tessellation 1 --rays-per-edge 0 --eye -3,-9,3",
         "radiosity docs/examples/room.toml --patches 30 --size 8x8 --iterations 2 --emit white=1,0,0",
     ] {
         let once = resolved_line(line);

@@ -2,6 +2,7 @@
 
 use clap::Parser;
 use crossbar_ground::scene::{Camera, Scene};
+use crossbar_studies::study::Study as _;
 use crossbar_studies::study::radiosity::{Parameters, RadiosityOptions};
 use crossbar_systems::radiosity::{Patches, rooms};
 use refsim::device::Profile;

@@ -124,16 +124,16 @@ fn errors_are_told_by_angle() {
             }
         }
         for (heading, expected) in [
-            ("area_%", 100.0 * area / all),
+            ("area_percent", 100.0 * area / all),
             ("B_all_pairs", truth / (3.0 * area)),
-            ("all_%", 100.0 * off / truth),
-            ("all_rms_%", 100.0 * (off_squares / squares).sqrt()),
+            ("all_percent", 100.0 * off / truth),
+            ("all_rms_percent", 100.0 * (off_squares / squares).sqrt()),
         ] {
             let found = number(bin, heading);
             assert!((found - expected).abs() <= 1e-6 * expected.abs().max(1e-3), "{heading}: {found} {expected}");
         }
         // Links are judged as the card is, but for what its formats round.
-        for (links, all) in [("links_%", "all_%"), ("links_rms_%", "all_rms_%")] {
+        for (links, all) in [("links_percent", "all_percent"), ("links_rms_percent", "all_rms_percent")] {
             assert!((number(bin, links) - number(bin, all)).abs() < 0.5, "{bin:?}");
         }
     }
