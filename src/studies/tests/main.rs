@@ -4,4 +4,3 @@ mod case;
 mod options;
 mod report;
 mod study;
-mod vision;

@@ -36,7 +36,7 @@ fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
 }
 
 /// WCAG contrast ratio, from 1 to 21.
-pub(super) fn contrast(a: Color, b: Color) -> f64 {
+pub(crate) fn contrast(a: Color, b: Color) -> f64 {
     let luminance = |color| times(&TO_XYZ, linear(color))[1];
     let (a, b) = (luminance(a), luminance(b));
     (a.max(b) + 0.05) / (a.min(b) + 0.05)
@@ -50,7 +50,7 @@ fn lab(linear: [f64; 3]) -> [f64; 3] {
 }
 
 /// Smallest CIELAB distance between two of the colors, over all kinds of vision.
-pub(super) fn least_distance(colors: &[Color]) -> f64 {
+pub(crate) fn least_distance(colors: &[Color]) -> f64 {
     let mut least = f64::INFINITY;
     for vision in &VISIONS {
         let seen: Vec<[f64; 3]> = colors.iter().map(|color| lab(times(vision, linear(*color)))).collect();

@@ -1,7 +1,7 @@
 //! Tables, pages, charts, pictures and texts of findings.
 
 mod charts;
-mod colors;
+pub(crate) mod colors;
 mod pages;
 mod pictures;
 mod tables;

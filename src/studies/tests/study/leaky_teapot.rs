@@ -12,7 +12,7 @@ use refsim::machine::ExecutorKind;
 use strum::VariantArray as _;
 
 use super::findings;
-use crate::vision::{contrast, least_distance};
+use crate::report::colors::{contrast, least_distance};
 
 #[test]
 fn colours_differ_for_every_reader() {
