@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials};
+use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 
 /// A number format: a layout, and four rules that map an exact result to a representable one.
 ///
@@ -24,6 +24,8 @@ pub struct Format {
     pub denormals: Denormals,
     /// Conventions for NaN, infinity and domain errors (floats).
     pub specials: Specials,
+    /// What computes: the rules above, or the unit of a card.
+    pub unit: Unit,
 }
 
 /// The layout of a format.
@@ -79,6 +81,7 @@ impl Format {
             overflow: Overflow::Saturate,
             denormals: Denormals::Keep,
             specials: Specials::Ieee,
+            unit: Unit::Ideal,
         }
     }
 
@@ -90,6 +93,7 @@ impl Format {
             overflow: Overflow::Infinity,
             denormals: Denormals::Keep,
             specials: Specials::Ieee,
+            unit: Unit::Ideal,
         }
     }
 
@@ -148,6 +152,15 @@ impl Format {
     /// The same format with other conventions for special values.
     pub const fn with_specials(mut self, specials: Specials) -> Format {
         self.specials = specials;
+        self
+    }
+
+    /// The same format, computed by the unit of a card, which makes no subnormal numbers; for [`Format::FP32`] alone.
+    pub const fn with_unit(mut self, unit: Unit) -> Format {
+        self.unit = unit;
+        if unit.is_card() {
+            self.denormals = Denormals::Flush;
+        }
         self
     }
 
@@ -324,9 +337,10 @@ impl Format {
     }
 
     /// The NaN that operations return: positive, quiet, rest of the payload zero; in encodings that have but one, that.
-    /// `None` in fixed point and in finite floats of at most 6 bits.
+    /// Units of cards have all bits but the sign set. `None` in fixed point and in finite floats of at most 6 bits.
     pub const fn canonical_nan(&self) -> Option<u32> {
         match (self.kind, self.encoding) {
+            _ if self.unit.is_card() => Some(self.sign_bit() - 1),
             (FormatKind::Float { man_bits, .. }, Encoding::Ieee) => {
                 Some((self.sign_bit() - (1 << man_bits)) | (1 << (man_bits - 1)))
             }

@@ -50,6 +50,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod aligned;
 pub mod block;
 mod convert;
 pub mod decimal;
@@ -75,5 +76,5 @@ pub use ops::DotOrder;
 pub use parse::FormatError;
 pub use random::random_word;
 pub use round::{from_parts, from_ratio};
-pub use rules::{Denormals, Encoding, Overflow, Rounding, Specials};
+pub use rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 pub use unpack::{Unpacked, unpack};

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::format::{Format, FormatKind};
-use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials};
+use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 
 /// Aliases of layouts, and the one layout that is none of the patterns.
 const ALIASES: [(&str, Format); 7] = [
@@ -58,7 +58,7 @@ pub enum FormatError {
     },
     /// An unknown suffix.
     #[error(
-        "number format `{text}`: expected a suffix :rne :rna :rtz :rdn :rup :rod :rst, :sat :wrap :inf :nvovf, :keep :ftz or :ieee :nv, found `:{found}` at character {at}"
+        "number format `{text}`: expected a suffix :rne :rna :rtz :rdn :rup :rod :rst, :sat :wrap :inf :nvovf, :keep :ftz, :ieee :nv or a card's unit :nv2x :nv3x-legacy :nv3x :gt200 :gt200-zero-wins, found `:{found}` at character {at}"
     )]
     #[diagnostic(
         code(num::format_suffix),
@@ -76,7 +76,9 @@ pub enum FormatError {
     #[error("number format `{text}`: `:{found}` at character {at} is for {kind} only")]
     #[diagnostic(
         code(num::format_kind),
-        help("fixed point knows :sat and :wrap; floats know :inf, :sat, :nvovf, :keep, :ftz, :ieee and :nv")
+        help(
+            "fixed point knows :sat and :wrap; floats know :inf, :sat, :nvovf, :keep, :ftz, :ieee, :nv and, in e8m23, the units of cards"
+        )
     )]
     WrongKind {
         /// The whole string.
@@ -100,6 +102,20 @@ pub enum FormatError {
         at: usize,
         /// The rule that is set twice.
         rule: &'static str,
+    },
+    /// A card's unit in a format that it does not compute in.
+    #[error(
+        "number format `{text}`: expected `e8m23:{found}`, with :rtz at most (GT200), found another layout or more rules"
+    )]
+    #[diagnostic(
+        code(num::format_unit),
+        help("units of cards compute in single precision, by rules of their own; leave the other suffixes out")
+    )]
+    Unit {
+        /// The whole string.
+        text: String,
+        /// The suffix without its colon.
+        found: &'static str,
     },
     /// A format that registers cannot have.
     #[error("number format `{text}`: no format of registers and instructions, since {reason}")]
@@ -145,12 +161,20 @@ impl FromStr for Format {
         let layout = parts.next().unwrap_or_default();
         let mut format = parse_layout(text, layout)?;
         let mut at = layout.chars().count();
-        let mut set = [false; 4];
+        let mut set = [false; 5];
         for suffix in parts {
             apply(&mut format, &mut set, text, suffix, at)?;
             at += 1 + suffix.chars().count();
         }
-        Ok(format)
+        let Some(found) = format.unit.name() else { return Ok(format) };
+        let nearest = format.with_rounding(Rounding::NearestEven);
+        let rounds = format == nearest
+            || format.rounding == Rounding::TowardZero && matches!(format.unit, Unit::Gt200 | Unit::Gt200ZeroWins);
+        if nearest == Self::FP32.with_unit(format.unit) && rounds {
+            Ok(format)
+        } else {
+            Err(FormatError::Unit { text: text.to_owned(), found })
+        }
     }
 }
 
@@ -195,8 +219,9 @@ fn rounding(suffix: &str) -> Option<Rounding> {
 }
 
 /// Applies one suffix.
-fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at: usize) -> Result<(), FormatError> {
+fn apply(format: &mut Format, set: &mut [bool; 5], text: &str, suffix: &str, at: usize) -> Result<(), FormatError> {
     let fixed = format.is_fixed();
+    let unit = Unit::CARDS.into_iter().find(|(name, _)| *name == suffix);
     // Rule index, and the kind of layout that the suffix applies to.
     let (rule, only) = match suffix {
         name if rounding(name).is_some() => (0, None),
@@ -205,6 +230,7 @@ fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at:
         "inf" | "nvovf" => (1, Some(false)),
         "keep" | "ftz" => (2, Some(false)),
         "ieee" | "nv" => (3, Some(false)),
+        _ if unit.is_some() => (4, Some(false)),
         _ => return Err(FormatError::Suffix { text: text.to_owned(), found: suffix.to_owned(), at }),
     };
     if let Some(for_fixed) = only.filter(|k| *k != fixed) {
@@ -212,11 +238,15 @@ fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at:
         return Err(FormatError::WrongKind { text: text.to_owned(), found: suffix.to_owned(), at, kind });
     }
     if std::mem::replace(&mut set[rule], true) {
-        let rule = ["rounding", "overflow", "denormal", "special-value"][rule];
+        let rule = ["rounding", "overflow", "denormal", "special-value", "unit"][rule];
         return Err(FormatError::Twice { text: text.to_owned(), found: suffix.to_owned(), at, rule });
     }
     if let Some(rounding) = rounding(suffix) {
         format.rounding = rounding;
+        return Ok(());
+    }
+    if let Some((_, unit)) = unit {
+        *format = format.with_unit(unit);
         return Ok(());
     }
     match suffix {
@@ -253,11 +283,15 @@ impl fmt::Display for Format {
             (false, Overflow::Nv30) => ":nvovf",
             _ => "",
         });
-        if !self.is_fixed() && self.denormals == Denormals::Flush {
+        if !self.is_fixed() && self.denormals == Denormals::Flush && !self.unit.is_card() {
             text.push_str(":ftz");
         }
         if !self.is_fixed() && self.specials == Specials::Nv {
             text.push_str(":nv");
+        }
+        if let Some(name) = self.unit.name() {
+            text.push(':');
+            text.push_str(name);
         }
         out.pad(&text)
     }

@@ -99,3 +99,43 @@ pub enum Specials {
     /// `rsq` and `log2` of a negative number are NaN.
     Nv,
 }
+
+/// The arithmetic unit that computes: an ideal one, or one of a card as it was measured ([`super::unit`]). Units of
+/// cards are for `e8m23` alone; what they do about rounding, overflow, subnormal numbers and special values is their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// Every result is the exact one, rounded once by the rules of the format.
+    Ideal,
+    /// The vertex unit of NV20 and NV25 (`:nv2x`).
+    Nv2x,
+    /// The vertex unit of NV30 and NV35 as programs of GL_NV_vertex_program see it (`:nv3x-legacy`).
+    Nv3xLegacy,
+    /// The same unit as programs of GL_NV_vertex_program2 see it (`:nv3x`).
+    Nv3x,
+    /// The unit of GT200 (`:gt200`); it rounds to the nearest, or toward zero where the format does.
+    Gt200,
+    /// The same unit in the state in which 0 times anything is 0 (`:gt200-zero-wins`).
+    Gt200ZeroWins,
+}
+
+impl Unit {
+    /// Every unit of a card, by its name in format strings.
+    pub const CARDS: [(&'static str, Self); 5] = [
+        ("nv2x", Self::Nv2x),
+        ("nv3x-legacy", Self::Nv3xLegacy),
+        ("nv3x", Self::Nv3x),
+        ("gt200", Self::Gt200),
+        ("gt200-zero-wins", Self::Gt200ZeroWins),
+    ];
+
+    /// Returns `true` for units of cards.
+    #[inline]
+    pub const fn is_card(self) -> bool {
+        !matches!(self, Self::Ideal)
+    }
+
+    /// The name in format strings, without colon; `None` for the ideal unit.
+    pub fn name(self) -> Option<&'static str> {
+        Self::CARDS.iter().find(|(_, unit)| *unit == self).map(|(name, _)| *name)
+    }
+}
