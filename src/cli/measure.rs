@@ -19,7 +19,7 @@ values apart.
 
 Exit codes: 0 some setting draws every measured code, 1 none does, 2 the table or a case cannot be used.";
 
-/// Hold what a real card drew against every setting of a device's switches: which survive
+/// Compare pixels captured on a real card with every combination of a device's switches: which match
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

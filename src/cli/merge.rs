@@ -14,10 +14,10 @@ Examples:
   crossbar merge step_1.part step_2.part --out step.npz
       both, in any order: the file that one run of the command writes
 
-The parts hold their command, which is obeyed with their results in the place of its own work: what comes out is that of \
-one run, byte for byte, but for `--out`. Run it where the paths of the command's input lead to the same files. Refused \
-are parts that are missing or given twice, parts of other commands, inputs or programs, and parts that are not as they \
-were written. docs/scaling.md says which commands split, and what it brings.";
+Each part records its command. `merge` reruns that command with the stored results instead of computing them, so that the \
+output equals that of one run, byte for byte, but for `--out`. Run it where the paths of the command's input lead to the \
+same files. `merge` refuses parts that are missing or given twice, parts of other commands, inputs or programs, and \
+parts that have changed since they were written. docs/scaling.md says which commands split, and what it brings.";
 
 /// Put the parts of a run together, as `--part` of other commands writes them
 #[derive(Debug, clap::Args)]

@@ -31,7 +31,7 @@ pub(super) fn with_options(program: Command) -> Command {
         .value_name("AXIS")
         .value_parser(["y", "z"])
         .requires(named_by)
-        .help("The axis that points up in the model's file; z does in what is read [default: y of glTF, else z]")
+        .help("The up axis of the model's file; models are rotated so that z is up [default: y of glTF, else z]")
         .help_heading("Model");
     let strict = Arg::new(STRICT)
         .long("strict")

@@ -172,7 +172,7 @@ impl MeshDisplay {
     }
 }
 
-/// A picture while it is drawn.
+/// A draw of a mesh into a target, under one camera.
 #[derive(Debug)]
 pub struct MeshPass<'a> {
     machine: &'a mut Machine,

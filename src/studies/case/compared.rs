@@ -56,7 +56,9 @@ impl ComparedSides<'_> {
             TraceStage::Delivered => {
                 (format!("stage: input register {name}, the interpolated value in the register format"), None)
             }
-            TraceStage::Instruction { index } => (format!("instruction {index} writes another {name}"), Some(*index)),
+            TraceStage::Instruction { index } => {
+                (format!("instruction {index} writes different values of {name}"), Some(*index))
+            }
             TraceStage::Mask { index, left, right } => {
                 let sides = format!("`{}` on the left, `{}` on the right", letters(*left), letters(*right));
                 (format!("instruction {index} writes other components, by its predicate: {sides}"), Some(*index))

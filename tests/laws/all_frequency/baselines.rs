@@ -56,7 +56,7 @@ fn squares(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-/// All of the light towards a fixed view is the reference, by its own arithmetic: direction by direction, f itself.
+/// With a fixed view and untruncated light, the result equals a direct sum of f over directions.
 #[test]
 fn a_fixed_view_under_the_whole_light_is_the_reference() {
     let lobe = Lobe::cook_torrance(0.4, 0.5);

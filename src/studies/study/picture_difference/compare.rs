@@ -34,8 +34,7 @@ pub struct DifferenceOptions {
     #[arg(long, value_name = "N", value_parser = pixels_per_degree)]
     pub ppd: Option<f64>,
 
-    /// The difference at the ends of the false colors [default: what one in a hundred of the pixels that differ
-    /// exceeds]
+    /// The difference at the ends of the false colors [default: the 99th percentile of the differing pixels]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub scale: Option<f64>,
 

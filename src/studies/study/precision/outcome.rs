@@ -211,7 +211,8 @@ impl FamilyOutcome {
         shares.min_by(|a, b| b.1.total_cmp(&a.1))
     }
 
-    /// Runs the mixed formats on the scalar executor and on input that was held back, and traces what refuted less.
+    /// Runs the mixed formats on the scalar executor and on held-out input, and traces the pixels that refuted
+    /// narrower formats.
     fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
         let Some(mixed) = &self.mixed else { return Ok(()) };
         let value = |measured: Measured| measured.value(&runs.goal.measure);

@@ -187,7 +187,7 @@ pub trait PrecisionSubject {
         Ok(false)
     }
 
-    /// Measures on input that no run of the search has seen; `None` if there is none.
+    /// Measures on held-out input; `None` if there is none.
     ///
     /// # Errors
     /// If the device cannot run the programs.

@@ -64,7 +64,7 @@ impl<const N: usize> Node<N> {
 }
 
 impl<T> Part<T> {
-    /// Adds to the part of the square with a stamp; what another square left is gone.
+    /// Accumulates into the part of the square `stamp`; clears it first if it belongs to another square.
     fn gather(&mut self, stamp: u64, value: &T, add: impl Fn(&mut T, &T))
     where
         T: Copy,

@@ -3,7 +3,7 @@
 use crate::all_frequency::factor::{DiscSamples, Factorization, ProductErrors};
 use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
 
-/// Terms up to which every number of them has a row.
+/// Every count of terms up to this one has a row.
 const EACH: usize = 20;
 
 /// The errors of a number of terms.

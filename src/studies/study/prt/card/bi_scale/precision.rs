@@ -14,7 +14,7 @@ use crate::study::prt::card::difference::{PixelErrors, held};
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 const TEXELS: [TexelFormat; 3] = [TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f];
 
-/// A way to hold the numbers of a frame.
+/// Number formats of one frame: light, display options, target.
 #[derive(Clone, Copy, Debug)]
 struct CardDrawing {
     light: LightFormat,
