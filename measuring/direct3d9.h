@@ -33,7 +33,7 @@ static void assemble(const Program *program, DWORD *token) {
     *token = 0xffff;
 }
 
-static void open_card(FILE *table) {
+static void open_card(void) {
     HMODULE library = LoadLibraryA("d3d9.dll");
     IDirect3D9 *(WINAPI *create)(UINT) = NULL;
     IDirect3D9 *interface9;
@@ -53,7 +53,7 @@ static void open_card(FILE *table) {
             &present, &device);
     if (FAILED(result)) die("Direct3D 9 gives no device (error %08lx): is there a display and a driver?", (unsigned long)result);
     IDirect3D9_GetAdapterIdentifier(interface9, 0, 0, &card);
-    fprintf(table, "# card: %s (vendor %04lx, device %04lx)\n# driver: %s %u.%u.%u.%u\n# interface: Direct3D 9\n", card.Description,
+    put("# card: %s (vendor %04lx, device %04lx)\n# driver: %s %u.%u.%u.%u\n# interface: Direct3D 9\n", card.Description,
         card.VendorId, card.DeviceId, card.Driver, HIWORD(card.DriverVersion.HighPart), LOWORD(card.DriverVersion.HighPart),
         HIWORD(card.DriverVersion.LowPart), LOWORD(card.DriverVersion.LowPart));
 }

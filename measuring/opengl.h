@@ -17,7 +17,7 @@
 #define DECLARE(type, name) static type name##_;
 FUNCTIONS(DECLARE)
 static const char *extensions;
-static int depth_bits;
+static int depth_bits, upward; /* upward: row 0 is drawn lowest */
 
 static int has(const char *name) {
     const char *found = strstr(extensions, name);
@@ -31,7 +31,7 @@ static int on_error(Display *display, XErrorEvent *event) {
     return 0;
 }
 
-static void open_card(FILE *table) {
+static void open_card(void) {
     int wish[] = {GLX_DRAWABLE_TYPE, GLX_PBUFFER_BIT, GLX_RENDER_TYPE, GLX_RGBA_BIT, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8,
                   GLX_BLUE_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 0,
                   GLX_DOUBLEBUFFER, True, None}; /* what is drawn stays in memory: nothing is shown */
@@ -56,7 +56,15 @@ static void open_card(FILE *table) {
     if (!extensions) die("the driver names no OpenGL extensions");
 #define LOAD(type, name) name##_ = (type)glXGetProcAddressARB((const GLubyte *)#name);
     FUNCTIONS(LOAD)
-    fprintf(table, "# card: %s\n# driver: %s, OpenGL %s\n# interface: OpenGL, GLX\n", (const char *)glGetString(GL_RENDERER),
+    /* Direct3D draws pixels whose centers lie on an upper edge. Where this driver draws those on a lower one instead,
+     * everything is drawn upside down. */
+    unsigned char below[4];
+    glViewport(0, 0, 2, 2);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glRectf(-1, -1, 1, 0.5f);
+    glReadPixels(0, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, below);
+    upward = !below[0];
+    put("# card: %s\n# driver: %s, OpenGL %s\n# interface: OpenGL, GLX\n", (const char *)glGetString(GL_RENDERER),
             (const char *)glGetString(GL_VENDOR), (const char *)glGetString(GL_VERSION));
 }
 
@@ -85,7 +93,7 @@ static int use_ati(const Program *program) {
         if (program->set[i]) glSetFragmentShaderConstantATI_(GL_CON_0_ATI + i, program->constant[i]);
     for (const Step *step = program->step; step < program->step + program->count; step++) {
         GLuint from[3] = {0}, signs[3] = {0}, repeat[3] = {0};
-        GLuint to = GL_REG_0_ATI + (GLuint)step->to.number + (step->to.kind == 't' ? 2 : 0); /* ps_1_1: t0 beside r0 and r1 */
+        GLuint to = GL_REG_0_ATI + (GLuint)step->to.number + (step->to.kind == 't' ? 2 : 0); /* see `draw` */
         GLuint mask = step->mask == 15 ? GL_NONE : (GLuint)step->mask & 7, scale = scales[step->shift + 3];
         if (step->saturated) scale |= GL_SATURATE_BIT_ATI;
         if (!strncmp(step->name, "tex", 3)) {
@@ -114,6 +122,10 @@ static int use_ati(const Program *program) {
             if (step->mask & 8 && step->sources == 2) glAlphaFragmentOp2ATI_(code, to, scale, SOURCE(0), SOURCE(1));
             if (step->mask & 8 && step->sources == 3) glAlphaFragmentOp3ATI_(code, to, scale, SOURCE(0), SOURCE(1), SOURCE(2));
         }
+    }
+    if (!strncmp(program->step[program->count - 1].name, "tex", 3)) { /* a shader needs an arithmetic instruction */
+        glColorFragmentOp1ATI_(GL_MOV_ATI, GL_REG_0_ATI, GL_NONE, 0, GL_REG_0_ATI, GL_NONE, 0);
+        glAlphaFragmentOp1ATI_(GL_MOV_ATI, GL_REG_0_ATI, 0, GL_REG_0_ATI, GL_NONE, 0);
     }
     glEndFragmentShaderATI_();
     if (glGetError()) return refuse("the driver refuses the program as a GL_ATI_fragment_shader");
@@ -167,7 +179,7 @@ static int use_arb(const Program *program, GLenum stage, const char *extension) 
 
 static int make_texture(const Probe *probe) {
     static const GLenum sizes[] = {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE};
-    int narrow = !strcmp(probe->format, "bgr565"), is_signed = !strcmp(probe->format, "rgba8s"), snorm = has("GL_EXT_texture_snorm"), level = 0;
+    int narrow = !strcmp(probe->format, "bgr565"), is_signed = !strcmp(probe->format, "rgba8s"), snorm = has("GL_EXT_texture_snorm");
     GLfloat border[4];
     GLint made;
     if (is_signed && !snorm && !has("GL_NV_texture_shader")) return refuse("the driver has no signed texels (GL_EXT_texture_snorm)");
@@ -182,6 +194,7 @@ static int make_texture(const Probe *probe) {
     glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border);
     glTexEnvf(GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, (GLfloat)probe->bias);
     unsigned words[64];
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (int i = 0; i < 64; i++) {
         words[i] = pack(probe->texel[i], narrow, 0, 16);
         if (narrow) ((unsigned short *)words)[i] = (unsigned short)pack(probe->texel[i], 1, 0, 16);
@@ -189,14 +202,14 @@ static int make_texture(const Probe *probe) {
     glTexImage2D(GL_TEXTURE_2D, 0, narrow ? has("GL_ARB_ES2_compatibility") ? GL_RGB565 : GL_RGB5 : !is_signed ? GL_RGBA8 : snorm ? GL_RGBA8_SNORM : GL_SIGNED_RGBA8_NV, probe->texels[0],
         probe->texels[1], 0, narrow ? GL_RGB : GL_RGBA, narrow ? GL_UNSIGNED_SHORT_5_6_5 : is_signed ? GL_BYTE : GL_UNSIGNED_BYTE, words);
     for (int i = 0; i < 3; i++) {
-        glGetTexLevelParameteriv(GL_TEXTURE_2D, level, sizes[i], &made);
+        glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, sizes[i], &made);
         if (made != (narrow ? 5 + (i == 1) : 8)) return refuse("the driver stores %s in other bits", probe->format);
     }
     return glGetError() ? refuse("the driver has no texture of %s", probe->format) : 1;
 }
 
 static int draw(const Probe *probe, Image *image) {
-    const int width = probe->size[0], height = probe->size[1];
+    const int width = probe->size[0], height = probe->size[1], r200 = !strcmp(probe->device, "r200");
     unsigned char color[TARGET][TARGET][4];
     GLuint texture, depth[TARGET][TARGET];
     if (!strncmp(probe->device, "nv2", 3)) return refuse("register combiners have no Direct3D text: needs Direct3D 9");
@@ -206,16 +219,18 @@ static int draw(const Probe *probe, Image *image) {
             if (probe->corner[i][COLOR0][c] < 0 || probe->corner[i][COLOR0][c] > 1) return refuse("OpenGL itself clamps the colors of its vertices: needs Direct3D 9");
     glDisable(GL_FRAGMENT_PROGRAM_ARB), glDisable(GL_VERTEX_PROGRAM_ARB), glDisable(GL_FRAGMENT_SHADER_ATI);
     glGetError();
+    /* A register of ATI_fragment_shader reads the texture unit of its number: ps_1_1's t0 is kept as the third, beside r0
+     * and r1, and its texture is bound there. */
+    for (GLenum unit = GL_TEXTURE2; unit >= GL_TEXTURE0; unit -= 2) glActiveTexture(unit), glDisable(GL_TEXTURE_2D);
+    if (r200 && probe->pixel.minor == 1) glActiveTexture(GL_TEXTURE2);
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D, texture);
     if (probe->textured && !make_texture(probe)) return 0;
-    (probe->textured ? glEnable : glDisable)(GL_TEXTURE_2D);
+    if (probe->textured) glEnable(GL_TEXTURE_2D);
     if (probe->vertex.count && !use_arb(&probe->vertex, GL_VERTEX_PROGRAM_ARB, "GL_ARB_vertex_program")) return 0;
-    if (!strcmp(probe->device, "r200") ? !use_ati(&probe->pixel) : 0) return 0;
-    if (strcmp(probe->device, "r200")) {
-        if (probe->pixel.major == 1 && !only_moves(&probe->pixel)) return refuse("OpenGL has no units of ps_1_x on this card: needs Direct3D 9");
-        if (!use_arb(&probe->pixel, GL_FRAGMENT_PROGRAM_ARB, "GL_ARB_fragment_program")) return 0;
-    }
+    if (r200 && !use_ati(&probe->pixel)) return 0;
+    if (!r200 && probe->pixel.major == 1 && !only_moves(&probe->pixel)) return refuse("OpenGL has no units of ps_1_x on this card: needs Direct3D 9");
+    if (!r200 && !use_arb(&probe->pixel, GL_FRAGMENT_PROGRAM_ARB, "GL_ARB_fragment_program")) return 0;
     glViewport(0, 0, width, height);
     glDisable(GL_DITHER);
     glDepthFunc(GL_LEQUAL);
@@ -230,16 +245,16 @@ static int draw(const Probe *probe, Image *image) {
         glSecondaryColor3f_(corner[COLOR1][0], corner[COLOR1][1], corner[COLOR1][2]);
         glMultiTexCoord4fv(GL_TEXTURE0, corner[COORDINATE0]);
         glMultiTexCoord4fv(GL_TEXTURE1, corner[COORDINATE1]);
-        glVertex4f(p[0] + p[3] / (float)width, p[1] - p[3] / (float)height, 2 * p[2] - p[3], p[3]);
+        glVertex4f(p[0] + p[3] / (float)width, (p[1] - p[3] / (float)height) * (upward ? -1 : 1), 2 * p[2] - p[3], p[3]);
     }
     glEnd();
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, color);
     if (probe->depth) glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, depth);
     if (glGetError()) return refuse("the driver refuses to draw it");
-    for (int y = 0; y < height; y++) /* OpenGL's row 0 is the lowest */
+    for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            int place = (height - 1 - y) * width + x;
+            int place = (upward ? y : height - 1 - y) * width + x;
             memcpy(image->color[y][x], &color[0][0][0] + 4 * place, 4);
             if (probe->depth) image->depth[y][x] = (int)((&depth[0][0])[place] >> 16);
         }

@@ -54,6 +54,20 @@ static int refuse(const char *format, ...) {
     return 0;
 }
 
+/* The table, as text: it reaches the disk when all of it is known. */
+static char *table;
+static size_t written, room;
+
+static void put(const char *format, ...) {
+    va_list list;
+    if (room < written + 4096 && !(table = realloc(table, room += 1 << 20))) die("no memory");
+    va_start(list, format);
+    int length = vsnprintf(table + written, 4096, format, list);
+    va_end(list);
+    if (length < 0 || length >= 4096) die("a line of the table is too long");
+    written += (size_t)length;
+}
+
 /* ---- Programs: Direct3D's assembler, as far as the probes use it ---- */
 
 /* Reads `rN`, `oC0` and so on; returns what follows, or NULL. */
@@ -255,7 +269,7 @@ static void read_probe(const char *path, Probe *probe) {
         else if (listed) {
             fine = probe->corners < 12 && read_attributes(probe, line + strspn(line, " "), probe->corner[probe->corners]);
             probe->corners++;
-        } else if (!*line) continue;
+        } else if (!*line || *line == '#') continue;
         else if (*line == '[') {
             fine = sscanf(line, "%31s", section) == 1;
             /* An input of a vertex program that is not set is 0, 0, 0, 1. */
@@ -296,63 +310,70 @@ static unsigned pack(const double texel[4], int narrow, int red, int blue) {
 
 static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-/* Writes what the probes of a folder gave; returns how many were drawn. */
-static int measure(const char *folder, FILE *table) {
-    static Probe probe;
-    static Image image;
-    static char *names[256];
-    char path[1024];
-    int count = 0, drawn = 0;
-    DIR *listing = opendir(folder);
-    if (!listing) die("cannot read the folder %s: %s", folder, strerror(errno));
-    for (struct dirent *entry; (entry = readdir(listing)) && count < 256;) {
+/* Lists the probes of a folder, or the one that is named; returns how many. */
+static int list_probes(const char *place, char *paths[256]) {
+    int count = 0;
+    DIR *listing = opendir(place);
+    if (!listing && errno != ENOTDIR && errno != EINVAL) die("cannot read %s: %s", place, strerror(errno));
+    for (struct dirent *entry; listing && count < 256 && (entry = readdir(listing));) {
         size_t length = strlen(entry->d_name);
         if (length < 6 || strcmp(entry->d_name + length - 5, ".toml")) continue;
-        if (!(names[count] = malloc(length + 1))) die("no memory");
-        strcpy(names[count++], entry->d_name);
+        if (!(paths[count] = malloc(strlen(place) + length + 2))) die("no memory");
+        sprintf(paths[count++], "%s/%s", place, entry->d_name);
     }
-    closedir(listing);
-    qsort(names, (size_t)count, sizeof *names, by_name);
-    if (!count) die("%s has no probes (*.toml)", folder);
-    open_card(table);
-    fputs("case,column,row,red,green,blue,alpha,depth\n", table);
+    if (listing) closedir(listing);
+    else if ((paths[count] = malloc(strlen(place) + 1))) strcpy(paths[count++], place);
+    for (int i = 0; i < count; i++)
+        for (char *c = paths[i]; *c; c++)
+            if (*c == '\\') *c = '/';
+    qsort(paths, (size_t)count, sizeof *paths, by_name);
+    if (!count) die("%s has no probes (*.toml)", place);
+    return count;
+}
+
+/* Writes what the probes gave; returns how many were drawn. */
+static int measure(char *const *paths, int count) {
+    static Image image;
+    static Probe probes[256];
+    int drawn = 0;
+    for (int i = 0; i < count; i++) read_probe(paths[i], &probes[i]);
+    open_card();
+    put("case,column,row,red,green,blue,alpha,depth\n");
     for (int i = 0; i < count; i++) {
-        if (snprintf(path, sizeof path, "%s/%s", folder, names[i]) >= (int)sizeof path) die("%s: the path is too long", folder);
-        for (char *c = path; *c; c++) if (*c == '\\') *c = '/';
-        read_probe(path, &probe);
-        if (!draw(&probe, &image)) {
-            fprintf(stderr, "runner: skipped %s: %s\n", path, reason);
-            fprintf(table, "# skipped %s: %s\n", path, reason);
+        const Probe *probe = &probes[i];
+        if (!draw(probe, &image)) {
+            fprintf(stderr, "runner: skipped %s: %s\n", paths[i], reason);
+            put("# skipped %s: %s\n", paths[i], reason);
             continue;
         }
         drawn++;
-        for (int y = 0; y < probe.size[1]; y++)
-            for (int x = 0; x < probe.size[0]; x++) {
+        for (int y = 0; y < probe->size[1]; y++)
+            for (int x = 0; x < probe->size[0]; x++) {
                 const unsigned char *c = image.color[y][x];
-                fprintf(table, "\"%s\",%d,%d,%d,%d,%d,%d,", path, x, y, c[0], c[1], c[2], c[3]);
-                if (probe.depth) fprintf(table, "%d", image.depth[y][x]);
-                fputc('\n', table);
+                put("\"%s\",%d,%d,%d,%d,%d,%d,", paths[i], x, y, c[0], c[1], c[2], c[3]);
+                if (probe->depth) put("%d", image.depth[y][x]);
+                put("\n");
             }
     }
     return drawn;
 }
 
 int main(int count, char **arguments) {
-    char *text;
-    if (count != 3) die("usage: runner FOLDER TABLE.csv\n  FOLDER has a card's probes: fixtures/probes/open/r200\n"
-                        "  TABLE.csv gets what this machine's card drew, beside the folders that FOLDER starts from");
-    if (strpbrk(arguments[2], "/\\")) die("%s: the table is written into the folder where the runner starts: the paths in it are taken from there", arguments[2]);
-    if (strpbrk(arguments[1], "\"\n")) die("the folder's name has a quotation mark");
-    FILE *table = tmpfile(), *file;
-    if (!table) die("cannot make a temporary file: %s", strerror(errno));
-    if (!measure(arguments[1], table)) die("no probe could be drawn; nothing was written");
-    long length = ftell(table);
-    if (length < 0 || !(text = malloc((size_t)length))) die("no memory");
-    rewind(table);
-    /* Everything is known before the file is touched; what is not whole is taken away again. */
-    if (fread(text, 1, (size_t)length, table) != (size_t)length) die("cannot read the temporary file");
-    if (!(file = fopen(arguments[2], "wb"))) die("cannot write %s: %s", arguments[2], strerror(errno));
-    size_t written = fwrite(text, 1, (size_t)length, file);
-    if (fclose(file) || written != (size_t)length) remove(arguments[2]), die("cannot write %s whole", arguments[2]);
+    char *paths[256];
+    if (count != 3)
+        die("usage: runner PROBES TABLE.csv\n"
+            "  PROBES is the folder of a card, fixtures/probes/open/r200, or one of its files\n"
+            "  TABLE.csv gets what this machine's card draws; it is written where the runner starts");
+    if (strpbrk(arguments[2], "/\\"))
+        die("%s: name a file without a folder: the table is written where the runner starts, so that its paths hold", arguments[2]);
+    if (strpbrk(arguments[1], "\"\n")) die("the path of the probes has a quotation mark");
+    if (!measure(paths, list_probes(arguments[1], paths))) die("no probe could be drawn; nothing was written");
+    FILE *file = fopen(arguments[2], "wb");
+    if (!file) die("cannot write %s: %s", arguments[2], strerror(errno));
+    size_t kept = fwrite(table, 1, written, file);
+    if (fclose(file) || kept != written) {
+        remove(arguments[2]); /* a part of a table is none */
+        die("cannot write %s: %s", arguments[2], strerror(errno));
+    }
     return 0;
 }

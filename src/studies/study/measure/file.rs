@@ -3,7 +3,7 @@
 //! The header names the columns, in any order: `case`, `column` and `row` are required, `red`, `green`, `blue`, `alpha`
 //! and `depth` can be left out, as can be single values. A case is a path relative to the folder of the table. Codes
 //! are the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's
-//! `raw`.
+//! `raw`. A line that begins with `#` is a remark: what the card was, and what it could not draw.
 
 use std::path::{Path, PathBuf};
 
@@ -90,7 +90,7 @@ pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>,
         };
         wrong(line, found)
     };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes);
     let headers = reader.headers().map_err(broken)?.clone();
     let folder = name.parent().unwrap_or_else(|| Path::new(""));
     let mut cases: Vec<MeasuredCase> = Vec::new();
