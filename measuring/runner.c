@@ -1,9 +1,7 @@
 /* Draws the probes of a folder on this machine's card and writes the codes that it stored, as a table that
  * `crossbar measure` reads. docs/measuring.md says how to build and run it. C99 and the system's own libraries:
- *   Linux and other systems with X: OpenGL through GLX. ps_1_x is drawn by ATI_fragment_shader on r200, whose units it
- *     names one by one; ps_2_0, and programs that only move, by ARB_fragment_program; vs_1_1 by ARB_vertex_program.
- *   Windows: Direct3D 9, whose token streams are assembled here: the system has no assembler.
- * The file has four parts: the probe as read, the program's parts, one `draw` for each interface, the table. */
+ * Direct3D 9 on Windows (direct3d9.h), OpenGL through GLX elsewhere (opengl.h). Programs and probes are read here, the
+ * interface draws them, and the table is written at the end. */
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
@@ -15,13 +13,21 @@
 #define LINES 64
 enum { POSITION, COLOR0, COLOR1, COORDINATE0, COORDINATE1, ATTRIBUTES };
 typedef float Vector[4];
-typedef struct { char kind; int number, swizzle[4], negated; } Operand; /* kind: r c v t s, C oC, P oPos, D oD */
+typedef struct {
+    char kind;
+    int number, swizzle[4], negated;
+} Operand; /* kind: r c v t s, C oC, P oPos, D oD */
 typedef struct {
     char name[16];
     Operand to, from[3];
     int sources, mask, shift, saturated, together; /* shift: power of two of the result; together: written with `+` */
 } Step;
-typedef struct { int major, minor, vertex, count; Step step[LINES]; Vector constant[8]; int set[8]; } Program;
+typedef struct {
+    int major, minor, vertex, count;
+    Step step[LINES];
+    Vector constant[8];
+    int set[8];
+} Program;
 typedef struct {
     char device[16], format[16], address[16], mip[16];
     Program pixel, vertex;
@@ -31,7 +37,10 @@ typedef struct {
     double texel[64][4], border[4], bias;
 } Probe;
 enum { TARGET = 16 };
-typedef struct { unsigned char color[TARGET][TARGET][4]; int depth[TARGET][TARGET]; } Image;
+typedef struct {
+    unsigned char color[TARGET][TARGET][4];
+    int depth[TARGET][TARGET];
+} Image;
 
 static char reason[256]; /* why the last probe cannot be drawn here */
 
@@ -106,8 +115,9 @@ static const char *read_components(const char *text, int swizzle[4], int *mask) 
 
 /* Splits `name_x2 dst, src, ...`; 0 if it is not understood. */
 static int read_step(Program *program, char *line) {
-    static const char *const names[] = {"mov", "add", "sub", "mul", "mad", "lrp", "dp3", "dp4", "tex", "texld",
-                                        "texcrd", "texdepth", "phase", "dcl", "dcl_2d", "dcl_position", "dcl_color0"};
+    static const char *const names[] = {"mov",   "add", "sub",    "mul",          "mad",       "lrp",
+                                        "dp3",   "dp4", "tex",    "texld",        "texcrd",    "texdepth",
+                                        "phase", "dcl", "dcl_2d", "dcl_position", "dcl_color0"};
     Step step = {.mask = 15};
     int known = 0, ignored, unused[4];
     if (*line == '+') step.together = 1, line++;
@@ -151,7 +161,7 @@ static int read_step(Program *program, char *line) {
     return 1;
 }
 
-/* ---- Probes: a part of TOML. What is not known is an error, so that no probe is drawn otherwise than it is written. */
+/* ---- Probes: a part of TOML. What is not known is an error: no probe is drawn otherwise than it is written. ---- */
 
 /* Reads all numbers of a text, over brackets and commas; returns how many. */
 static int read_numbers(const char *text, double *numbers, int most) {
@@ -159,16 +169,14 @@ static int read_numbers(const char *text, double *numbers, int most) {
     while (*(text += strspn(text, "[], "))) {
         char *end;
         if (count == most) return most + 1;
-        numbers[count++] = strtod(text, &end);
+        numbers[count++] = strtof(text, &end); /* also of `inf`, which Windows's strtod does not know */
         if (end == text) return -1;
         text = end;
     }
     return count;
 }
 
-static int read_word(const char *value, char word[16]) {
-    return sscanf(value, "\"%15[^\"]\"", word) == 1;
-}
+static int read_word(const char *value, char word[16]) { return sscanf(value, "\"%15[^\"]\"", word) == 1; }
 
 /* Reads `{ name = [numbers], ... }` into a corner. A vertex program reads by number, as its two `dcl` lines say. */
 static int read_attributes(const Probe *probe, const char *text, Vector corner[ATTRIBUTES]) {
@@ -233,7 +241,8 @@ static int read_line(Probe *probe, const char *section, const char *key, const c
     }
     if (KEY("[geometry]", "full_screen")) {
         static const char *const quad[4] = {"{ position = [-1, 1], t0 = [0, 0] }", "{ position = [1, 1], t0 = [1, 0] }",
-                                            "{ position = [1, -1], t0 = [1, 1] }", "{ position = [-1, -1], t0 = [0, 1] }"};
+                                            "{ position = [1, -1], t0 = [1, 1] }",
+                                            "{ position = [-1, -1], t0 = [0, 1] }"};
         for (probe->corners = probe->strips = 4, i = 0; i < 4; i++) read_attributes(probe, quad[i], probe->corner[i]);
         return !strcmp(value, "true");
     }
@@ -267,7 +276,8 @@ static void read_probe(const char *path, Probe *probe) {
         } else if (program) fine = read_step(program, line);
         else if (listed && *line == ']') listed = 0;
         else if (listed) {
-            fine = probe->corners < 12 && read_attributes(probe, line + strspn(line, " "), probe->corner[probe->corners]);
+            fine =
+                probe->corners < 12 && read_attributes(probe, line + strspn(line, " "), probe->corner[probe->corners]);
             probe->corners++;
         } else if (!*line || *line == '#') continue;
         else if (*line == '[') {
@@ -275,8 +285,7 @@ static void read_probe(const char *path, Probe *probe) {
             /* An input of a vertex program that is not set is 0, 0, 0, 1. */
             if (!strcmp(section, "[vertex]"))
                 for (int i = 0; i < 12; i++) probe->corner[i][COLOR0][3] = 1;
-        }
-        else if (!equals) fine = 0;
+        } else if (!equals) fine = 0;
         else {
             *equals = 0;
             if (!strcmp(line, "source") && !strcmp(equals + 3, "\"\"\""))
@@ -286,7 +295,7 @@ static void read_probe(const char *path, Probe *probe) {
         }
     }
     fclose(file);
-    if (!fine) die("%s:%d: this line is not understood: no probe of this program has such a one", path, number);
+    if (!fine) die("%s:%d: this line is not understood: no probe that the runner knows has such a one", path, number);
     if (!probe->pixel.count || !probe->size[0] || !probe->corners) die("%s is no probe", path);
 }
 
@@ -365,7 +374,8 @@ int main(int count, char **arguments) {
             "  PROBES is the folder of a card, fixtures/probes/open/r200, or one of its files\n"
             "  TABLE.csv gets what this machine's card draws; it is written where the runner starts");
     if (strpbrk(arguments[2], "/\\"))
-        die("%s: name a file without a folder: the table is written where the runner starts, so that its paths hold", arguments[2]);
+        die("%s: name a file without a folder: the table is written where the runner starts, so that its paths hold",
+            arguments[2]);
     if (strpbrk(arguments[1], "\"\n")) die("the path of the probes has a quotation mark");
     if (!measure(paths, list_probes(arguments[1], paths))) die("no probe could be drawn; nothing was written");
     FILE *file = fopen(arguments[2], "wb");
