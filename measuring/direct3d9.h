@@ -52,8 +52,8 @@ static void open_card(void) {
     present.SwapEffect = D3DSWAPEFFECT_DISCARD;
     present.hDeviceWindow = window;
     HRESULT result = E_FAIL;
-    for (int hardware = 1; hardware >= 0 && FAILED(result);
-         hardware--) /* cards without vertex programs lend the processor's */
+    /* A card without vertex programs has the processor's. */
+    for (int hardware = 1; hardware >= 0 && FAILED(result); hardware--)
         result = IDirect3D9_CreateDevice(interface9, 0, D3DDEVTYPE_HAL, window,
                                          D3DCREATE_FPU_PRESERVE | (hardware ? D3DCREATE_HARDWARE_VERTEXPROCESSING
                                                                             : D3DCREATE_SOFTWARE_VERTEXPROCESSING),

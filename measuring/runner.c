@@ -189,7 +189,7 @@ static int read_attributes(const Probe *probe, const char *text, Vector corner[A
         if (!strcmp(name, "position")) slot = POSITION;
         else if (*name == 'v' && name[1] <= '1') slot = name[1] - '0' + (probe->vertex.count ? POSITION : COLOR0);
         else if (*name == 't' && name[1] <= '1' && !probe->vertex.count) slot = name[1] - '0' + COORDINATE0;
-        if (slot < 0 || name[1] < '0') return 0;
+        if (slot < 0 || name[1] < '0' || (slot != POSITION && name[2])) return 0;
         for (int i = 0; i < 4; i++) corner[slot][i] = i < count ? (float)numbers[i] : (float)(i == 3);
         text += length;
     }
@@ -220,8 +220,9 @@ static int read_line(Probe *probe, const char *section, const char *key, const c
     }
     if (KEY("[[texture]]", "texels")) {
         int texels = probe->texels[0] * probe->texels[1], channels = texels ? count / texels : 0;
-        for (i = 0; i < count && count <= 256; i++) probe->texel[i / channels][i % channels] = numbers[i];
-        return texels && count == texels * channels && (channels == 3 || channels == 4);
+        if (count != texels * channels || (channels != 3 && channels != 4)) return 0;
+        for (i = 0; i < count; i++) probe->texel[i / channels][i % channels] = numbers[i];
+        return 1;
     }
     if (!strcmp(section, "[vertex_constants]") && *key == 'c' && key[1] >= '0' && key[1] < '8' && !key[2]) {
         for (i = 0; i < 4 && count == 4; i++) probe->vertex.constant[key[1] - '0'][i] = (float)numbers[i];
