@@ -27,6 +27,8 @@ fn remarks_are_no_pixels() {
     let cases = parse(text).expect("a table");
     assert_eq!(cases.len(), 1);
     assert_eq!((cases[0].path.as_path(), cases[0].pixels[0].line), (Path::new("cards/a.toml"), 4));
+    let wrong = parse("case,column,row,red\n# one\n\na.toml,0,0,f\n").expect_err("no table").to_string();
+    assert!(wrong.starts_with("cards/m.csv:4: "), "{wrong}");
 }
 
 #[test]
