@@ -3,7 +3,7 @@
 //! The header names the columns, in any order: `case`, `column` and `row` are required, `red`, `green`, `blue`, `alpha`
 //! and `depth` can be left out, as can be single values. A case is a path relative to the folder of the table. Codes
 //! are the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's
-//! `raw`.
+//! `raw`. A line that begins with `#` is a remark: what the card was, and what it could not draw.
 
 use std::path::{Path, PathBuf};
 
@@ -80,7 +80,7 @@ pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>,
         StudyError::new("crossbar::measure::table", format!("{}:{line}: {found}", name.display())).with_help(HELP)
     };
     let broken = |error: csv::Error| {
-        let line = error.position().map_or(1, csv::Position::line);
+        let line = error.position().map_or(1, |position| line_of(bytes, position));
         let found = match error.into_kind() {
             csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
                 format!("expected {expected_len} fields, found {len}")
@@ -90,13 +90,13 @@ pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>,
         };
         wrong(line, found)
     };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes);
     let headers = reader.headers().map_err(broken)?.clone();
     let folder = name.parent().unwrap_or_else(|| Path::new(""));
     let mut cases: Vec<MeasuredCase> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(broken)?;
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |position| line_of(bytes, position));
         let row: Row = record.deserialize(Some(&headers)).map_err(broken)?;
         let codes = [row.red, row.green, row.blue, row.alpha];
         if codes.iter().chain([&row.depth]).all(Option::is_none) {
@@ -113,4 +113,12 @@ pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>,
         return Err(wrong(1, "expected measured pixels, found a table without lines".to_owned()));
     }
     Ok(cases)
+}
+
+/// Line of the record that is read from a position on: the position does not count the remarks and empty lines there.
+fn line_of(bytes: &[u8], position: &csv::Position) -> u64 {
+    let start = usize::try_from(position.byte()).unwrap_or(usize::MAX);
+    let lines = bytes.get(start..).unwrap_or_default().split(|byte| *byte == b'\n');
+    let skipped = lines.take_while(|line| line.first().is_none_or(|first| matches!(first, b'#' | b'\r'))).count();
+    position.line() + skipped as u64
 }

@@ -20,6 +20,17 @@ fn pixels_are_sorted_by_case() {
     assert_eq!(cases, expected.map(|(path, pixels)| MeasuredCase { path: path.into(), pixels }));
 }
 
+/// Lines of a card and of what it could not draw, as the runner writes them.
+#[test]
+fn remarks_are_no_pixels() {
+    let text = "# card: \"R200\", 64 MB\ncase,column,row,red\n# skipped b.toml: no, or not yet\n\"a.toml\",0,0,7\n";
+    let cases = parse(text).expect("a table");
+    assert_eq!(cases.len(), 1);
+    assert_eq!((cases[0].path.as_path(), cases[0].pixels[0].line), (Path::new("cards/a.toml"), 4));
+    let wrong = parse("case,column,row,red\n# one\n\na.toml,0,0,f\n").expect_err("no table").to_string();
+    assert!(wrong.starts_with("cards/m.csv:4: "), "{wrong}");
+}
+
 #[test]
 fn errors_say_where_and_what() {
     let message = |text: &str| parse(text).expect_err("no table").to_string();
