@@ -13,15 +13,15 @@ fn stored(storage: ConstantStorage, before_2_0: bool, x: f32) -> f32 {
     let magnitude = x.abs().min(1.0);
     let k = match storage {
         ConstantStorage::Register => return x,
-        _ if x.is_nan() => 0,
-        // The product is exact in FP64.
-        ConstantStorage::Snorm8 => (f64::from(magnitude) * 255.0 + 0.5) as u8,
-        ConstantStorage::Snorm8Cut => (magnitude * 255.0) as u8,
         // The sum is exact in FP64 for every number whose last bit can change k.
         ConstantStorage::Unorm8Expanded => {
             let x = if x.is_nan() { 0.0 } else { f64::from(x).clamp(-1.0, 1.0) };
             return (2.0 * (127.5 * (x + 1.0)).floor() as f32 - 255.0) / 255.0;
         }
+        _ if x.is_nan() => 0,
+        // The product is exact in FP64.
+        ConstantStorage::Snorm8 => (f64::from(magnitude) * 255.0 + 0.5) as u8,
+        ConstantStorage::Snorm8Cut => (magnitude * 255.0) as u8,
     };
     if x < 0.0 { -f32::from(k) / 255.0 } else { f32::from(k) / 255.0 }
 }
