@@ -3,8 +3,8 @@
 use crate::random::Random;
 use refsim::device::{
     BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
-    Profile, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexelValues,
-    TexkillComponents, WeightRounding,
+    Profile, SignedTexelMinimum, SubpixelGrid, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
+    TexelValues, TexkillComponents, WeightRounding,
 };
 use refsim::num::{DotOrder, Format};
 use std::collections::BTreeMap;
@@ -149,7 +149,8 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.texkill_components = r.of(TexkillComponents::ALL);
         rules.target_rounding = r.of(TargetRounding::ALL);
         rules.depth_rounding = r.of(TargetRounding::ALL);
-        rules.subpixel_bits = r.of(&[0, 4, 8]);
+        rules.subpixel_grid =
+            r.of(&[SubpixelGrid::Bits(0), SubpixelGrid::Bits(4), SubpixelGrid::Twelfths, SubpixelGrid::Bits(8)]);
         rules.subpixel_rounding = r.of(SubpixelRounding::ALL);
         rules.color_clamp = r.of(ColorClamp::ALL);
     }

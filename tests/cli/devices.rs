@@ -1,5 +1,6 @@
 //! `crossbar devices`: every figure with its source.
 
+use refsim::device::Confidence;
 use serde_json::Value;
 
 use crate::answers::document;
@@ -26,7 +27,7 @@ fn every_figure_has_a_source_and_a_confidence() {
         for figure in figures {
             assert_ne!(figure["source"], "", "{name}: {figure}");
             let confidence = figure["confidence"].as_str().unwrap_or_default();
-            assert!(["documented", "measured", "derived", "guess"].contains(&confidence), "{name}: {figure}");
+            assert!(Confidence::ALL.iter().any(|word| word.word() == confidence), "{name}: {figure}");
         }
     }
 }

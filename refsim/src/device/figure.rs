@@ -6,28 +6,65 @@ use serde::Deserialize;
 
 use super::DeviceError;
 
-/// Confidence in a figure.
+/// Confidence in a figure, from the surest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Confidence {
-    /// From a manufacturer's document or a specification.
+    /// From a manufacturer's document, a specification or a driver's register header.
     Documented,
-    /// Measured, on the card or on a sibling of it, which the source names.
+    /// Measured, on this chip.
     Measured,
-    /// Calculated from documented or measured figures; the source says how.
+    /// Measured, on a chip with the same unit, which the source names.
+    Sibling,
+    /// Calculated from figures of the three above; the source says how.
     Derived,
+    /// Measured, on a chip of an older or newer family, which the source names.
+    Kin,
+    /// The driver chooses, and several values are right; the source says which driver chose what.
+    State,
+    /// One developer's observation.
+    Report,
     /// No source was found: our assumption.
     Guess,
 }
 
-impl fmt::Display for Confidence {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Confidence {
+    /// Every word, from the surest on.
+    pub const ALL: [Self; 8] = [
+        Self::Documented,
+        Self::Measured,
+        Self::Sibling,
+        Self::Derived,
+        Self::Kin,
+        Self::State,
+        Self::Report,
+        Self::Guess,
+    ];
+
+    /// The word in profiles and tables.
+    pub const fn word(self) -> &'static str {
+        match self {
             Self::Documented => "documented",
             Self::Measured => "measured",
+            Self::Sibling => "sibling",
             Self::Derived => "derived",
+            Self::Kin => "kin",
+            Self::State => "state",
+            Self::Report => "report",
             Self::Guess => "guess",
-        })
+        }
+    }
+
+    /// `true` if a drawing of the card would still settle the figure: no document says it, and nothing was measured on
+    /// the chip or one with the same unit.
+    pub fn is_open(self) -> bool {
+        self >= Self::Kin
+    }
+}
+
+impl fmt::Display for Confidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
     }
 }
 
@@ -114,8 +151,8 @@ impl RawFigure {
         let (Some(of), Some(all)) = (self.of.clone(), self.all) else {
             return Err("counts consist of `of`, `all` and `right`");
         };
-        if self.confidence != Confidence::Measured {
-            return Err("only a measured figure has counts");
+        if !matches!(self.confidence, Confidence::Measured | Confidence::Sibling) {
+            return Err("only a figure that was measured, here or on a sibling, has counts");
         }
         let mut right: Vec<_> = self.right.iter().map(|(name, &right)| (name.clone(), right)).collect();
         right.sort_by_key(|(_, right)| std::cmp::Reverse(*right));

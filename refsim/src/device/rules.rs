@@ -194,7 +194,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// Rounding of window positions to the grid of `subpixel_bits`.
+    /// Rounding of window positions to the grid of `subpixel_grid`.
     SubpixelRounding {
         /// To the nearest grid line, halves toward larger columns and rows.
         Nearest = "nearest",
@@ -225,6 +225,9 @@ named_choice! {
         Snorm8 = "snorm8",
         /// As [`Self::Snorm8`], but k is the single-precision product of the magnitude and 255, cut: 0.5 is 127/255.
         Snorm8Cut = "snorm8-cut",
+        /// As 8 bits without a sign, expanded by `2x - 1` where they are read: clamped to [-1, 1], `(2k - 255) / 255`
+        /// with k the whole part of `127.5 (c + 1)`. It has no zero: 0 is -1/255, and 0.5 is 127/255.
+        Unorm8Expanded = "unorm8-expanded",
     }
 }
 
@@ -235,6 +238,31 @@ named_choice! {
         Format = "format",
         /// [-1, 1]: intermediate sums and products may exceed it, registers may not.
         One = "one",
+    }
+}
+
+/// Grid of window positions at set-up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SubpixelGrid {
+    /// `2^bits` lines a pixel. 0 to 8 bits; more count as 8.
+    Bits(u8),
+    /// 12 lines a pixel.
+    Twelfths,
+}
+
+impl SubpixelGrid {
+    /// Lines a pixel, 1 to 256.
+    pub fn lines(self) -> u32 {
+        match self {
+            Self::Bits(bits) => 1 << bits.min(8),
+            Self::Twelfths => 12,
+        }
+    }
+}
+
+impl RuleValue for SubpixelGrid {
+    fn from_text(text: &str) -> Option<Self> {
+        if text == "twelfths" { Some(Self::Twelfths) } else { u8::from_text(text).map(Self::Bits) }
     }
 }
 
@@ -358,8 +386,8 @@ rules! {
         color_clamp: ColorClamp = "color-clamp",
         /// Rounding of a window position at set-up.
         subpixel_rounding: SubpixelRounding = "subpixel-rounding",
-        /// Fraction bits of a window position at set-up, 0 to 8.
-        subpixel_bits: u8 = "subpixel-bits",
+        /// Grid of window positions at set-up.
+        subpixel_grid: SubpixelGrid = "subpixel-bits",
         /// Fraction bits of the weights of a linear filter, 0 to 8.
         filter_fraction_bits: u8 = "filter-fraction-bits",
         /// Fraction bits of a level of detail, 0 to 8.

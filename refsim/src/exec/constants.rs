@@ -69,6 +69,7 @@ impl ResolvedConstants {
                 ConstantStorage::Register => num::ops::convert(&Format::FP32, rules.format, bits).bits,
                 ConstantStorage::Snorm8 => snorm8(rules.format, bits, unorm_steps(magnitude(bits), 255)),
                 ConstantStorage::Snorm8Cut => snorm8(rules.format, bits, cut_255ths(magnitude(bits))),
+                ConstantStorage::Unorm8Expanded => unorm8_expanded(rules.format, bits),
             };
             let Some(storage) = rules.storage.of(Storage::Constants) else { return held };
             let narrowed = num::ops::convert(&rules.format, storage, held).bits;
@@ -151,6 +152,23 @@ fn magnitude(bits: u32) -> u32 {
 /// `k / 255` with the sign of `bits`, rounded into `format`.
 fn snorm8(format: Format, bits: u32, k: u32) -> u32 {
     num::from_ratio(format, bits >> 31 == 1 && k != 0, u128::from(k), 255).bits
+}
+
+/// `(2k - 255) / 255`, k the whole part of the exact `127.5 (c + 1)` of the clamped number c, rounded into `format`. NaN
+/// is stored as 0 is.
+fn unorm8_expanded(format: Format, bits: u32) -> u32 {
+    let magnitude = if magnitude(bits) > 0x7f80_0000 { 0 } else { magnitude(bits).min(FP32_ONE) };
+    let (significand, exponent) = match magnitude >> 23 {
+        0 => (magnitude, 1),
+        field => ((magnitude & 0x007f_ffff) | 0x0080_0000, field),
+    };
+    // The magnitude is significand / 2^down, with down at least 23; beyond 64 it moves 127.5 past no whole number.
+    let down = 150 - exponent;
+    let term = if down > 64 { 0 } else { 255 * i128::from(significand) };
+    let down = down.min(64);
+    let whole = if bits >> 31 == 1 { (255_i128 << down) - term } else { (255_i128 << down) + term };
+    let expanded = 2 * (whole >> (down + 1)) - 255;
+    num::from_ratio(format, expanded < 0, expanded.unsigned_abs(), 255).bits
 }
 
 /// The single-precision product of a magnitude and 255, clamped to 255 and cut to a whole number. NaN gives 0.

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::RasterError;
-use crate::device::{Rules, SubpixelRounding};
+use crate::device::{Rules, SubpixelGrid, SubpixelRounding};
 use crate::num::Format;
 use crate::texture::{Region, value};
 
@@ -13,9 +13,9 @@ const MAX_PIXELS: u32 = 16_384;
 /// A device's rasterisation rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RasterRules {
-    /// Fraction bits of a window position, 0 to 8.
-    pub subpixel_bits: u8,
-    /// Rounding of a window position to these bits.
+    /// Grid of window positions.
+    pub subpixel_grid: SubpixelGrid,
+    /// Rounding of a window position to the grid.
     pub subpixel_rounding: SubpixelRounding,
     /// Format in which components are interpolated. The weights are always FP32.
     pub iterator_format: Format,
@@ -24,7 +24,7 @@ pub struct RasterRules {
 impl From<&Rules> for RasterRules {
     fn from(rules: &Rules) -> Self {
         Self {
-            subpixel_bits: rules.subpixel_bits,
+            subpixel_grid: rules.subpixel_grid,
             subpixel_rounding: rules.subpixel_rounding,
             iterator_format: rules.iterator_format,
         }

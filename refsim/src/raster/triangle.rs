@@ -102,13 +102,13 @@ pub(crate) fn shape(
     state: &RasterState,
     rules: &RasterRules,
 ) -> Result<TriangleSetup, Dropped> {
-    let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
+    let lines = i64::from(rules.subpixel_grid.lines());
     let [c0, c1, c2] = corners;
-    // Half-integer centres need one fraction bit.
-    let unit_bits = subpixel_bits.max(1);
-    let widen = |c: Corner| (c.x << (unit_bits - subpixel_bits), c.y << (unit_bits - subpixel_bits));
+    // Half-integer centres need an even number of lines a pixel.
+    let unit = lines.max(2);
+    let widen = |c: Corner| (c.x * (unit / lines), c.y * (unit / lines));
     let points = [widen(c0), widen(c1), widen(c2)];
-    let signed = doubled_area(corners) << (2 * (unit_bits - subpixel_bits));
+    let signed = doubled_area(corners) * (unit / lines) * (unit / lines);
     if signed == 0 {
         return Err(Dropped::Degenerate);
     }
@@ -121,14 +121,14 @@ pub(crate) fn shape(
     }
     let center = match state.center {
         PixelCenter::Direct3d => 0,
-        PixelCenter::OpenGl => 1 << (unit_bits - 1),
+        PixelCenter::OpenGl => unit / 2,
     };
-    let bounds = bounding_box(points, center, unit_bits).intersect(state.viewport.region(state.scissor));
+    let bounds = bounding_box(points, center, unit).intersect(state.viewport.region(state.scissor));
     if bounds.width == 0 || bounds.height == 0 {
         return Err(Dropped::NoPixels);
     }
     let sign = signed.signum();
-    let edge = |p: (i64, i64), q: (i64, i64)| edge_through(p, q, sign, center, unit_bits);
+    let edge = |p: (i64, i64), q: (i64, i64)| edge_through(p, q, sign, center, unit);
     let area = signed.abs();
     let depths = [c0.depth, c1.depth, c2.depth];
     Ok(TriangleSetup {
@@ -148,23 +148,24 @@ pub(crate) fn shape(
     })
 }
 
-/// The edge function through p and q as a function of the pixel, oriented to be positive inside.
-fn edge_through(p: (i64, i64), q: (i64, i64), sign: i64, center: i64, unit_bits: u32) -> Edge {
+/// The edge function through p and q, in `unit` lines a pixel, as a function of the pixel, oriented to be positive
+/// inside.
+fn edge_through(p: (i64, i64), q: (i64, i64), sign: i64, center: i64, unit: i64) -> Edge {
     let a = (p.1 - q.1) * sign;
     let b = (q.0 - p.0) * sign;
     let c = a * (center - p.0) + b * (center - p.1);
     // A left edge has the interior to its right; a top edge is horizontal with the interior at larger rows.
     let top_left = a > 0 || (a == 0 && b > 0);
-    Edge { a: a << unit_bits, b: b << unit_bits, c, bias: i64::from(!top_left) }
+    Edge { a: a * unit, b: b * unit, c, bias: i64::from(!top_left) }
 }
 
 /// The pixels whose centres lie within the bounding box of the points.
-fn bounding_box(points: [(i64, i64); 3], center: i64, unit_bits: u32) -> Region {
+fn bounding_box(points: [(i64, i64); 3], center: i64, unit: i64) -> Region {
     let span = |values: [i64; 3]| {
         let low = values.into_iter().fold(i64::MAX, i64::min) - center;
         let high = values.into_iter().fold(i64::MIN, i64::max) - center;
-        let first = -((-low) >> unit_bits); // ceiling
-        let last = high >> unit_bits;
+        let first = -(-low).div_euclid(unit); // ceiling
+        let last = high.div_euclid(unit);
         let start = first.max(0);
         (start as u32, (last + 1 - start).max(0) as u32)
     };

@@ -4,7 +4,7 @@ use super::state::{ClipSpace, PixelCenter, RasterRules, RasterState};
 use crate::device::SubpixelRounding;
 use crate::texture::value;
 
-/// Limit at which positions saturate, in pixels from the origin. With 8 subpixel bits an edge function stays below
+/// Limit at which positions saturate, in pixels from the origin. With 256 grid lines a pixel an edge function stays below
 /// 2^56.
 pub(crate) const FARTHEST: i64 = 1 << 17;
 
@@ -43,13 +43,13 @@ pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, rules: &Ras
     if [window_x, window_y, depth, reciprocal_w].into_iter().any(value::is_not_finite) {
         return None;
     }
-    let bits = u32::from(rules.subpixel_bits.min(8));
-    let far = FARTHEST << bits;
+    let lines = rules.subpixel_grid.lines();
+    let far = FARTHEST * i64::from(lines);
     let snap = |c: u32| {
         let line = match rules.subpixel_rounding {
-            SubpixelRounding::Nearest => value::scaled_floor(c, 1, bits, true),
-            SubpixelRounding::Cut if c > cut_origin(state.center) => -value::scaled_floor(c ^ SIGN, 1, bits, false),
-            SubpixelRounding::Cut => value::scaled_floor(c, 1, bits, false),
+            SubpixelRounding::Nearest => value::scaled_floor(c, lines, 0, true),
+            SubpixelRounding::Cut if c > cut_origin(state.center) => -value::scaled_floor(c ^ SIGN, lines, 0, false),
+            SubpixelRounding::Cut => value::scaled_floor(c, lines, 0, false),
         };
         line.clamp(-far, far)
     };

@@ -1,8 +1,10 @@
 //! Tests the profiles: loading, contents, and errors for unknown names.
 
+use std::collections::BTreeSet;
+
 use refsim::device::{
     ColorClamp, ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, ResultRange,
-    SignedTexelMinimum, Storage, SubpixelRounding, TargetRounding, TexkillComponents,
+    SignedTexelMinimum, Storage, SubpixelGrid, SubpixelRounding, TargetRounding, TexkillComponents,
 };
 use refsim::isa::Version;
 use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials};
@@ -68,6 +70,41 @@ fn every_figure_has_a_source() {
     }
 }
 
+/// Every word is the confidence of some figure. NV2A is a sibling of two cards and of no other: nothing else that it
+/// drew is more than kin.
+#[test]
+fn words_of_confidence_say_on_which_chip() {
+    let mut words = BTreeSet::new();
+    for name in Profile::card_names() {
+        for row in Profile::named(name).unwrap().figures() {
+            words.insert(row.confidence);
+            if row.source.contains("NV2A") && !row.source.contains("NV34") {
+                let unfit: &[Confidence] = match name {
+                    "nv20" | "nv25" => &[Confidence::Kin],
+                    _ => &[Confidence::Measured, Confidence::Sibling],
+                };
+                assert!(!unfit.contains(&row.confidence), "{name} {}: {}", row.key, row.confidence);
+            }
+        }
+    }
+    assert_eq!(Vec::from_iter(words), Confidence::ALL);
+    let open = Confidence::ALL.into_iter().filter(|word| word.is_open()).map(Confidence::word);
+    assert_eq!(open.collect::<Vec<_>>(), ["kin", "state", "report", "guess"]);
+}
+
+/// ROUND_PREC of R200 has 16ths and coarser grids; R300 has twelfths, too.
+#[test]
+fn the_radeons_have_the_grids_of_their_registers() {
+    let mut r200 = Profile::named("r200").unwrap();
+    assert_eq!(r200.rules.subpixel_grid, SubpixelGrid::Bits(4));
+    assert!(matches!(r200.set_switch("subpixel-bits", "8"), Err(DeviceError::SwitchValue { .. })));
+    r200.set_switch("subpixel-bits", "3").unwrap();
+    assert_eq!(r200.rules.subpixel_grid.lines(), 8);
+    let mut r300 = Profile::named("r300").unwrap();
+    r300.set_switch("subpixel-bits", "twelfths").unwrap();
+    assert_eq!(r300.rules.subpixel_grid.lines(), 12);
+}
+
 #[test]
 fn r200_is_what_the_paper_says() {
     let r200 = Profile::named("r200").unwrap();
@@ -84,7 +121,7 @@ fn r200_is_what_the_paper_says() {
     assert!(r200.supports(Version::Ps1_4) && !r200.supports(Version::Ps2_0));
     assert_eq!(r200.rates.fill_pixels_per_s, Some(1_100_000_000));
     let format = r200.figures().into_iter().find(|r| r.key == "rules.format").unwrap();
-    assert_eq!((format.value.as_str(), format.confidence), ("s3.12:rdn", Confidence::Derived));
+    assert_eq!((format.value.as_str(), format.confidence), ("s3.12:rdn", Confidence::Documented));
     let rounding = r200.figures().into_iter().find(|r| r.key == "rules.rounding").unwrap();
     assert_eq!((rounding.value.as_str(), rounding.confidence), ("rdn", Confidence::Guess));
 }
@@ -181,7 +218,8 @@ fn nv2x_clamps_results_and_not_sums() {
     }
 }
 
-/// What was measured on a sibling: the answers that hold, with their counts; other cards keep theirs.
+/// What was measured on a sibling: the answers that hold, with their counts. Kin take some of them; other cards keep
+/// theirs.
 #[test]
 fn nv2x_obeys_what_nv2a_drew() {
     for name in ["nv20", "nv25"] {
@@ -193,13 +231,17 @@ fn nv2x_obeys_what_nv2a_drew() {
         assert_eq!(card.rules.vertex_format, "fp32:ftz".parse().unwrap());
         let counted = card.figures().into_iter().filter(|row| row.counts.is_some());
         for row in counted {
-            assert!(row.confidence == Confidence::Measured && row.source.contains("NV2A, a sibling"), "{}", row.key);
+            assert!(row.confidence == Confidence::Sibling && row.source.contains("NV2A, a sibling"), "{}", row.key);
         }
     }
     for name in ["r200", "r300", "nv30", "r350", "nv35", "gt200", "ideal-fp32"] {
         let rules = Profile::named(name).unwrap().rules;
-        assert_eq!(rules.subpixel_rounding, SubpixelRounding::Nearest, "{name}");
-        assert_eq!((rules.depth_rounding, rules.color_clamp), (TargetRounding::Nearest, ColorClamp::Program), "{name}");
+        let drawn = match name {
+            "nv30" | "nv35" => (SubpixelRounding::Cut, ColorClamp::Vertex),
+            _ => (SubpixelRounding::Nearest, ColorClamp::Program),
+        };
+        assert_eq!((rules.subpixel_rounding, rules.color_clamp), drawn, "{name}");
+        assert_eq!(rules.depth_rounding, TargetRounding::Nearest, "{name}");
         assert!(!rules.vertex_zero_times_anything, "{name}");
     }
 }
@@ -256,7 +298,7 @@ fn clocks_are_of_instructions() {
 
 #[test]
 fn counts_of_a_measured_figure_support_its_value() {
-    let whole = r#""measured", of = "NV2A", all = 52, right = { 4 = 52, 8 = 16 }"#;
+    let whole = r#""sibling", of = "NV2A", all = 52, right = { 4 = 52, 8 = 16 }"#;
     assert!(NV20.contains(whole));
     let figures = Profile::from_toml("nv20", NV20).expect("a card").figures();
     let counted = figures.iter().find(|row| row.key.ends_with("subpixel-bits")).and_then(|row| row.counts.as_ref());
@@ -265,11 +307,13 @@ fn counts_of_a_measured_figure_support_its_value() {
         let error = Profile::from_toml("nv20", &NV20.replace(whole, figure)).expect_err(figure).to_string();
         assert!(error.contains("subpixel-bits") && error.contains(problem), "{figure}: {error}");
     };
-    assert!(Profile::from_toml("nv20", &NV20.replace(whole, r#""measured""#)).is_ok());
+    assert!(Profile::from_toml("nv20", &NV20.replace(whole, r#""sibling""#)).is_ok());
     for part in [r#" of = "NV2A","#, " all = 52,"] {
         wrong("counts consist of `of`, `all` and `right`", &whole.replace(part, ""));
     }
-    wrong("only a measured figure has counts", &whole.replace("measured", "guess"));
+    for word in ["guess", "kin", "documented"] {
+        wrong("only a figure that was measured, here or on a sibling, has counts", &whole.replace("sibling", word));
+    }
     for (from, to) in [("4 = 52, ", ""), ("8 = 16", "8 = 52"), ("all = 52", "all = 51")] {
         wrong("the value must predict more than another hypothesis", &whole.replace(from, to));
     }

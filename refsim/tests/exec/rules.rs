@@ -3,7 +3,7 @@
 mod textures;
 
 use crate::running::{bits, constants, ideal, input, into, run, run_quad, run_with_coordinates};
-use refsim::device::{Profile, TexkillComponents};
+use refsim::device::{Profile, TexcrdOverflow, TexkillComponents};
 use refsim::exec::DepthValue;
 use refsim::exec::{BumpStage, Constants, PixelBindings, SamplerBinding};
 use refsim::num::{Flags, Format};
@@ -179,9 +179,9 @@ fn texcrd_saturates_or_wraps() {
         let ran = run_with_coordinates("ps_1_4\ntexcrd r0.rgb, t0\nmov r0, r0.r", profile, &[[x, 0.0, 0.0, 0.0]]);
         ran.value(0)[0]
     };
-    let clamp = r200();
-    let mut wrap = r200();
-    wrap.set_switch("texcrd-overflow", "wrap-preserving").unwrap();
+    let (mut clamp, wrap) = (r200(), r200());
+    assert_eq!(wrap.rules.texcrd_overflow, TexcrdOverflow::PreserveWrap, "what the first hardware of ps_1_4 does");
+    clamp.set_switch("texcrd-overflow", "clamp").unwrap();
     assert_eq!((at(&clamp, 9.25), at(&clamp, -20.0)), (0x7fff, 0x8000));
     assert_eq!(at(&wrap, 9.25), s([-6.75; 4])[0], "the fraction stays");
     assert_eq!((at(&clamp, 1.5), at(&wrap, 1.5)), (0x1800, 0x1800));

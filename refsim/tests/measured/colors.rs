@@ -31,8 +31,8 @@ pub(crate) fn rules() -> Vec<Rule> {
         redraw: ends,
         unexplained: 1,
         settled: true,
-        open: "Sums and dot products, which were not seen. The value that is not predicted is -NaN, moved (next row but \
-               two).",
+        open: "Nothing: these pictures show products; that sums and dot products obey it, too, GL_NV_vertex_program says, and \
+               vectors of the unit show. The value that is not predicted is -NaN, moved (next row but two).",
     };
     let subnormals = Rule {
         name: "Vertex programs: subnormal numbers are 0",
@@ -57,9 +57,9 @@ pub(crate) fn rules() -> Vec<Rule> {
         hypotheses: Hypotheses::Computed("no", &[("yes", moved_as_they_are)]),
         redraw: moved_nans,
         settled: false,
-        open: "The card keeps it, as we do without a vertex program, but not in one: -NaN, moved to a color, is 0 there \
-               and 1 here. That a NaN has no sign is a law of the emulator, on which executors with host floats rely. NaNs \
-               that a program makes are positive on the card, too: only those in attributes tell.",
+        open: "The card keeps it: its MOV copies words (envytools, xf.cc:197). We do without a vertex program, but not in \
+               one: -NaN, moved to a color, is 0 there and 1 here. NaNs that a program makes are positive on the card, too: \
+               only those in attributes tell.",
         ..product.clone()
     };
     let iterated = Rule {

@@ -1,7 +1,7 @@
 //! "Clipping", "Window" and "The fan": triangle set-up reimplemented in host singles.
 
 use super::{Random, probes};
-use refsim::device::SubpixelRounding;
+use refsim::device::{SubpixelGrid, SubpixelRounding};
 use refsim::num::Format;
 use refsim::raster::{ClipSpace, Cull, FOG_COMPONENT, PixelCenter, RasterRules, RasterState, Vertex, Viewport, setup};
 use refsim::texture::Region;
@@ -17,7 +17,7 @@ struct Corner {
 /// A corner in window space: snapped column and row, depth, 1 / w.
 type Snapped = (i64, i64, f32, f32);
 
-/// Fraction bits of window positions, and their rounding.
+/// Grid lines a pixel of window positions, and their rounding.
 type Grid = (u32, SubpixelRounding);
 
 fn distances([x, y, z, w]: [f32; 4], opengl: bool) -> [f32; 7] {
@@ -58,7 +58,7 @@ fn clip(triangle: [Corner; 3], opengl: bool) -> Vec<Corner> {
     polygon
 }
 
-fn to_window(position: [f32; 4], state: &RasterState, (bits, rounding): Grid) -> Option<Snapped> {
+fn to_window(position: [f32; 4], state: &RasterState, (lines, rounding): Grid) -> Option<Snapped> {
     let [x, y, z, w] = position;
     let (v, opengl) = (&state.viewport, state.clip_space == ClipSpace::OpenGl);
     let [half_width, half_height] = [v.width, v.height].map(|n| n as f32 / 2.0);
@@ -70,7 +70,7 @@ fn to_window(position: [f32; 4], state: &RasterState, (bits, rounding): Grid) ->
     let depth = d * (most - least) + least;
     let reciprocal = 1.0 / w;
     let all = [column, row, depth, reciprocal];
-    let scale = f64::from(1u32 << bits);
+    let scale = f64::from(lines);
     let corner = if state.center == PixelCenter::Direct3d { -0.5 } else { 0.0 };
     let line = |c: f64| match rounding {
         SubpixelRounding::Nearest => (c * scale + 0.5).floor(),
@@ -86,10 +86,10 @@ fn area([a, b, c]: [Snapped; 3]) -> i64 {
 }
 
 /// Returns `true` if the bounding box of a part contains a pixel centre of the viewport, which is the whole target.
-fn has_pixels(part: [Snapped; 3], state: &RasterState, bits: u32) -> bool {
+fn has_pixels(part: [Snapped; 3], state: &RasterState, lines: u32) -> bool {
     let center = if state.center == PixelCenter::OpenGl { 0.5 } else { 0.0 };
     let span = |values: [i64; 3], size: u32| {
-        let scaled = values.map(|n| n as f64 / f64::from(1u32 << bits) - center);
+        let scaled = values.map(|n| n as f64 / f64::from(lines) - center);
         let (low, high) = (scaled.into_iter().fold(f64::MAX, f64::min), scaled.into_iter().fold(f64::MIN, f64::max));
         low.ceil().max(0.0) <= high.floor().min(f64::from(size) - 1.0)
     };
@@ -127,7 +127,8 @@ fn clipped_triangles_are_the_fans_of_the_page() {
     let mut r = Random::new(6);
     let (mut cut, mut dropped) = (0, 0);
     for _ in 0..probes(6_000) {
-        let (bits, rounding) = (r.of(&[4, 8]), r.of(SubpixelRounding::ALL));
+        let grid = r.of(&[SubpixelGrid::Bits(4), SubpixelGrid::Bits(8), SubpixelGrid::Twelfths]);
+        let (lines, rounding) = (grid.lines(), r.of(SubpixelRounding::ALL));
         let (width, height) = r.of(&[(640, 480), (64, 64), (7, 33)]);
         let viewport = Viewport { min_depth: 0.25f32.to_bits(), ..Viewport::new(width, height) };
         let state = RasterState {
@@ -152,12 +153,11 @@ fn clipped_triangles_are_the_fans_of_the_page() {
             fog: c.fog.to_bits(),
             ..Vertex::default()
         });
-        let rules =
-            RasterRules { subpixel_bits: bits as u8, subpixel_rounding: rounding, iterator_format: Format::FP32 };
+        let rules = RasterRules { subpixel_grid: grid, subpixel_rounding: rounding, iterator_format: Format::FP32 };
         let mut found = Vec::new();
         setup(vertices.each_ref(), &state, &rules, &mut found);
-        let expected = parts(triangle, &state, (bits, rounding));
-        let place = format!("{triangle:?}, {state:?}, {bits} bits, {rounding:?}");
+        let expected = parts(triangle, &state, (lines, rounding));
+        let place = format!("{triangle:?}, {state:?}, {grid:?}, {rounding:?}");
         assert_eq!(found.len(), expected.len(), "{place}");
         for (found, part) in found.iter().zip(&expected) {
             let corners = part.map(|(corner, _)| corner);
@@ -165,7 +165,7 @@ fn clipped_triangles_are_the_fans_of_the_page() {
             assert_eq!(found.depth.base, corners[0].2.to_bits(), "{place}: depth");
             assert_eq!(found.planes[FOG_COMPONENT].base, part[0].1.to_bits(), "{place}: component");
             let slopes = |i: usize, j: usize| (corners[i].1 - corners[j].1, corners[j].0 - corners[i].0);
-            let turn = area(corners).signum() << bits;
+            let turn = area(corners).signum() * i64::from(lines);
             let edges = [slopes(1, 2), slopes(2, 0), slopes(0, 1)].map(|(a, b)| (a * turn, b * turn));
             assert_eq!(found.edges.map(|e| (e.a, e.b)), edges, "{place}: edges");
         }

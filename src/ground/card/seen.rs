@@ -34,7 +34,7 @@ pub fn seen_pixels(
 ) -> Result<Vec<Option<SeenPixel>>, CardError> {
     let (positions, triangles) = geometry;
     let mut ideal = Profile::named("ideal-fp32").expect("a device of the project");
-    ideal.rules.subpixel_bits = profile.rules.subpixel_bits;
+    ideal.rules.subpixel_grid = profile.rules.subpixel_grid;
     let program =
         |kernel: super::KernelText| kernel.checked(&ideal).expect("the ideal device runs the project's programs");
     let (vertex, pixel) = (program(FLOAT_COLOR), program(SHADE));

@@ -72,7 +72,7 @@ fn pixels_show_what_their_rays_meet() {
         worst = worst.max(beside.length() / pixel);
         assert!(seen.weights.iter().all(|&weight| weight > -1e-5), "{seen:?}");
     }
-    assert!(worst < 2.0 / f64::from(1 << ideal.rules.subpixel_bits), "{worst} pixels");
+    assert!(worst < 2.0 / f64::from(ideal.rules.subpixel_grid.lines()), "{worst} pixels");
     assert!(seen.iter().flatten().count() > 700);
 }
 

@@ -131,7 +131,7 @@ impl Scene {
         }
         let Some(triangle) = nearest else { return Shown::Nothing };
         // Twice the snapping error of a vertex, which is half a subpixel per axis.
-        let step = 1.0 / f64::from(1_u32 << ideal().rules.subpixel_bits);
+        let step = 1.0 / f64::from(ideal().rules.subpixel_grid.lines());
         let met = [[0.0; 2], [step, 0.0], [0.0, step]].map(|beside| self.meet(triangle as usize, at(beside)));
         match met {
             [Some(center), Some(right), Some(down)] => Shown::Triangle([center.1, right.1, down.1]),

@@ -13,23 +13,13 @@ use refsim::machine::ExecutorKind;
 
 /// The cards, without those that are one of these at another clock.
 const CARDS: [&str; 6] = ["nv20", "nv25", "r200", "r300", "nv30", "nv35"];
-const FORMAT: &str = "registers are floats, which hold every coordinate that wrapping would preserve";
-const COORDINATES: &str = "no program of this card has `texcrd`";
 const PRODUCTS: &str = "the only product out of range is -3 times -3, and with any third operand both results exceed 1, \
                         where registers end; else rounding commutes with the addition of multiples of the unit";
 const TEXELS: &str = "chooses the texel format of a system's textures: the card has it, or refuses it";
 
 /// Switches whose values draw the same by every program of the card, with the reason.
-const UNDRAWN: [(&str, &str, &str); 8] = [
-    ("nv20", "mad", PRODUCTS),
-    ("nv20", "texcrd-overflow", COORDINATES),
-    ("nv25", "mad", PRODUCTS),
-    ("nv25", "texcrd-overflow", COORDINATES),
-    ("r200", "ray-textures", TEXELS),
-    ("r300", "texcrd-overflow", FORMAT),
-    ("nv30", "texcrd-overflow", FORMAT),
-    ("nv35", "texcrd-overflow", FORMAT),
-];
+const UNDRAWN: [(&str, &str, &str); 3] =
+    [("nv20", "mad", PRODUCTS), ("nv25", "mad", PRODUCTS), ("r200", "ray-textures", TEXELS)];
 
 /// The reason why no drawing decides a switch of a card.
 fn undrawn(device: &str, switch: &str) -> Option<&'static str> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crossbar::case::{Loaded, Setup};
-use refsim::device::{Confidence, Profile, Switch};
+use refsim::device::{Profile, Switch};
 use refsim::machine::ExecutorKind;
 
 /// Codes of a case's first target, and of its depth buffer, under a value of a switch; `None` if it cannot be drawn.
@@ -34,7 +34,7 @@ pub(super) fn groups(text: &str, switch: &Switch) -> Option<Vec<Vec<String>>> {
     Some(groups.into_iter().map(|(_, values)| values).collect())
 }
 
-/// The open switches of a device: those whose default is a guess.
+/// The open switches of a device: those whose default no document states, and no measurement of the chip or of a sibling.
 pub(super) fn open(profile: &Profile) -> impl Iterator<Item = &Switch> {
-    profile.switches().iter().filter(|switch| switch.confidence == Confidence::Guess)
+    profile.switches().iter().filter(|switch| switch.confidence.is_open())
 }

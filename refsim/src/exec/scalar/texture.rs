@@ -343,7 +343,9 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         match self.prepared.rules.texcrd_overflow {
             TexcrdOverflow::Clamp => self.delivered(single),
             TexcrdOverflow::PreserveWrap if format.is_fixed() => {
-                ops::convert(&Format::FP32, format.with_overflow(Overflow::Wrap), single).bits
+                let wrapped = ops::convert(&Format::FP32, format.with_overflow(Overflow::Wrap), single);
+                self.full.flags |= wrapped.flags;
+                wrapped.bits
             }
             TexcrdOverflow::PreserveWrap => self.delivered(single),
         }

@@ -1,7 +1,8 @@
 //! The clipper.
 
-use super::support::{CONVENTIONS, RULES, counts, set_up, state, vertex};
+use super::support::{CONVENTIONS, RULES, counts, grids, set_up, state, vertex};
 use proptest::prelude::*;
+use refsim::device::SubpixelGrid;
 use refsim::raster::{ComponentMask, RasterRules, Vertex, Viewport};
 
 fn any_vertex() -> impl Strategy<Value = Vertex> {
@@ -18,10 +19,10 @@ fn near_vertex() -> impl Strategy<Value = Vertex> {
     [axis(), axis(), axis(), axis()].prop_map(vertex)
 }
 
-fn check(v: &[Vertex; 3], convention: usize, bits: u8, viewport: Viewport) {
+fn check(v: &[Vertex; 3], convention: usize, grid: SubpixelGrid, viewport: Viewport) {
     let mut s = state(64, 48, CONVENTIONS[convention]);
     s.viewport = viewport;
-    let rules = RasterRules { subpixel_bits: bits, ..RULES };
+    let rules = RasterRules { subpixel_grid: grid, ..RULES };
     for done in set_up([&v[0], &v[1], &v[2]], &s, &rules).0 {
         let b = done.bounds;
         assert!(b.width > 0 && b.height > 0 && b.x + b.width <= 64 && b.y + b.height <= 48);
@@ -38,17 +39,17 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_bits_are_drawn_or_dropped(v in [any_vertex(), any_vertex(), any_vertex()], convention in 0usize..4, bits in any::<u8>()) {
-        check(&v, convention, bits, Viewport::new(64, 48));
+    fn any_bits_are_drawn_or_dropped(v in [any_vertex(), any_vertex(), any_vertex()], convention in 0usize..4, grid in grids(any::<u8>())) {
+        check(&v, convention, grid, Viewport::new(64, 48));
     }
 
     #[test]
     fn nearly_sensible_vertices_too(
-        v in [near_vertex(), near_vertex(), near_vertex()], convention in 0usize..4, bits in 0u8..=8,
+        v in [near_vertex(), near_vertex(), near_vertex()], convention in 0usize..4, grid in grids(0u8..=8),
         x in any::<i32>(), y in -100i32..100, width in any::<u32>(), height in 0u32..100, depths in any::<[u32; 2]>(),
     ) {
-        check(&v, convention, bits, Viewport::new(64, 48));
-        check(&v, convention, bits, Viewport { x, y, width, height, min_depth: depths[0], max_depth: depths[1] });
+        check(&v, convention, grid, Viewport::new(64, 48));
+        check(&v, convention, grid, Viewport { x, y, width, height, min_depth: depths[0], max_depth: depths[1] });
     }
 
     /// Clipped triangles with a common edge share no pixel.

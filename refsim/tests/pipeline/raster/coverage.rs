@@ -1,6 +1,6 @@
 //! The fill rule.
 
-use super::support::{CONVENTIONS, RULES, at, counts, set_up, state, vertex};
+use super::support::{CONVENTIONS, RULES, at, counts, grids, set_up, state, vertex};
 use proptest::prelude::*;
 use refsim::raster::{Cull, Dropped, PixelCenter, Primitive, RasterRules, RasterState, Vertex, Viewport, assemble};
 use refsim::texture::Region;
@@ -50,8 +50,8 @@ proptest! {
 
     /// Two triangles with a common edge: no pixel twice, and together the same pixels as the convex quad's other split.
     #[test]
-    fn a_common_edge_belongs_to_one_side(corners in prop::collection::vec(position(), 4), bits in 2u8..=8, convention in 0usize..4) {
-        let rules = RasterRules { subpixel_bits: bits, ..RULES };
+    fn a_common_edge_belongs_to_one_side(corners in prop::collection::vec(position(), 4), grid in grids(2u8..=8), convention in 0usize..4) {
+        let rules = RasterRules { subpixel_grid: grid, ..RULES };
         let v: Vec<_> = corners.iter().map(|&(x, y)| at(x, y, W, H)).collect();
         let s = state(W, H, CONVENTIONS[convention]);
         let side = |p: usize, q: usize, r: usize| {
@@ -77,9 +77,9 @@ proptest! {
     #[test]
     fn a_mesh_covers_each_pixel_once(
         jitter in prop::collection::vec(prop_oneof![(-1.2f32..1.2, -1.2f32..1.2), Just((0.0, 0.0)), Just((0.5, -0.5))], 80),
-        bits in 1u8..=8, convention in 0usize..4,
+        grid in grids(1u8..=8), convention in 0usize..4,
     ) {
-        let rules = RasterRules { subpixel_bits: bits, ..RULES };
+        let rules = RasterRules { subpixel_grid: grid, ..RULES };
         let (vertices, triangles) = mesh(&jitter, 9, 7);
         let list: Vec<_> = triangles.iter().map(|t| t.map(|i| &vertices[i])).collect();
         let found = counts(&list, &state(W, H, CONVENTIONS[convention]), &rules);

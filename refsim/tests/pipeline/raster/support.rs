@@ -1,14 +1,23 @@
 //! Helpers of the raster tests.
 
-use refsim::device::SubpixelRounding;
+use proptest::prelude::*;
+use refsim::device::{SubpixelGrid, SubpixelRounding};
 use refsim::num::Format;
 use refsim::raster::{
     ClipSpace, Cull, PixelCenter, RasterRules, RasterState, SetupReport, TriangleSetup, Vertex, Viewport, setup,
 };
 use refsim::texture::Region;
 
-pub(crate) const RULES: RasterRules =
-    RasterRules { subpixel_bits: 4, subpixel_rounding: SubpixelRounding::Nearest, iterator_format: Format::FP32 };
+pub(crate) const RULES: RasterRules = RasterRules {
+    subpixel_grid: SubpixelGrid::Bits(4),
+    subpixel_rounding: SubpixelRounding::Nearest,
+    iterator_format: Format::FP32,
+};
+
+/// Grids with so many bits, and that of twelfths.
+pub(crate) fn grids(bits: impl Strategy<Value = u8>) -> impl Strategy<Value = SubpixelGrid> {
+    prop_oneof![3 => bits.prop_map(SubpixelGrid::Bits), 1 => Just(SubpixelGrid::Twelfths)]
+}
 
 pub(crate) const CONVENTIONS: [(PixelCenter, ClipSpace); 4] = [
     (PixelCenter::Direct3d, ClipSpace::Direct3d),

@@ -1,9 +1,9 @@
 //! Tests the batch executor's viewport transform and clip tests in rows against [`refsim::raster::setup`].
 
-use super::support::{CONVENTIONS, RULES, state, vertex};
+use super::support::{CONVENTIONS, RULES, grids, state, vertex};
 use crate::random::Random;
 use proptest::prelude::*;
-use refsim::device::SubpixelRounding;
+use refsim::device::{SubpixelGrid, SubpixelRounding};
 use refsim::exec::batch::{Instances, SimdLevel, Surfaces, VertexRows};
 use refsim::raster::{ComponentMask, Cull, RasterRules, RasterState, TriangleSetup, Vertex, Viewport, setup};
 
@@ -95,13 +95,13 @@ fn any_state() -> impl Strategy<Value = (RasterState, RasterRules)> {
     let depth = || prop_oneof![Just(0u32), Just(1.0f32.to_bits()), (0.0f32..1.0).prop_map(f32::to_bits)];
     let viewport = (-40i32..40, -40i32..40, 1u32..200, 1u32..200, depth(), depth());
     let culls = [Cull::None, Cull::Clockwise, Cull::CounterClockwise];
-    let grid = (0u8..=8, prop::sample::select(SubpixelRounding::ALL.to_vec()));
+    let grid = (grids(0u8..=8), prop::sample::select(SubpixelRounding::ALL.to_vec()));
     (0..CONVENTIONS.len(), viewport, prop::sample::select(culls.to_vec()), grid).prop_map(
-        |(convention, (x, y, width, height, min_depth, max_depth), cull, (subpixel_bits, subpixel_rounding))| {
+        |(convention, (x, y, width, height, min_depth, max_depth), cull, (subpixel_grid, subpixel_rounding))| {
             let mut state = state(64, 48, CONVENTIONS[convention]);
             state.viewport = Viewport { x, y, width, height, min_depth, max_depth };
             state.cull = cull;
-            (state, RasterRules { subpixel_bits, subpixel_rounding, ..RULES })
+            (state, RasterRules { subpixel_grid, subpixel_rounding, ..RULES })
         },
     )
 }
@@ -131,10 +131,11 @@ fn edge_values_arrive_where_the_definition_has_them() {
         }
     }
     for convention in CONVENTIONS {
-        for (subpixel_bits, &subpixel_rounding) in
-            [0, 4, 8].into_iter().flat_map(|b| SubpixelRounding::ALL.iter().map(move |r| (b, r)))
+        let grids = [0, 4, 8].map(SubpixelGrid::Bits).into_iter().chain([SubpixelGrid::Twelfths]);
+        for (subpixel_grid, &subpixel_rounding) in
+            grids.flat_map(|grid| SubpixelRounding::ALL.iter().map(move |r| (grid, r)))
         {
-            let rules = RasterRules { subpixel_bits, subpixel_rounding, ..RULES };
+            let rules = RasterRules { subpixel_grid, subpixel_rounding, ..RULES };
             compare(&vertices, &state(64, 48, convention), &rules);
         }
     }

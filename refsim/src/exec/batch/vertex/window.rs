@@ -59,7 +59,7 @@ struct ViewportTransform {
 /// Snapping of positions to the grid.
 #[derive(Clone, Copy)]
 struct Snap {
-    /// Grid units per pixel, and the farthest grid line.
+    /// Grid lines per pixel, and the farthest grid line.
     grid: f64,
     far: f64,
     /// Added in front of the floor, in grid units.
@@ -70,9 +70,8 @@ struct Snap {
 
 impl Window {
     pub(crate) fn new(rows: &VertexRows, state: &RasterState, rules: &RasterRules, simd: SimdLevel) -> Self {
-        let subpixel_bits = rules.subpixel_bits.min(8);
         let v = &state.viewport;
-        let grid = f64::from(1u32 << subpixel_bits);
+        let grid = f64::from(rules.subpixel_grid.lines());
         let (half, origin) = match rules.subpixel_rounding {
             SubpixelRounding::Nearest => (0.5, f64::NEG_INFINITY),
             SubpixelRounding::Cut => (0.0, f32::from_bits(cut_origin(state.center)).into()),
