@@ -47,10 +47,11 @@ fn enough_bits_are_rounded_sums() {
     assert!(scalar(&plain, 5) != scalar(&aligned, 5));
 }
 
-/// Half a unit of the last place and a bit, with the first product and the last of opposite signs.
+/// The first product lies in the middle between two numbers.
 #[test]
 fn every_rule_shows_in_pixels_and_in_pixels_alone() {
-    let (a, b, c) = ([1.5, 1.000_122_1, 3.0, 0.0], [1.333_251_9, 1.000_122_1, -0.333_251_95, 0.0], [0.5f32; 4]);
+    let (a, b) = ([1.5, 1.000_122_1, 3.0, 0.0], [1.000_015_3, 1.000_122_1, -0.333_251_95, 0.0]);
+    let c = [-1.5, 0.5, 0.5, 0.5];
     let pixel = |profile: &Profile| {
         let text = "ps_2_0\nmov r0, c0\nmov r1, c1\nmad r2, r0, r1, c2\ndp3 r3, r0, r1\nadd r4, r2, r3\nmov oC0, r4";
         let ran = run(text, profile, &[a, b, c]);

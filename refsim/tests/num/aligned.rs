@@ -8,10 +8,10 @@ use crate::random::Random;
 use crate::rational::Q;
 use crate::small_ops::{Reference, Val, decode};
 
-/// Short floats with all rules that sums see.
+/// Floats of 6 bits at most with all rules that sums see.
 fn formats() -> Vec<Format> {
     let mut all = Vec::new();
-    for layout in ["e2m3", "e3m2", "e4m1", "e2m1", "e3m2fn", "e2m3fnuz", "e4m3fn"] {
+    for layout in ["e2m3", "e3m2", "e4m1", "e2m1", "e3m2fn", "e2m3fnuz"] {
         let layout: Format = layout.parse().expect("a format");
         for (_, rounding) in Rounding::ALL {
             for overflow in [Overflow::Infinity, Overflow::Saturate, Overflow::Nv30] {
@@ -131,7 +131,7 @@ fn cut_products_lose_bits_below_the_significand_and_nothing_else() {
     formats().par_iter().for_each(|&f| {
         let refsim::num::FormatKind::Float { man_bits, .. } = f.kind else { unreachable!("floats") };
         let r = Reference { f, tininess: Tininess::After };
-        let step = by_form(5, 1);
+        let step = by_form(7, 1);
         for a in 0..=f.mask() {
             for b in (0..=f.mask()).step_by(step) {
                 for c in (0..=f.mask()).step_by(step) {
