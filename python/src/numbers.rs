@@ -240,12 +240,14 @@ pub(crate) fn dot(
     if [format, accumulator].iter().any(|format| matches!(format.rounding, Rounding::Stochastic(_))) {
         return Err(value_error("a dot product rounds more than once, and `:rst` has one word for an element"));
     }
-    let order = match order {
-        "sequential" => DotOrder::Sequential,
-        "tree" => DotOrder::Tree,
-        "exact" => DotOrder::Exact,
-        other => {
-            return Err(value_error(format!("expected the order sequential, tree or exact, found `{other}`")));
+    let order = match DotOrder::named(order) {
+        Some(DotOrder::Aligned(_)) if accumulator.is_fixed() => {
+            return Err(value_error("an aligned sum goes by exponents: expected an accumulator of floats"));
+        }
+        Some(order) => order,
+        None => {
+            let expected = "expected the order sequential, tree, exact, or aligned:F with F from 0 to 28";
+            return Err(value_error(format!("{expected}, found `{order}`")));
         }
     };
     let operands = [x, y];

@@ -182,7 +182,7 @@ def test_dot_products():
         (lambda: cg.dot(1.0, 2.0, "fp16"), "expected arrays with an axis to sum along, found a single number"),
         (
             lambda: cg.dot([1.0], [2.0], "fp16", order="any"),
-            "expected the order sequential, tree or exact, found `any`",
+            "expected the order sequential, tree, exact, or aligned:F with F from 0 to 28, found `any`",
         ),
         (lambda: cg.dot([1.0], [2.0], "fp16:rst"), "a dot product rounds more than once, and `:rst` has one word"),
     ],

@@ -6,6 +6,8 @@ mod adapter;
 mod random;
 #[path = "common/running.rs"]
 mod running;
+#[path = "common/sums.rs"]
+mod sums;
 
 use random::Random;
 use refsim::device::Profile;
@@ -25,6 +27,7 @@ use std::sync::Arc;
 fn main() -> ExitCode {
     adapter::run(adapter::trials![on_adapter:
         memory_follows,
+        products_and_sums_agree,
         short_programs_agree_on_any_driver,
         long_traces_are_whole,
         buffers_of_a_trace_run_elsewhere,
@@ -107,6 +110,16 @@ impl Pair {
 
 fn copy(profile: &Profile) -> CheckedProgram {
     checked("ps_2_0\ndcl t0\nmov oC0, t0", profile)
+}
+
+/// Rules for products and sums; every format of the list twice.
+fn products_and_sums_agree(gpu: &Arc<Gpu>) {
+    for seed in 0..24 {
+        let profile = sums::profile(seed);
+        let expected = sums::drawn(Machine::new(profile.clone(), ExecutorKind::Scalar), &profile, seed);
+        let found = sums::drawn(Machine::with_gpu(profile.clone(), Arc::clone(gpu)).unwrap(), &profile, seed);
+        assert!(found == expected, "seed {seed}: {:?}", profile.rules);
+    }
 }
 
 /// Handles, clears, releases and read-back between draws.

@@ -2,11 +2,11 @@
 
 use crate::random::Random;
 use refsim::device::{
-    BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
-    Profile, SignedTexelMinimum, SubpixelGrid, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator,
-    TexelValues, TexkillComponents, WeightRounding,
+    AddMode, BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode,
+    MissingChannels, Profile, SignedTexelMinimum, SubpixelGrid, SubpixelRounding, TargetRounding, TexcrdOverflow,
+    TexdepthDenominator, TexelValues, TexkillComponents, WeightRounding,
 };
-use refsim::num::{DotOrder, Format};
+use refsim::num::{DotOrder, Format, Rounding};
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
 use strum::{IntoStaticStr, VariantArray};
@@ -123,7 +123,15 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         }
         rules.constant_storage = r.of(ConstantStorage::ALL);
         rules.mad = r.of(MadMode::ALL);
-        rules.dot = r.of(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
+        let aligned = DotOrder::Aligned(r.below(29u8));
+        rules.dot = r.of(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact, aligned]);
+        if r.one_in(2) {
+            let roundings = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+            rules.product_rounding = Some(r.of(&roundings));
+        }
+        if r.one_in(3) {
+            rules.add = AddMode::Aligned(r.below(29u8));
+        }
         rules.lrp = r.of(LrpMode::ALL);
         rules.zero_times_anything = r.one_in(3);
         rules.vertex_zero_times_anything = r.one_in(3);

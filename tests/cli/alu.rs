@@ -79,6 +79,9 @@ fn lines_of_many_numbers() {
     assert_eq!(results("dot --format fp16 --flags", terms), ["6800 01", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --accumulator fp32 --flags", terms), ["6801 00", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --summation exact", terms), ["6801", "3C00"]);
+    // Ten bits below 2048 end at 2, eleven at 1.
+    assert_eq!(results("dot --format fp16 --summation aligned:10 --flags", terms), ["6800 01", "3C00 00"]);
+    assert_eq!(results("dot --format fp16 --summation aligned:11 --flags", terms), ["6801 00", "3C00 00"]);
     let many = "0 ".repeat(33);
     for (arguments, input, expected) in [
         ("quantize --format fp32", "0", "blocks need a block format"),
@@ -91,6 +94,9 @@ fn lines_of_many_numbers() {
         ("dequantize --format fp32 --block mxfp4", "7f 10", "line 1: expected at most 1 hexadecimal digits (4 bits)"),
         ("add --format fp32 --block mxfp4", "0 0", "`--block` is for `quantize` and `dequantize` only"),
         ("add --format fp32 --summation tree", "0 0", "`--accumulator` and `--summation` are for `dot` only"),
+        ("dot --format s3.12 --summation aligned:9", "0 0", "expected sums in a float format, found `s3.12`"),
+        ("dot --format fp16 --accumulator n3.8 --summation aligned:9", "0 0", "a float format, found `n3.8`"),
+        ("dot --format fp16 --summation aligned:29", "0 0", "or aligned:F with F from 0 to 28"),
         ("dot --format fp32 --accumulator fp16:rst", "0 0", "round more than once"),
         ("dot --format fp32", "0 0 0", "line 1: expected 1 to 32 pairs of numbers, found 3 fields"),
         ("dequantize --format fp32 --block mxint8", "7F 100", "expected at most 2 hexadecimal digits (8 bits)"),

@@ -15,4 +15,4 @@ mod lanes;
 mod rows;
 
 pub use lanes::{AnyLane, LANES, LaneRow, Reading, SimdLevel, TRUE, convert, div_odd_long, evaluate, exact_dot};
-pub use rows::{ArrayOperation, LaneCode, LaneOp, OPERANDS, Slot, Slots, run};
+pub use rows::{ArrayOperation, LaneCode, LaneOp, OPERANDS, RowSum, Slot, Slots, add_rows, run};

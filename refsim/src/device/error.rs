@@ -36,6 +36,16 @@ pub enum DeviceError {
         help("leave the switch out, or give the format a rule of its own, `:sat` for example")
     )]
     FormatRule { device: String, switch: String, value: String, format: Format },
+    /// The switch sets a rule of exponents or significands, which fixed point has not.
+    #[error(
+        "switch `{switch}` of device `{device}`: expected registers of floats for `{value}`, whose rule goes by exponents \
+         or significands, found `{format}`"
+    )]
+    #[diagnostic(
+        code(device::needs_floats),
+        help("leave the switch out: exact sums of fixed point need no alignment, and its products no cut")
+    )]
+    NeedsFloats { device: String, switch: String, value: String, format: Format },
     /// The profile's file is malformed.
     #[error("profile `{device}`: {problem}")]
     #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]

@@ -68,7 +68,7 @@ impl RawProfile {
     }
 }
 
-/// Rules of the format that [`Profile::set_switch`] set since the format was. Devices may be equal that came about in
+/// Rules that [`Profile::set_switch`] set since the format was: those of the format, and those that need floats. Devices may be equal that came about in
 /// other ways.
 #[derive(Clone, Debug, Default, Eq)]
 pub(super) struct StatedRules(pub(super) BTreeSet<String>);
@@ -168,8 +168,9 @@ impl Profile {
 
     /// Sets a switch.
     ///
-    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with the allowed values; the profile is
-    /// unchanged.
+    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with the allowed values;
+    /// [`DeviceError::FormatRule`] or [`DeviceError::NeedsFloats`] if the registers' format cannot have the rule. The
+    /// profile is unchanged.
     pub fn set_switch(&mut self, name: &str, value: &str) -> Result<(), DeviceError> {
         let Some(index) = self.switches.iter().position(|s| s.name == name) else {
             let allowed: Vec<&str> = self.switches.iter().map(|s| s.name.as_str()).collect();
@@ -198,12 +199,20 @@ impl Profile {
                 value: value.to_owned(),
                 format: self.rules.format,
             })?;
+            if rules.needs_floats(name) && rules.format.is_fixed() {
+                return Err(DeviceError::NeedsFloats {
+                    device: self.name.clone(),
+                    switch: name.to_owned(),
+                    value: value.to_owned(),
+                    format: rules.format,
+                });
+            }
             self.rules = rules;
         }
         value.clone_into(&mut self.switches[index].current);
         if name == "format" {
             self.refresh_format_switches();
-        } else if FORMAT_RULES.contains(&name) {
+        } else if FORMAT_RULES.contains(&name) || self.rules.needs_floats(name) {
             self.stated.0.insert(name.to_owned());
         }
         Ok(())

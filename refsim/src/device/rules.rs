@@ -2,7 +2,7 @@
 
 use super::storage_formats::StorageFormats;
 use crate::isa::Version;
-use crate::num::{DotOrder, Format, Specials};
+use crate::num::{DotOrder, Format, Rounding, Specials, ops};
 
 /// Value of a rule, as profiles and switches write it.
 trait RuleValue: Sized {
@@ -37,12 +37,32 @@ impl RuleValue for Option<Format> {
 
 impl RuleValue for DotOrder {
     fn from_text(text: &str) -> Option<Self> {
-        match text {
-            "sequential" => Some(Self::Sequential),
-            "tree" => Some(Self::Tree),
-            "exact" => Some(Self::Exact),
-            _ => None,
+        Self::named(text)
+    }
+}
+
+/// Rounding of products, if not that of sums.
+impl RuleValue for Option<Rounding> {
+    fn from_text(text: &str) -> Option<Self> {
+        if text == "as-sums" {
+            return Some(None);
         }
+        Rounding::ALL.iter().find(|(name, _)| *name == text).map(|(_, rounding)| Some(*rounding))
+    }
+}
+
+/// Rounding of the sum of two numbers: in `add`, `sub`, and `mad` with two roundings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AddMode {
+    /// The exact sum is rounded once.
+    Rounded,
+    /// The sum of an adder that keeps so many bits below the largest exponent is rounded once ([`ops::sum_aligned`]).
+    Aligned(u8),
+}
+
+impl RuleValue for AddMode {
+    fn from_text(text: &str) -> Option<Self> {
+        if text == "rounded" { Some(Self::Rounded) } else { ops::aligned_bits(text).map(Self::Aligned) }
     }
 }
 
@@ -78,6 +98,9 @@ named_choice! {
         TwoRoundings = "two-roundings",
         /// The exact sum is rounded once.
         Fused = "fused",
+        /// The product is cut to the significand, with any exponent; the exact sum is rounded once
+        /// ([`ops::product_cut_mad`]).
+        ProductCut = "product-cut",
     }
 }
 
@@ -358,9 +381,14 @@ rules! {
         color_iterator: ColorIterator = "color-iterator",
         /// Storage of constants `c#` of pixel programs.
         constant_storage: ConstantStorage = "constants",
-        /// Rounding within `mad`.
+        /// Rounding of products of pixel arithmetic, if not that of sums: of `mul`, of `mad` with two roundings, and of
+        /// dot products but exact ones.
+        product_rounding: Option<Rounding> = "product-rounding",
+        /// Sums of two numbers of pixel arithmetic.
+        add: AddMode = "add",
+        /// Rounding within `mad` of pixel arithmetic; vertices and addresses have two roundings.
         mad: MadMode = "mad",
-        /// Rounding within dot products.
+        /// Rounding within dot products of pixel arithmetic; those of vertices and addresses are sequential.
         dot: DotOrder = "dot",
         /// Rounding within `lrp`.
         lrp: LrpMode = "lrp",

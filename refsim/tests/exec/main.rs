@@ -19,4 +19,7 @@ mod rules;
 mod running;
 mod step_budget;
 mod storage_formats;
+mod sum_rules;
+#[path = "../common/sums.rs"]
+mod sums;
 mod vertex_cache;

@@ -8,6 +8,7 @@
 //! | `wide` | fp24 with double precision, fp32 with the host, fused operations with rustc_apfloat |
 //! | `normalized` | sums, products, conversions of `n3.8` and the like with their definition |
 //! | `small` | every operation of every format of at most 6 bits with exact rational arithmetic |
+//! | `aligned` | sums that one adder makes, and cut products, with exact fractions |
 //! | `transcendental` | `exp2` and `log2` with series and roots of their own |
 //! | `enclosures` | enclosures of transcendental functions with finer ones |
 //! | `tables` | short floats, scales and MX blocks with ml_dtypes and gfloat |
@@ -15,6 +16,7 @@
 //!
 //! By default each test covers a sample of its range; `CROSSBAR_FULL=1` covers everything.
 
+mod aligned;
 mod enclosures;
 #[path = "../common/environment.rs"]
 mod environment;

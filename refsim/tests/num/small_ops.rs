@@ -100,7 +100,7 @@ impl Reference {
         Outcome::new(bits, Flags::DIVIDE_BY_ZERO)
     }
 
-    fn cancelled(&self) -> bool {
+    pub(crate) fn cancelled(&self) -> bool {
         self.f.rounding == Rounding::Down
     }
 

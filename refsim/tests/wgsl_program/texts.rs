@@ -30,6 +30,7 @@ fn length(name: &str, word: usize) -> Option<usize> {
     Some(match name {
         "END" | "ENTER" => 1,
         "UNLESS" | "FETCHED" => 2,
+        "SUM" => 4,
         "DOT" | "TRACE" | "LOOP" => 6,
         "FETCH" => 5 + [0, 1, 4].get(word >> 24)?,
         _ => 3,

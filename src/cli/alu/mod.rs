@@ -62,8 +62,12 @@ pub(super) struct Args {
     #[arg(long, value_name = "A")]
     accumulator: Option<Format>,
 
-    /// The order in which `dot` sums; by default sequential
-    #[arg(long, value_parser = orders())]
+    /// The order in which `dot` sums: `sequential`, `tree`, `exact` or `aligned:F`; by default sequential
+    ///
+    /// sequential: ((x + y) + z) + w, each step rounded. tree: (x + y) + (z + w), each step rounded. exact: the exact sum,
+    /// rounded once into the accumulator. aligned:F, of floats: one adder for all rounded products, which drops what lies
+    /// more than F bits, 0 to 28, below the largest exponent; its sum is rounded once.
+    #[arg(long, value_name = "ORDER", value_parser = summation)]
     summation: Option<DotOrder>,
 
     /// Lines carry expected results too, as testfloat_gen writes them: print every mismatch, then the count
@@ -82,13 +86,9 @@ pub(super) struct Args {
     seed: Option<u64>,
 }
 
-/// The orders of a sum, for `--summation`.
-fn orders() -> OneOf<DotOrder> {
-    one_of([
-        ("sequential", "((x + y) + z) + w, each step rounded", DotOrder::Sequential),
-        ("tree", "(x + y) + (z + w), each step rounded", DotOrder::Tree),
-        ("exact", "the exact sum, rounded once into the accumulator", DotOrder::Exact),
-    ])
+/// The value of `--summation`.
+fn summation(text: &str) -> Result<DotOrder, String> {
+    DotOrder::named(text).ok_or_else(|| "expected sequential, tree, exact, or aligned:F with F from 0 to 28".to_owned())
 }
 
 /// The block formats, for `--block`.
@@ -162,6 +162,14 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
         return Err(Problem::usage(
             "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
             "take another rounding, or round each number on a line of its own",
+        ));
+    }
+    if let RowOperation::Dot(DotOrder::Aligned(_), accumulator) = operation
+        && accumulator.is_fixed()
+    {
+        return Err(Problem::usage(
+            format!("`--summation aligned` goes by exponents: expected sums in a float format, found `{accumulator}`"),
+            "leave it out: sums of fixed point are exact; or add a float `--accumulator`",
         ));
     }
     Ok(Some(RowUnit { operation, env: args.format.tininess(Tininess::After) }))

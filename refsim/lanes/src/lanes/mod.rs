@@ -27,6 +27,8 @@ pub(crate) use any::{Arithmetic, narrow, with_any_lane};
 pub(crate) use evaluate::{apply, is_finite};
 pub use evaluate::{convert, evaluate, exact_dot};
 pub(crate) use lane::{Lane, RegisterNumber};
+pub(crate) use layout::pow2;
+pub(crate) use odd::add_odd;
 pub use odd::div_odd_long;
 pub use reading::Reading;
 pub use row::{LANES, LaneRow, TRUE};

@@ -2,6 +2,7 @@
 //!
 //! - `code`: operations; `slots`: storage of values; `ops`, `loops`, `masks`, `pack`: their execution; `guard`:
 //!   recomputation of results that fast arithmetics get wrong.
+//! - `sums`: sums of one adder, the same code for every format.
 //! - `array`: one operation on arrays of any length.
 
 mod array;
@@ -12,8 +13,10 @@ mod masks;
 mod ops;
 mod pack;
 mod slots;
+mod sums;
 
 pub use array::ArrayOperation;
 pub use code::{LaneCode, LaneOp, OPERANDS, Slot};
 pub use ops::run;
 pub use slots::Slots;
+pub use sums::{RowSum, add_rows};

@@ -1,10 +1,10 @@
 //! Arithmetic as graph nodes, under the rules of a device.
 
-use refsim_lanes::TRUE;
+use refsim_lanes::{RowSum, TRUE};
 
 use super::formats::Formats;
 use super::graph::{Arith, Graph, NodeId, NodeKind};
-use crate::device::{LrpMode, MadMode, PRODUCTS, Rules};
+use crate::device::{AddMode, LrpMode, MadMode, PRODUCTS, Rules, SumRules};
 use crate::isa::Version;
 use crate::num::{self, DotOrder, Format, FormatKind, NumberOperation as Op, Rounding, Specials};
 
@@ -128,17 +128,47 @@ impl<'a> GraphBuilder<'a> {
         (self.binary(k, Op::Factor, a, b), self.binary(k, Op::Factor, b, a))
     }
 
+    /// Rounding of products and sums in a format.
+    fn sums(&self, k: Arith) -> SumRules {
+        let format = self.formats.format(k);
+        if self.is_pixel && k != Arith::Single { self.rules.sums_in(format) } else { SumRules::plain(format) }
+    }
+
+    /// The arithmetic in which products of a format are rounded.
+    fn products(&self, k: Arith) -> Arith {
+        let products = self.sums(k).products;
+        if products == self.formats.format(k) { k } else { self.formats.arith_of(products) }
+    }
+
+    /// The sum that one adder makes.
+    fn aligned(&mut self, k: Arith, bits: u8, addends: &[NodeId]) -> NodeId {
+        let mut all = [addends[0]; 4];
+        all[..addends.len()].copy_from_slice(addends);
+        let bits = bits.min(num::ops::MAX_ALIGNED_BITS);
+        self.graph.node(NodeKind::Sum(k, RowSum::Aligned { terms: addends.len() as u8, bits }, all))
+    }
+
     pub(crate) fn add(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
-        self.binary(k, Op::Add, a, b)
+        match self.sums(k).add {
+            AddMode::Rounded => self.binary(k, Op::Add, a, b),
+            AddMode::Aligned(bits) => self.aligned(k, bits, &[a, b]),
+        }
     }
 
     pub(crate) fn sub(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
-        self.binary(k, Op::Sub, a, b)
+        match self.sums(k).add {
+            AddMode::Rounded => self.binary(k, Op::Sub, a, b),
+            AddMode::Aligned(bits) => {
+                let negated = self.neg(k, b);
+                self.aligned(k, bits, &[a, negated])
+            }
+        }
     }
 
     pub(crate) fn mul(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
-        let (a, b) = self.factors(k, a, b);
-        self.binary(k, Op::Mul, a, b)
+        let products = self.products(k);
+        let (a, b) = self.factors(products, a, b);
+        self.binary(products, Op::Mul, a, b)
     }
 
     pub(crate) fn div(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
@@ -151,13 +181,26 @@ impl<'a> GraphBuilder<'a> {
 
     /// Multiply-add with product and sum rounded separately.
     fn mul_add(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
+        if self.products(k) != k {
+            let product = self.mul(k, a, b);
+            return self.binary(k, Op::Add, product, c);
+        }
         let (a, b) = self.factors(k, a, b);
         self.compute(k, Op::Mad, a, b, c)
     }
 
     pub(crate) fn mad(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
-        match self.rules.mad {
-            MadMode::TwoRoundings => self.mul_add(k, a, b, c),
+        let SumRules { mad, add, .. } = self.sums(k);
+        match mad {
+            MadMode::TwoRoundings if add == AddMode::Rounded => self.mul_add(k, a, b, c),
+            MadMode::TwoRoundings => {
+                let product = self.mul(k, a, b);
+                self.add(k, product, c)
+            }
+            MadMode::ProductCut => {
+                let (a, b) = self.factors(k, a, b);
+                self.graph.node(NodeKind::Sum(k, RowSum::ProductCut, [a, b, c, c]))
+            }
             MadMode::Fused => {
                 let (a, b) = self.factors(k, a, b);
                 self.compute(k, Op::FusedMad, a, b, c)
@@ -178,7 +221,7 @@ impl<'a> GraphBuilder<'a> {
         if let Some(accumulator) = self.accumulator(k) {
             return self.accumulated(k, accumulator, terms, (a, b));
         }
-        match self.rules.dot {
+        match self.sums(k).dot {
             DotOrder::Sequential => {
                 let mut sum = self.mul(k, a[0], b[0]);
                 for i in 1..terms {
@@ -189,6 +232,10 @@ impl<'a> GraphBuilder<'a> {
             DotOrder::Tree => {
                 let products = (0..terms).map(|i| self.mul(k, a[i], b[i])).collect();
                 self.tree(k, products)
+            }
+            DotOrder::Aligned(bits) => {
+                let products: Vec<NodeId> = (0..terms).map(|i| self.mul(k, a[i], b[i])).collect();
+                self.aligned(k, bits, &products)
             }
             DotOrder::Exact => {
                 let zero = self.zero();
@@ -204,7 +251,8 @@ impl<'a> GraphBuilder<'a> {
     /// Sum of neighbours in pairs, and of their sums.
     fn tree(&mut self, k: Arith, mut level: Vec<NodeId>) -> NodeId {
         while level.len() > 1 {
-            level = level.chunks(2).map(|p| if p.len() == 2 { self.add(k, p[0], p[1]) } else { p[0] }).collect();
+            let pair = |p: &[NodeId]| if p.len() == 2 { self.binary(k, Op::Add, p[0], p[1]) } else { p[0] };
+            level = level.chunks(2).map(pair).collect();
         }
         level[0]
     }
@@ -219,28 +267,32 @@ impl<'a> GraphBuilder<'a> {
     /// ([`PRODUCTS`]), which makes the second rounding that of the exact product.
     fn accumulated(&mut self, k: Arith, accumulator: Format, terms: usize, (a, b): (&[NodeId], &[NodeId])) -> NodeId {
         let to = self.formats.arith_of(accumulator);
-        let products = if accumulator.holds(self.formats.format(k)) { to } else { self.formats.arith_of(PRODUCTS) };
+        let rounded_in = self.products(to);
+        let holds = accumulator.holds(self.formats.format(k));
+        let products = if holds { to } else { self.formats.arith_of(PRODUCTS) };
         let zero = self.zero();
         let (mut left, mut right) = ([zero; 4], [zero; 4]);
         for i in 0..terms {
             let (x, y) = self.factors(k, a[i], b[i]);
             (left[i], right[i]) = (self.convert(k, products, x), self.convert(k, products, y));
         }
-        if self.rules.dot == DotOrder::Exact {
+        let order = self.sums(to).dot;
+        if order == DotOrder::Exact {
             let sum = self.graph.node(NodeKind::Dot(products, terms as u8, left, right));
             let rounded = self.convert(products, to, sum);
             return self.convert(to, k, rounded);
         }
         let mut rounded = Vec::with_capacity(terms);
         for i in 0..terms {
-            let product = self.binary(products, Op::Mul, left[i], right[i]);
-            rounded.push(self.convert(products, to, product));
+            let product = self.binary(if holds { rounded_in } else { products }, Op::Mul, left[i], right[i]);
+            rounded.push(if holds { product } else { self.convert(products, rounded_in, product) });
         }
-        let sum = match self.rules.dot {
+        let sum = match order {
             DotOrder::Tree => self.tree(to, rounded),
+            DotOrder::Aligned(bits) => self.aligned(to, bits, &rounded),
             _ => {
                 let first = rounded[0];
-                rounded.into_iter().skip(1).fold(first, |sum, product| self.add(to, sum, product))
+                rounded.into_iter().skip(1).fold(first, |sum, product| self.binary(to, Op::Add, sum, product))
             }
         };
         self.convert(to, k, sum)

@@ -21,7 +21,14 @@ impl Formats {
     pub(crate) fn pixel(program: &Program, rules: &Rules) -> Self {
         let products = rules.accumulator.map(|_| PRODUCTS);
         let stored = rules.storage.iter().map(|(_, format)| format);
-        Self::new(program, rules.format, rules.partial, stored.chain(rules.accumulator).chain(products))
+        let mut formats =
+            Self::new(program, rules.format, rules.partial, stored.chain(rules.accumulator).chain(products));
+        // What computes in one of these rounds its products in another.
+        let rounded: Vec<Format> = formats.0.iter().map(|&format| rules.sums_in(format).products).collect();
+        for format in rounded {
+            formats.include(format);
+        }
+        formats
     }
 
     /// Formats of a vertex program.
@@ -36,11 +43,15 @@ impl Formats {
             [main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap), half, fixed];
         let mut formats = Self(named.to_vec());
         for own in program.instructions.iter().filter_map(|i| i.format).chain(stored) {
-            if own != main && !formats.own().contains(&own) {
-                formats.0.push(own);
-            }
+            formats.include(own);
         }
         formats
+    }
+
+    fn include(&mut self, own: Format) {
+        if own != self.format(Arith::Main) && !self.own().contains(&own) {
+            self.0.push(own);
+        }
     }
 
     /// Formats of single instructions, storages and sums that are not the registers', each once.

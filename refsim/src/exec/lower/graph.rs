@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use refsim_lanes::Slot;
+use refsim_lanes::{RowSum, Slot};
 
 use crate::num::NumberOperation as Op;
 
@@ -89,6 +89,8 @@ pub(crate) enum NodeKind {
     Difference(Arith, bool, NodeId),
     /// A dot product with the given number of terms, rounded once.
     Dot(Arith, u8, [NodeId; 4], [NodeId; 4]),
+    /// A sum that one adder makes; surplus operands are ignored.
+    Sum(Arith, RowSum, [NodeId; 4]),
     /// A conversion between formats, rounded once.
     Convert(Arith, Arith, NodeId),
     /// A single-precision value clamped to [0, 1], rounded to a multiple of 1 / steps, and converted to the register
@@ -114,6 +116,7 @@ impl NodeKind {
                 a.into_iter().take(terms.into()).for_each(&mut visit);
                 b.into_iter().take(terms.into()).for_each(visit);
             }
+            NodeKind::Sum(_, sum, addends) => addends.into_iter().take(sum.operands()).for_each(visit),
             NodeKind::Circle(_, _, a)
             | NodeKind::Convert(_, _, a)
             | NodeKind::Difference(_, _, a)

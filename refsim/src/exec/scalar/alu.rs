@@ -1,9 +1,9 @@
 //! Arithmetic in one format under a device's rules: a thin layer over [`crate::num::ops`] that selects the rounding
 //! sequence of the profile and collects exception flags.
 
-use crate::device::{LrpMode, MadMode, ResultRange, Rules};
+use crate::device::{AddMode, LrpMode, MadMode, ResultRange, Rules, SumRules};
 use crate::isa::Version;
-use crate::num::{self, Flags, Format, Specials, ops};
+use crate::num::{self, DotOrder, Flags, Format, Specials, ops};
 
 /// Operations in `format` under `rules`; accumulates exception flags.
 pub(crate) struct Alu<'r> {
@@ -13,6 +13,8 @@ pub(crate) struct Alu<'r> {
     to_one: bool,
     /// Format of the sums of dot products, if not [`Self::format`].
     accumulator: Option<Format>,
+    /// Rounding of products and sums.
+    sums: SumRules,
     /// Format of operands and results.
     pub(crate) format: Format,
     /// Flags raised since [`Self::take_flags`].
@@ -32,19 +34,20 @@ impl<'r> Alu<'r> {
     /// Creates pixel arithmetic in `format`.
     pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
         let to_one = rules.result_range == ResultRange::One;
-        let accumulator = rules.accumulator_of(format);
-        Self { rules, legacy_zero: rules.zero_times_anything, to_one, accumulator, format, flags: Flags::empty() }
+        let (accumulator, sums) = (rules.accumulator_of(format), rules.sums_in(format));
+        Self { rules, legacy_zero: rules.zero_times_anything, to_one, accumulator, sums, format, flags: Flags::empty() }
     }
 
-    /// Creates vertex arithmetic in `format`: without the range and the accumulator of pixel arithmetic.
+    /// Creates vertex arithmetic in `format`: without the range, the accumulator and the sums of pixel arithmetic.
     pub(crate) fn vertex(rules: &'r Rules, format: Format) -> Self {
         Self { legacy_zero: rules.vertex_zero_times_anything, ..Self::plain(rules, format) }
     }
 
-    /// Creates address arithmetic in `format`: without the legacy rule for zero, the range of pixel results and the
-    /// accumulator.
+    /// Creates address arithmetic in `format`: without the legacy rule for zero, and the range, the accumulator and the
+    /// sums of pixel arithmetic.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
-        Self { legacy_zero: false, to_one: false, accumulator: None, ..Self::new(rules, format) }
+        let sums = SumRules::plain(format);
+        Self { legacy_zero: false, to_one: false, accumulator: None, sums, ..Self::new(rules, format) }
     }
 
     /// Returns and clears the accumulated flags.
@@ -90,8 +93,7 @@ impl<'r> Alu<'r> {
     }
 
     operations! {
-        add(a, b) = ops::add;
-        sub(a, b) = ops::sub;
+        difference(a, b) = ops::sub;
         div(a, b) = ops::div;
         min(a, b) = ops::min;
         max(a, b) = ops::max;
@@ -118,14 +120,34 @@ impl<'r> Alu<'r> {
         if self.legacy_zero && zero && !(f.is_finite(a) && f.is_finite(b)) { (0, 0) } else { (a, b) }
     }
 
-    pub(crate) fn mul(&mut self, a: u32, b: u32) -> u32 {
-        let (a, b) = self.factors(a, b);
-        self.keep(ops::mul(self.format, a, b))
+    pub(crate) fn add(&mut self, a: u32, b: u32) -> u32 {
+        self.keep(match self.sums.add {
+            AddMode::Rounded => ops::add(self.format, a, b),
+            AddMode::Aligned(bits) => ops::sum_aligned(self.format, bits, &[a, b]),
+        })
     }
 
-    /// `a * b + c`: product and sum rounded separately, or the exact result rounded once, according to the rules.
+    /// `a - b` as an instruction subtracts; [`Self::difference`] is that of neighbouring lanes, which no adder of the
+    /// pixel unit makes.
+    pub(crate) fn sub(&mut self, a: u32, b: u32) -> u32 {
+        match self.sums.add {
+            AddMode::Rounded => self.difference(a, b),
+            AddMode::Aligned(_) => {
+                let negated = self.neg(b);
+                self.add(a, negated)
+            }
+        }
+    }
+
+    pub(crate) fn mul(&mut self, a: u32, b: u32) -> u32 {
+        let (a, b) = self.factors(a, b);
+        self.keep(ops::mul(self.sums.products, a, b))
+    }
+
+    /// `a * b + c`: product and sum rounded separately, the exact result rounded once, or with the product cut,
+    /// according to the rules.
     pub(crate) fn mad(&mut self, a: u32, b: u32, c: u32) -> u32 {
-        match self.rules.mad {
+        match self.sums.mad {
             MadMode::TwoRoundings => {
                 let product = self.mul(a, b);
                 self.add(product, c)
@@ -133,6 +155,10 @@ impl<'r> Alu<'r> {
             MadMode::Fused => {
                 let (a, b) = self.factors(a, b);
                 self.keep(ops::fused_mad(self.format, a, b, c))
+            }
+            MadMode::ProductCut => {
+                let (a, b) = self.factors(a, b);
+                self.keep(ops::product_cut_mad(self.format, a, b, c))
             }
         }
     }
@@ -144,10 +170,16 @@ impl<'r> Alu<'r> {
         for (term, (&x, &y)) in terms.iter_mut().zip(a.iter().zip(b)) {
             *term = self.factors(x, y);
         }
-        let (order, terms) = (self.rules.dot, &terms[..n]);
-        self.keep(match self.accumulator {
-            Some(accumulator) => ops::dot_accumulated(self.format, accumulator, order, terms),
-            None => ops::dot(self.format, order, terms),
+        let (format, terms) = (self.format, &terms[..n]);
+        let accumulator = self.accumulator.unwrap_or(format);
+        let SumRules { products, dot: order, .. } = match self.accumulator {
+            Some(accumulator) => self.rules.sums_in(accumulator),
+            None => self.sums,
+        };
+        self.keep(match order {
+            _ if accumulator == format && products == format => ops::dot(format, order, terms),
+            DotOrder::Exact => ops::dot_accumulated(format, accumulator, order, terms),
+            _ => ops::dot_of_products(format, products, accumulator, order, terms),
         })
     }
 

@@ -33,8 +33,9 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
     match opcode {
         Mov => a,
         Add => each(mask, |i| alu.add(a[i], b[i])),
-        // The operands of differences are those of two lanes.
-        Sub | Dsx | Dsy => each(mask, |i| alu.sub(a[i], b[i])),
+        Sub => each(mask, |i| alu.sub(a[i], b[i])),
+        // The operands are those of two lanes.
+        Dsx | Dsy => each(mask, |i| alu.difference(a[i], b[i])),
         Mul => each(mask, |i| alu.mul(a[i], b[i])),
         Mad => each(mask, |i| alu.mad(a[i], b[i], c[i])),
         Lrp => each(mask, |i| alu.lrp(version, [a[i], b[i], c[i]])),

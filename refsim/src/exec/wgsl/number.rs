@@ -69,7 +69,7 @@ pub fn library() -> String {
         include_str!("number/circle.wgsl"),
         include_str!("number/packing.wgsl"),
         include_str!("number/alu.wgsl"),
-        include_str!("number/dot.wgsl"),
+        concat!(include_str!("number/dot.wgsl"), include_str!("number/aligned.wgsl")),
         include_str!("number/single.wgsl"),
     ];
     constants.concat() + &parts.join("\n")

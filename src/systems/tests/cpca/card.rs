@@ -238,6 +238,7 @@ fn sum(rules: &Rules, vectors: usize, weights: &[f32], mut numbers: impl Iterato
         sum = match rules.mad {
             MadMode::TwoRoundings => ops::add(format, ops::mul(format, weight, number).bits, sum).bits,
             MadMode::Fused => ops::fused_mad(format, weight, number, sum).bits,
+            MadMode::ProductCut => ops::product_cut_mad(format, weight, number, sum).bits,
         };
     }
     f32::from_bits(ops::convert(&format, Format::FP32, sum).bits)

@@ -4,10 +4,10 @@ use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 
 use super::mul::product;
-use super::{add, convert};
+use super::{add, convert, sum_aligned};
 use crate::num::Format;
 use crate::num::env::Env;
-use crate::num::flags::Outcome;
+use crate::num::flags::{Flags, Outcome};
 use crate::num::round::{from_parts, from_ratio, infinite, zero};
 use crate::num::sum::{Term, cancelled};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
@@ -22,12 +22,36 @@ pub enum DotOrder {
     Tree,
     /// One rounding of the exact sum of the exact products.
     Exact,
+    /// Each product is rounded, then one adder adds all ([`sum_aligned`]) and keeps so many bits, at most
+    /// [`MAX_ALIGNED_BITS`], below the largest exponent. Fixed point has no exponents: there it is
+    /// [`Self::Sequential`].
+    Aligned(u8),
+}
+
+/// Most bits that an adder of four addends keeps below the largest exponent: their sum has 31 bits and a sign.
+pub const MAX_ALIGNED_BITS: u8 = 28;
+
+impl DotOrder {
+    /// The order with this name in profiles and options: `sequential`, `tree`, `exact`, or `aligned:F` with its bits.
+    pub fn named(text: &str) -> Option<Self> {
+        match text {
+            "sequential" => Some(Self::Sequential),
+            "tree" => Some(Self::Tree),
+            "exact" => Some(Self::Exact),
+            _ => aligned_bits(text).map(Self::Aligned),
+        }
+    }
+}
+
+/// The bits of `aligned:F`, 0 to [`MAX_ALIGNED_BITS`].
+pub fn aligned_bits(text: &str) -> Option<u8> {
+    text.strip_prefix("aligned:")?.parse().ok().filter(|bits| *bits <= MAX_ALIGNED_BITS)
 }
 
 /// Sums the products of `terms` (dp2, dp3, dp4; any number works, an empty sum is +0).
 pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
     let env = env.into();
-    accumulated(env, &env.format, order, terms)
+    accumulated(env, env, &env.format, order, terms)
 }
 
 /// [`dot`] with an accumulator of its own format: operands and result are numbers of `env`'s format; the exact
@@ -42,17 +66,36 @@ pub fn dot_accumulated(
     order: DotOrder,
     terms: &[(u32, u32)],
 ) -> Outcome {
+    let accumulator = accumulator.into();
+    dot_of_products(env, accumulator, accumulator, order, terms)
+}
+
+/// [`dot_accumulated`] with products that are rounded by the rules of a format of their own, which has the layout of
+/// the accumulator. [`DotOrder::Exact`] has no rounded products.
+pub fn dot_of_products(
+    env: impl Into<Env>,
+    products: impl Into<Env>,
+    accumulator: impl Into<Env>,
+    order: DotOrder,
+    terms: &[(u32, u32)],
+) -> Outcome {
     let (env, accumulator) = (env.into(), accumulator.into());
-    let sum = accumulated(accumulator, &env.format, order, terms);
+    let sum = accumulated(products.into(), accumulator, &env.format, order, terms);
     convert(&accumulator.format, env, sum.bits).also(sum.flags)
 }
 
 /// The sum of the products of numbers of a format, rounded into the accumulator.
-fn accumulated(env: Env, operands: &Format, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
-    let products = || terms.iter().map(|&(a, b)| product(&env, unpack(operands, a), unpack(operands, b)));
+fn accumulated(rounded: Env, env: Env, operands: &Format, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
+    let products = || terms.iter().map(|&(a, b)| product(&rounded, unpack(operands, a), unpack(operands, b)));
     match order {
+        DotOrder::Aligned(bits) if !env.format.is_fixed() => {
+            let products: Vec<Outcome> = products().collect();
+            let addends: Vec<u32> = products.iter().map(|product| product.bits).collect();
+            let raised = products.iter().fold(Flags::empty(), |flags, product| flags | product.flags);
+            sum_aligned(env, bits, &addends).also(raised)
+        }
         DotOrder::Exact => exact(&env, operands, terms),
-        DotOrder::Sequential => products()
+        DotOrder::Sequential | DotOrder::Aligned(_) => products()
             .reduce(|sum, term| add(env, sum.bits, term.bits).also(sum.flags | term.flags))
             .unwrap_or(Outcome::exact(0)),
         DotOrder::Tree => {

@@ -5,6 +5,7 @@
 //! once, unless the operation's documentation names its steps. No operation panics.
 
 mod add;
+mod aligned;
 mod compare;
 mod div;
 mod dot;
@@ -18,9 +19,10 @@ mod sqrt;
 pub use super::convert::convert;
 pub use super::transcendental::{cos, exp2, log2, pow, sin};
 pub use add::{add, sub};
+pub use aligned::{product_cut_mad, sum_aligned};
 pub use compare::{eq, le, le_quiet, lt, lt_quiet};
 pub use div::{div, rcp};
-pub use dot::{DotOrder, dot, dot_accumulated};
+pub use dot::{DotOrder, MAX_ALIGNED_BITS, aligned_bits, dot, dot_accumulated, dot_of_products};
 pub use fused::{fused_mad, mad};
 pub use integral::{floor, frc, round_to_int, round_to_int_exact, round_to_int_with};
 pub use mul::mul;

@@ -35,6 +35,10 @@ pub(crate) fn run_steps(steps: &[BatchStep], around: &Surroundings<'_>, run: &La
             BatchStep::Lanes(arith, lane_ops) => {
                 refsim_lanes::run(around.formats.lane(*arith), around.formats.simd(), lane_ops, slots)
             }
+            BatchStep::Sum { arith, sum, from, to } => {
+                let (lane, format) = (around.formats.lane(*arith), around.formats.format(*arith));
+                refsim_lanes::add_rows(format, lane, around.formats.simd(), *sum, (*from, *to), slots);
+            }
             BatchStep::Unorm { steps, from } => to_steps(*steps, *from, slots),
             BatchStep::Fetch(fetch) => {
                 if let Some(Some(texture)) = around.textures.get(fetch.sampler) {

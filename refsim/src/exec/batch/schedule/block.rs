@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use refsim_lanes::{LaneCode, LaneOp, OPERANDS};
+use refsim_lanes::{LaneCode, LaneOp, OPERANDS, RowSum};
 
 use super::fuse::{Fused, Fusion};
 use crate::exec::lower::{Arith, Detail, Graph, NodeId, NodeKind, Slot};
@@ -36,6 +36,17 @@ pub(crate) enum BatchStep {
         steps: u32,
         /// The values.
         from: Slot,
+    },
+    /// A sum that one adder makes.
+    Sum {
+        /// Format.
+        arith: Arith,
+        /// How it adds.
+        sum: RowSum,
+        /// The numbers; surplus ones are ignored.
+        from: [Slot; 4],
+        /// Results.
+        to: Slot,
     },
     /// A texture read.
     Fetch(FetchStep),
@@ -283,6 +294,16 @@ impl Scheduler<'_> {
                 self.place.insert(node, to);
                 self.lane_op(from, LaneOp::of_one(LaneCode::Widen, to, a));
                 self.lane_op(target, LaneOp::of_one(LaneCode::Narrow, to, a));
+            }
+            NodeKind::Sum(arith, sum, numbers) => {
+                let mut from = [self.at(numbers[0]); 4];
+                for k in 1..sum.operands() {
+                    from[k] = self.at(numbers[k]);
+                }
+                self.release(node);
+                let to = self.result();
+                self.place.insert(node, to);
+                self.block.steps.push(BatchStep::Sum { arith, sum, from, to });
             }
             NodeKind::Steps(steps, a) => {
                 let from = self.at(a);

@@ -7,6 +7,7 @@ use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind, Slot};
 use crate::exec::wgsl::number::source_word;
 use crate::exec::wgsl::parts::Parts;
 use crate::num::{Format, NumberOperation};
+use refsim_lanes::RowSum;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Operand ranges: slots, then constants, then words of a triangle's set-up, then input and output rows.
@@ -212,6 +213,21 @@ impl Assembler<'_> {
                 let [o0, o1, o2, o3, o4, o5, o6, o7] = operands;
                 self.push_costly(op::DOT, format << 24 | u32::from(terms) << 16, 600);
                 self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
+            }
+            NodeKind::Sum(k, sum, numbers) => {
+                let mut operands = [places.of(numbers[0]); 4];
+                for i in 0..sum.operands() {
+                    operands[i] = places.of(numbers[i]);
+                }
+                let what = match sum {
+                    RowSum::Aligned { terms, bits } => u32::from(bits) << 3 | u32::from(terms),
+                    RowSum::ProductCut => 0,
+                };
+                let format = self.format(k);
+                let to = self.result(node, places);
+                let [a, b, c, d] = operands;
+                self.push_costly(op::SUM, format << 24 | what << 16, PASSES[0]);
+                self.words.extend([pair(to, a), pair(b, c), pair(d, 0)]);
             }
             NodeKind::Difference(k, down, a) => {
                 let (a, other) = (places.of(a), if down { 2 } else { 1 });

@@ -4,6 +4,7 @@ use super::Interpolation;
 use super::assembler::{Assembler, COLORS, DEPTH, DEPTH_IS_MAIN, FIRST_CONSTANT, INPUT, SETUP};
 use super::lower::{ACTIVE_SLOT, Body, Lowered};
 use super::operations as op;
+use crate::device::MAX_PROGRAM_FORMATS;
 use crate::exec::lower::{Arith, Slot};
 use crate::exec::wgsl::parts::Parts;
 use crate::raster::POSITION_COMPONENT;
@@ -30,6 +31,14 @@ pub enum ProgramError {
         /// Number of constants.
         constants: usize,
     },
+    /// More number formats than the shader's table holds: those of instructions, storages, sums and products.
+    #[error("the program has {formats} number formats, the table of shaders holds {most}; use another executor")]
+    TooManyFormats {
+        /// Number of formats.
+        formats: usize,
+        /// Most formats.
+        most: usize,
+    },
 }
 
 /// A program for the virtual machine of `vm.wgsl`.
@@ -49,6 +58,10 @@ pub struct Microcode {
 
 /// Encodes a program.
 pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>) -> Result<Microcode, ProgramError> {
+    let formats = program.formats.own().len();
+    if formats > MAX_PROGRAM_FORMATS {
+        return Err(ProgramError::TooManyFormats { formats, most: MAX_PROGRAM_FORMATS });
+    }
     let first = match &program.body {
         Body::Straight { .. } => Slot::from(ACTIVE_SLOT + 1),
         Body::Flow { first_free, .. } => *first_free,

@@ -15,11 +15,12 @@ operations! {
     END ENTER UNLESS ZERO ALU LONG COPY AND OR AND_NOT SELECT FETCHED
     DOT RELATIVE FETCH TRACE
     STEP IF ELSE END_IF LOOP END_LOOP BREAK CALL RET LABEL
+    SUM
 }
 
 /// Operations below this are always included: they are cheap to compile.
 const FIRST_COSTLY: u32 = DOT;
-/// Operations from here on are included together.
+/// Operations from here on, but for [`SUM`], are included together.
 const FIRST_FLOW: u32 = STEP;
 
 /// Names of the constants of operations that are always included.
@@ -35,7 +36,8 @@ pub(in crate::exec::wgsl) fn all() -> impl Iterator<Item = String> {
 /// Operations that must be included together with `operation`.
 pub(super) fn with(operation: u32) -> &'static [&'static str] {
     match operation {
-        FIRST_FLOW.. => &NAMES[FIRST_FLOW as usize..],
+        SUM => &NAMES[SUM as usize..],
+        FIRST_FLOW.. => &NAMES[FIRST_FLOW as usize..SUM as usize],
         FIRST_COSTLY.. => &NAMES[operation as usize..=operation as usize],
         _ => &[],
     }

@@ -344,6 +344,30 @@ fn vm_prepare(op: u32, word: u32, at: u32) {
     }
     vm_prepared = true;
 }
+fn vm_sum(word: u32, at: u32) {
+    // A sum that one adder makes: result, four operands. The word says how many are aligned, and to how many bits; none:
+    // a multiply-add that cuts its product. This stands inside as in n_cut_sum.
+    let f = format(word >> 24u);
+    let terms = (word >> 16u) & 7u;
+    let bits = (word >> 19u) & 31u;
+    var rows: array<vec4<u32>, 4>;
+    for (var k = 0u; k < 4u; k += 1u) {
+        rows[k] = vm_row(vm_operand(at + 1u, k + 1u));
+    }
+    var result: vec4<u32>;
+    for (var lane = 0u; lane < 4u; lane += 1u) {
+        let x = vec4<u32>(rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]);
+        var exact: Real;
+        if (terms == 0u) {
+            let a = n_unpack(f.kind, f.frac, x.x);
+            exact = n_cut_sum(f, a, n_unpack(f.kind, f.frac, x.y), n_unpack(f.kind, f.frac, x.z));
+        } else {
+            exact = n_aligned(f, terms, bits, x);
+        }
+        result[lane] = n_finish(f, exact);
+    }
+    scratch[q_row(vm_operand(at + 1u, 0u))] = result;
+}
 
 // What is computed lane by lane: result, up to three operands.
 fn vm_compute(op: u32, word: u32, at: u32) {
@@ -502,6 +526,10 @@ fn shade() {
             case VM_FETCHED: { // texture reads of every covered lane
                 q_fetched[word >> 16u] += code[at + 1u] * countOneBits(vm_bits(q_covered));
                 next += 2u;
+            }
+            case VM_SUM: { // a sum that one adder makes
+                vm_sum(word, at);
+                next += 4u;
             }
             case VM_ZERO: { // zeros in so many slots
                 for (var i = 0u; i < code[at + 2u]; i += 1u) {

@@ -1,0 +1,106 @@
+//! Draws whose pixels multiply and add under rules for products and sums.
+
+use crate::random::Random;
+use crate::running::{checked, ideal};
+use refsim::device::{AddMode, MadMode, Profile};
+use refsim::exec::Constants;
+use refsim::machine::{DrawCall, Machine, VertexSource};
+use refsim::num::{DotOrder, Format, Rounding};
+use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
+
+/// Pixels of a row and a column.
+const SIDE: u32 = 24;
+
+const FORMATS: [&str; 12] = [
+    "fp24:rtz:ftz",
+    "fp24",
+    "fp16",
+    "fp16:rdn:ftz",
+    "fp32",
+    "fp32:rtz:ftz",
+    "fp32:rna:nvovf:nv",
+    "e5m2:rdn:sat",
+    "e4m3fn",
+    "fp24:rup",
+    "s3.12:rtz",
+    "n3.8:rna",
+];
+
+/// A device with random rules for products and sums; every format takes its turn.
+pub(crate) fn profile(seed: u64) -> Profile {
+    let mut random = Random::new(seed);
+    let mut profile = ideal(FORMATS[seed as usize % FORMATS.len()]);
+    let rules = &mut profile.rules;
+    let roundings = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+    rules.product_rounding = [None, Some(random.of(&roundings))][random.below(2usize)];
+    rules.add = [AddMode::Rounded, AddMode::Aligned(random.below(29))][random.below(2usize)];
+    rules.mad = random.of(MadMode::ALL);
+    let aligned = DotOrder::Aligned(random.below(29));
+    rules.dot = random.of(&[aligned, aligned, DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
+    rules.zero_times_anything = random.coin();
+    if random.one_in(3) && !rules.format.is_fixed() {
+        let accumulators = ["e8m13", "fp16:rtz", "fp32:rtz:ftz", "e6m9:rna:sat"];
+        let accumulator = random.of(&accumulators).parse::<Format>().expect("a format");
+        // One that does not fit is left out.
+        let _ = profile.set_accumulator(Some(accumulator));
+    }
+    profile
+}
+
+/// Numbers of single precision, some alike in exponent, some with few bits, some special.
+fn numbers(random: &mut Random) -> Vec<[u32; 4]> {
+    let mut number = || {
+        let bits = random.bits();
+        match random.below(8u32) {
+            0..4 => bits & 0x8000_0000 | (118 + bits % 18) << 23 | bits >> 8 & 0x7f_ffff,
+            4 | 5 => bits & 0x8000_0000 | (124 + bits % 6) << 23 | (bits >> 4) % 32 << 18,
+            6 => random.number(),
+            _ => random.special(),
+        }
+    };
+    (0..SIDE * SIDE).map(|_| [0; 4].map(|_: u32| number())).collect()
+}
+
+/// What the programs compute of three vectors, all components of `r3`.
+const BODIES: [&str; 5] = [
+    "mad r3, r0, r1, r2",
+    "dp4 r3.x, r0, r1\ndp3 r3.y, r0, r2\ndp2add r3.z, r0, r1, r2.x\ndp4 r3.w, r0, -r1",
+    "sub r3, r0, r1\nmul r3.yw, r0, r1\nadd r3.z, r1, -r2",
+    "lrp r3, r0, r1, r2",
+    "crs r3.xyz, r0, r1\nnrm r4, r2\nmov r3.w, r4.x",
+];
+
+/// The pixels that the programs draw, one after the other.
+pub(crate) fn drawn(mut machine: Machine, profile: &Profile, seed: u64) -> Vec<u8> {
+    let mut random = Random::new(seed ^ 0x5eed);
+    let target = machine.create_target(TexelFormat::Rgba32f, SIDE, SIDE).unwrap();
+    let textures = [0; 3].map(|_: u32| {
+        let (format, kind, extents) = (TexelFormat::Rgba32f, TextureKind::D2, [SIDE, SIDE, 1]);
+        let values = numbers(&mut random);
+        let image = Image::from_values(format, kind, extents, Format::FP32, &values, TargetRounding::Nearest);
+        machine.create_texture(image.unwrap()).unwrap()
+    });
+    let corners = [(-1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.0), (1.0, -1.0, 1.0, 1.0), (-1.0, -1.0, 0.0, 1.0)];
+    let vertices = corners.map(|(x, y, u, v)| {
+        let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
+        vertex.texcoords[0] = [u, v, 0.0, 1.0].map(f32::to_bits);
+        vertex
+    });
+    let mut pixels = Vec::new();
+    for body in BODIES {
+        let head =
+            "ps_2_a\ndcl t0\ndcl_2d s0\ndcl_2d s1\ndcl_2d s2\ntexld r0, t0, s0\ntexld r1, t0, s1\ntexld r2, t0, s2";
+        let program = checked(&format!("{head}\n{body}\nmov oC0, r3"), profile);
+        let constants = Constants::default();
+        let source = VertexSource::Transformed(&vertices);
+        let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
+        for (sampler, &texture) in textures.iter().enumerate() {
+            call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
+        }
+        call.center = PixelCenter::OpenGl;
+        machine.draw(&call).unwrap();
+        pixels.extend_from_slice(machine.read_back(target).unwrap().bytes());
+    }
+    pixels
+}
