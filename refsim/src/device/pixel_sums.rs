@@ -25,9 +25,12 @@ impl SumRules {
 }
 
 impl Rules {
-    /// The rules of products and sums in a format of pixel arithmetic. Fixed point has neither exponents nor
+    /// The rules of products and sums in a format of pixel arithmetic; units of cards have their own. Fixed point has neither exponents nor
     /// significands: there sums are rounded, and what would cut a product has two roundings.
     pub(crate) fn sums_in(&self, format: Format) -> SumRules {
+        if format.unit.is_card() {
+            return SumRules::plain(format);
+        }
         let products = self.product_rounding.map_or(format, |rounding| format.with_rounding(rounding));
         let mut sums = SumRules { products, add: self.add, mad: self.mad, dot: self.dot };
         if format.is_fixed() {
