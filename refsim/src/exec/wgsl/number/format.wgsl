@@ -60,6 +60,11 @@ fn n_nan(f: Format) -> u32 {
             return 0u;
         }
     }
+    if (HAS_UNITS) {
+        if f.special > 1u {
+            return U_NAN;
+        }
+    }
     return select(0u, N_NAN, n_is_float(f));
 }
 
@@ -288,6 +293,9 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
         if top > highest || (top == highest && rounded > most) {
             result = n_overflow(f, sign, top > highest);
         }
+        if (HAS_UNITS) {
+            result = select(result, u_flushed(result), f.special > 1u);
+        }
     }
     return select(result, n_zero(f, sign), m.x == 0u);
 }
@@ -306,6 +314,11 @@ fn n_round(f: Format, negative: bool, sig: vec2<u32>, exponent: i32, sticky: boo
 
 // The raw value of a bit pattern of the format.
 fn n_decode(f: Format, bits: u32) -> u32 {
+    if (HAS_UNITS) {
+        if f.special > 1u {
+            return bits;
+        }
+    }
     if !n_is_float(f) {
         let spare = 31u - f.upper - f.frac;
         return u32(i32(bits << spare) >> spare);
@@ -347,6 +360,11 @@ fn n_decode(f: Format, bits: u32) -> u32 {
 
 // The bit pattern of a raw value of the format.
 fn n_encode(f: Format, raw: u32) -> u32 {
+    if (HAS_UNITS) {
+        if f.special > 1u {
+            return raw;
+        }
+    }
     let width = f.upper + f.frac;
     if !n_is_float(f) {
         return raw & (0xffffffffu >> (31u - width));
