@@ -4,16 +4,30 @@ use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::Format;
 use super::round::{from_parts, infinite, round_quotient};
-use super::rules::Denormals;
-use super::unpack::{Unpacked, nan_bits, unpack};
+use super::rules::{Denormals, Encoding, Unit};
+use super::unpack::{Unpacked, nan_bits, unpack, zero};
 
 /// Converts the number `bits` from format `from` to format `to`, rounding once by `to`'s rules.
 ///
 /// NaN to NaN, `INVALID` if it was signalling; NaN to a format without one is 0 and `INVALID`. Infinity stays infinity;
 /// in fixed point it saturates with `OVERFLOW`, also where finite numbers wrap, and in floats without infinity it
 /// overflows as numbers do.
+///
+/// Into the unit of a card single floats go as they are; out of it subnormals are zeros. A NaN of GT200 becomes the one
+/// of the other format ([`super::unit::gt200_conversions::to_half`] has that of the card).
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
+    // Units of cards pass single floats on as they are, NaN and subnormals too.
+    if to.format.unit.is_card() && from.kind == Format::FP32.kind && from.encoding == Encoding::Ieee {
+        return Outcome::exact(bits);
+    }
+    // GT200 makes no half float of what is below 2^-33, whatever the rounding.
+    if matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins)
+        && to.format.kind == Format::FP16.kind
+        && bits << 1 < (127 - 33) << 24
+    {
+        return zero(&to.format, from.is_negative(bits));
+    }
     match unpack(from, bits) {
         Unpacked::Nan { signaling } => {
             let bad = signaling || to.format.canonical_nan().is_none();

@@ -65,6 +65,7 @@ mod round;
 mod rules;
 mod sum;
 mod transcendental;
+pub mod unit;
 mod unpack;
 
 pub use convert::{from_f64, power_of_two, to_f64};

@@ -5,10 +5,10 @@
 
 use super::env::Env;
 use super::flags::Outcome;
-use super::ops;
+use super::{ops, unit};
 
 macro_rules! operations {
-    ($($(#[doc = $doc:literal])* $variant:ident($($operand:ident),+) $(= $definition:expr)?;)*) => {
+    ($($(#[doc = $doc:literal])* $variant:ident($($operand:ident),+) $(= $definition:expr)? $(=> $unit:path)?;)*) => {
         /// An operation on numbers of one format, on the words that packing instructions make, or on masks.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u32)]
@@ -24,18 +24,22 @@ macro_rules! operations {
             }
 
             /// Evaluates the operation on bit patterns of the format; surplus operands are ignored. `None` for
-            /// operations whose operands or results are not all numbers of the format. Comparisons return 1 or 0.
+            /// operations whose operands or results are not all numbers of the format, and for those of cards' units in
+            /// formats of others. Comparisons return 1 or 0.
             pub fn evaluate(self, env: impl Into<Env>, operands: [u32; 3]) -> Option<Outcome> {
                 let env = env.into();
-                match self { $(Self::$variant => operations!(@ env operands ($($operand),+) $($definition)?),)* }
+                match self { $(Self::$variant => operations!(@ self env operands ($($operand),+) $($definition)? $(=> $unit)?),)* }
             }
         }
     };
-    (@ $env:ident $operands:ident ($($operand:ident),+) $definition:expr) => {{
+    (@ $operation:ident $env:ident $operands:ident ($($operand:ident),+) => $unit:path) => {
+        $unit(&$env.format, $operation, &$operands[..$operation.operands()])
+    };
+    (@ $operation:ident $env:ident $operands:ident ($($operand:ident),+) $definition:expr) => {{
         let [$($operand,)+ ..] = $operands;
         Some($definition($env, $($operand),+))
     }};
-    (@ $env:ident $operands:ident ($($operand:ident),+)) => { None };
+    (@ $operation:ident $env:ident $operands:ident ($($operand:ident),+)) => { None };
 }
 
 operations! {
@@ -114,6 +118,32 @@ operations! {
     Sin(a) = ops::sin;
     /// Cosine, radians.
     Cos(a) = ops::cos;
+    /// x of the vertex units' EXP: `2^floor(a)`.
+    ExpFloor(a) => unit::evaluate;
+    /// y of EXP: `a - floor(a)`.
+    ExpFraction(a) => unit::evaluate;
+    /// z of EXP: `2^a`, to about 11 bits.
+    ExpPower(a) => unit::evaluate;
+    /// x of the vertex units' LOG: the exponent of `|a|`.
+    LogExponent(a) => unit::evaluate;
+    /// y of LOG: the significand of `a`, in [1, 2).
+    LogMantissa(a) => unit::evaluate;
+    /// z of LOG: `log2 |a|`, to about 11 bits.
+    LogPower(a) => unit::evaluate;
+    /// y of the vertex units' LIT: `a`, or 0 if its sign is set.
+    LitDiffuse(a) => unit::evaluate;
+    /// z of LIT: `a > 0 ? b^c : 0`.
+    LitSpecular(a, b, c) => unit::evaluate;
+    /// 1 if `a < b`, else 0, by the unit of a card; modern NV3x gives NaN for NaN.
+    SetLess(a, b) => unit::evaluate;
+    /// 1 if `a <= b`, else 0, likewise.
+    SetLessEqual(a, b) => unit::evaluate;
+    /// 1 if `a == b`, else 0, likewise.
+    SetEqual(a, b) => unit::evaluate;
+    /// 1 if `a != b`, else 0, likewise.
+    SetNotEqual(a, b) => unit::evaluate;
+    /// -1, 0 or 1 as `a` compares with +0 (SSG of the vertex units).
+    Sign(a) => unit::evaluate;
     /// Inserts `b`'s pattern of up to 16 bits into word `a` at bit `c`, where `a` is zero.
     JoinPattern(a, b, c);
     /// The same for single-precision `b` clamped to [0, 1] and rounded to a multiple of 1/65535.

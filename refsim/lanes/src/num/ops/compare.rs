@@ -4,11 +4,15 @@ use std::cmp::Ordering;
 
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
+use crate::num::unit;
 use crate::num::unpack::{Unpacked, key, unpack};
 
 /// Compares two values: their order (`None` with a NaN), and `true` if one of them is a signalling NaN.
 pub(crate) fn order(env: &Env, a: u32, b: u32) -> (Option<Ordering>, bool) {
     let format = &env.format;
+    if format.unit.is_card() {
+        return (unit::order(format.unit, a, b), false);
+    }
     if format.is_nan(a) || format.is_nan(b) {
         let signaling = |x| matches!(unpack(format, x), Unpacked::Nan { signaling: true });
         return (None, signaling(a) || signaling(b));

@@ -10,6 +10,7 @@ use crate::num::env::Env;
 use crate::num::flags::Outcome;
 use crate::num::round::{from_parts, from_ratio, infinite, zero};
 use crate::num::sum::{Term, cancelled};
+use crate::num::unit;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// Order in which the terms of a dot product are summed. The cards' documents leave it open; it is a switch of the
@@ -24,7 +25,8 @@ pub enum DotOrder {
     Exact,
 }
 
-/// Sums the products of `terms` (dp2, dp3, dp4; any number works, an empty sum is +0).
+/// Sums the products of `terms` (dp2, dp3, dp4; any number works, an empty sum is +0). Units of cards have an order of
+/// their own, whatever the order given.
 pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
     let env = env.into();
     accumulated(env, &env.format, order, terms)
@@ -49,6 +51,12 @@ pub fn dot_accumulated(
 
 /// The sum of the products of numbers of a format, rounded into the accumulator.
 fn accumulated(env: Env, operands: &Format, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
+    if env.format.unit.is_card() {
+        // Units know their own format alone.
+        let word = |bits| convert(operands, env, bits).bits;
+        let terms: Vec<(u32, u32)> = terms.iter().map(|&(a, b)| (word(a), word(b))).collect();
+        return unit::dot(&env.format, &terms).unwrap_or(Outcome::exact(0));
+    }
     let products = || terms.iter().map(|&(a, b)| product(&env, unpack(operands, a), unpack(operands, b)));
     match order {
         DotOrder::Exact => exact(&env, operands, terms),

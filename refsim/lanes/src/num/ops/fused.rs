@@ -3,13 +3,18 @@
 use super::{add, mul};
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
+use crate::num::operation::NumberOperation;
 use crate::num::round::infinite;
 use crate::num::sum::{Term, sum_over};
+use crate::num::unit;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a * b + c` with the product rounded first: the multiply-add of the cards.
 pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Mad, &[a, b, c]) {
+        return done;
+    }
     let product = mul(env, a, b);
     add(env, product.bits, c).also(product.flags)
 }
@@ -19,6 +24,9 @@ pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
 pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::FusedMad, &[a, b, c]) {
+        return done;
+    }
     let format = &env.format;
     let (a, b, c) = (unpack(format, a), unpack(format, b), unpack(format, c));
     let product = match (a, b) {

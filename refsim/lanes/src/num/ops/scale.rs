@@ -2,19 +2,27 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
+use crate::num::operation::NumberOperation;
 use crate::num::round::{round, zero};
 use crate::num::rules::Specials;
+use crate::num::unit;
 use crate::num::unpack::{Unpacked, invalid, key, nan_bits, nan_result, pass, unpack};
 
 /// `-x`. In fixed point the most negative number overflows. A NaN becomes the canonical one and raises nothing.
 pub fn neg(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Neg, &[x]) {
+        return done;
+    }
     with_sign(&env, x, |sign| !sign)
 }
 
 /// `|x|`. In fixed point the most negative number overflows. A NaN becomes the canonical one and raises nothing.
 pub fn abs(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Abs, &[x]) {
+        return done;
+    }
     with_sign(&env, x, |_| false)
 }
 
@@ -35,6 +43,9 @@ fn with_sign(env: &Env, x: u32, change: impl Fn(bool) -> bool) -> Outcome {
 /// `x * 2^k`, rounded once: the shift modifiers `_x2 _x4 _x8 _d2 _d4 _d8`.
 pub fn scale(env: impl Into<Env>, x: u32, k: i32) -> Outcome {
     let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Scale, &[x, k.cast_unsigned()]) {
+        return done;
+    }
     let value = unpack(&env.format, x);
     match value {
         Unpacked::Nan { .. } => nan_result(&env.format, &[value]),
@@ -46,7 +57,11 @@ pub fn scale(env: impl Into<Env>, x: u32, k: i32) -> Outcome {
 /// The `_sat` modifier: `x` clamped to [0, 1], with +0 for everything that isn't positive. NaN gives +0, or NaN with
 /// [`Specials::Nv`]. Raises nothing.
 pub fn saturate01(env: impl Into<Env>, x: u32) -> Outcome {
-    let format = env.into().format;
+    let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Saturate, &[x]) {
+        return done;
+    }
+    let format = env.format;
     if format.is_nan(x) {
         return Outcome::exact(if format.specials == Specials::Nv { nan_bits(&format) } else { 0 });
     }

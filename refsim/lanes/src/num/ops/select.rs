@@ -1,6 +1,7 @@
 //! Minimum, maximum, and the two conditional selects of the shading languages.
 //!
-//! Selected values are normalised: NaNs become canonical, and subnormals are flushed where the format flushes.
+//! Selected values are normalised: NaNs become canonical, and subnormals are flushed where the format flushes. Units of
+//! cards compare by their own order, and the conditional selects pass words on as they are.
 
 use std::cmp::Ordering;
 
@@ -8,19 +9,29 @@ use super::compare::order;
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
 use crate::num::format::FormatKind;
+use crate::num::operation::NumberOperation;
 use crate::num::rules::Specials;
+use crate::num::unit;
 use crate::num::unpack::{key, nan_bits, pass};
 
 /// `a < b ? a : b` (Direct3D 9 `min`), so that a NaN on either side, and a pair of zeros, give `b`; with
 /// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn min(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
-    choose(env.into(), a, b, Ordering::is_lt)
+    let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Min, &[a, b]) {
+        return done;
+    }
+    choose(env, a, b, Ordering::is_lt)
 }
 
 /// `a >= b ? a : b` (Direct3D 9 `max`), so that a NaN on either side gives `b` and a pair of zeros `a`; with
 /// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn max(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
-    choose(env.into(), a, b, Ordering::is_ge)
+    let env = env.into();
+    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Max, &[a, b]) {
+        return done;
+    }
+    choose(env, a, b, Ordering::is_ge)
 }
 
 fn choose(env: Env, a: u32, b: u32, first: impl Fn(Ordering) -> bool) -> Outcome {
@@ -41,6 +52,9 @@ fn choose(env: Env, a: u32, b: u32, first: impl Fn(Ordering) -> bool) -> Outcome
 /// `cond >= 0 ? a : b`. -0 counts as zero, a NaN condition selects `b`. Raises nothing.
 pub fn cmp(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
     let format = env.into().format;
+    if format.unit.is_card() {
+        return Outcome::exact(if reaches(&format, cond, 0, Ordering::is_ge) { a } else { b });
+    }
     let first = !format.is_nan(cond) && key(&format, cond) >= 0;
     Outcome::exact(pass(&format, if first { a } else { b }))
 }
@@ -49,12 +63,20 @@ pub fn cmp(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
 /// nothing.
 pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
     let format = env.into().format;
+    if format.unit.is_card() {
+        return Outcome::exact(if reaches(&format, cond, half(&format), Ordering::is_gt) { a } else { b });
+    }
     let first = match format.kind {
         FormatKind::Fixed { frac_bits, .. } => 2 * key(&format, cond) > 1 << frac_bits,
         FormatKind::Normalized { .. } => 2 * key(&format, cond) > i64::from(format.denominator()),
         FormatKind::Float { .. } => !format.is_nan(cond) && key(&format, cond) > i64::from(half(&format)),
     };
     Outcome::exact(pass(&format, if first { a } else { b }))
+}
+
+/// Returns `true` if a condition compares with a bound in the given way, by the unit of a card.
+fn reaches(format: &crate::num::Format, condition: u32, bound: u32, holds: impl Fn(Ordering) -> bool) -> bool {
+    unit::order(format.unit, condition, bound).is_some_and(holds)
 }
 
 /// The pattern of 0.5 in a float; all have it, those whose bias is 1 as a subnormal.

@@ -1,0 +1,34 @@
+//! Arithmetic units of cards, bit for bit as they were measured.
+//!
+//! The rules and the tables restate the integer models of envytools (MIT, M. Koscielnicka; `hwtest` and `nvhw` at
+//! commit f102b823), whose tests compare every bit with real chips: the vertex units of NV20, NV25 and an NV34 (a
+//! sibling of NV30 and NV35), and the unit of GT200.
+//!
+//! | file | what |
+//! |---|---|
+//! | `word.rs` | single floats as words; the cut to 24 bits |
+//! | `dispatch.rs` | which function an operation of [`super::NumberOperation`] is |
+//! | `tables.rs` | the tables of the chips, `tables/*.csv` |
+//! | [`nv`] | vertex units: product, aligned sum, comparisons, floor, attributes from bytes and shorts |
+//! | [`nv_functions`] | vertex units: RCP RCC RSQ EXP LOG LIT, and LG2 EX2 SIN COS of NV3x |
+//! | [`gt200`] | GT200: sums, products, the cut product of MAD, comparisons |
+//! | [`gt200_functions`] | GT200: RCP RSQRT LG2, PRESIN SIN COS, PREEX2 EX2 |
+//! | [`gt200_conversions`] | GT200: to and from half floats and integers, rounding to integers |
+//!
+//! Operands and results are 32-bit words. A NaN result is [`NAN`]; where an instruction passes an operand on, its word
+//! comes out as it is, NaN and subnormals included. [`super::ops`] dispatches to the units by [`super::Format::unit`].
+//! Of the flags an operation of a unit raises `INVALID` alone, where its result is NaN and no operand is; comparisons
+//! raise it as IEEE's do.
+
+mod dispatch;
+pub mod gt200;
+pub mod gt200_conversions;
+pub mod gt200_functions;
+pub mod nv;
+pub mod nv_functions;
+mod tables;
+mod word;
+
+pub use word::NAN;
+
+pub(super) use dispatch::{dot, evaluate, order};

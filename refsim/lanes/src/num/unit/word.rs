@@ -1,0 +1,85 @@
+//! Single floats as the units see them: sign, exponent field, mantissa.
+
+/// The NaN that the units make.
+pub const NAN: u32 = 0x7fff_ffff;
+
+/// 1.0.
+pub(super) const ONE: u32 = 0x3f80_0000;
+/// Positive infinity.
+pub(super) const INFINITY: u32 = 0x7f80_0000;
+/// The largest finite number.
+pub(super) const LARGEST: u32 = 0x7f7f_ffff;
+/// The sign bit.
+pub(super) const SIGN: u32 = 0x8000_0000;
+
+/// A word, taken apart.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Word {
+    /// Bit 31.
+    pub(super) negative: bool,
+    /// Bits 30 to 23.
+    pub(super) field: i32,
+    /// Bits 22 to 0.
+    pub(super) mantissa: u32,
+}
+
+impl Word {
+    pub(super) const fn of(word: u32) -> Self {
+        Self { negative: word & SIGN != 0, field: (word >> 23 & 0xff).cast_signed(), mantissa: word & 0x7f_ffff }
+    }
+
+    pub(super) const fn is_nan(self) -> bool {
+        self.field == 255 && self.mantissa != 0
+    }
+
+    pub(super) const fn is_infinite(self) -> bool {
+        self.field == 255 && self.mantissa == 0
+    }
+
+    /// Returns `true` for zeros and subnormals.
+    pub(super) const fn is_zero(self) -> bool {
+        self.field == 0
+    }
+
+    /// The significand with its leading one, in units of `2^(field - 150)`.
+    pub(super) const fn significand(self) -> u64 {
+        1 << 23 | self.mantissa as u64
+    }
+
+    /// Bits `[low, low + count)` of the mantissa.
+    pub(super) const fn bits(self, low: u32, count: u32) -> usize {
+        (self.mantissa >> low & ((1 << count) - 1)) as usize
+    }
+}
+
+/// `magnitude` with a sign.
+pub(super) const fn signed(negative: bool, magnitude: u32) -> u32 {
+    if negative { magnitude | SIGN } else { magnitude }
+}
+
+/// The word of a field from 1 to 254 and a mantissa of 23 bits.
+pub(super) const fn assemble(negative: bool, field: i32, mantissa: u32) -> u32 {
+    signed(negative, field.cast_unsigned() << 23 | mantissa)
+}
+
+/// The top 24 bits of an integer above 0, cut: the place of its leading one, and the 23 bits below that.
+pub(super) const fn top24(magnitude: u64) -> (i32, u32) {
+    let place = magnitude.ilog2();
+    let kept = if place > 23 { magnitude >> (place - 23) } else { magnitude << (23 - place) };
+    (place.cast_signed(), kept as u32 & 0x7f_ffff)
+}
+
+/// The float of `magnitude * 2^-fraction` below `2^127`, top 24 bits cut; 0 is a zero of the sign.
+pub(super) const fn cut(negative: bool, magnitude: u64, fraction: i32) -> u32 {
+    if magnitude == 0 {
+        return signed(negative, 0);
+    }
+    let (place, mantissa) = top24(magnitude);
+    assemble(negative, 127 + place - fraction, mantissa)
+}
+
+/// [`cut`] of a number in two's complement as the units have it: one's complement below zero, and 0 is +0.
+pub(super) const fn cut_signed(value: i64, fraction: i32) -> u32 {
+    let magnitude = if value < 0 { !value } else { value };
+    cut(value < 0, magnitude.cast_unsigned(), fraction)
+}
