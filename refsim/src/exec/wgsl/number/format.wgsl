@@ -293,9 +293,6 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
         if top > highest || (top == highest && rounded > most) {
             result = n_overflow(f, sign, top > highest);
         }
-        if (HAS_UNITS) {
-            result = select(result, u_flushed(result), f.special > 1u);
-        }
     }
     return select(result, n_zero(f, sign), m.x == 0u);
 }
