@@ -56,7 +56,8 @@ fn v_floor(x: u32) -> u32 {
     let negative = x > 0x7fffffffu;
     let rest = 0x7fffffu >> u32(clamp(field - 127, 0, 23));
     var raw = (x + select(0u, rest, negative)) & ~rest;
-    raw = select(raw, select(0u, U_ONE | U_SIGN, negative), field < 127);
+    // Not a choice of -1 and +0: Mesa's drivers make a negated float of that, and so -0.
+    raw = select(raw, select(0u, U_ONE, negative) | (x & U_SIGN), field < 127);
     raw = select(raw, x, field > 149);
     return select(select(raw, U_NAN, u_is_nan(x)), 0u, field == 0);
 }
