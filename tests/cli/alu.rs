@@ -100,6 +100,61 @@ fn lines_of_many_numbers() {
     }
 }
 
+#[test]
+fn units_of_cards() {
+    // Cut, aligned to the largest; two zeros and an overflow.
+    assert_eq!(results("add --device nv20", "c0151eb8 c2c80000\n3f800000,b3800000"), ["C2CCA8F5", "3F7FFFFF"]);
+    let products = "80000000, 7f800000\n7f000000 c0000000";
+    assert_eq!(results("mul --device nv25", products), ["00000000", "FF7FFFFF"]);
+    assert_eq!(results("mul --device nv35", products), ["7FFFFFFF", "FF800000"]);
+    assert_eq!(results("mul --device nv30 --state legacy --flags", products), ["00000000 00", "FF800000 00"]);
+    assert_eq!(results("mul --format e8m23:nv3x --flags", products), ["7FFFFFFF 10", "FF800000 00"]);
+    assert_eq!(results("mad --device gt200", "3fffffff 3fffffff c0800000"), ["B5000000"]);
+    assert_eq!(results("mul --device gt200 --state zero-wins --stage vertex", products)[0], "00000000");
+    let four = "4b800000 3f800000 cb800000 0 3f800000 3f800000 3f800000 0";
+    assert_eq!(results("dp4 --device nv20", four), ["3F800000"]);
+    assert_eq!(results("dph --device nv20", &four.replace(" 0", " 40000000")), ["40400000"]);
+    assert_eq!(
+        results("dst --device nv20", "0 40000000 7f800001 2 3 40400000 4 5"),
+        ["3F800000 40C00000 7F800001 00000005"]
+    );
+    assert_eq!(results("expp --device nv20", "3fc00000"), ["40000000 3F000000 40350600 3F800000"]);
+    assert_eq!(results("logp --device nv30", "40400000"), ["3F800000 3FC00000 3FCAE3C0 3F800000"]);
+    assert_eq!(results("lit --device nv35", "3f000000 3f000000 41800000"), ["3F800000 3F000000 37800000 3F800000"]);
+    assert_eq!(results("sge --device nv30", "0 80000000\n7fc00000 0"), ["3F800000", "7FFFFFFF"]);
+    assert_eq!(results("rcc --device nv20", "1"), ["5F800000"]);
+    let checked = alu("rcp --device nv20 --verify", "40400000 3eaaaaaa\n40400000 3eaaaaab\n");
+    assert_eq!((checked.code, checked.stdout.ends_with("1 passed, 1 failed\n")), (Some(1), true), "{}", checked.stdout);
+}
+
+#[test]
+fn devices_without_a_measured_unit_compute_by_their_rules() {
+    assert_eq!(results("mul --device ideal-fp16", "3C01 3C01"), results("mul --format fp16", "3C01 3C01"));
+    assert_eq!(results("sge --format fp16", "3C00 3C00\n7E00 3C00"), ["3C00", "0000"]);
+    assert_eq!(results("sne --format fp16", "3C00 3C00\n7E00 3C00"), ["0000", "3C00"]);
+    assert_eq!(results("dph --format fp16", "3C00 0 0 7C00 3C00 0 0 3C00"), ["4000"]);
+    // Pixels of NV20 are fixed point.
+    assert_eq!(results("mov --device nv20 --stage pixel", "0FF"), ["0FF"]);
+    for (arguments, expected) in [
+        ("ex2 --device nv20", "the vertex unit of NV20 and NV25 has no `ex2`"),
+        ("expp --device gt200", "`expp` is an instruction of the vertex units"),
+        ("rcc --format fp16", "`rcc` is an instruction of the vertex units"),
+        ("div --device nv20", "`div` is no instruction of a device"),
+        ("mul --device nv20 --state legacy", "the vertex arithmetic of `nv20` has no such state"),
+        ("mul --device gt200 --state modern", "the pixel arithmetic of `gt200` has no such state"),
+        ("mul --device nv20 --stage geometry", "invalid value 'geometry'"),
+        ("mul --device nv20 --format fp32", "cannot be used with"),
+        ("mul", "--format <F>"),
+        ("mul --format fp32 --state ieee", "--device <D>"),
+        ("mul --device nv02", "nv20"),
+        ("dp3 --device nv20", "line 1: expected 6 numbers (a.x a.y a.z b.x b.y b.z), found 2 fields"),
+        ("dp3 --device nv20 --verify", "take neither `--verify` nor `--to`"),
+    ] {
+        let said = alu(arguments, "0 0").refusal(arguments);
+        assert!(said.contains(expected), "alu {arguments}: {said}");
+    }
+}
+
 /// Formats of `alu` alone.
 #[test]
 fn devices_refuse_scales_and_chance() {

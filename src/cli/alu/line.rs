@@ -10,7 +10,12 @@ const MAX_FIELDS: usize = 5;
 pub(super) fn other_fields(line: u64, expected: &str, found: usize) -> InputError {
     let fields = if found == 1 { "field" } else { "fields" };
     input_error!("crossbar::alu::fields" => "line {line}: expected {expected}, found {found} {fields}";
-        help "write the fields of one operation on one line, parted by blanks")
+        help "write the fields of one operation on one line, parted by blanks or commas")
+}
+
+/// The fields of a line: what is parted by blanks or commas.
+pub(super) fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(|byte| byte.is_ascii_whitespace() || *byte == b',').filter(|field| !field.is_empty())
 }
 
 /// How the fields of a line are read.
@@ -54,10 +59,10 @@ impl LineFormat {
 
     /// Reads line `number` (from 1); `None` if it is blank.
     pub(super) fn read(&self, text: &[u8], number: u64) -> Result<Option<AluLine>, InputError> {
-        let mut fields = [&text[..0]; MAX_FIELDS];
+        let mut found = [&text[..0]; MAX_FIELDS];
         let mut count = 0;
-        for field in text.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()) {
-            if let Some(place) = fields.get_mut(count) {
+        for field in fields(text) {
+            if let Some(place) = found.get_mut(count) {
                 *place = field;
             }
             count += 1;
@@ -70,15 +75,15 @@ impl LineFormat {
             return Err(other_fields(number, &self.expectation(), count));
         }
         let mut line = AluLine { operands: [0; 3], result: 0, flags: None };
-        for (operand, field) in line.operands.iter_mut().zip(&fields[..self.operands]) {
+        for (operand, field) in line.operands.iter_mut().zip(&found[..self.operands]) {
             *operand = hex(field, self.operand_width, number)?;
         }
         if count > self.operands {
-            line.result = hex(fields[self.operands], self.result_width, number)?;
+            line.result = hex(found[self.operands], self.result_width, number)?;
         }
         if count > self.operands + 1 {
             // Eight bits fit a byte.
-            line.flags = Some(hex(fields[self.operands + 1], 8, number)? as u8);
+            line.flags = Some(hex(found[self.operands + 1], 8, number)? as u8);
         }
         Ok(Some(line))
     }

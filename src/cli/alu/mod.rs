@@ -1,14 +1,17 @@
 //! `crossbar alu`: one operation of a number format on bit patterns.
 
+mod device;
 mod line;
 mod operation;
 mod row;
 mod stream;
+mod vector;
 
 use std::io::{self, Read};
 
 use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
+use self::device::{Arithmetic, Stage, State, refuse_foreign, refuse_lacking};
 use self::operation::{AluOperation, Unit};
 use self::row::{RowOperation, RowUnit};
 use super::{Out, Problem, Verdict, given};
@@ -26,14 +29,17 @@ Examples:
       1 and 96 with a shared scale: prints 83 0 7, which are 2^4, 0 and 6
   echo 6800 3C00 3C00 3C00 3C00 3C00 | crossbar alu dot --format fp16 --accumulator fp32
       2048 * 1 + 1 * 1 + 1 * 1, summed in single precision: prints 6801, 2050; without --accumulator 2048
+  echo 3F800000 B3800000 | crossbar alu add --device nv20
+      1 - 2^-24 by the vertex unit of a GeForce3: prints 3F7FFFFF, a cut sum
 
-Lines: hexadecimal operands parted by blanks, as TestFloat writes them; blank lines are skipped. A result has as many \
+Lines: hexadecimal operands parted by blanks or commas, as TestFloat writes them; blank lines are skipped. A result has as many \
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
 08 division by zero, 10 invalid.
 
 Formats: sI.F (fixed point), nI.F (normalized integers: n3.8 counts in 255ths), eXmY (float), eXmYfn and eXmYfnuz (floats \
 without infinity, as e4m3fn and e2m1fn), e8m0 (powers of two), or ps14 fx12 fp16 bf16 fp24 fp32; then, if wanted, rounding \
-:rne :rna :rtz :rdn :rup :rod :rst, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv.
+:rne :rna :rtz :rdn :rup :rod :rst, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv. e8m23 \
+with :nv2x, :nv3x-legacy, :nv3x, :gt200 or :gt200-zero-wins is the measured unit of a card.
 
 Stochastic rounding (:rst) takes the word of the line, counted from 0: the upper half of that output of SplitMix64 from the \
 state --seed.";
@@ -47,8 +53,20 @@ pub(super) struct Args {
     op: AluOperation,
 
     /// The number format of operands and result
-    #[arg(long, value_name = "F")]
-    format: Format,
+    #[arg(long, value_name = "F", required_unless_present = "device")]
+    format: Option<Format>,
+
+    /// A device, in place of a format: its instruction of this name, by the unit that was measured or by its rules
+    #[arg(long, value_name = "D", conflicts_with = "format")]
+    device: Option<String>,
+
+    /// The stage of the device; by default the one whose unit was measured, or else pixels
+    #[arg(long, requires = "device", value_parser = stages())]
+    stage: Option<Stage>,
+
+    /// The state of the device's unit; by default modern, or ieee
+    #[arg(long, requires = "device", value_parser = states())]
+    state: Option<State>,
 
     /// The format that `convert` goes to
     #[arg(long, value_name = "F2")]
@@ -82,6 +100,21 @@ pub(super) struct Args {
     seed: Option<u64>,
 }
 
+/// The stages, for `--stage`.
+fn stages() -> OneOf<Stage> {
+    one_of([("vertex", "vertex programs", Stage::Vertex), ("pixel", "pixel programs", Stage::Pixel)])
+}
+
+/// The states of units, for `--state`.
+fn states() -> OneOf<State> {
+    one_of([
+        ("legacy", "nv30, nv35: as GL_NV_vertex_program", State::Legacy),
+        ("modern", "nv30, nv35: as GL_NV_vertex_program2", State::Modern),
+        ("zero-wins", "gt200: 0 times anything is 0", State::ZeroWins),
+        ("ieee", "gt200: 0 times infinity is NaN", State::Ieee),
+    ])
+}
+
 /// The orders of a sum, for `--summation`.
 fn orders() -> OneOf<DotOrder> {
     one_of([
@@ -97,14 +130,30 @@ fn blocks() -> OneOf<BlockFormat> {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    refuse_others(args)?;
-    if let Some(unit) = row_unit(args)? {
+    let arithmetic = arithmetic(args)?;
+    refuse_others(args, &arithmetic.format)?;
+    if let Some(unit) = row_unit(args, arithmetic)? {
         row::run(&unit, args.flags, io::stdin().lock(), out)?;
         return Ok(Verdict::Done);
     }
-    let unit = unit(args)?;
+    let unit = unit(args, arithmetic)?;
     let input = io::stdin().lock();
     if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
+}
+
+/// What computes: a format, or a stage of a device.
+fn arithmetic(args: &Args) -> miette::Result<Arithmetic> {
+    let arithmetic = match (&args.device, args.format) {
+        (Some(device), _) => {
+            let arithmetic = Arithmetic::of_device(device, args.stage, args.state)?;
+            refuse_lacking(args.op, arithmetic.format)?;
+            arithmetic
+        }
+        // The parser asks for one of both.
+        (None, format) => Arithmetic::of_format(format.unwrap_or(Format::FP32)),
+    };
+    refuse_foreign(args.op, arithmetic.format)?;
+    Ok(arithmetic)
 }
 
 /// Returns `true` if results depend on random words.
@@ -113,8 +162,8 @@ fn by_chance(format: &Format) -> bool {
 }
 
 /// Refuses options that do not go with the operation or the formats.
-fn refuse_others(args: &Args) -> Result<(), Problem> {
-    let needs_seed = by_chance(&args.format) || args.to.as_ref().is_some_and(by_chance);
+fn refuse_others(args: &Args, format: &Format) -> Result<(), Problem> {
+    let needs_seed = by_chance(format) || args.to.as_ref().is_some_and(by_chance);
     let seed = [("--seed", args.seed.is_some() && !needs_seed)];
     given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")
 }
@@ -125,7 +174,7 @@ fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette:
 }
 
 /// The unit of an operation on lines of many numbers, once its options go together; `None` for other operations.
-fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
+fn row_unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<Option<RowUnit>, Problem> {
     if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
         return Err(Problem::usage(
             "`--accumulator` and `--summation` are for `dot` only",
@@ -144,8 +193,9 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
                 "leave `--block` out, or quantize first and compute with the elements",
             ));
         }
+        (AluOperation::Vector(operation), None) => RowOperation::Vector(operation, steps),
         (AluOperation::Dot, None) => {
-            RowOperation::Dot(args.summation.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(args.format))
+            RowOperation::Dot(args.summation.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(format))
         }
         (_, None) => {
             return Ok(None);
@@ -157,22 +207,22 @@ fn row_unit(args: &Args) -> Result<Option<RowUnit>, Problem> {
             "leave the option out; `--format` is the format of the plain numbers",
         ));
     }
-    let formats = [args.format, args.accumulator.unwrap_or(args.format)];
+    let formats = [format, args.accumulator.unwrap_or(format)];
     if formats.iter().any(by_chance) {
         return Err(Problem::usage(
             "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
             "take another rounding, or round each number on a line of its own",
         ));
     }
-    Ok(Some(RowUnit { operation, env: args.format.tininess(Tininess::After) }))
+    Ok(Some(RowUnit { operation, env: format.tininess(Tininess::After) }))
 }
 
 /// The unit that the options make, once they go together.
-fn unit(args: &Args) -> Result<Unit, Problem> {
+fn unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<Unit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {
         Some(to) if convert => to,
-        None if !convert => args.format,
+        None if !convert => format,
         None => {
             return Err(Problem::usage(
                 "`convert` needs the format it goes to",
@@ -187,5 +237,5 @@ fn unit(args: &Args) -> Result<Unit, Problem> {
         }
     };
     let seed = args.seed.unwrap_or_default();
-    Ok(Unit { op: args.op, env: args.format.tininess(Tininess::After), to, seed })
+    Ok(Unit { op: args.op, env: format.tininess(Tininess::After), to, seed, steps })
 }

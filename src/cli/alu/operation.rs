@@ -1,7 +1,9 @@
 //! The operations by name.
 
+use refsim::num::unit::nv_functions;
 use refsim::num::{Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
 
+use super::device::Steps;
 use crate::options::one_of::{OneOf, one_of};
 
 /// An operation that the command has.
@@ -16,10 +18,32 @@ pub(super) enum AluOperation {
     Dequantize,
     /// The sum of products of any number.
     Dot,
+    /// `a * b + c`, as the format or device does it.
+    Mad,
+    /// A copy.
+    Mov,
+    /// The clamped reciprocal of the vertex units.
+    Rcc,
+    /// A comparison that gives one or zero, with its operands swapped or not.
+    Set(Op, bool),
+    /// Vectors to a number or a vector, a line of words.
+    Vector(VectorOperation),
+}
+
+/// An operation on vectors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum VectorOperation {
+    Dp3,
+    Dph,
+    Dp4,
+    Dst,
+    Expp,
+    Logp,
+    Lit,
 }
 
 /// The operations under TestFloat's names, where it has one, and what the help says of them.
-const NAMED: [(AluOperation, &str, &str); 20] = [
+const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Add), "add", "two operands, rounded once"),
     (AluOperation::Table(Op::Sub), "sub", "two operands, rounded once"),
     (AluOperation::Table(Op::Mul), "mul", "two operands, rounded once"),
@@ -37,6 +61,28 @@ const NAMED: [(AluOperation, &str, &str); 20] = [
     (AluOperation::Table(Op::Rsq), "rsq", "1 / sqrt(a)"),
     (AluOperation::RoundToInt, "roundToInt", "to a whole number, by the rounding of the format"),
     (AluOperation::Convert, "convert", "to the format of --to, rounded by its rules"),
+    (AluOperation::Mad, "mad", "a * b + c, as the device does it; in a format product and sum are rounded"),
+    (AluOperation::Mov, "mov", "a copy"),
+    (AluOperation::Set(Op::SetLess, false), "slt", "a < b, as the numbers 1 and 0"),
+    (AluOperation::Set(Op::SetLessEqual, true), "sge", "a >= b, likewise"),
+    (AluOperation::Set(Op::SetEqual, false), "seq", "a = b, likewise"),
+    (AluOperation::Set(Op::SetLess, true), "sgt", "a > b, likewise"),
+    (AluOperation::Set(Op::SetLessEqual, false), "sle", "a <= b, likewise"),
+    (AluOperation::Set(Op::SetNotEqual, false), "sne", "not a = b, likewise"),
+    (AluOperation::Table(Op::Sign), "ssg", "-1, 0 or 1, the sign (vertex units)"),
+    (AluOperation::Table(Op::Floor), "flr", "floor"),
+    (AluOperation::Rcc, "rcc", "1 / a, clamped to 2^-64 to 2^64 (vertex units)"),
+    (AluOperation::Table(Op::Exp2), "ex2", "2^a"),
+    (AluOperation::Table(Op::Log2), "lg2", "the logarithm to base 2"),
+    (AluOperation::Table(Op::Sin), "sin", "sine, radians"),
+    (AluOperation::Table(Op::Cos), "cos", "cosine, radians"),
+    (AluOperation::Vector(VectorOperation::Dp3), "dp3", "a.x b.x + a.y b.y + a.z b.z: a, then b, 6 words"),
+    (AluOperation::Vector(VectorOperation::Dph), "dph", "dp3 + b.w: a, then b, 8 words"),
+    (AluOperation::Vector(VectorOperation::Dp4), "dp4", "the sum of four products: a, then b, 8 words"),
+    (AluOperation::Vector(VectorOperation::Dst), "dst", "(1, a.y b.y, a.z, b.w): a, then b, 8 words"),
+    (AluOperation::Vector(VectorOperation::Expp), "expp", "EXP of one word: 4 components (vertex units)"),
+    (AluOperation::Vector(VectorOperation::Logp), "logp", "LOG of one word: 4 components (vertex units)"),
+    (AluOperation::Vector(VectorOperation::Lit), "lit", "lighting of x, y, w: 4 components (vertex units)"),
     (AluOperation::Dot, "dot", "a b + c d + ... of 1 to 32 pairs, in the format of --accumulator"),
     (AluOperation::Quantize, "quantize", "1 to 32 numbers to a block of --block: scale, then elements"),
     (AluOperation::Dequantize, "dequantize", "a block of --block (scale, then elements) to numbers"),
@@ -57,9 +103,11 @@ impl AluOperation {
     pub(super) const fn operands(self) -> usize {
         match self {
             Self::Table(operation) => operation.operands(),
-            Self::RoundToInt | Self::Convert => 1,
+            Self::RoundToInt | Self::Convert | Self::Mov | Self::Rcc => 1,
+            Self::Set(..) => 2,
+            Self::Mad => 3,
             // On lines of many numbers, by `super::row`.
-            Self::Dot | Self::Quantize | Self::Dequantize => 0,
+            Self::Dot | Self::Quantize | Self::Dequantize | Self::Vector(_) => 0,
         }
     }
 
@@ -79,6 +127,8 @@ pub(super) struct Unit {
     pub(super) to: Format,
     /// The seed of stochastic rounding.
     pub(super) seed: u64,
+    /// How `mad` is done, and products with zeros.
+    pub(super) steps: Steps,
 }
 
 impl Unit {
@@ -100,21 +150,57 @@ impl Unit {
     /// The result for operands of the format's width; those that the operation does not take are ignored. Stochastic
     /// rounding takes the word of `index`.
     pub(super) fn evaluate(&self, operands: [u32; 3], index: u64) -> Outcome {
-        let (mut env, mut to, [a, ..]) = (self.env, self.to, operands);
+        let (mut env, mut to, [a, b, c]) = (self.env, self.to, operands);
         for format in [&mut env.format, &mut to] {
             if let Rounding::Stochastic(word) = &mut format.rounding {
                 *word = random_word(self.seed, index);
             }
         }
         match self.op {
+            AluOperation::Table(Op::Mul) => mul(env, self.steps, a, b),
+            AluOperation::Mad => mad(env, self.steps, a, b, c),
+            AluOperation::Mov => ops::convert(&env.format, env, a),
+            AluOperation::Rcc => Outcome::exact(nv_functions::rcc(a)),
+            AluOperation::Set(operation, swapped) => set(env, operation, if swapped { [b, a] } else { [a, b] }),
             AluOperation::Table(operation) => {
                 operation.evaluate(env, operands).expect("the table defines what the command names")
             }
             AluOperation::RoundToInt => ops::round_to_int(env, a),
-            AluOperation::Dot | AluOperation::Quantize | AluOperation::Dequantize => {
+            AluOperation::Dot | AluOperation::Quantize | AluOperation::Dequantize | AluOperation::Vector(_) => {
                 unreachable!("`super::row` has the operations on lines of many numbers")
             }
             AluOperation::Convert => ops::convert(&env.format, to.tininess(env.tininess), a),
         }
     }
+}
+
+/// Factors of a product: both +0 where a zero wins against infinity or NaN. Units of cards have a rule of their own.
+pub(super) fn factors(format: &Format, steps: Steps, a: u32, b: u32) -> (u32, u32) {
+    let zero = format.is_zero(a) || format.is_zero(b);
+    let wins = steps.zero_wins && !format.unit.is_card() && zero;
+    if wins && !(format.is_finite(a) && format.is_finite(b)) { (0, 0) } else { (a, b) }
+}
+
+/// A product under the rules of a device.
+pub(super) fn mul(env: Env, steps: Steps, a: u32, b: u32) -> Outcome {
+    let (a, b) = factors(&env.format, steps, a, b);
+    ops::mul(env, a, b)
+}
+
+fn mad(env: Env, steps: Steps, a: u32, b: u32, c: u32) -> Outcome {
+    let (a, b) = factors(&env.format, steps, a, b);
+    if steps.fused { ops::fused_mad(env, a, b, c) } else { ops::mad(env, a, b, c) }
+}
+
+/// A comparison as a number: by the unit of a card, or else quiet.
+fn set(env: Env, operation: Op, [a, b]: [u32; 2]) -> Outcome {
+    operation.evaluate(env, [a, b, 0]).unwrap_or_else(|| {
+        let holds = match operation {
+            Op::SetLess => ops::lt_quiet(env, a, b),
+            Op::SetLessEqual => ops::le_quiet(env, a, b),
+            _ => ops::eq(env, a, b),
+        };
+        let holds_as = u32::from(operation != Op::SetNotEqual);
+        Outcome::new(if holds.bits == holds_as { env.format.one() } else { 0 }, holds.flags)
+    })
 }

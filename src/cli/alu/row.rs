@@ -1,10 +1,13 @@
-//! Operations on lines of many numbers: dot products, and blocks with a shared scale there and back.
+//! Operations on lines of many numbers: dot products, instructions on vectors, and blocks with a shared scale there and
+//! back.
 
 use std::io::{Read, Write as _};
 
 use refsim::num::{DotOrder, Env, Flags, Format, block::BLOCK, block::BlockFormat, ops};
 
-use super::line::{hex, other_fields, push_hex};
+use super::device::Steps;
+use super::line::{fields, hex, other_fields, push_hex};
+use super::operation::VectorOperation;
 use super::stream::{TaskOutput, each_line};
 use crate::cli::{Out, OutputError};
 use crate::error::InputError;
@@ -18,6 +21,8 @@ pub(super) enum RowOperation {
     Dequantize(BlockFormat),
     /// The sum of the products of neighbours, in an accumulator of this format.
     Dot(DotOrder, Format),
+    /// An instruction on vectors.
+    Vector(VectorOperation, Steps),
 }
 
 /// An operation on lines of numbers.
@@ -40,7 +45,7 @@ struct Converted {
 impl RowUnit {
     /// Converts line `number` (from 1); `None` if it is blank.
     fn convert(&self, text: &[u8], number: u64) -> Result<Option<Converted>, InputError> {
-        let fields: Vec<&[u8]> = text.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()).collect();
+        let fields: Vec<&[u8]> = fields(text).collect();
         if fields.is_empty() {
             return Ok(None);
         }
@@ -49,6 +54,10 @@ impl RowUnit {
             RowOperation::Quantize(_) => (count <= BLOCK, "1 to 32 numbers"),
             RowOperation::Dequantize(_) => ((2..=BLOCK + 1).contains(&count), "a scale and 1 to 32 elements"),
             RowOperation::Dot(..) => (count <= 2 * BLOCK && count.is_multiple_of(2), "1 to 32 pairs of numbers"),
+            RowOperation::Vector(operation, _) => {
+                let (words, expected) = operation.words();
+                (count == words, expected)
+            }
         };
         if !fits {
             return Err(other_fields(number, expected, count));
@@ -69,6 +78,12 @@ impl RowUnit {
                 let patterns = outcomes.into_iter().map(|outcome| outcome.bits).collect();
                 Converted { scale: None, patterns, flags }
             }
+            RowOperation::Vector(operation, steps) => {
+                let outcomes = operation.evaluate(self.env, steps, &read(&fields, plain)?);
+                let flags = outcomes.iter().fold(Flags::empty(), |flags, outcome| flags | outcome.flags);
+                let patterns = outcomes.into_iter().map(|outcome| outcome.bits).collect();
+                Converted { scale: None, patterns, flags }
+            }
             RowOperation::Dot(order, accumulator) => {
                 let terms: Vec<(u32, u32)> =
                     read(&fields, plain)?.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
@@ -83,7 +98,7 @@ impl RowUnit {
     fn width(&self) -> u32 {
         match self.operation {
             RowOperation::Quantize(block) => block.element().width(),
-            RowOperation::Dequantize(_) | RowOperation::Dot(..) => self.env.format.width(),
+            RowOperation::Dequantize(_) | RowOperation::Dot(..) | RowOperation::Vector(..) => self.env.format.width(),
         }
     }
 

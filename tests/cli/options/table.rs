@@ -44,8 +44,9 @@ pub(super) const TABLE: &[Tried] = &[
             "alu dot --format fp16 < 6800 3C00 3C00 3C00 3C00 3C00",
             "alu quantize --format fp32 --block mxfp4 < 3f9ccccd",
             "alu mul --format e4m3fn:rst < 3B 3B",
+            "alu mul --device nv30 < 3FC00001 3F800001;00000000 7F800000",
         ],
-        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --flags --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1",
+        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --flags --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1 --device=nv20 --stage=pixel --state=legacy",
     },
     Tried {
         bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],

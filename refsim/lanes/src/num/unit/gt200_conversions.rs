@@ -33,7 +33,7 @@ pub fn to_half(rounding: Rounding, x: u32) -> u32 {
         field => {
             // Of 11 bits, or the multiple of 2^-24 that subnormals are.
             let least = (field - 112).max(1);
-            let drop = (least + 126 - field).cast_unsigned();
+            let drop = (least + 125 - field).cast_unsigned();
             let steps = divide(rounding, word.negative, word.significand().into(), drop) as u32;
             // A carry, or the leading one of a normal number, goes into the field.
             let pattern = steps + ((least - 1).cast_unsigned() << 10);

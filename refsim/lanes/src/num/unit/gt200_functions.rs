@@ -82,13 +82,13 @@ pub fn lg2(x: u32) -> u32 {
 pub fn presin(x: u32) -> u32 {
     let word = Word::of(x);
     match word.field {
-        _ if word.is_nan() => return PREPARED_SPECIAL,
+        _ if word.is_nan() => return signed(word.negative, PREPARED_SPECIAL),
         255 => return signed(word.negative, PREPARED_SPECIAL | 0x80_0000),
         0 => return signed(word.negative, 0),
         _ => {}
     }
     // 2 / pi in units of 2^-24.
-    let turns = word.significand() * 0xa2_f983 >> 16;
+    let turns = (word.significand() * 0xa2_f983) >> 16;
     let turns = match word.field - 135 {
         32.. => 0,
         left @ 0.. => turns << left,
@@ -134,7 +134,7 @@ pub fn cos(x: u32) -> u32 {
 pub fn preex2(x: u32) -> u32 {
     let word = Word::of(x);
     match word.field {
-        _ if word.is_nan() => return PREPARED_SPECIAL,
+        _ if word.is_nan() => return signed(word.negative, PREPARED_SPECIAL),
         134.. => return signed(word.negative, PREPARED_SPECIAL | 0x80_0000),
         0 => return signed(word.negative, 0),
         _ => {}

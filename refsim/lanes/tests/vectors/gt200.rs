@@ -1,0 +1,154 @@
+//! The unit of GT200.
+
+use std::cmp::Ordering;
+
+use refsim_lanes::num::unit::{gt200, gt200_conversions, gt200_functions};
+use refsim_lanes::num::{Format, NumberOperation as Op, Rounding, Unit, ops};
+
+use super::table::{Row, check, columns, digits, format, toward_zero, unary};
+
+#[test]
+fn products_and_sums() {
+    let (nearest, zero_wins) = (format(Unit::Gt200), format(Unit::Gt200ZeroWins));
+    let cut = toward_zero(Unit::Gt200);
+    let rows = check(
+        include_str!("gt200_add_mul_mad.csv"),
+        3,
+        &[
+            ("add_rn", &columns(nearest, Op::Add, &["a", "c"])),
+            ("add_rz", &columns(cut, Op::Add, &["a", "c"])),
+            ("mul_rn", &columns(nearest, Op::Mul, &["a", "b"])),
+            ("mul_rz", &columns(cut, Op::Mul, &["a", "b"])),
+            ("mul_rn_zw", &columns(zero_wins, Op::Mul, &["a", "b"])),
+            ("mad", &columns(nearest, Op::Mad, &["a", "b", "c"])),
+            ("mad_zw", &columns(zero_wins, Op::Mad, &["a", "b", "c"])),
+        ],
+    );
+    assert_eq!(rows, 9628);
+}
+
+#[test]
+fn comparisons() {
+    let card = format(Unit::Gt200);
+    let compare = |row: &Row<'_>| {
+        let (a, b) = (row.word("a"), row.word("b"));
+        let order = gt200::compare(a, b);
+        assert_eq!(ops::lt_quiet(card, a, b).bits != 0, order == Some(Ordering::Less));
+        assert_eq!(ops::le_quiet(card, a, b).bits != 0, order.is_some_and(Ordering::is_le));
+        assert_eq!(ops::eq(card, a, b).bits != 0, order == Some(Ordering::Equal));
+        let letter = match order {
+            Some(Ordering::Less) => "l",
+            Some(Ordering::Equal) => "e",
+            Some(Ordering::Greater) => "g",
+            None => "u",
+        };
+        letter.to_owned()
+    };
+    let rows = check(
+        include_str!("gt200_compare.csv"),
+        2,
+        &[
+            ("min", &columns(card, Op::Min, &["a", "b"])),
+            ("max", &columns(card, Op::Max, &["a", "b"])),
+            ("compare", &compare),
+        ],
+    );
+    assert_eq!(rows, 3374);
+}
+
+#[test]
+fn reciprocals_and_logarithms() {
+    let card = format(Unit::Gt200);
+    let rows = check(
+        include_str!("gt200_rcp_rsq_lg2.csv"),
+        1,
+        &[
+            ("rcp", &columns(card, Op::Rcp, &["x"])),
+            ("rsqrt", &columns(card, Op::Rsq, &["x"])),
+            ("lg2", &columns(card, Op::Log2, &["x"])),
+        ],
+    );
+    assert_eq!(rows, 8126);
+}
+
+#[test]
+fn waves_and_exponentials() {
+    let card = format(Unit::Gt200);
+    let rows = check(
+        include_str!("gt200_sin_cos_ex2.csv"),
+        1,
+        &[
+            ("presin", &unary("x", gt200_functions::presin)),
+            ("sin_of_presin", &columns(card, Op::Sin, &["x"])),
+            ("cos_of_presin", &columns(card, Op::Cos, &["x"])),
+            ("preex2", &unary("x", gt200_functions::preex2)),
+            ("ex2_of_preex2", &columns(card, Op::Exp2, &["x"])),
+        ],
+    );
+    assert_eq!(rows, 8444);
+}
+
+/// A half float of a row, which `convert` makes too but for the bits of a NaN.
+fn half(rounding: Rounding) -> impl Fn(&Row<'_>) -> String {
+    move |row| {
+        let x = row.word("x");
+        let half = gt200_conversions::to_half(rounding, x);
+        let to = Format::FP16.with_rounding(rounding);
+        let converted = ops::convert(&format(Unit::Gt200), to, x).bits;
+        assert!(half == converted || half == 0x7fff && converted == 0x7e00, "{half:04x} and {converted:04x}");
+        format!("{half:04x}")
+    }
+}
+
+#[test]
+fn conversions() {
+    use Rounding::{Down, NearestEven, TowardZero, Up};
+    use gt200_conversions::{round_to_int, to_signed, to_unsigned};
+    let card = format(Unit::Gt200);
+    let whole = |rounding| unary("x", move |x| round_to_int(rounding, x));
+    let signed = |rounding| unary("x", move |x| to_signed(rounding, x).cast_unsigned());
+    let rows = check(
+        include_str!("gt200_convert.csv"),
+        1,
+        &[
+            ("sat", &columns(card, Op::Saturate, &["x"])),
+            ("f16_rn", &half(NearestEven)),
+            ("f16_rm", &half(Down)),
+            ("f16_rp", &half(Up)),
+            ("f16_rz", &half(TowardZero)),
+            ("rint_rn", &whole(NearestEven)),
+            ("rint_rm", &columns(card, Op::Floor, &["x"])),
+            ("rint_rp", &whole(Up)),
+            ("rint_rz", &whole(TowardZero)),
+            ("s32_rn", &signed(NearestEven)),
+            ("s32_rm", &signed(Down)),
+            ("s32_rp", &signed(Up)),
+            ("s32_rz", &signed(TowardZero)),
+            ("u32_rz", &unary("x", |x| to_unsigned(TowardZero, x))),
+        ],
+    );
+    assert_eq!(rows, 4401);
+}
+
+#[test]
+fn integers_to_floats() {
+    use Rounding::{Down, NearestEven, TowardZero, Up};
+    let signed = |rounding| {
+        move |row: &Row<'_>| digits(gt200_conversions::from_signed(rounding, row.word("integer").cast_signed()))
+    };
+    let unsigned =
+        |rounding| move |row: &Row<'_>| digits(gt200_conversions::from_unsigned(rounding, row.word("integer")));
+    let rows = check(
+        include_str!("gt200_i2f.csv"),
+        1,
+        &[
+            ("s32_rn", &signed(NearestEven)),
+            ("s32_rm", &signed(Down)),
+            ("s32_rp", &signed(Up)),
+            ("s32_rz", &signed(TowardZero)),
+            ("u32_rn", &unsigned(NearestEven)),
+            ("u32_rz", &unsigned(TowardZero)),
+        ],
+    );
+    assert_eq!(rows, 2619);
+}

@@ -1,0 +1,8 @@
+//! Arithmetic units of cards against vectors of what the cards compute, every row and column, bit for bit; examples of
+//! their rules; and laws of the adder that aligns its addends.
+
+mod examples;
+mod gt200;
+mod laws;
+mod nv;
+mod table;

@@ -1,0 +1,148 @@
+//! The arithmetic of a device's stage: its format, the unit that computes, and the rules beside them.
+
+use refsim::device::{MadMode, Rules};
+use refsim::num::{DotOrder, Format, NumberOperation as Op, Unit};
+
+use super::operation::{AluOperation, VectorOperation};
+use crate::cli::{Problem, switch};
+
+/// A programmable stage, for `--stage`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stage {
+    Vertex,
+    Pixel,
+}
+
+/// A state that a card's unit can be in, for `--state`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum State {
+    Legacy,
+    Modern,
+    ZeroWins,
+    Ieee,
+}
+
+impl State {
+    /// The unit in this state, and its name; `None` where it has no such state.
+    const fn of(self, unit: Unit) -> Option<Unit> {
+        match (unit, self) {
+            (Unit::Nv3x | Unit::Nv3xLegacy, Self::Legacy) => Some(Unit::Nv3xLegacy),
+            (Unit::Nv3x | Unit::Nv3xLegacy, Self::Modern) => Some(Unit::Nv3x),
+            (Unit::Gt200 | Unit::Gt200ZeroWins, Self::ZeroWins) => Some(Unit::Gt200ZeroWins),
+            (Unit::Gt200 | Unit::Gt200ZeroWins, Self::Ieee) => Some(Unit::Gt200),
+            _ => None,
+        }
+    }
+}
+
+/// How operations of several steps are done. Units of cards have rules of their own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steps {
+    /// `a * b + c` is rounded once.
+    pub(super) fused: bool,
+    pub(super) order: DotOrder,
+    /// A zero times infinity or NaN is +0.
+    pub(super) zero_wins: bool,
+}
+
+impl Default for Steps {
+    fn default() -> Self {
+        Self { fused: false, order: DotOrder::Sequential, zero_wins: false }
+    }
+}
+
+/// The arithmetic of one stage.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arithmetic {
+    pub(super) format: Format,
+    pub(super) steps: Steps,
+}
+
+impl Arithmetic {
+    /// That of a format.
+    pub(super) fn of_format(format: Format) -> Self {
+        Self { format, steps: Steps::default() }
+    }
+
+    /// That of a device's stage; by default of the stage whose unit was measured, or else the pixels'.
+    pub(super) fn of_device(name: &str, stage: Option<Stage>, state: Option<State>) -> miette::Result<Self> {
+        let rules = switch::device(name, &[])?.rules;
+        let measured = |format: Format| format.unit.is_card();
+        let stage = stage.unwrap_or(match (measured(rules.vertex_format), measured(rules.format)) {
+            (true, false) => Stage::Vertex,
+            _ => Stage::Pixel,
+        });
+        let mut arithmetic = Self::of_stage(&rules, stage);
+        if let Some(state) = state {
+            arithmetic.format.unit = state.of(arithmetic.format.unit).ok_or_else(|| no_state(name, stage))?;
+        }
+        Ok(arithmetic)
+    }
+
+    fn of_stage(rules: &Rules, stage: Stage) -> Self {
+        let (format, zero_wins) = match stage {
+            Stage::Vertex => (rules.vertex_format, rules.vertex_zero_times_anything),
+            Stage::Pixel => (rules.format, rules.zero_times_anything),
+        };
+        Self { format, steps: Steps { fused: rules.mad == MadMode::Fused, order: rules.dot, zero_wins } }
+    }
+}
+
+fn no_state(name: &str, stage: Stage) -> Problem {
+    let stage = if stage == Stage::Vertex { "vertex" } else { "pixel" };
+    Problem::usage(
+        format!("the {stage} arithmetic of `{name}` has no such state"),
+        "leave `--state` out, or take `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
+    )
+}
+
+/// Refuses operations that a device's instructions are not, or its unit lacks.
+pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<(), Problem> {
+    use AluOperation as Alu;
+    let name = operation.name();
+    if matches!(
+        operation,
+        Alu::Table(Op::Div | Op::Sqrt | Op::FusedMad | Op::Equal | Op::LessEqual | Op::Less)
+            | Alu::RoundToInt
+            | Alu::Convert
+            | Alu::Dot
+            | Alu::Quantize
+            | Alu::Dequantize
+    ) {
+        return Err(Problem::usage(
+            format!("`{name}` is no instruction of a device"),
+            "take `--format` with one of the formats that `crossbar alu --help` lists",
+        ));
+    }
+    let newer = matches!(
+        operation,
+        Alu::Table(Op::Exp2 | Op::Log2 | Op::Sin | Op::Cos | Op::Frc | Op::Floor | Op::Sign)
+            | Alu::Set(Op::SetEqual | Op::SetNotEqual, _)
+    ) || matches!(name, "sgt" | "sle");
+    if format.unit == Unit::Nv2x && newer {
+        return Err(Problem::usage(
+            format!("the vertex unit of NV20 and NV25 has no `{name}`"),
+            "take `--device nv30`, whose unit has it, or `--format fp32`",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses operations of vertex units in formats of others.
+pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<(), Problem> {
+    let vertex = matches!(format.unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x);
+    let theirs = matches!(
+        operation,
+        AluOperation::Table(Op::Sign)
+            | AluOperation::Rcc
+            | AluOperation::Vector(VectorOperation::Expp | VectorOperation::Logp | VectorOperation::Lit)
+    );
+    let card = format.unit.is_card() && matches!(operation, AluOperation::Vector(VectorOperation::Dst));
+    if !vertex && (theirs || card) {
+        return Err(Problem::usage(
+            format!("`{}` is an instruction of the vertex units of nv20 to nv35; {format} has none", operation.name()),
+            "take `--device nv20`, `nv25`, `nv30` or `nv35`, with `--stage vertex`",
+        ));
+    }
+    Ok(())
+}

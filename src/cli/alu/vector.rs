@@ -1,0 +1,64 @@
+//! Instructions on vectors: a line of words, components first to last, all of `a`, then `b`.
+
+use refsim::num::{Env, NumberOperation as Op, Outcome, ops};
+
+use super::device::Steps;
+use super::operation::{VectorOperation, factors, mul};
+
+impl VectorOperation {
+    /// The number of words of a line, and what to say where there are others.
+    pub(super) const fn words(self) -> (usize, &'static str) {
+        match self {
+            Self::Dp3 => (6, "6 numbers (a.x a.y a.z b.x b.y b.z)"),
+            Self::Dph | Self::Dp4 | Self::Dst => (8, "8 numbers (a.x to a.w, b.x to b.w)"),
+            Self::Expp | Self::Logp => (1, "1 number"),
+            Self::Lit => (3, "3 numbers (x, y, w)"),
+        }
+    }
+
+    /// The result: one number, or four components. `words` has as many as [`Self::words`] says.
+    pub(super) fn evaluate(self, env: Env, steps: Steps, words: &[u32]) -> Vec<Outcome> {
+        let one = Outcome::exact(env.format.one());
+        // The caller refuses formats whose unit has no such instruction.
+        let unit = |operation: Op, operands| operation.evaluate(env, operands).unwrap_or(Outcome::exact(0));
+        match self {
+            Self::Dp3 | Self::Dp4 => vec![dot(env, steps, words)],
+            Self::Dph => vec![homogeneous(env, steps, words)],
+            Self::Dst => {
+                vec![one, mul(env, steps, words[1], words[5]), Outcome::exact(words[2]), Outcome::exact(words[7])]
+            }
+            Self::Expp => {
+                let [x, y, z] = [Op::ExpFloor, Op::ExpFraction, Op::ExpPower].map(|op| unit(op, [words[0], 0, 0]));
+                vec![x, y, z, one]
+            }
+            Self::Logp => {
+                let [x, y, z] = [Op::LogExponent, Op::LogMantissa, Op::LogPower].map(|op| unit(op, [words[0], 0, 0]));
+                vec![x, y, z, one]
+            }
+            Self::Lit => {
+                let operands = [words[0], words[1], words[2]];
+                vec![one, unit(Op::LitDiffuse, operands), unit(Op::LitSpecular, operands), one]
+            }
+        }
+    }
+}
+
+/// The dot product of both halves of the words.
+fn dot(env: Env, steps: Steps, words: &[u32]) -> Outcome {
+    let (a, b) = words.split_at(words.len() / 2);
+    let terms: Vec<(u32, u32)> = a.iter().zip(b).map(|(&a, &b)| factors(&env.format, steps, a, b)).collect();
+    ops::dot(env, steps.order, &terms)
+}
+
+/// DPH: a fourth product by 1 in the unit of a card, or else the dot product of three components and a sum.
+fn homogeneous(env: Env, steps: Steps, words: &[u32]) -> Outcome {
+    let mut words = words.to_vec();
+    if env.format.unit.is_card() {
+        words[3] = env.format.one();
+        return dot(env, steps, &words);
+    }
+    let last = words.remove(7);
+    words.remove(3);
+    let three = dot(env, steps, &words);
+    ops::add(env, three.bits, last).also(three.flags)
+}
