@@ -3,23 +3,23 @@
 use refsim_lanes::num::{Format, NumberOperation, Rounding, Unit};
 
 /// What is computed for a column: from the operands of a row, or from cells by name.
-pub type Check<'c> = (&'c str, &'c dyn Fn(&Row<'_>) -> String);
+pub(crate) type Check<'c> = (&'c str, &'c dyn Fn(&Row<'_>) -> String);
 
 /// A row of a table.
-pub struct Row<'t> {
+pub(crate) struct Row<'t> {
     columns: &'t [&'t str],
     cells: Vec<&'t str>,
 }
 
 impl<'t> Row<'t> {
     /// The cell of a column; an empty one repeats that of the column that it differs from.
-    pub fn cell(&self, column: &str) -> &'t str {
+    pub(crate) fn cell(&self, column: &str) -> &'t str {
         let index = self.columns.iter().position(|c| *c == column).unwrap_or_else(|| panic!("no column {column}"));
         if self.cells[index].is_empty() { self.cell(&repeated(column)) } else { self.cells[index] }
     }
 
     /// The word of a column.
-    pub fn word(&self, column: &str) -> u32 {
+    pub(crate) fn word(&self, column: &str) -> u32 {
         u32::from_str_radix(self.cell(column), 16).expect("hexadecimal digits")
     }
 }
@@ -42,7 +42,7 @@ fn repeated(column: &str) -> String {
 
 /// Compares every row of a table with what is computed. The checks are all columns but the first `operands`, in order.
 /// Returns the number of rows.
-pub fn check(text: &str, operands: usize, checks: &[Check<'_>]) -> usize {
+pub(crate) fn check(text: &str, operands: usize, checks: &[Check<'_>]) -> usize {
     let mut lines = text.lines();
     let columns: Vec<&str> = lines.next().expect("a header").split(',').collect();
     let names: Vec<&str> = checks.iter().map(|(name, _)| *name).collect();
@@ -60,22 +60,22 @@ pub fn check(text: &str, operands: usize, checks: &[Check<'_>]) -> usize {
 }
 
 /// A word in eight digits.
-pub fn digits(word: u32) -> String {
+pub(crate) fn digits(word: u32) -> String {
     format!("{word:08x}")
 }
 
 /// The format of a card's unit.
-pub fn format(unit: Unit) -> Format {
+pub(crate) fn format(unit: Unit) -> Format {
     Format::FP32.with_unit(unit)
 }
 
 /// The result of an operation.
-pub fn evaluate(format: Format, operation: NumberOperation, operands: [u32; 3]) -> u32 {
+pub(crate) fn evaluate(format: Format, operation: NumberOperation, operands: [u32; 3]) -> u32 {
     operation.evaluate(format, operands).expect("the unit has the operation").bits
 }
 
 /// Evaluates an operation on columns of a row.
-pub fn columns<'c>(
+pub(crate) fn columns<'c>(
     format: Format,
     operation: NumberOperation,
     operands: &'c [&'c str],
@@ -90,11 +90,11 @@ pub fn columns<'c>(
 }
 
 /// A function of words of one column.
-pub fn unary<'c>(column: &'c str, function: impl Fn(u32) -> u32 + 'c) -> impl Fn(&Row<'_>) -> String + 'c {
+pub(crate) fn unary<'c>(column: &'c str, function: impl Fn(u32) -> u32 + 'c) -> impl Fn(&Row<'_>) -> String + 'c {
     move |row| digits(function(row.word(column)))
 }
 
 /// The format of GT200 that rounds toward zero.
-pub fn toward_zero(unit: Unit) -> Format {
+pub(crate) fn toward_zero(unit: Unit) -> Format {
     format(unit).with_rounding(Rounding::TowardZero)
 }

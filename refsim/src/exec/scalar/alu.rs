@@ -3,7 +3,7 @@
 
 use crate::device::{LrpMode, MadMode, ResultRange, Rules};
 use crate::isa::Version;
-use crate::num::{self, Flags, Format, Specials, ops};
+use crate::num::{self, Flags, Format, NumberOperation, Specials, ops};
 
 /// Operations in `format` under `rules`; accumulates exception flags.
 pub(crate) struct Alu<'r> {
@@ -50,6 +50,31 @@ impl<'r> Alu<'r> {
     /// Returns and clears the accumulated flags.
     pub(crate) fn take_flags(&mut self) -> Flags {
         std::mem::replace(&mut self.flags, Flags::empty())
+    }
+
+    /// Returns `true` if the unit of a card computes, whose own rules then hold instead of the device's.
+    pub(crate) fn by_card(&self) -> bool {
+        self.format.unit.is_card()
+    }
+
+    /// The result of an operation that units of cards alone have; `None` if this format's has it not.
+    pub(crate) fn card(&mut self, operation: NumberOperation, operands: [u32; 3]) -> Option<u32> {
+        let outcome = operation.evaluate(self.format, operands)?;
+        Some(self.keep(outcome))
+    }
+
+    /// 1 where a comparison holds, else 0. A card's unit has an operation for it, which may give NaN.
+    pub(crate) fn set(&mut self, operation: NumberOperation, a: u32, b: u32) -> u32 {
+        if let Some(result) = self.card(operation, [a, b, 0]) {
+            return result;
+        }
+        let holds = match operation {
+            NumberOperation::SetLess => self.less(a, b),
+            NumberOperation::SetLessEqual => self.less_or_equal(a, b),
+            NumberOperation::SetEqual => self.equal(a, b),
+            _ => !self.equal(a, b),
+        };
+        if holds { self.one() } else { 0 }
     }
 
     fn keep(&mut self, outcome: num::Outcome) -> u32 {
@@ -111,11 +136,11 @@ impl<'r> Alu<'r> {
     }
 
     /// Operands of a product. With the legacy rule that zero times anything is zero, a zero together with an infinity
-    /// or NaN replaces both by +0, so that the product is +0.
+    /// or NaN replaces both by +0, so that the product is +0. A card's unit has a rule of its own.
     fn factors(&self, a: u32, b: u32) -> (u32, u32) {
         let f = &self.format;
         let zero = f.is_zero(a) || f.is_zero(b);
-        if self.legacy_zero && zero && !(f.is_finite(a) && f.is_finite(b)) { (0, 0) } else { (a, b) }
+        if self.legacy_zero && !self.by_card() && zero && !(f.is_finite(a) && f.is_finite(b)) { (0, 0) } else { (a, b) }
     }
 
     pub(crate) fn mul(&mut self, a: u32, b: u32) -> u32 {
@@ -123,8 +148,12 @@ impl<'r> Alu<'r> {
         self.keep(ops::mul(self.format, a, b))
     }
 
-    /// `a * b + c`: product and sum rounded separately, or the exact result rounded once, according to the rules.
+    /// `a * b + c`: product and sum rounded separately, or the exact result rounded once, according to the rules; by a
+    /// card's unit as the unit does it.
     pub(crate) fn mad(&mut self, a: u32, b: u32, c: u32) -> u32 {
+        if self.by_card() {
+            return self.keep(ops::mad(self.format, a, b, c));
+        }
         match self.rules.mad {
             MadMode::TwoRoundings => {
                 let product = self.mul(a, b);
@@ -137,7 +166,8 @@ impl<'r> Alu<'r> {
         }
     }
 
-    /// Dot product of equally long vectors (at most 4 terms), summed in the order and the format given by the rules.
+    /// Dot product of equally long vectors (at most 4 terms), summed in the order and the format given by the rules, or
+    /// by a card's unit.
     pub(crate) fn dot(&mut self, a: &[u32], b: &[u32]) -> u32 {
         let n = a.len().min(b.len()).min(4);
         let mut terms = [(0, 0); 4];

@@ -4,7 +4,7 @@
 use super::alu::Alu;
 use super::registers::Components;
 use crate::isa::Version;
-use crate::num;
+use crate::num::{self, NumberOperation as Op};
 
 /// `bem`: `u' = (u + M00*r) + M10*g`, `v' = (v + M01*r) + M11*g`, each `+ M*x` a `mad` under the rules; z and w give 0.
 ///
@@ -27,7 +27,13 @@ pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
 
 /// `expp` of vs_1_1: `(exp2(floor w), w - floor w, exp2(w), 1)`, each rounded once. The card's third component has ten
 /// good bits; here it has all. Source: Direct3D, "expp - vs".
+///
+/// Vertex units of cards have an instruction for it, whose third component has about 11 good bits.
 pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
+    let card = [Op::ExpFloor, Op::ExpFraction, Op::ExpPower].map(|operation| alu.card(operation, [w, 0, 0]));
+    if let [Some(floor), Some(fraction), Some(power)] = card {
+        return [floor, fraction, power, alu.one()];
+    }
     let floor = alu.floor(w);
     [alu.exp2(floor), alu.frc(w), alu.exp2(w), alu.one()]
 }
@@ -35,7 +41,14 @@ pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
 /// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once, of a
 /// magnitude. For 0 the first and third component are `log2(0)` and the second is 1. Source: DirectX 8.1, "logp"
 /// (vs_1_0 and vs_1_1). The Direct3D 9 page has one value in all components for every version.
+///
+/// Vertex units of cards have an instruction for it, as for [`expp`].
 pub(super) fn logp(alu: &mut Alu<'_>, magnitude: u32) -> Components {
+    let operations = [Op::LogExponent, Op::LogMantissa, Op::LogPower];
+    let card = operations.map(|operation| alu.card(operation, [magnitude, 0, 0]));
+    if let [Some(exponent), Some(mantissa), Some(power)] = card {
+        return [exponent, mantissa, power, alu.one()];
+    }
     let log = alu.log2(magnitude);
     if alu.format.is_zero(magnitude) {
         return [log, alu.one(), log, alu.one()];
@@ -68,8 +81,12 @@ pub(super) fn nrm(alu: &mut Alu<'_>, a: &Components) -> Components {
     [alu.mul(a[0], factor), alu.mul(a[1], factor), alu.mul(a[2], factor), alu.mul(a[3], factor)]
 }
 
-/// `sgn`: -1 below zero, 0 for zeros, else 1, for NaN too. Source: Direct3D, "sgn - vs".
+/// `sgn`: -1 below zero, 0 for zeros, else 1, for NaN too. Source: Direct3D, "sgn - vs". Vertex units of cards have an
+/// instruction for it.
 pub(super) fn sgn(alu: &mut Alu<'_>, a: u32) -> u32 {
+    if let Some(sign) = alu.card(Op::Sign, [a, 0, 0]) {
+        return sign;
+    }
     if alu.less(a, 0) {
         alu.neg(alu.one())
     } else if alu.equal(a, 0) {
@@ -106,8 +123,14 @@ pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Components, r: &Components) 
 /// Direct3D clamps w to +-127.9961 (32767/256) and gives 0 for the power of 0. GL_ARB_fragment_program clamps w, and
 /// `0^0` is 1. GL_NV_fragment_program does neither. A clamp leaves a NaN, and those of OpenGL leave a -0. Sources:
 /// Direct3D, "lit - vs"; section 3.11.5.13 of both extensions.
+///
+/// Vertex units of cards have an instruction for it.
 pub(super) fn lit(alu: &mut Alu<'_>, version: Version, a: &Components) -> Components {
     let [mut x, mut y, _, mut w] = *a;
+    let card = [alu.card(Op::LitDiffuse, [x, 0, 0]), alu.card(Op::LitSpecular, [x, y, w])];
+    if let [Some(diffuse), Some(specular)] = card {
+        return [alu.one(), diffuse, specular, alu.one()];
+    }
     if version != Version::Fp1_0 {
         let limit = num::from_ratio(alu.format, false, 32767, 256).bits;
         let lowest = alu.neg(limit);

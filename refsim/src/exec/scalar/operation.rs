@@ -7,6 +7,7 @@ use super::macros;
 use super::registers::Components;
 use crate::device::Rules;
 use crate::isa::{Mask, Opcode, Version};
+use crate::num::NumberOperation as Set;
 
 /// Inputs of an operation besides its operands.
 #[derive(Clone, Copy, Debug)]
@@ -58,8 +59,8 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         }
         Min => each(mask, |i| alu.min(a[i], b[i])),
         Max => each(mask, |i| alu.max(a[i], b[i])),
-        Sge => each(mask, |i| if alu.less_or_equal(b[i], a[i]) { alu.one() } else { 0 }),
-        Slt => each(mask, |i| if alu.less(a[i], b[i]) { alu.one() } else { 0 }),
+        Sge => each(mask, |i| alu.set(Set::SetLessEqual, b[i], a[i])),
+        Slt => each(mask, |i| alu.set(Set::SetLess, a[i], b[i])),
         Frc => each(mask, |i| {
             let fraction = alu.frc(a[i]);
             match Rules::frc_instead_of_one(version, &alu.format) {
@@ -86,15 +87,17 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Cos => [alu.cos(a[0]); 4],
         Sin => [alu.sin(a[0]); 4],
         Scs => [alu.cos(a[0]), alu.sin(a[0]), 0, 0],
+        // A card's unit adds the fourth term in the same sum.
+        Dph if alu.by_card() => [alu.dot(&[a[0], a[1], a[2], alu.one()], &b); 4],
         Dph => {
             let dot = alu.dot(&a[..3], &b[..3]);
             [alu.add(dot, b[3]); 4]
         }
         Swz => a,
-        Seq => each(mask, |i| if alu.equal(a[i], b[i]) { alu.one() } else { 0 }),
-        Sne => each(mask, |i| if alu.equal(a[i], b[i]) { 0 } else { alu.one() }),
-        Sgt => each(mask, |i| if alu.less(b[i], a[i]) { alu.one() } else { 0 }),
-        Sle => each(mask, |i| if alu.less_or_equal(a[i], b[i]) { alu.one() } else { 0 }),
+        Seq => each(mask, |i| alu.set(Set::SetEqual, a[i], b[i])),
+        Sne => each(mask, |i| alu.set(Set::SetNotEqual, a[i], b[i])),
+        Sgt => each(mask, |i| alu.set(Set::SetLess, b[i], a[i])),
+        Sle => each(mask, |i| alu.set(Set::SetLessEqual, a[i], b[i])),
         Str => [alu.one(); 4],
         Rfl => macros::rfl(alu, &a, &b),
         X2d => macros::x2d(alu, &a, &b, &c),

@@ -88,7 +88,7 @@ pub fn presin(x: u32) -> u32 {
         _ => {}
     }
     // 2 / pi in units of 2^-24.
-    let turns = word.significand() * 0xa2_f983 >> 16;
+    let turns = (word.significand() * 0xa2_f983) >> 16;
     let turns = match word.field - 135 {
         32.. => 0,
         left @ 0.. => turns << left,

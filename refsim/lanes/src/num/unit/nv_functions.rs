@@ -16,8 +16,8 @@ fn reciprocal(x: Word) -> (i32, u32) {
     }
     let f = x.significand().cast_signed();
     let [mut a] = NV_RCP[x.bits(17, 6)];
-    a = ((1 << 31) - a * f) * a >> 24;
-    a = ((1 << 37) - a * f) * a >> 25;
+    a = (((1 << 31) - a * f) * a) >> 24;
+    a = (((1 << 37) - a * f) * a) >> 25;
     (253 - x.field, below_leading(a))
 }
 
@@ -76,10 +76,10 @@ pub fn rsq(unit: Unit, x: u32) -> u32 {
         return assemble(false, field + 1, 0);
     }
     let [mut a] = NV_RSQ[index];
-    a = ((3 << 37) - a * a * g) * a >> 32;
+    a = (((3 << 37) - a * a * g) * a) >> 32;
     // Three factors of up to 24, 24 and 25 bits.
     let (wide, g) = (i128::from(a), i128::from(g));
-    let root = ((3 << 49) - wide * wide * g) * wide >> 39;
+    let root = (((3 << 49) - wide * wide * g) * wide) >> 39;
     assemble(false, field, below_leading(root as i64))
 }
 
@@ -185,7 +185,7 @@ pub fn log_power(unit: Unit, x: u32) -> u32 {
 /// `log2 |x|` in units of `2^-26`, by a table of 32 rows.
 fn logarithm26(x: Word) -> i64 {
     let [base, slope] = NV_LOG[x.bits(18, 5)];
-    256 * base + slope * x.bits(10, 8) as i64 + (i64::from(x.field - 127) << 26)
+    256 * base + slope * i64::from(x.bits(10, 8) as u32) + (i64::from(x.field - 127) << 26)
 }
 
 /// y of LIT: `x`, or +0 if its sign is set.
@@ -205,7 +205,7 @@ pub fn lit_specular(x: u32, y: u32, w: u32) -> u32 {
         () => {}
     }
     let exponent = fixed13(w).clamp(-1 << 20, (1 << 20) - 1);
-    match logarithm26(y) * exponent >> 26 {
+    match (logarithm26(y) * exponent) >> 26 {
         below if below < i32::MIN.into() => 0,
         above if above > i32::MAX.into() => INFINITY,
         power => power13(power),
@@ -258,7 +258,7 @@ fn concave(table: &[[i64; 3]], x: u32) -> i64 {
 /// The interpolator of EX2: units of `2^-38`.
 fn convex(table: &[[i64; 3]], x: u32) -> i64 {
     let ([base, _, curve], linear, square) = interpolate(table, x);
-    (base << 15) + (linear << 6) + (curve * square >> 5)
+    (base << 15) + (linear << 6) + ((curve * square) >> 5)
 }
 
 /// LG2 (NV3x): `log2 x`.
