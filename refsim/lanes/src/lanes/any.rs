@@ -9,7 +9,8 @@ use super::reading::Reading;
 use super::round::{AWAY, DOWN, EVEN, ZERO};
 use super::row::{LANES, LaneRow};
 use super::simd::SimdLevel;
-use crate::num::{Format, FormatKind, Overflow, Rounding};
+use super::unit::{CardLane, Gt200, Nv};
+use crate::num::{Format, FormatKind, Overflow, Rounding, Unit};
 
 /// Defines `Arithmetic`, and `with_any_lane`, which runs a block with that of an [`AnyLane`], once compiled for each.
 /// `$d` is a dollar sign, for the parameters of the inner macro.
@@ -56,6 +57,8 @@ arithmetics! {
     DoubleZero(FloatLane<DOUBLE, ZERO>),
     DoubleDown(FloatLane<DOUBLE, DOWN>),
     General(FloatLane<GENERAL, ANY>),
+    Nv(CardLane<Nv>),
+    Gt200(CardLane<Gt200>),
 }
 #[expect(clippy::single_component_path_imports, reason = "the path of a macro that a macro defines")]
 pub(crate) use with_any_lane;
@@ -64,6 +67,11 @@ impl Arithmetic {
     fn new(format: Format) -> Self {
         use Rounding::{Down, NearestAway, NearestEven, TowardZero};
         let f = &format;
+        match format.unit {
+            Unit::Ideal => {}
+            Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x => return Self::Nv(CardLane::new(f)),
+            Unit::Gt200 | Unit::Gt200ZeroWins => return Self::Gt200(CardLane::new(f)),
+        }
         match format.kind {
             FormatKind::Fixed { int_bits: i, frac_bits: b } => {
                 match (format.width() > 16, format.overflow == Overflow::Wrap) {

@@ -1,7 +1,8 @@
 //! One operation on many operands, through the same lanes that programs run in.
 
-use super::any::{AnyLane, with_any_lane};
+use super::any::{AnyLane, Arithmetic, with_any_lane};
 use super::lane::Lane;
+use super::unit::{CardLane, Unit};
 use crate::num::{Format, NumberOperation};
 
 /// The operation on operands given as bit patterns of `format`; missing operands count as zero. Comparisons give the
@@ -11,9 +12,22 @@ use crate::num::{Format, NumberOperation};
 /// This is the batch executor's arithmetic, written apart from [`crate::num::ops`] and equal to it; the full proof
 /// compares the two through this function.
 pub fn evaluate(format: Format, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
+    match AnyLane::new(format).arithmetic() {
+        Arithmetic::Nv(lane) => return words(lane, operation, [a, b, c]),
+        Arithmetic::Gt200(lane) => return words(lane, operation, [a, b, c]),
+        _ => {}
+    }
     with_any_lane!(&AnyLane::new(format), |lane| {
         a.iter().enumerate().map(|(i, &a)| evaluated(lane, operation, [a, bits_at(b, i), bits_at(c, i)])).collect()
     })
+}
+
+/// The operation of a card's unit, on words.
+fn words<U: Unit>(lane: &CardLane<U>, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
+    use NumberOperation::{Equal, Less, LessEqual};
+    let compares = matches!(operation, Less | LessEqual | Equal);
+    let word = |i: usize, a: u32| lane.word(operation, [a, bits_at(b, i), bits_at(c, i)]);
+    a.iter().enumerate().map(|(i, &a)| word(i, a).map(|word| if compares { word & 1 } else { word })).collect()
 }
 
 /// `a b + b c + c a`, and for four terms `+ b b`, rounded once.
@@ -36,6 +50,9 @@ fn bits_at(row: &[u32], i: usize) -> u32 {
 
 /// The operation on bit patterns.
 fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) -> Option<u32> {
+    if L::CARD {
+        return None;
+    }
     use NumberOperation as Op;
     let [a, b, c] = operands.map(|bits| lane.decode(bits));
     let value = match operation {

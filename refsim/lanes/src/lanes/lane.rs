@@ -79,6 +79,9 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// How a slot's number is read.
     fn reading(&self) -> Reading;
 
+    /// True for the unit of a card, whose rows have loops of their own.
+    const CARD: bool = false;
+
     /// False for an arithmetic that vector instructions make no faster.
     const VECTORS: bool = true;
 

@@ -3,6 +3,7 @@
 //! - `row`: rows of lanes; `lane`: what an arithmetic has to offer; `layout`: fields of floats; `fixed`, `normalized`,
 //!   `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's; `toward`:
 //!   in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
+//! - `unit`: units of cards, on words.
 //! - `any`: which format gets which; `reading`: what slots hold as numbers of the host.
 //! - `simd`: vector instructions; `evaluate`: one operation on many operands, for the proof.
 
@@ -21,6 +22,7 @@ mod round;
 mod row;
 mod simd;
 mod toward;
+mod unit;
 
 pub use any::AnyLane;
 pub(crate) use any::{Arithmetic, narrow, with_any_lane};
@@ -31,3 +33,4 @@ pub use odd::div_odd_long;
 pub use reading::Reading;
 pub use row::{LANES, LaneRow, TRUE};
 pub use simd::SimdLevel;
+pub(crate) use unit::{CardLane, Unit};

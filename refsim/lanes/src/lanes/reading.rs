@@ -9,6 +9,8 @@ use super::simd::SimdLevel;
 pub enum Reading {
     /// Bits of a single of the host.
     Float,
+    /// Bits of a single of the host, whose subnormal numbers count as zeros: the word of a card's unit.
+    Word,
     /// An integer of `1 / units`.
     Integer {
         /// The integer of 1, or the largest one below.
@@ -24,6 +26,7 @@ impl Reading {
     pub fn to_f64(self, raw: u32) -> f64 {
         match self {
             Self::Float => f64::from(f32::from_bits(raw)),
+            Self::Word => f64::from(f32::from_bits(normal(raw))),
             Self::Integer { units, .. } => f64::from(raw.cast_signed()) / units,
         }
     }
@@ -41,7 +44,8 @@ impl Reading {
     #[inline(always)]
     pub fn to_steps(self, raw: u32, scale: f64, half: f64) -> u32 {
         match self {
-            Self::Float => {
+            // What is subnormal does not reach a step.
+            Self::Float | Self::Word => {
                 let x = f64::from(f32::from_bits(raw));
                 let low = if x > 0.0 { x } else { 0.0 };
                 let clamped = if low < 1.0 { low } else { 1.0 };
@@ -95,10 +99,21 @@ fn each<R>(reading: Reading, row: &LaneRow, out: &mut [R; LANES], f: impl Fn(Rea
                 out[i] = f(Reading::Float, row[i]);
             }
         }
+        Reading::Word => {
+            for i in 0..LANES {
+                out[i] = f(Reading::Word, row[i]);
+            }
+        }
         Reading::Integer { one, units } => {
             for i in 0..LANES {
                 out[i] = f(Reading::Integer { one, units }, row[i]);
             }
         }
     }
+}
+
+/// The word, with a zero for a subnormal number.
+#[inline(always)]
+fn normal(raw: u32) -> u32 {
+    if raw & 0x7f80_0000 == 0 { raw & 1 << 31 } else { raw }
 }

@@ -2,9 +2,11 @@
 //!
 //! - `code`: operations; `slots`: storage of values; `ops`, `loops`, `masks`, `pack`: their execution; `guard`:
 //!   recomputation of results that fast arithmetics get wrong.
+//! - `cards`: loops of units of cards.
 //! - `array`: one operation on arrays of any length.
 
 mod array;
+mod cards;
 mod code;
 mod guard;
 mod loops;

@@ -4,18 +4,25 @@ use super::code::{LaneCode, LaneOp};
 use super::loops::{Largest, difference, dot, dot_by, largest_of, one, three, two};
 use super::masks::{combine_patterns, compare_numbers};
 use super::slots::Slots;
-use super::{guard, pack};
-use crate::lanes::{AnyLane, LANES, Lane, LaneRow, SimdLevel, is_finite, narrow, with_any_lane};
+use super::{cards, guard, pack};
+use crate::lanes::{AnyLane, Arithmetic, LANES, Lane, LaneRow, SimdLevel, is_finite, narrow, with_any_lane};
 use crate::num::NumberOperation as Op;
 
 /// Executes operations in the arithmetic of a format, in vector code of this level.
 pub fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
-    with_any_lane!(lane, |lane| { run_at(lane, simd, ops, slots) });
+    match lane.arithmetic() {
+        Arithmetic::Nv(lane) => cards::run(lane, simd, ops, slots),
+        Arithmetic::Gt200(lane) => cards::run(lane, simd, ops, slots),
+        _ => with_any_lane!(lane, |lane| { run_at(lane, simd, ops, slots) }),
+    }
 }
 
 /// A function per arithmetic and level: one of all would be compiled slowly.
 #[inline(never)]
 fn run_at<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
+    if L::CARD {
+        return;
+    }
     if L::VECTORS {
         simd.run(
             #[inline(always)]
@@ -174,7 +181,7 @@ fn step<L: Lane>(l: &L, (simd, fused): (SimdLevel, bool), op: &LaneOp, slots: &m
 /// An operation whose results are no numbers of the format, or are never guarded. Only rounding, decoding and encoding
 /// are compiled for each format.
 #[inline(always)]
-fn apart<L: Lane>(
+pub(super) fn apart<L: Lane>(
     l: &L,
     simd: SimdLevel,
     code: LaneCode,

@@ -25,7 +25,7 @@ pub(crate) struct GraphBuilder<'a> {
 impl<'a> GraphBuilder<'a> {
     pub(crate) fn new(formats: Formats, rules: &'a Rules, pixel: bool) -> Self {
         let legacy_zero = if pixel { rules.zero_times_anything } else { rules.vertex_zero_times_anything };
-        Self { graph: Graph::default(), formats, rules, legacy_zero, is_pixel: pixel }
+        Self { graph: Graph::new(formats.all(), !pixel), formats, rules, legacy_zero, is_pixel: pixel }
     }
 
     /// A constant given as a bit pattern of a format.
@@ -114,6 +114,8 @@ impl<'a> GraphBuilder<'a> {
             && from == Arith::Single
             && (origin == to || (origin, to) == (Arith::Main, Arith::Wrapped))
             && returns(self.formats.format(origin))
+            // Of a card's words single precision keeps neither subnormals nor every NaN.
+            && !self.graph.is_card(origin)
         {
             return number;
         }
@@ -122,7 +124,7 @@ impl<'a> GraphBuilder<'a> {
 
     /// Operands of a product.
     fn factors(&mut self, k: Arith, a: NodeId, b: NodeId) -> (NodeId, NodeId) {
-        if !self.legacy_zero || k == Arith::Single {
+        if !self.legacy_zero || k == Arith::Single || self.graph.is_card(k) {
             return (a, b);
         }
         (self.binary(k, Op::Factor, a, b), self.binary(k, Op::Factor, b, a))
@@ -155,7 +157,11 @@ impl<'a> GraphBuilder<'a> {
         self.compute(k, Op::Mad, a, b, c)
     }
 
+    /// Multiply-add under the rules, or as the unit of a card does it.
     pub(crate) fn mad(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
+        if self.graph.is_card(k) {
+            return self.compute(k, Op::Mad, a, b, c);
+        }
         match self.rules.mad {
             MadMode::TwoRoundings => self.mul_add(k, a, b, c),
             MadMode::Fused => {
@@ -178,7 +184,8 @@ impl<'a> GraphBuilder<'a> {
         if let Some(accumulator) = self.accumulator(k) {
             return self.accumulated(k, accumulator, terms, (a, b));
         }
-        match self.rules.dot {
+        let order = if self.graph.is_card(k) { DotOrder::Exact } else { self.rules.dot };
+        match order {
             DotOrder::Sequential => {
                 let mut sum = self.mul(k, a[0], b[0]);
                 for i in 1..terms {

@@ -2,7 +2,7 @@
 //!
 //! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32
 //! pattern of the same number, which exists for every format of registers ([`Format::for_registers`]); NaN is always
-//! `0x7fc0_0000`.
+//! `0x7fc0_0000`. Formats that the unit of a card computes have its words, whatever they are.
 
 use refsim_lanes::AnyLane;
 
@@ -74,7 +74,11 @@ impl Formats {
 
     /// Evaluates the comparison `operation` (`a < b`, `a <= b` or `a == b`) on raw values.
     pub(crate) fn compares(&self, arith: Arith, operation: Op, a: u32, b: u32) -> bool {
-        let order = if self.format(arith).is_fixed() {
+        let format = self.format(arith);
+        if format.unit.is_card() {
+            return operation.evaluate(format, [a, b, 0]).is_some_and(|outcome| outcome.bits != 0);
+        }
+        let order = if format.is_fixed() {
             Some(a.cast_signed().cmp(&b.cast_signed()))
         } else {
             f32::from_bits(a).partial_cmp(&f32::from_bits(b))

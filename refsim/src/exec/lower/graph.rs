@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use refsim_lanes::Slot;
 
-use crate::num::NumberOperation as Op;
+use crate::num::{Encoding, Format, NumberOperation as Op};
 
 /// A value of the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -87,7 +87,7 @@ pub(crate) enum NodeKind {
     Compute(Arith, Op, [NodeId; 3]),
     /// A difference across the quad: right minus left, or (if `true`) lower minus upper.
     Difference(Arith, bool, NodeId),
-    /// A dot product with the given number of terms, rounded once.
+    /// A dot product with the given number of terms, rounded once, or as the unit of a card makes it.
     Dot(Arith, u8, [NodeId; 4], [NodeId; 4]),
     /// A conversion between formats, rounded once.
     Convert(Arith, Arith, NodeId),
@@ -135,11 +135,40 @@ impl NodeKind {
 /// The nodes; each follows its operands.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
+    /// By [`Arith::index`], `true` if the unit of a card computes.
+    cards: Vec<bool>,
+    /// By [`Arith::index`], `true` for single floats.
+    singles: Vec<bool>,
+    /// `true` if inputs are words as they are, rather than results of arithmetic.
+    reads_words: bool,
     kinds: Vec<NodeKind>,
     known: BTreeMap<NodeKind, NodeId>,
 }
 
 impl Graph {
+    /// An empty graph of computations in these formats.
+    pub(crate) fn new(formats: &[Format], reads_words: bool) -> Self {
+        let is_single = |format: &Format| format.kind == Format::FP32.kind && format.encoding == Encoding::Ieee;
+        let cards = formats.iter().map(|format| format.unit.is_card()).collect();
+        Self { cards, singles: formats.iter().map(is_single).collect(), reads_words, ..Self::default() }
+    }
+
+    /// Returns `true` if the unit of a card computes.
+    pub(crate) fn is_card(&self, arith: Arith) -> bool {
+        self.cards.get(arith.index()).is_some_and(|&card| card)
+    }
+
+    /// The operation that converts single floats into the words of a card's unit, and its format; `None` for other
+    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. What a vertex
+    /// program reads are words.
+    pub(crate) fn copies(&self, from: Arith, to: Arith, number: NodeId) -> Option<(Arith, Op)> {
+        if !self.is_card(to) || !self.singles.get(from.index()).is_some_and(|&single| single) {
+            return None;
+        }
+        let word = self.is_card(from) || self.reads_words && matches!(self.kind(number), NodeKind::Input(_));
+        Some(if word { (Arith::Single, Op::Or) } else { (from, Op::Encode) })
+    }
+
     /// Returns the node with this definition, creating it if it is new.
     pub(crate) fn node(&mut self, kind: NodeKind) -> NodeId {
         *self.known.entry(kind).or_insert_with(|| {

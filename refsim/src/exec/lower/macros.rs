@@ -4,7 +4,7 @@ use super::arith::{GraphBuilder, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
 use crate::device::Rules;
 use crate::isa::{Opcode, Version};
-use crate::num::{self, NumberOperation as Op};
+use crate::num::{self, NumberOperation as Op, Unit};
 
 impl GraphBuilder<'_> {
     /// The result of an arithmetic operation of a language; missing operands are zeros.
@@ -50,8 +50,8 @@ impl GraphBuilder<'_> {
             Min => std::array::from_fn(|i| self.binary(k, Op::Min, a[i], b[i])),
             Max => std::array::from_fn(|i| self.binary(k, Op::Max, a[i], b[i])),
             Dsx | Dsy => a.map(|x| self.graph.node(NodeKind::Difference(k, opcode == Dsy, x))),
-            Sge => std::array::from_fn(|i| self.flag(k, Op::LessEqual, b[i], a[i])),
-            Slt => std::array::from_fn(|i| self.flag(k, Op::Less, a[i], b[i])),
+            Sge => std::array::from_fn(|i| self.set(k, Op::SetLessEqual, b[i], a[i])),
+            Slt => std::array::from_fn(|i| self.set(k, Op::SetLess, a[i], b[i])),
             Frc => a.map(|x| {
                 let fraction = self.unary(k, Op::Frc, x);
                 let Some(below) = Rules::frc_instead_of_one(version, &self.formats.format(k)) else { return fraction };
@@ -64,6 +64,10 @@ impl GraphBuilder<'_> {
             Exp => [self.unary(k, Op::Exp2, a[0]); 4],
             Log => [self.unary(k, Op::Log2, a[0]); 4],
             Pow => [self.pow(k, a[0], b[0]); 4],
+            Expp if version == Version::Vs1_1 && self.is_vertex_unit(k) => {
+                let [x, y, z] = [Op::ExpFloor, Op::ExpFraction, Op::ExpPower].map(|code| self.unary(k, code, a[3]));
+                [x, y, z, self.one(k)]
+            }
             Expp if version == Version::Vs1_1 => {
                 let floor = self.unary(k, Op::Floor, a[3]);
                 let [x, y, z] =
@@ -83,19 +87,19 @@ impl GraphBuilder<'_> {
             Cos => [self.circle(k, false, a[0]); 4],
             Sin => [self.circle(k, true, a[0]); 4],
             Scs => [self.circle(k, false, a[0]), self.circle(k, true, a[0]), self.zero(), self.zero()],
+            Dph if self.graph.is_card(k) => {
+                let one = self.one(k);
+                [self.dot(k, 4, &[a[0], a[1], a[2], one], &b); 4]
+            }
             Dph => {
                 let dot = self.dot(k, 3, &a, &b);
                 [self.add(k, dot, b[3]); 4]
             }
             Swz => a,
-            Seq => std::array::from_fn(|i| self.flag(k, Op::Equal, a[i], b[i])),
-            Sne => std::array::from_fn(|i| {
-                let same = self.holds(k, Op::Equal, a[i], b[i]);
-                let (one, zero) = (self.one(k), self.zero());
-                self.select(same, zero, one)
-            }),
-            Sgt => std::array::from_fn(|i| self.flag(k, Op::Less, b[i], a[i])),
-            Sle => std::array::from_fn(|i| self.flag(k, Op::LessEqual, a[i], b[i])),
+            Seq => std::array::from_fn(|i| self.set(k, Op::SetEqual, a[i], b[i])),
+            Sne => std::array::from_fn(|i| self.set(k, Op::SetNotEqual, a[i], b[i])),
+            Sgt => std::array::from_fn(|i| self.set(k, Op::SetLess, b[i], a[i])),
+            Sle => std::array::from_fn(|i| self.set(k, Op::SetLessEqual, a[i], b[i])),
             Str => [self.one(k); 4],
             Rfl => self.rfl(k, &a, &b),
             X2d => self.x2d(k, &a, &b, &c),
@@ -108,11 +112,25 @@ impl GraphBuilder<'_> {
         }
     }
 
-    /// One if a comparison holds, else zero.
-    fn flag(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
-        let holds = self.holds(k, code, a, b);
+    /// One if a comparison holds, else zero. A card's unit has an operation for it, which may give NaN.
+    fn set(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
+        if self.graph.is_card(k) {
+            return self.binary(k, code, a, b);
+        }
         let (one, zero) = (self.one(k), self.zero());
-        self.select(holds, one, zero)
+        let (holds, yes, no) = match code {
+            Op::SetLess => (Op::Less, one, zero),
+            Op::SetLessEqual => (Op::LessEqual, one, zero),
+            Op::SetEqual => (Op::Equal, one, zero),
+            _ => (Op::Equal, zero, one),
+        };
+        let holds = self.holds(k, holds, a, b);
+        self.select(holds, yes, no)
+    }
+
+    /// Returns `true` if a vertex unit computes, which has instructions of several of these steps.
+    fn is_vertex_unit(&self, k: Arith) -> bool {
+        matches!(self.formats.format(k).unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x)
     }
 
     fn bem(&mut self, k: Arith, base: &NodeVector, offset: &NodeVector, m: &NodeVector) -> NodeVector {
@@ -131,6 +149,11 @@ impl GraphBuilder<'_> {
     }
 
     fn logp(&mut self, k: Arith, magnitude: NodeId) -> NodeVector {
+        if self.is_vertex_unit(k) {
+            let parts = [Op::LogExponent, Op::LogMantissa, Op::LogPower];
+            let [x, y, z] = parts.map(|code| self.unary(k, code, magnitude));
+            return [x, y, z, self.one(k)];
+        }
         let log = self.unary(k, Op::Log2, magnitude);
         let exponent = self.unary(k, Op::Floor, log);
         let back = self.neg(k, exponent);
@@ -162,6 +185,9 @@ impl GraphBuilder<'_> {
     }
 
     fn sgn(&mut self, k: Arith, a: NodeId) -> NodeId {
+        if self.is_vertex_unit(k) {
+            return self.unary(k, Op::Sign, a);
+        }
         let (zero, one) = (self.zero(), self.one(k));
         let minus = self.neg(k, one);
         let below = self.holds(k, Op::Less, a, zero);
@@ -215,6 +241,10 @@ impl GraphBuilder<'_> {
     fn lit(&mut self, k: Arith, version: Version, a: &NodeVector) -> NodeVector {
         let [x, y, _, w] = *a;
         let (zero, one) = (self.zero(), self.one(k));
+        if self.is_vertex_unit(k) {
+            let specular = self.compute(k, Op::LitSpecular, x, y, w);
+            return [one, self.unary(k, Op::LitDiffuse, x), specular, one];
+        }
         let exponent = if version == Version::Fp1_0 { w } else { self.held_exponent(k, w) };
         let lit = self.holds(k, Op::Less, zero, x);
         if !version.is_fragment_program() {

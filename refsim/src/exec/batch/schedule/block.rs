@@ -276,11 +276,14 @@ impl Scheduler<'_> {
             return self.operation(node, &fused);
         }
         match self.graph.kind(node) {
-            NodeKind::Convert(from, target, a) => {
-                let a = self.at(a);
+            NodeKind::Convert(from, target, operand) => {
+                let a = self.at(operand);
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
+                if let Some((arith, code)) = self.graph.copies(from, target, operand) {
+                    return self.lane_op(arith, LaneOp::of_one(LaneCode::Plain(code), to, a));
+                }
                 self.lane_op(from, LaneOp::of_one(LaneCode::Widen, to, a));
                 self.lane_op(target, LaneOp::of_one(LaneCode::Narrow, to, a));
             }

@@ -70,7 +70,7 @@ impl<'g> Fusion<'g> {
             }
         }
         let shared = |n: NodeId| shared(n) || matches!(graph.kind(n), NodeKind::Constant(_));
-        for fused in fusion.fused.values_mut() {
+        for fused in fusion.fused.values_mut().filter(|fused| !graph.is_card(fused.arith)) {
             *fused = with_shared(fused, shared);
         }
         fusion
@@ -109,7 +109,9 @@ impl<'g> Fusion<'g> {
             }
             _ => return,
         };
-        let fused = self.longer(&plain, given).unwrap_or(plain);
+        // The unit of a card has its own multiply-add, and its sums are none of products and sums.
+        let whole = self.graph.is_card(plain.arith);
+        let fused = if whole { plain } else { self.longer(&plain, given).unwrap_or(plain) };
         self.fused.insert(node, fused);
     }
 
@@ -156,7 +158,10 @@ impl<'g> Fusion<'g> {
                 return sum(more, one.operands());
             }
             LaneCode::Plain(Op::Or) => {
-                let less = |n: NodeId| self.alone(n, given).filter(|part| part.code == LaneCode::Plain(Op::Less));
+                let less = |n: NodeId| {
+                    let part = self.alone(n, given).filter(|part| part.code == LaneCode::Plain(Op::Less));
+                    part.filter(|part| !self.graph.is_card(part.arith))
+                };
                 let (mask, part) = match less(args[1]) {
                     Some(part) => (args[0], part),
                     None => (args[1], less(args[0])?),

@@ -257,12 +257,16 @@ fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, alive: &mut LaneRow) -> u32 {
     let reference = main.decode(ops::convert(&Format::FP32, formats.format(Arith::Main), test.reference).bits);
     let zero = [0; LANES];
     let alpha = shaded.results.colors[0].map_or(&zero, |c| shaded.slots.row(c[3]));
-    let float = main.reading() == Reading::Float;
+    let reading = main.reading();
     formats.simd().run(
         #[inline(always)]
-        || match float {
-            true => compare(f32::from_bits, alpha, reference, test.function, alive),
-            false => compare(u32::cast_signed, alpha, reference, test.function, alive),
+        || match reading {
+            Reading::Word => {
+                let number = |raw| reading.to_f64(raw);
+                compare(number, alpha, reference, test.function, alive)
+            }
+            Reading::Float => compare(f32::from_bits, alpha, reference, test.function, alive),
+            Reading::Integer { .. } => compare(u32::cast_signed, alpha, reference, test.function, alive),
         },
     )
 }

@@ -1,0 +1,437 @@
+//! A card's unit as the arithmetic of a format.
+
+use std::fmt::Debug;
+
+use super::word::{NAN, ONE, SIGN, flushed, is_nan, mask};
+use super::{Gt200, Nv, gt200_functions, nv_functions};
+use crate::lanes::evaluate::apply;
+use crate::lanes::float::GeneralLane;
+use crate::lanes::lane::Lane;
+use crate::lanes::reading::Reading;
+use crate::num::{Format, FormatKind, NumberOperation as Op, Unit as Name};
+
+/// 0.5.
+const HALF: u32 = 0x3f00_0000;
+
+/// What differs from unit to unit. The quick versions are for loops of vector code: with their result they hand back
+/// all ones if it may be wrong, else zero.
+pub(crate) trait Unit: Copy + Send + Sync + Debug {
+    /// True if comparisons set NaN where words have no order.
+    const SETS_NAN: bool;
+
+    /// The unit of a format.
+    fn new(format: &Format) -> Self;
+
+    /// `a b`
+    fn mul(&self, a: u32, b: u32) -> u32;
+    /// The sum of `N` products, 1 to 4, as the unit makes it.
+    fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32;
+    /// `a + b`
+    fn add(&self, a: u32, b: u32) -> u32;
+    /// `a b + c`
+    fn mad(&self, a: u32, b: u32, c: u32) -> u32;
+    /// An operation of the unit besides those; `None` if it has none.
+    fn other(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
+
+    /// [`Self::add`] in vector code.
+    fn quick_add(&self, a: u32, b: u32) -> (u32, u32);
+    /// [`Self::mul`] in vector code.
+    fn quick_mul(&self, a: u32, b: u32) -> (u32, u32);
+    /// [`Self::mad`] in vector code.
+    fn quick_mad(&self, a: u32, b: u32, c: u32) -> (u32, u32);
+    /// [`Self::dot`] in vector code.
+    fn quick_dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, u32);
+
+    /// Returns `true` if one of two words is a NaN that has no order. Branch-free, as the following are.
+    fn unordered(&self, a: u32, b: u32) -> bool;
+    /// `a < b` of ordered words.
+    fn below(&self, a: u32, b: u32) -> bool;
+    /// `a == b` of ordered words.
+    fn same(&self, a: u32, b: u32) -> bool;
+    /// The lesser word.
+    fn min(&self, a: u32, b: u32) -> u32;
+    /// The greater word.
+    fn max(&self, a: u32, b: u32) -> u32;
+}
+
+impl Unit for Nv {
+    const SETS_NAN: bool = true;
+
+    fn new(format: &Format) -> Self {
+        Self::new(format.unit)
+    }
+
+    fn mul(&self, a: u32, b: u32) -> u32 {
+        Nv::mul(*self, a, b)
+    }
+
+    fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
+        Nv::dot(*self, a, b)
+    }
+
+    fn add(&self, a: u32, b: u32) -> u32 {
+        self.sum([a, b])
+    }
+
+    fn mad(&self, a: u32, b: u32, c: u32) -> u32 {
+        self.sum([Nv::mul(*self, a, b), c])
+    }
+
+    fn other(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
+        Some(match operation {
+            Op::Rcp => nv_functions::rcp(a),
+            Op::Rsq => self.rsq(a),
+            Op::Exp2 if !self.is_2x => Self::exp2(a),
+            Op::Log2 if !self.is_2x => Self::log2(a),
+            Op::Floor => Self::floor(a),
+            Op::Frc => self.sum([a, Self::floor(a) ^ SIGN]),
+            Op::ExpFloor => Self::exp_floor(a),
+            Op::ExpFraction => Self::exp_fraction(a),
+            Op::ExpPower => Self::exp_power(a),
+            Op::LogExponent => self.log_exponent(a),
+            Op::LogMantissa => self.log_mantissa(a),
+            Op::LogPower => self.log_power(a),
+            Op::LitDiffuse => Self::lit_diffuse(a),
+            Op::LitSpecular => Self::lit_specular(a, b, c),
+            Op::Sign if self.unordered(a, 0) => NAN,
+            Op::Sign if self.same(a, 0) => 0,
+            Op::Sign => ONE | if self.below(a, 0) { SIGN } else { 0 },
+            _ => return None,
+        })
+    }
+
+    #[inline(always)]
+    fn quick_add(&self, a: u32, b: u32) -> (u32, u32) {
+        Self::quick_sum([a, b])
+    }
+
+    #[inline(always)]
+    fn quick_mul(&self, a: u32, b: u32) -> (u32, u32) {
+        Nv::quick_mul(a, b)
+    }
+
+    #[inline(always)]
+    fn quick_mad(&self, a: u32, b: u32, c: u32) -> (u32, u32) {
+        let (product, strange) = Nv::quick_mul(a, b);
+        let (sum, mark) = Self::quick_sum([product, c]);
+        (sum, strange | mark)
+    }
+
+    #[inline(always)]
+    fn quick_dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, u32) {
+        Nv::quick_dot(a, b)
+    }
+
+    #[inline(always)]
+    fn unordered(&self, a: u32, b: u32) -> bool {
+        Nv::unordered(*self, a, b)
+    }
+
+    #[inline(always)]
+    fn below(&self, a: u32, b: u32) -> bool {
+        Nv::below(*self, a, b)
+    }
+
+    #[inline(always)]
+    fn same(&self, a: u32, b: u32) -> bool {
+        Nv::same(*self, a, b)
+    }
+
+    #[inline(always)]
+    fn min(&self, a: u32, b: u32) -> u32 {
+        let chosen = if Nv::below(*self, a, b) { a } else { b };
+        if Nv::unordered(*self, a, b) { NAN } else { chosen }
+    }
+
+    #[inline(always)]
+    fn max(&self, a: u32, b: u32) -> u32 {
+        let chosen = if Nv::below(*self, a, b) { b } else { a };
+        if Nv::unordered(*self, a, b) { NAN } else { chosen }
+    }
+}
+
+impl Unit for Gt200 {
+    const SETS_NAN: bool = false;
+
+    fn new(format: &Format) -> Self {
+        Self::new(format)
+    }
+
+    fn mul(&self, a: u32, b: u32) -> u32 {
+        Gt200::mul(*self, a, b)
+    }
+
+    fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
+        Gt200::dot(*self, a, b)
+    }
+
+    fn add(&self, a: u32, b: u32) -> u32 {
+        Gt200::add(*self, a, b)
+    }
+
+    fn mad(&self, a: u32, b: u32, c: u32) -> u32 {
+        Gt200::mad(*self, a, b, c)
+    }
+
+    fn other(&self, operation: Op, [a, b, _]: [u32; 3]) -> Option<u32> {
+        Some(match operation {
+            Op::Rcp => gt200_functions::rcp(a),
+            Op::Rsq => gt200_functions::rsq(a),
+            Op::Exp2 => gt200_functions::exp2(a),
+            Op::Log2 => gt200_functions::log2(a),
+            Op::Floor => Self::floor(a),
+            Op::Frc => Gt200::add(*self, a, Self::floor(a) ^ SIGN),
+            Op::Saturate => Self::saturate(a),
+            Op::Scale => self.scale(a, b.cast_signed()),
+            _ => return None,
+        })
+    }
+
+    #[inline(always)]
+    fn quick_add(&self, a: u32, b: u32) -> (u32, u32) {
+        Gt200::quick_add(*self, a, b)
+    }
+
+    #[inline(always)]
+    fn quick_mul(&self, a: u32, b: u32) -> (u32, u32) {
+        (Gt200::mul(*self, a, b), 0)
+    }
+
+    #[inline(always)]
+    fn quick_mad(&self, a: u32, b: u32, c: u32) -> (u32, u32) {
+        (Gt200::mad(*self, a, b, c), 0)
+    }
+
+    #[inline(always)]
+    fn quick_dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, u32) {
+        (Gt200::dot(*self, a, b), 0)
+    }
+
+    #[inline(always)]
+    fn unordered(&self, a: u32, b: u32) -> bool {
+        is_nan(a) | is_nan(b)
+    }
+
+    #[inline(always)]
+    fn below(&self, a: u32, b: u32) -> bool {
+        Self::less(a, b)
+    }
+
+    #[inline(always)]
+    fn same(&self, a: u32, b: u32) -> bool {
+        Self::equal(a, b)
+    }
+
+    #[inline(always)]
+    fn min(&self, a: u32, b: u32) -> u32 {
+        Self::choose(a, b, 0)
+    }
+
+    #[inline(always)]
+    fn max(&self, a: u32, b: u32) -> u32 {
+        Self::choose(a, b, u32::MAX)
+    }
+}
+
+/// The arithmetic of a unit. What the unit does not have is that of the ideal format, with the unit's NaN.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CardLane<U> {
+    pub(crate) unit: U,
+    ideal: GeneralLane,
+}
+
+impl<U: Unit> CardLane<U> {
+    /// The arithmetic of a format whose unit is `U`.
+    pub(crate) fn new(format: &Format) -> Self {
+        let (exp_bits, man_bits) = match format.kind {
+            FormatKind::Float { exp_bits, man_bits } => (exp_bits, man_bits),
+            _ => (8, 23),
+        };
+        Self { unit: U::new(format), ideal: GeneralLane::new(&format.with_unit(Name::Ideal), exp_bits, man_bits) }
+    }
+
+    fn of_ideal(x: f32) -> u32 {
+        if x.is_nan() { NAN } else { x.to_bits() }
+    }
+
+    /// An operation on words; masks where it compares. `None` for operations that lanes do not have.
+    pub(crate) fn word(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
+        let unit = &self.unit;
+        Some(match operation {
+            Op::Add => unit.add(a, b),
+            Op::Sub => unit.add(a, b ^ SIGN),
+            Op::Mul => unit.mul(a, b),
+            Op::Mad | Op::FusedMad => unit.mad(a, b, c),
+            Op::Min => unit.min(a, b),
+            Op::Max => unit.max(a, b),
+            Op::Neg => a ^ SIGN,
+            Op::Abs => a & !SIGN,
+            Op::Less => mask(self.less(a, b)),
+            Op::LessEqual => mask(self.less_equal(a, b)),
+            Op::Equal => mask(self.equal(a, b)),
+            Op::SetLess => self.flag(a, b, self.less(a, b)),
+            Op::SetLessEqual => self.flag(a, b, self.less_equal(a, b)),
+            Op::SetEqual => self.flag(a, b, self.equal(a, b)),
+            Op::SetNotEqual => self.flag(a, b, !self.equal(a, b)),
+            Op::SelectNonNegative => {
+                if self.less_equal(0, a) {
+                    b
+                } else {
+                    c
+                }
+            }
+            Op::SelectAboveHalf => {
+                if self.less(HALF, a) {
+                    b
+                } else {
+                    c
+                }
+            }
+            _ => return unit.other(operation, [a, b, c]).or_else(|| self.otherwise(operation, [a, b, c])),
+        })
+    }
+
+    /// A number that is computed, of an operation that every arithmetic has.
+    fn number(&self, operation: Op, operands: [i32; 3]) -> i32 {
+        self.word(operation, operands.map(i32::cast_unsigned)).unwrap_or(NAN).cast_signed()
+    }
+
+    /// An operation that the unit does not have.
+    fn otherwise(&self, operation: Op, words: [u32; 3]) -> Option<u32> {
+        let operands = words.map(|word| self.ideal.decode(word));
+        let value = match operation {
+            Op::Scale => self.ideal.scale(operands[0], words[1].cast_signed()),
+            _ => apply(&self.ideal, operation, operands)?,
+        };
+        Some(Self::of_ideal(value))
+    }
+
+    /// What a comparison sets: 1 or +0, and without an order the NaN of a unit that has one there.
+    #[inline(always)]
+    pub(crate) fn flag(&self, a: u32, b: u32, holds: bool) -> u32 {
+        let word = if holds { ONE } else { 0 };
+        if U::SETS_NAN & self.unit.unordered(a, b) { NAN } else { word }
+    }
+
+    /// `a < b`; false without an order.
+    #[inline(always)]
+    pub(crate) fn less(&self, a: u32, b: u32) -> bool {
+        !self.unit.unordered(a, b) & self.unit.below(a, b)
+    }
+
+    /// `a <= b`; false without an order.
+    #[inline(always)]
+    pub(crate) fn less_equal(&self, a: u32, b: u32) -> bool {
+        !self.unit.unordered(a, b) & !self.unit.below(b, a)
+    }
+
+    /// `a == b`; false without an order.
+    #[inline(always)]
+    pub(crate) fn equal(&self, a: u32, b: u32) -> bool {
+        !self.unit.unordered(a, b) & self.unit.same(a, b)
+    }
+}
+
+/// Numbers in slots are words, held as integers.
+impl<U: Unit> Lane for CardLane<U> {
+    type T = i32;
+    type General = GeneralLane;
+
+    const CARD: bool = true;
+
+    #[inline(always)]
+    fn decode(&self, bits: u32) -> i32 {
+        bits.cast_signed()
+    }
+
+    #[inline(always)]
+    fn encode(&self, x: i32) -> u32 {
+        x.cast_unsigned()
+    }
+
+    #[inline(always)]
+    fn to_f64(&self, x: i32) -> f64 {
+        f64::from(f32::from_bits(flushed(x.cast_unsigned())))
+    }
+
+    fn reading(&self) -> Reading {
+        Reading::Word
+    }
+
+    #[inline(always)]
+    fn round_f64(&self, x: f64) -> i32 {
+        Self::of_ideal(self.ideal.round_f64(x)).cast_signed()
+    }
+
+    fn add(&self, a: i32, b: i32) -> i32 {
+        self.number(Op::Add, [a, b, 0])
+    }
+
+    fn mul(&self, a: i32, b: i32) -> i32 {
+        self.number(Op::Mul, [a, b, 0])
+    }
+
+    fn fused_mad(&self, a: i32, b: i32, c: i32) -> i32 {
+        self.number(Op::Mad, [a, b, c])
+    }
+
+    fn exact_dot<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
+        self.unit.dot(a.map(i32::cast_unsigned), b.map(i32::cast_unsigned)).cast_signed()
+    }
+
+    fn div(&self, a: i32, b: i32) -> i32 {
+        self.number(Op::Div, [a, b, 0])
+    }
+
+    fn sqrt(&self, a: i32) -> i32 {
+        self.number(Op::Sqrt, [a, 0, 0])
+    }
+
+    fn rcp(&self, a: i32) -> i32 {
+        self.number(Op::Rcp, [a, 0, 0])
+    }
+
+    fn rsq(&self, a: i32) -> i32 {
+        self.number(Op::Rsq, [a, 0, 0])
+    }
+
+    fn exp2(&self, a: i32) -> i32 {
+        self.number(Op::Exp2, [a, 0, 0])
+    }
+
+    fn log2(&self, a: i32) -> i32 {
+        self.number(Op::Log2, [a, 0, 0])
+    }
+
+    fn min(&self, a: i32, b: i32) -> i32 {
+        self.number(Op::Min, [a, b, 0])
+    }
+
+    fn max(&self, a: i32, b: i32) -> i32 {
+        self.number(Op::Max, [a, b, 0])
+    }
+
+    fn frc(&self, a: i32) -> i32 {
+        self.number(Op::Frc, [a, 0, 0])
+    }
+
+    fn neg(&self, a: i32) -> i32 {
+        self.number(Op::Neg, [a, 0, 0])
+    }
+
+    fn abs(&self, a: i32) -> i32 {
+        self.number(Op::Abs, [a, 0, 0])
+    }
+
+    fn saturate(&self, a: i32) -> i32 {
+        self.number(Op::Saturate, [a, 0, 0])
+    }
+
+    fn above_half(&self, a: i32) -> bool {
+        self.to_f64(a) > 0.5
+    }
+
+    fn factor(&self, a: i32, _: i32) -> i32 {
+        a
+    }
+}

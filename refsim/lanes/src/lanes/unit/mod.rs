@@ -1,0 +1,19 @@
+//! The arithmetic units of cards, on words: written apart from [`crate::num::unit`], of which it has the tables alone.
+//!
+//! - `word`: single floats as words.
+//! - `nv`, `nv_functions`: the vertex unit of NV20 to NV35; `gt200`, `gt200_functions`: the unit of GT200.
+//! - `card`: a unit as the arithmetic of a format.
+//!
+//! Slots hold the words themselves: no bit of a NaN or of a subnormal number is lost where an instruction passes an
+//! operand on.
+
+mod card;
+mod gt200;
+mod gt200_functions;
+mod nv;
+mod nv_functions;
+mod word;
+
+pub(crate) use card::{CardLane, Unit};
+pub(crate) use gt200::Gt200;
+pub(crate) use nv::Nv;
