@@ -190,7 +190,7 @@ fn nv2x_obeys_what_nv2a_drew() {
         assert_eq!(card.rules.depth_rounding, TargetRounding::Truncate);
         assert_eq!(card.rules.color_clamp, ColorClamp::Vertex);
         assert!(card.rules.vertex_zero_times_anything && !card.rules.zero_times_anything);
-        assert_eq!(card.rules.vertex_format, "fp32:ftz".parse().unwrap());
+        assert_eq!(card.rules.vertex_format, "e8m23:nv2x".parse().unwrap());
         let counted = card.figures().into_iter().filter(|row| row.counts.is_some());
         for row in counted {
             assert!(row.confidence == Confidence::Measured && row.source.contains("NV2A, a sibling"), "{}", row.key);
