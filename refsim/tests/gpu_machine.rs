@@ -178,7 +178,8 @@ fn units_of_cards_agree(gpu: &Arc<Gpu>) {
                 dp3 r0.x, r1, t1\ndp4 r0.y, r0, c2\nrcp r3.x, r1.y\nrsq r3.y, r1.x\nexp r3.z, t0.x\nlog r3.w, t1.y\n\
                 min r1, r1, r3\nmax_sat r3, r3, r2\nfrc r4, r1\ncmp r4, r0, r4, r2\nlrp r1, c3, r3, r1\n\
                 sub r1, r1, r0\nmov oC0, r1\nmov oC1, r4\nmov oC2, r0";
-    let huge = [[3.0e38, -1.0e-38, 0.125, 1.0], [0.3, -7.0, 1.0e20, f32::INFINITY], [1.0e-40, 2.0, -0.7, 5.0], [0.3; 4]];
+    let huge =
+        [[3.0e38, -1.0e-38, 0.125, 1.0], [0.3, -7.0, 1.0e20, f32::INFINITY], [1.0e-40, 2.0, -0.7, 5.0], [0.3; 4]];
     for (seed, unit) in (0..).zip(["nv3x", "gt200", "nv2x", "gt200-zero-wins"]) {
         let mut profile = ideal("fp32");
         profile.set_format(format!("e8m23:{unit}").parse().unwrap()).unwrap();
@@ -193,8 +194,11 @@ fn units_of_cards_agree(gpu: &Arc<Gpu>) {
         assert_eq!(pair.device.create_texture(image), Ok(id));
         let corners = vertices(&mut random, 12);
         let source = VertexSource::Transformed(&corners);
-        let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, targets[0])
-            .with_texture(0, id, SamplerState::NEAREST_CLAMP);
+        let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, targets[0]).with_texture(
+            0,
+            id,
+            SamplerState::NEAREST_CLAMP,
+        );
         call.targets = targets.to_vec();
         pair.draw(&call, unit);
         pair.same(&targets, None, unit);

@@ -60,7 +60,7 @@ macro_rules! families {
 
 macro_rules! versions {
     ($groups:tt $($version:ident)*) => {
-        $(mod $version { families! { $groups s3_12 short_fixed long_fixed fp16 fp24 fp32 odd_float } })*
+        $(mod $version { families! { $groups s3_12 short_fixed long_fixed fp16 fp24 fp32 odd_float units } })*
     };
 }
 

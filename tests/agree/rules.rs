@@ -22,6 +22,8 @@ pub(crate) enum Family {
     Fp24,
     Fp32,
     OddFloat,
+    /// Units of cards.
+    Units,
 }
 
 impl Family {
@@ -66,6 +68,14 @@ impl Family {
                 "e2m3fn:nv",
                 "e4m3:sat",
                 "e7m10:ftz",
+            ],
+            Self::Units => &[
+                "e8m23:nv2x",
+                "e8m23:nv3x",
+                "e8m23:nv3x-legacy",
+                "e8m23:gt200",
+                "e8m23:gt200:rtz",
+                "e8m23:gt200-zero-wins",
             ],
         }
     }
