@@ -29,6 +29,7 @@ fn main() -> ExitCode {
         memory_follows,
         products_and_sums_agree,
         short_programs_agree_on_any_driver,
+        units_of_cards_agree,
         long_traces_are_whole,
         buffers_of_a_trace_run_elsewhere,
     ])
@@ -181,6 +182,39 @@ fn short_programs_agree_on_any_driver(gpu: &Arc<Gpu>) {
             pair.draw(&call, text);
             pair.same(&[target], Some(depth), text);
         }
+    }
+}
+
+/// Programs in the units of cards, on numbers of every size.
+fn units_of_cards_agree(gpu: &Arc<Gpu>) {
+    let text = "ps_2_0\ndcl t0\ndcl t1\ndcl_2d s0\ntexld r2, t0, s0\nmul r0, t0, c0\nmad r1, t1, r0, -c1\n\
+                dp3 r0.x, r1, t1\ndp4 r0.y, r0, c2\nrcp r3.x, r1.y\nrsq r3.y, r1.x\nexp r3.z, t0.x\nlog r3.w, t1.y\n\
+                min r1, r1, r3\nmax_sat r3, r3, r2\nfrc r4, r1\ncmp r4, r0, r4, r2\nlrp r1, c3, r3, r1\n\
+                sub r1, r1, r0\nmov oC0, r1\nmov oC1, r4\nmov oC2, r0";
+    let huge =
+        [[3.0e38, -1.0e-38, 0.125, 1.0], [0.3, -7.0, 1.0e20, f32::INFINITY], [1.0e-40, 2.0, -0.7, 5.0], [0.3; 4]];
+    for (seed, unit) in (0..).zip(["nv3x", "gt200", "nv2x", "gt200-zero-wins"]) {
+        let mut profile = ideal("fp32");
+        profile.set_format(format!("e8m23:{unit}").parse().unwrap()).unwrap();
+        let program = checked(text, &profile);
+        let host = running::constants(&huge);
+        let mut pair = Pair::new(&profile, gpu);
+        let mut random = Random::new(seed);
+        let formats = [TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rgba8];
+        let targets = formats.map(|format| pair.target(format, 24, 24, [0; 4]));
+        let image = texture(&mut random);
+        let id = pair.reference.create_texture(image.clone()).unwrap();
+        assert_eq!(pair.device.create_texture(image), Ok(id));
+        let corners = vertices(&mut random, 12);
+        let source = VertexSource::Transformed(&corners);
+        let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, targets[0]).with_texture(
+            0,
+            id,
+            SamplerState::NEAREST_CLAMP,
+        );
+        call.targets = targets.to_vec();
+        pair.draw(&call, unit);
+        pair.same(&targets, None, unit);
     }
 }
 

@@ -1,5 +1,7 @@
 //! The shader's results compared with `refsim::num`.
 
+use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 
 use refsim::exec::gpu::Gpu;
@@ -8,7 +10,7 @@ use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation, ops};
 
 use crate::environment::by_form;
-use crate::operands::{edges, formats, pattern};
+use crate::operands::{cards, edges, formats, pattern};
 use crate::random::Random;
 use crate::reference::reference;
 
@@ -45,6 +47,8 @@ impl Item {
         let format = &formats[self.format];
         match self.operation {
             NumberOperation::Convert => Some(ops::convert(&formats[self.source], format, a).bits),
+            // Programs in units of cards do not use it.
+            NumberOperation::Factor if format.unit.is_card() => None,
             operation => reference(operation, format, a, b, c),
         }
     }
@@ -151,6 +155,36 @@ fn exhausted(o: NumberOperation) -> bool {
     tried(o) && o.operands() < 3 && o != NumberOperation::Steps && !(o.has_immediate() && o != NumberOperation::Scale)
 }
 
+/// Operands of the vectors that were compared with cards: the first cells of each row.
+fn rows_of_cards() -> Vec<[u32; 3]> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("lanes/tests/vectors");
+    let mut rows = Vec::new();
+    for entry in fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
+        let path = entry.unwrap_or_else(|e| panic!("{e}")).path();
+        if path.extension().is_some_and(|e| e == "csv") {
+            let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+            let words = |line: &str| {
+                let mut cells = line.split(',').map(|cell| u32::from_str_radix(cell, 16).unwrap_or(0));
+                [0; 3].map(|_| cells.next().unwrap_or(0))
+            };
+            rows.extend(text.lines().skip(1).map(words));
+        }
+    }
+    assert!(rows.len() > 10_000, "{} rows in {}", rows.len(), folder.display());
+    rows
+}
+
+pub(crate) fn operands_that_cards_were_given(gpu: &Arc<Gpu>) {
+    let formats = cards();
+    let step = by_form(40, 1);
+    let rows = rows_of_cards();
+    for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o) && !o.has_immediate()) {
+        let item = |format, &operands: &[u32; 3]| Item { operation, format, source: format, operands };
+        let of_format = |format| rows.iter().step_by(step).map(move |row| item(format, row));
+        check(gpu, &formats, &(0..formats.len()).flat_map(of_format).collect::<Vec<_>>());
+    }
+}
+
 fn tried(operation: NumberOperation) -> bool {
     use NumberOperation as Op;
     !matches!(operation, Op::Mad | Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot)
@@ -163,7 +197,7 @@ pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
     let mut words = Random::new(1);
     for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o)) {
         let mut items = Vec::new();
-        for format in 0..formats.len() {
+        for format in (0..formats.len()).filter(|&format| !operation.is_of_units() || formats[format].unit.is_card()) {
             items.extend((0..count).map(|_| random_item(&mut words, &formats, &all, operation, format)));
         }
         check(gpu, &formats, &items);

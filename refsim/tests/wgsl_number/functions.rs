@@ -21,6 +21,11 @@ impl Call {
     fn random(words: &mut Random, all: &[Format], edges_of: &[Vec<u32>]) -> Self {
         let function = [2, 3, 4, 5, 7, 8][words.below(6)];
         let mut places = [words.below(all.len()), words.below(all.len())];
+        if function == 5 {
+            // `n_term` knows no units of cards: what comes out of one is normalized before.
+            let ideal = all.iter().filter(|f| !f.unit.is_card()).count();
+            places = [words.below(ideal), words.below(ideal)];
+        }
         if function == 8 {
             // FP32 with the default rules is among the formats.
             places = [all.iter().position(|f| *f == Format::FP32).expect("single precision"); 2];

@@ -38,6 +38,7 @@ fn main() -> std::process::ExitCode {
         trials.extend(adapter::trials![
             on_adapter: device::every_operation_in_many_formats,
             device::every_pair_of_short_formats,
+            device::operands_that_cards_were_given,
             functions::functions_beside_the_switch,
         ]);
     }

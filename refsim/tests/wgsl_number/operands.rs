@@ -1,7 +1,7 @@
 //! Formats and operands: edges, patterns near them, and pseudo-random ones.
 
 use crate::random::Random;
-use refsim::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
+use refsim::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials, Unit};
 
 impl Random {
     /// An integer within `-reach..=reach`.
@@ -47,7 +47,13 @@ pub(crate) fn pattern(words: &mut Random, format: &Format, edges: &[u32]) -> u32
     bits & format.mask()
 }
 
-/// Every rule on a few layouts, and many layouts.
+/// The formats of cards' units.
+pub(crate) fn cards() -> Vec<Format> {
+    let names = Unit::CARDS.iter().map(|(name, _)| *name).chain(["gt200:rtz", "gt200-zero-wins:rtz"]);
+    names.map(|name| format!("e8m23:{name}").parse().expect("a format")).collect()
+}
+
+/// Every rule on a few layouts, many layouts, and the units of cards.
 pub(crate) fn formats() -> Vec<Format> {
     let fixed =
         [(3, 12), (1, 10), (0, 31), (31, 0), (1, 2), (0, 1), (7, 8), (15, 16), (1, 30), (16, 15), (0, 8), (8, 23)];
@@ -82,5 +88,6 @@ pub(crate) fn formats() -> Vec<Format> {
             all.push(other.with_denormals(denormals).with_specials(specials));
         }
     }
+    all.extend(cards());
     all
 }

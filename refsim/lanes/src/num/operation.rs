@@ -118,6 +118,22 @@ operations! {
     Sin(a) = ops::sin;
     /// Cosine, radians.
     Cos(a) = ops::cos;
+    /// Inserts `b`'s pattern of up to 16 bits into word `a` at bit `c`, where `a` is zero.
+    JoinPattern(a, b, c);
+    /// The same for single-precision `b` clamped to [0, 1] and rounded to a multiple of 1/65535.
+    JoinShort(a, b, c);
+    /// The same with multiples of 1/255.
+    JoinByte(a, b, c);
+    /// The same with `128 + 127 b`, `b` from -128/127 to 1; NaN gives 128.
+    JoinSignedByte(a, b, c);
+    /// Extracts the number whose pattern is at bit `b` of word `a`.
+    SplitPattern(a, b);
+    /// Extracts the fraction that [`Self::JoinShort`] stored at bit `b` of word `a`.
+    SplitShort(a, b);
+    /// Extracts a fraction stored by [`Self::JoinByte`].
+    SplitByte(a, b);
+    /// Extracts a number stored by [`Self::JoinSignedByte`].
+    SplitSignedByte(a, b);
     /// x of the vertex units' EXP: `2^floor(a)`.
     ExpFloor(a) => unit::evaluate;
     /// y of EXP: `a - floor(a)`.
@@ -144,29 +160,19 @@ operations! {
     SetNotEqual(a, b) => unit::evaluate;
     /// -1, 0 or 1 as `a` compares with +0 (SSG of the vertex units).
     Sign(a) => unit::evaluate;
-    /// Inserts `b`'s pattern of up to 16 bits into word `a` at bit `c`, where `a` is zero.
-    JoinPattern(a, b, c);
-    /// The same for single-precision `b` clamped to [0, 1] and rounded to a multiple of 1/65535.
-    JoinShort(a, b, c);
-    /// The same with multiples of 1/255.
-    JoinByte(a, b, c);
-    /// The same with `128 + 127 b`, `b` from -128/127 to 1; NaN gives 128.
-    JoinSignedByte(a, b, c);
-    /// Extracts the number whose pattern is at bit `b` of word `a`.
-    SplitPattern(a, b);
-    /// Extracts the fraction that [`Self::JoinShort`] stored at bit `b` of word `a`.
-    SplitShort(a, b);
-    /// Extracts a fraction stored by [`Self::JoinByte`].
-    SplitByte(a, b);
-    /// Extracts a number stored by [`Self::JoinSignedByte`].
-    SplitSignedByte(a, b);
 }
 
 impl NumberOperation {
     /// Returns `true` if the last operand is an integer constant known before the program runs: an exponent, or a bit
     /// position.
     pub const fn has_immediate(self) -> bool {
-        matches!(self, Self::Scale) || matches!(self as u32, first if first >= Self::JoinPattern as u32)
+        matches!(self, Self::Scale)
+            || self as u32 >= Self::JoinPattern as u32 && self as u32 <= Self::SplitSignedByte as u32
+    }
+
+    /// Returns `true` if units of cards alone have the operation.
+    pub const fn is_of_units(self) -> bool {
+        self as u32 >= Self::ExpFloor as u32
     }
 
     /// Returns `true` if the operation is bitwise, the same in every format.

@@ -160,7 +160,7 @@ impl Gpu {
         if let Some((_, pipeline)) = fitting {
             return Ok(pipeline.clone());
         }
-        let mut parts = if made.len() < MAX_GROWING { parts.clone() } else { Parts::all() };
+        let mut parts = if made.len() < MAX_GROWING { parts.clone() } else { parts.grown() };
         if made.len() >= MAX_EXACT {
             made.iter().for_each(|(there, _)| parts.extend(there));
         }

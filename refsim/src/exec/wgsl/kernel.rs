@@ -378,13 +378,14 @@ fn orders(function: CompareFunction) -> u32 {
 }
 
 /// Converts a pattern of a format to the shaders' representation: a sign-extended integer, or the single-precision
-/// pattern of the same number with canonical NaN.
+/// pattern of the same number with canonical NaN; of units of cards the word itself.
 pub fn raw(format: &Format, bits: u32) -> u32 {
     match format.kind {
         FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => {
             let spare = 32 - format.width();
             ((bits << spare).cast_signed() >> spare).cast_unsigned()
         }
+        FormatKind::Float { .. } if format.unit.is_card() => bits,
         FormatKind::Float { .. } => ops::convert(format, Format::FP32, bits).bits,
     }
 }

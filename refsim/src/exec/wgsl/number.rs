@@ -3,11 +3,15 @@
 //! It implements [`crate::num`]: the exact result, rounded once. It uses 32-bit integer arithmetic for every format, so
 //! its results are the same on every adapter that conforms to WGSL, whatever its floating point.
 
-use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials};
+mod unit_tables;
+
+use super::parts::section;
+use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials, Unit};
 
 /// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
 /// rounding, overflow, denormals, special values, and the denominator of a normalized format, else 0. Shaders take a
-/// normalized format for one of fixed point without fraction bits, whose numbers are divided by the denominator.
+/// normalized format for one of fixed point without fraction bits, whose numbers are divided by the denominator. Units
+/// of cards stand in the place of the special values, from 2 on.
 ///
 /// Rules that do not apply to the kind are replaced by its default, as in [`Format`].
 pub fn format_words(format: &Format) -> [u32; 8] {
@@ -32,7 +36,14 @@ pub fn format_words(format: &Format) -> [u32; 8] {
         (Overflow::Nv30, false) => 3,
     };
     let flush = u32::from(format.denormals == Denormals::Flush);
-    let special = u32::from(format.specials == Specials::Nv);
+    let special = match format.unit {
+        Unit::Ideal => u32::from(format.specials == Specials::Nv),
+        Unit::Nv2x => 2,
+        Unit::Nv3xLegacy => 3,
+        Unit::Nv3x => 4,
+        Unit::Gt200 => 5,
+        Unit::Gt200ZeroWins => 6,
+    };
     [kind, upper.into(), frac.into(), rounding, overflow, flush, special, denominator_word(format)]
 }
 
@@ -55,14 +66,22 @@ pub fn source_word(format: &Format) -> u32 {
     match format.kind {
         FormatKind::Fixed { frac_bits, .. } => 1 + u32::from(frac_bits),
         FormatKind::Normalized { .. } => 1 | denominator_word(format) << 8,
-        FormatKind::Float { .. } => 0,
+        FormatKind::Float { .. } => match format.unit {
+            Unit::Ideal => 0,
+            Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x => 1 << 31,
+            Unit::Gt200 | Unit::Gt200ZeroWins => 3 << 30,
+        },
     }
 }
 
 /// The text of the number library: `struct Format`, functions `n_...` for any format and `s_...` for single precision.
+///
+/// The text of units of cards stands in sections of its own ([`super::parts`]).
 pub fn library() -> String {
-    let constants =
-        NumberOperation::ALL.map(|operation| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()));
+    let constants = |of_units: bool| -> String {
+        let operations = NumberOperation::ALL.into_iter().filter(|operation| operation.is_of_units() == of_units);
+        operations.map(|operation| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word())).collect()
+    };
     let parts = [
         include_str!("number/format.wgsl"),
         include_str!("number/arithmetic.wgsl"),
@@ -72,5 +91,10 @@ pub fn library() -> String {
         concat!(include_str!("number/dot.wgsl"), include_str!("number/aligned.wgsl")),
         include_str!("number/single.wgsl"),
     ];
-    constants.concat() + &parts.join("\n")
+    let units = [
+        section("HAS_UNITS", &(constants(true) + include_str!("number/unit.wgsl"))),
+        section("HAS_VERTEX_UNIT", &(include_str!("number/unit_vertex.wgsl").to_owned() + &unit_tables::vertex())),
+        section("HAS_GT200", &(include_str!("number/unit_gt200.wgsl").to_owned() + &unit_tables::gt200())),
+    ];
+    constants(false) + &parts.join("\n") + &units.concat()
 }

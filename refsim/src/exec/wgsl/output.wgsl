@@ -108,6 +108,11 @@ fn o_depth(raw: u32, in_main: bool) -> u32 {
     if (number.negative) {
         number.significand = 0u;
     }
+    if (HAS_UNITS) {
+        if in_main && draw[8u * MAIN + 6u] > 1u && u_is_zero(raw) {
+            number.significand = 0u;
+        }
+    }
     var pattern = o_scaled(number, draw[D_DEPTH_SCALE], draw[D_DEPTH_NEAREST] == 1u);
     if (HAS_FLOAT_DEPTH) {
         let kind = draw[D_DEPTH_FORMAT];
@@ -145,6 +150,12 @@ fn o_alpha_passes(alpha: u32) -> bool {
     let value = select(o_key(alpha), i32(alpha), integers);
     let bound = select(o_key(reference), i32(reference), integers);
     let unordered = !integers && (o_is_nan(alpha) || o_is_nan(reference));
+    if (HAS_UNITS) {
+        let unit = draw[8u * MAIN + 6u];
+        if unit > 1u && !unordered {
+            return o_holds(comparison, u_less(unit, alpha, reference), u_less(unit, reference, alpha));
+        }
+    }
     return select(o_holds(comparison, (value < bound), (value > bound)), (comparison >> 3u) == 1u, unordered);
 }
 
@@ -417,6 +428,15 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
     let alpha_channel = draw[at + 11u];
     // A source whose alpha the target does not store is rounded to a channel all the same: the fifth in the table.
     let rounded_alpha = o_channel(at + 16u + 8u * min(alpha_channel, 4u));
+    if (HAS_UNITS) {
+        // What leaves the unit of a card has no subnormal numbers.
+        if draw[8u * MAIN + 6u] > 1u {
+            for (var c = 0u; c < 4u; c++) {
+                let place = q_row(ROW_COLORS + 4u * t + c);
+                scratch[place][lane] = u_flushed(scratch[place][lane]);
+            }
+        }
+    }
     let raw_alpha = o_given(ROW_COLORS + 4u * t + 3u, lane);
     var held_alpha = select(rounded_alpha.denominator, 0x3f800000u, floats);
     var made: vec4<u32>;

@@ -3,10 +3,10 @@
 //! Drivers inline every function and compile code that is never reached, so a complete machine takes them minutes.
 //! Therefore unused parts are removed from the text first. The text is valid WGSL before and after. Parts are arms of
 //! switches (`case VM_DOT: {`) labelled with names of parts, blocks under `if (HAS_CUBES) {`, and functions that become
-//! unreachable.
+//! unreachable. Sections between `// begin HAS_GT200` and `// end HAS_GT200` go with all that they hold.
 
 use super::program::operations;
-use crate::num::{Encoding, Format, NumberOperation};
+use crate::num::{Encoding, Format, NumberOperation, Unit};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws besides operations. In the text, each guards blocks with an `if`.
@@ -43,9 +43,11 @@ const FEATURES: [&str; 25] = [
     "HAS_FLOAT_BLENDING",
     "HAS_INTEGER_BLENDING",
 ];
+/// Features of draws that use units of cards. Each has a section of the text, with its constant.
+const UNITS: [&str; 3] = ["HAS_UNITS", "HAS_VERTEX_UNIT", "HAS_GT200"];
 /// Operations that are expensive to compile, in groups that are included together. All others are always included, so
 /// that programs that differ only in them share a text.
-const COSTLY: [&[NumberOperation]; 4] = [
+const COSTLY: [&[NumberOperation]; 6] = [
     &[NumberOperation::Exp2, NumberOperation::Log2],
     &[NumberOperation::Sin, NumberOperation::Cos],
     &[NumberOperation::Floor, NumberOperation::Frc, NumberOperation::AddressFloor, NumberOperation::AddressNearest],
@@ -61,6 +63,23 @@ const COSTLY: [&[NumberOperation]; 4] = [
         NumberOperation::SplitShort,
         NumberOperation::SplitByte,
         NumberOperation::SplitSignedByte,
+    ],
+    &[
+        NumberOperation::SetLess,
+        NumberOperation::SetLessEqual,
+        NumberOperation::SetEqual,
+        NumberOperation::SetNotEqual,
+        NumberOperation::Sign,
+    ],
+    &[
+        NumberOperation::ExpFloor,
+        NumberOperation::ExpFraction,
+        NumberOperation::ExpPower,
+        NumberOperation::LogExponent,
+        NumberOperation::LogMantissa,
+        NumberOperation::LogPower,
+        NumberOperation::LitDiffuse,
+        NumberOperation::LitSpecular,
     ],
 ];
 /// Arms needed for cube maps.
@@ -95,9 +114,21 @@ impl Default for Parts {
 impl Parts {
     /// All parts.
     pub fn all() -> Self {
-        let features = FEATURES.iter().chain(&CUBES).map(|&name| name.to_owned());
+        let features = FEATURES.iter().chain(&CUBES).chain(&UNITS).map(|&name| name.to_owned());
         let operations = NumberOperation::ALL.into_iter().map(NumberOperation::constant);
         Self(features.chain(operations).chain(operations::all()).collect())
+    }
+
+    /// All parts, of units of cards only those that are in the set.
+    pub fn grown(&self) -> Self {
+        let mut all = Self::all();
+        if !self.contains("HAS_UNITS") {
+            let of_units = NumberOperation::ALL.into_iter().filter(|operation| operation.is_of_units());
+            let of_units: BTreeSet<String> = of_units.map(NumberOperation::constant).collect();
+            all.0.retain(|name| !of_units.contains(name));
+        }
+        all.0.retain(|name| !UNITS.contains(&name.as_str()) || self.contains(name));
+        all
     }
 
     /// Adds a part.
@@ -122,6 +153,10 @@ impl Parts {
         self.add_if(format.is_fixed(), "HAS_FIXED");
         self.add_if(format.denominator() != 1, "HAS_NORMALIZED");
         self.add_if(format.encoding != Encoding::Ieee, "HAS_FINITE");
+        let gt200 = matches!(format.unit, Unit::Gt200 | Unit::Gt200ZeroWins);
+        self.add_if(format.unit.is_card(), "HAS_UNITS");
+        self.add_if(format.unit.is_card() && !gt200, "HAS_VERTEX_UNIT");
+        self.add_if(gt200, "HAS_GT200");
     }
 
     /// Adds a number operation, with its group.
@@ -162,7 +197,20 @@ impl Parts {
         let mut out = String::with_capacity(text.len());
         // Nesting depth of braces within removed text.
         let mut open = 0;
+        // The removed section that the line is in.
+        let mut left_out: Option<&str> = None;
         for line in text.lines() {
+            if let Some(name) = line.strip_prefix(BEGIN) {
+                left_out = left_out.or((!self.contains(name)).then_some(name));
+                continue;
+            }
+            if let Some(name) = line.strip_prefix(END) {
+                left_out = left_out.filter(|&section| section != name);
+                continue;
+            }
+            if left_out.is_some() {
+                continue;
+            }
             let code = line.split("//").next().unwrap_or_default();
             let braces = || code.matches('{').count().wrapping_sub(code.matches('}').count()).cast_signed();
             if open > 0 {
@@ -198,6 +246,14 @@ impl Parts {
         let labels: Vec<&str> = labels.split(", ").filter(kept).collect();
         (!labels.is_empty()).then(|| format!("case {}:{rest}", labels.join(", ")))
     }
+}
+
+const BEGIN: &str = "// begin ";
+const END: &str = "// end ";
+
+/// A section of the text that goes with a feature of [`UNITS`].
+pub(super) fn section(feature: &str, text: &str) -> String {
+    format!("{BEGIN}{feature}\nconst {feature}: bool = true;\n{text}{END}{feature}\n")
 }
 
 /// The feature constants, all `true`: blocks of removed features are gone from the text.

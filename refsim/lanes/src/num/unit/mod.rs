@@ -26,7 +26,7 @@ pub mod gt200_conversions;
 pub mod gt200_functions;
 pub mod nv;
 pub mod nv_functions;
-pub(crate) mod tables;
+pub mod tables;
 mod word;
 
 pub use word::NAN;

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 /// A table of `N` columns.
-pub(crate) type Table<const N: usize> = LazyLock<Vec<[i64; N]>>;
+pub type Table<const N: usize> = LazyLock<Vec<[i64; N]>>;
 
 /// Parses a table. The files are part of the program, and their tests read every row: a cell that is no number would
 /// read as 0.
@@ -21,7 +21,7 @@ fn parse<const N: usize>(text: &str) -> Vec<[i64; N]> {
 macro_rules! tables {
     ($($(#[doc = $doc:literal])* $name:ident: $columns:literal = $file:literal;)*) => {$(
         $(#[doc = $doc])*
-        pub(crate) static $name: Table<$columns> =
+        pub static $name: Table<$columns> =
             LazyLock::new(|| parse(include_str!(concat!("tables/", $file, ".csv"))));
     )*};
 }

@@ -1,6 +1,11 @@
 // The sum of the first products, at most 4, before their one rounding: an integer of 672 bits in units of 2^-384 holds
 // every partial sum.
 fn n_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> Real {
+    if (HAS_UNITS) {
+        if f.special > 1u {
+            return n_known(u_dot(f, terms, a, b));
+        }
+    }
     var left = a;
     var right = b;
     var sum: array<u32, 21>;

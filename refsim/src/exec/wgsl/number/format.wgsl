@@ -60,6 +60,11 @@ fn n_nan(f: Format) -> u32 {
             return 0u;
         }
     }
+    if (HAS_UNITS) {
+        if f.special > 1u {
+            return U_NAN;
+        }
+    }
     return select(0u, N_NAN, n_is_float(f));
 }
 
@@ -306,6 +311,11 @@ fn n_round(f: Format, negative: bool, sig: vec2<u32>, exponent: i32, sticky: boo
 
 // The raw value of a bit pattern of the format.
 fn n_decode(f: Format, bits: u32) -> u32 {
+    if (HAS_UNITS) {
+        if f.special > 1u {
+            return bits;
+        }
+    }
     if !n_is_float(f) {
         let spare = 31u - f.upper - f.frac;
         return u32(i32(bits << spare) >> spare);
@@ -347,6 +357,11 @@ fn n_decode(f: Format, bits: u32) -> u32 {
 
 // The bit pattern of a raw value of the format.
 fn n_encode(f: Format, raw: u32) -> u32 {
+    if (HAS_UNITS) {
+        if f.special > 1u {
+            return raw;
+        }
+    }
     let width = f.upper + f.frac;
     if !n_is_float(f) {
         return raw & (0xffffffffu >> (31u - width));

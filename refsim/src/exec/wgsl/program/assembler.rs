@@ -241,6 +241,12 @@ impl Assembler<'_> {
             NodeKind::Convert(from, into, a) => {
                 let format = self.formats.format(from);
                 self.parts.add_format(&format);
+                if takes_words(&format, &self.formats.format(into)) {
+                    let a = places.of(a);
+                    let to = self.result(node, places);
+                    self.emit(op::COPY, 0, to, [a; 3]);
+                    return;
+                }
                 let source = self.constant(source_word(&format));
                 self.alu(node, into, NumberOperation::Convert, [places.of(a), source, source], places);
             }
@@ -289,6 +295,9 @@ impl Assembler<'_> {
             return;
         }
         match code {
+            NumberOperation::Mad if self.formats.format(k).unit.is_card() => {
+                self.alu(node, k, NumberOperation::FusedMad, args, places);
+            }
             // The shader has no multiply-add with two roundings.
             NumberOperation::Mad => {
                 let product = places.fresh();
@@ -388,6 +397,11 @@ impl Assembler<'_> {
     }
 }
 
+/// Returns `true` if a conversion hands the word on: of single floats into the unit of a card.
+fn takes_words(from: &Format, into: &Format) -> bool {
+    into.unit.is_card() && from.kind == into.kind && from.encoding == into.encoding
+}
+
 fn pair(low: u16, high: u16) -> u32 {
     u32::from(low) | u32::from(high) << 16
 }
@@ -399,6 +413,8 @@ fn passes(operation: u32) -> u32 {
         Some(Op::Exp2 | Op::Log2) => 1000,
         Some(Op::Div | Op::Rcp | Op::Rsq | Op::Sqrt | Op::Steps | Op::Sin | Op::Cos) => 600,
         Some(Op::SplitShort | Op::SplitByte | Op::SplitSignedByte) => 600,
+        Some(Op::ExpFloor | Op::ExpFraction | Op::ExpPower | Op::LitDiffuse | Op::LitSpecular) => 600,
+        Some(Op::LogExponent | Op::LogMantissa | Op::LogPower) => 600,
         _ => PASSES[0],
     }
 }

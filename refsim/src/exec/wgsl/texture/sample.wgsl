@@ -205,6 +205,12 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
             out = texels[0];
         }
     }
+    if (HAS_UNITS) {
+        // Units of cards take single floats as they are.
+        if (floats && f.special > 1u) {
+            return out;
+        }
+    }
     // Single precision keeps what is single precision.
     if (!(floats && f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u)) {
         for (var c = 0u; c < 4u; c++) {

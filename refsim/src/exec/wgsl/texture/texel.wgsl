@@ -91,6 +91,12 @@ fn texel_single(component: u32, bits: u32) -> u32 {
     size = select(size, 0x7f800000u, field == top_field);
     var single = select(sign | size, 0x7fc00000u, field == top_field && fraction != 0u);
     single = select(single, 0u, kind < TEXEL_FP16);
+    if (HAS_UNITS) {
+        // Units of cards take single floats as they are, and have a NaN of their own for others.
+        if format(MAIN).special > 1u && u_is_nan(single) {
+            single = select(U_NAN, bits, kind == TEXEL_FP32);
+        }
+    }
     return select(single, 0x3f800000u, kind == TEXEL_ONE);
 }
 
