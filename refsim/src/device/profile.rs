@@ -96,6 +96,8 @@ pub struct Profile {
     pub bus: Bus,
     switches: Vec<Switch>,
     pub(super) stated: StatedRules,
+    /// Values of switches that registers in fixed point take away.
+    withheld: Vec<(String, String)>,
     figures: Vec<FigureRow>,
     pub(super) instruction_formats: InstructionFormats,
 }
@@ -180,6 +182,14 @@ impl Profile {
                 allowed: if allowed.is_empty() { "none".to_owned() } else { allowed.join(" ") },
             });
         };
+        if self.withheld.iter().any(|(switch, of)| switch == name && of == value) {
+            return Err(DeviceError::NeedsFloats {
+                device: self.name.clone(),
+                switch: name.to_owned(),
+                value: value.to_owned(),
+                format: self.rules.format,
+            });
+        }
         if !self.switches[index].values.iter().any(|v| v == value) {
             return Err(DeviceError::SwitchValue {
                 device: self.name.clone(),
@@ -199,14 +209,6 @@ impl Profile {
                 value: value.to_owned(),
                 format: self.rules.format,
             })?;
-            if rules.needs_floats(name) && rules.format.is_fixed() {
-                return Err(DeviceError::NeedsFloats {
-                    device: self.name.clone(),
-                    switch: name.to_owned(),
-                    value: value.to_owned(),
-                    format: rules.format,
-                });
-            }
             self.rules = rules;
         }
         value.clone_into(&mut self.switches[index].current);
@@ -271,9 +273,10 @@ impl Profile {
         Ok(())
     }
 
-    /// Updates the switches that depend on the format to show the new one.
+    /// Updates the switches that depend on the format to show the new one, and to offer the values that it can have.
     fn refresh_format_switches(&mut self) {
         self.stated.0.clear();
+        self.offer_values();
         let format = self.rules.format;
         for switch in &mut self.switches {
             let current = match switch.name.as_str() {
@@ -285,6 +288,32 @@ impl Profile {
                 _ => continue,
             };
             switch.current = current;
+        }
+    }
+
+    /// Withholds the values that need floats from registers in fixed point, but for defaults, which act there as the
+    /// plain rule; gives them back to floats. A switch that is at such a value goes to its default.
+    fn offer_values(&mut self) {
+        let mut rules = self.rules.clone();
+        for switch in &mut self.switches {
+            let given = self.withheld.extract_if(.., |(name, _)| *name == switch.name).map(|(_, value)| value);
+            switch.values.extend(given);
+            if !self.rules.format.is_fixed() || FORMAT_RULES.contains(&switch.name.as_str()) {
+                continue;
+            }
+            let mut needs_floats =
+                |value: &String| apply(&mut rules, &switch.name, value).is_some() && rules.needs_floats(&switch.name);
+            let taken: Vec<String> = switch
+                .values
+                .iter()
+                .filter(|value| **value != switch.default && needs_floats(value))
+                .cloned()
+                .collect();
+            if taken.contains(&switch.current) && apply(&mut self.rules, &switch.name, &switch.default).is_some() {
+                switch.current.clone_from(&switch.default);
+            }
+            switch.values.retain(|value| !taken.contains(value));
+            self.withheld.extend(taken.into_iter().map(|value| (switch.name.clone(), value)));
         }
     }
 
@@ -370,6 +399,7 @@ impl Profile {
             bus,
             switches,
             stated: StatedRules::default(),
+            withheld: Vec::new(),
             figures,
             instruction_formats: InstructionFormats::default(),
         };

@@ -99,15 +99,18 @@ fn rules_of_exponents_are_refused_for_fixed_point() {
             assert!(matches!(&error, DeviceError::NeedsFloats { switch: name, .. } if name == switch), "{error}");
             assert_eq!(profile, before);
         }
-        // What was asked for does not go unsaid with another format either; a default does.
+        // What was asked for does not go unsaid with another format either.
         let mut profile = ideal("fp24");
         profile.set_switch(switch, value).unwrap();
         assert!(matches!(profile.replace_format("s3.12"), Err(DeviceError::NeedsFloats { .. })), "{switch}");
         profile.replace_format("fp16").unwrap();
         profile.set_format(Format::S3_12).unwrap();
+        assert!(profile.set_switch(switch, value).is_err());
         let text = "ps_2_0\nmov r0, c0\nmad r1, r0, r0, r0\nmov oC0, r1";
         let x = ops::convert(&Format::FP32, Format::S3_12, 0x3fc0_0000).bits;
         assert_eq!(run(text, &profile, &[[1.5; 4]]).value(1), [ops::mad(Format::S3_12, x, x, x).bits; 4]);
+        profile.set_format(Format::FP16).unwrap();
+        profile.set_switch(switch, value).unwrap();
     }
     let mut profile = ideal("s3.12");
     let message = profile.set_switch("dot", "aligned:17").unwrap_err();
