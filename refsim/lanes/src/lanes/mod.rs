@@ -4,6 +4,7 @@
 //!   `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's; `toward`:
 //!   in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
 //! - `any`: which format gets which; `reading`: what slots hold as numbers of the host.
+//! - `matrix`: products of matrices in the units of [`crate::num::matrix`].
 //! - `simd`: vector instructions; `evaluate`: one operation on many operands, for the proof.
 
 mod any;
@@ -13,6 +14,7 @@ mod float;
 mod ieee;
 mod lane;
 mod layout;
+mod matrix;
 mod normalized;
 mod odd;
 mod power;
@@ -27,6 +29,7 @@ pub(crate) use any::{Arithmetic, narrow, with_any_lane};
 pub(crate) use evaluate::{apply, is_finite};
 pub use evaluate::{convert, evaluate, exact_dot};
 pub(crate) use lane::{Lane, RegisterNumber};
+pub use matrix::{MatrixColumns, MatrixRows};
 pub use odd::div_odd_long;
 pub use reading::Reading;
 pub use row::{LANES, LaneRow, TRUE};
