@@ -241,7 +241,12 @@ fn columns_at_once_give_what_the_definition_gives() {
             let columns = MatrixColumns::new(*unit, &b);
             for row in 0..2 {
                 let start = if row == 0 { 0 } else { unit.block() };
-                let sums = columns.multiply(&a, row, start, length - start, &c);
+                // Both rows at once, or one.
+                let twice = [&c[..], &c[..]].concat();
+                let sums = match row {
+                    0 => columns.multiply(&a, 0..2, start, length - start, &twice)[..19].to_vec(),
+                    _ => columns.multiply(&a, row..row + 1, start, length - start, &c),
+                };
                 for (column, sum) in sums.into_iter().enumerate() {
                     let [p, q] = [a.row(row, start, length - start), b.row(column, start, length - start)];
                     unit.check(&p, &q).expect("operands of the unit");

@@ -1,6 +1,8 @@
 //! Products of matrices in matrix units: sixteen columns at a time, in code that the compiler turns into vector
 //! instructions. Written apart from [`crate::num::matrix`], which defines every bit.
 
+use std::ops::Range;
+
 use super::SimdLevel;
 use crate::num::matrix::{Element, MatrixUnit, Operand, ResultFormat, Rule, Value};
 
@@ -10,8 +12,8 @@ const WIDTH: usize = 16;
 const CHUNK: usize = 16;
 /// The most bits below the largest exponent that fit.
 const MAX_BITS: u32 = 25;
-/// Exponent of zeros, below that of all products.
-const ZERO: i32 = -1 << 20;
+/// Exponent of zeros: two of them are below that of all products, and fit.
+const ZERO: i16 = -1 << 13;
 
 /// Rows of A or columns of B, each along k.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,36 +57,33 @@ struct Adder {
     result: ResultFormat,
 }
 
+/// A number unpacked: signed magnitude, of 11 bits at most, and exponent.
+type Unpacked = (i16, i16);
+/// Sixteen numbers of one k: magnitudes, then exponents.
+type Lanes = [[i16; WIDTH]; 2];
+
 /// Columns of B, unpacked once: sixteen of them side by side.
 #[derive(Debug)]
 pub struct MatrixColumns<'a> {
     unit: MatrixUnit,
     columns: &'a MatrixRows,
+    /// The numbers of all patterns of the unit's types of up to 16 bits; `None` for infinities and NaN.
+    tables: Vec<(Element, Vec<Option<Unpacked>>)>,
     /// By group of columns, then k.
-    magnitudes: Vec<[i32; WIDTH]>,
-    exponents: Vec<[i32; WIDTH]>,
+    numbers: Vec<Lanes>,
     /// By group: `true` if a number of it is none, which is left to the definition.
     special: Vec<bool>,
 }
 
-/// Signed magnitude and exponent of each number, with its scale; `None` if one is no number.
-fn unpacked(unit: &MatrixUnit, row: Operand<'_>) -> Option<Vec<(i32, i32)>> {
-    let scale = |k: usize| -> Option<i32> {
-        let Some(scaling) = unit.scaling else { return Some(0) };
-        match scaling.decode(row.scales[k / scaling.block]) {
-            Value::Finite(scale) => Some(scale.exponent),
-            _ => None,
-        }
-    };
-    let number = |(k, &code): (usize, &u64)| match (row.element.decode(code), scale(k)?) {
-        (Value::Finite(x), _) if x.magnitude == 0 => Some((0, ZERO)),
-        (Value::Finite(x), scale) => {
-            let size = x.magnitude as i32;
-            Some((if x.negative { -size } else { size }, x.exponent + scale))
+fn unpack(element: Element, code: u64) -> Option<Unpacked> {
+    match element.decode(code) {
+        Value::Finite(x) if x.magnitude == 0 => Some((0, ZERO)),
+        Value::Finite(x) => {
+            let size = x.magnitude as i16;
+            Some((if x.negative { -size } else { size }, x.exponent as i16))
         }
         _ => None,
-    };
-    row.codes.iter().enumerate().map(number).collect()
+    }
 }
 
 impl<'a> MatrixColumns<'a> {
@@ -92,29 +91,42 @@ impl<'a> MatrixColumns<'a> {
     pub fn new(unit: MatrixUnit, columns: &'a MatrixRows) -> Self {
         let depth = columns.length;
         let groups = columns.count().div_ceil(WIDTH);
-        let mut made = Self {
-            unit,
-            columns,
-            magnitudes: vec![[0; WIDTH]; groups * depth],
-            exponents: vec![[ZERO; WIDTH]; groups * depth],
-            special: vec![false; groups],
-        };
+        let mut made = Self { unit, columns, tables: Vec::new(), numbers: Vec::new(), special: vec![false; groups] };
         if made.adder(columns.element).is_none() {
             return made;
         }
+        let short = unit.operands.iter().filter(|element| element.width() <= 16);
+        let table =
+            |&element: &Element| (element, (0..1 << element.width()).map(|code| unpack(element, code)).collect());
+        made.tables = short.map(table).collect();
+        made.numbers = vec![[[0; WIDTH], [ZERO; WIDTH]]; groups * depth];
         for column in 0..columns.count() {
             let (group, lane) = (column / WIDTH, column % WIDTH);
-            match unpacked(&unit, columns.row(column, 0, depth)) {
-                None => made.special[group] = true,
-                Some(numbers) => {
-                    for (k, (magnitude, exponent)) in numbers.into_iter().enumerate() {
-                        made.magnitudes[group * depth + k][lane] = magnitude;
-                        made.exponents[group * depth + k][lane] = exponent;
-                    }
-                }
+            let Some(numbers) = made.unpacked(columns.row(column, 0, depth)) else {
+                made.special[group] = true;
+                continue;
+            };
+            for (lanes, (magnitude, exponent)) in made.numbers[group * depth..].iter_mut().zip(numbers) {
+                (lanes[0][lane], lanes[1][lane]) = (magnitude, exponent);
             }
         }
         made
+    }
+
+    /// The numbers of a row, their scales in the exponents; `None` if one is none.
+    fn unpacked(&self, row: Operand<'_>) -> Option<Vec<Unpacked>> {
+        let table = self.tables.iter().find(|(element, _)| *element == row.element);
+        let numbers: Option<Vec<Unpacked>> = match table {
+            Some((_, table)) => row.codes.iter().map(|&code| table[code as usize & (table.len() - 1)]).collect(),
+            None => row.codes.iter().map(|&code| unpack(row.element, code)).collect(),
+        };
+        let Some(scaling) = self.unit.scaling else { return numbers };
+        let mut numbers = numbers?;
+        for (numbers, &code) in numbers.chunks_mut(scaling.block).zip(row.scales) {
+            let Value::Finite(scale) = scaling.decode(code) else { return None };
+            numbers.iter_mut().filter(|number| number.0 != 0).for_each(|number| number.1 += scale.exponent as i16);
+        }
+        Some(numbers)
     }
 
     /// The unit's adder, if it is one that is computed here.
@@ -125,83 +137,95 @@ impl<'a> MatrixColumns<'a> {
         fits.then_some(Adder { block, bits: bits.cast_signed(), least, fraction, result: self.unit.result })
     }
 
-    /// The row of D for a row of A and one of C: words of the result, as [`MatrixUnit::dot`] gives them, over `depth`
-    /// products behind `start`, which is a multiple of the block. `c` holds a pattern for each column.
-    pub fn multiply(&self, a: &MatrixRows, row: usize, start: usize, depth: usize, c: &[u64]) -> Vec<u64> {
-        let operand = a.row(row, start, depth);
-        let defined = |column: usize| self.unit.dot(operand, self.columns.row(column, start, depth), c[column]);
+    /// Rows of D for rows of A: words of the result, as [`MatrixUnit::dot`] gives them, over `depth` products behind
+    /// `start`, which is a multiple of the block. `c` holds a pattern for each element of these rows of D.
+    pub fn multiply(&self, a: &MatrixRows, rows: Range<usize>, start: usize, depth: usize, c: &[u64]) -> Vec<u64> {
         let count = self.columns.count();
+        let mut sums = c.to_vec();
         let adder = self.adder(a.element);
-        let Some((adder, numbers)) = adder.and_then(|adder| Some((adder, unpacked(&self.unit, operand)?))) else {
-            return (0..count).map(defined).collect();
-        };
-        let mut sums = Vec::with_capacity(count);
+        let numbers: Vec<Option<Vec<Unpacked>>> =
+            rows.clone().map(|row| adder.and_then(|_| self.unpacked(a.row(row, start, depth)))).collect();
         for group in 0..count.div_ceil(WIDTH) {
             let lanes = group * WIDTH..count.min((group + 1) * WIDTH);
-            if self.special[group] {
-                sums.extend(lanes.map(defined));
-                continue;
+            let is_fast = |numbers: &Option<Vec<Unpacked>>| numbers.is_some() && !self.special[group];
+            for (place, row) in rows.clone().enumerate().filter(|&(place, _)| !is_fast(&numbers[place])) {
+                for column in lanes.clone() {
+                    let sum = &mut sums[place * count + column];
+                    *sum = self.unit.dot(a.row(row, start, depth), self.columns.row(column, start, depth), *sum);
+                }
             }
-            let mut words = [0; WIDTH];
-            words[..lanes.len()].copy_from_slice(&c[lanes.clone()]);
-            let first = group * self.columns.length + start;
-            let (magnitudes, exponents) = (&self.magnitudes[first..][..depth], &self.exponents[first..][..depth]);
+            let Some(adder) = adder else { continue };
+            let fast: Vec<(usize, &[Unpacked])> = numbers
+                .iter()
+                .enumerate()
+                .filter(|(_, numbers)| is_fast(numbers))
+                .filter_map(|(place, numbers)| Some((place, numbers.as_deref()?)))
+                .collect();
+            let mut words = vec![[0; WIDTH]; fast.len()];
+            for ((place, _), words) in fast.iter().zip(&mut words) {
+                words[..lanes.len()].copy_from_slice(&sums[place * count..][lanes.clone()]);
+            }
+            let b = self.numbers.get(group * self.columns.length + start..).unwrap_or_default();
             SimdLevel::widest().run(
                 #[inline(always)]
-                || chain(&adder, &numbers, magnitudes, exponents, &mut words),
+                || chains(&adder, &fast, &b[..depth.min(b.len())], &mut words),
             );
-            sums.extend_from_slice(&words[..lanes.len()]);
+            for ((place, _), words) in fast.iter().zip(&words) {
+                sums[place * count..][lanes.clone()].copy_from_slice(&words[..lanes.len()]);
+            }
         }
         sums
     }
 }
 
-/// All blocks of sixteen elements of D.
+/// All blocks of rows of sixteen elements of D: a block of B stays in the cache while all rows of A pass.
 #[inline(always)]
-fn chain(adder: &Adder, a: &[(i32, i32)], b: &[[i32; WIDTH]], exponents: &[[i32; WIDTH]], words: &mut [u64; WIDTH]) {
+fn chains(adder: &Adder, rows: &[(usize, &[Unpacked])], b: &[Lanes], words: &mut [[u64; WIDTH]]) {
+    for (at, b) in b.chunks(adder.block).enumerate() {
+        for ((_, a), words) in rows.iter().zip(words.iter_mut()) {
+            block(adder, &a[at * adder.block..][..b.len()], b, words);
+        }
+    }
+}
+
+/// One block of sixteen elements of D.
+#[inline(always)]
+fn block(adder: &Adder, a: &[Unpacked], b: &[Lanes], words: &mut [u64; WIDTH]) {
     let layout = Layout::of(adder.result);
-    let blocks = a.chunks(adder.block).zip(b.chunks(adder.block)).zip(exponents.chunks(adder.block));
-    for ((a, b), exponents) in blocks {
-        let mut top = [adder.least; WIDTH];
+    let mut top = [adder.least; WIDTH];
+    for lane in 0..WIDTH {
+        top[lane] = top[lane].max(layout.exponent(words[lane]));
+    }
+    for (&(_, e), [_, exponents]) in a.iter().zip(b) {
         for lane in 0..WIDTH {
-            top[lane] = top[lane].max(layout.exponent(words[lane]));
+            top[lane] = top[lane].max(i32::from(e) + i32::from(exponents[lane]));
         }
-        for (&(_, e), exponents) in a.iter().zip(exponents) {
-            for lane in 0..WIDTH {
-                top[lane] = top[lane].max(e + exponents[lane]);
-            }
-        }
-        let mut total = [0_i64; WIDTH];
-        for ((a, b), exponents) in a.chunks(CHUNK).zip(b.chunks(CHUNK)).zip(exponents.chunks(CHUNK)) {
-            let part = chunk(adder, a, b, exponents, &top);
-            for lane in 0..WIDTH {
-                total[lane] += i64::from(part[lane]);
-            }
-        }
+    }
+    let mut total = [0_i64; WIDTH];
+    for (a, b) in a.chunks(CHUNK).zip(b.chunks(CHUNK)) {
+        let part = chunk(adder, a, b, &top);
         for lane in 0..WIDTH {
-            words[lane] = layout.finish(adder, words[lane], total[lane], top[lane]);
+            total[lane] += i64::from(part[lane]);
         }
+    }
+    for lane in 0..WIDTH {
+        words[lane] = layout.finish(adder, words[lane], total[lane], top[lane]);
     }
 }
 
 /// The sum of up to sixteen products, cut below `top`.
 #[inline(always)]
-fn chunk(
-    adder: &Adder,
-    a: &[(i32, i32)],
-    b: &[[i32; WIDTH]],
-    exponents: &[[i32; WIDTH]],
-    top: &[i32; WIDTH],
-) -> [i32; WIDTH] {
+fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32; WIDTH] {
     let up = (adder.bits - adder.fraction).max(0).cast_unsigned();
     let down = (adder.fraction - adder.bits).max(0);
     let mut sum = [0_i32; WIDTH];
-    for ((&(m, e), b), exponents) in a.iter().zip(b).zip(exponents) {
+    for (&(m, e), [magnitudes, exponents]) in a.iter().zip(b) {
+        let (m, e) = (i32::from(m), i32::from(e) - down);
         for lane in 0..WIDTH {
-            let product = m * b[lane];
+            let product = m * i32::from(magnitudes[lane]);
             let sign = product >> 31;
             let size = ((product ^ sign) - sign).cast_unsigned() << up;
-            let cut = (top[lane] - e - exponents[lane] + down).cast_unsigned().min(31);
+            let cut = (top[lane] - e - i32::from(exponents[lane])).cast_unsigned().min(31);
             let kept = (size >> cut).cast_signed();
             sum[lane] += (kept ^ sign) - sign;
         }
@@ -235,12 +259,12 @@ impl Layout {
         }
     }
 
-    /// Exponent of an addend; [`ZERO`] of zeros.
+    /// Exponent of an addend; [`i32::MIN`] halved of zeros.
     #[inline(always)]
     fn exponent(self, word: u64) -> i32 {
         let size = word & ((1 << self.sign) - 1);
         let exponent = self.least + ((size >> self.fraction) as i32).max(1) - 1;
-        if size == 0 { ZERO } else { exponent }
+        if size == 0 { i32::MIN / 2 } else { exponent }
     }
 
     /// The result of a block: `total * 2^(top - bits)` and the addend `c`.
