@@ -164,7 +164,8 @@ fn a_unit_with_enough_bits_rounds_the_exact_sum_once() {
             // Integers, and what is left of them by f64, which holds sums of such numbers exactly.
             let number = |code: u64| match element.decode(code) {
                 Value::Finite(x) => {
-                    let size = x.magnitude as f64 * f64::from(x.exponent - x.fraction as i32).exp2();
+                    let size =
+                        x.magnitude as f64 * f64::from_bits(((x.exponent - x.fraction as i32 + 1023) as u64) << 52);
                     if x.negative { -size } else { size }
                 }
                 _ => f64::NAN,
@@ -254,5 +255,39 @@ fn columns_at_once_give_what_the_definition_gives() {
                 }
             }
         }
+    }
+}
+
+/// 1 + 8 * 2^-25 - 7 * 2^-24, which is 3f7ffffd: docs/matrix_units.md prints what the units make of it.
+#[test]
+fn one_sum_of_sixteen_tells_the_family_apart() {
+    let sums = [
+        ("volta_f16_f32", 0x3f80_0000),
+        ("turing_f16_f32", 0x3f7f_fff9),
+        ("ampere_f16_f32", 0x3f7f_fff9),
+        ("ampere_bf16_f32", 0x3f7f_fff9),
+        ("ampere_tf32_f32", 0x3f7f_fff9),
+        ("ada_fp8_f32", 0x3f80_0000),
+        ("hopper_f16_f32", 0x3f7f_fffd),
+        ("hopper_tf32_f32", 0x3f7f_fffb),
+        ("hopper_fp8_f32", 0x3f80_0000),
+        ("blackwell_f8f6f4_f32", 0x3f7f_fffd),
+        ("cdna1_f16", 0x3f7f_fffe),
+        ("cdna2_f16", 0x3f7f_fffc),
+        ("cdna3_f16", 0x3f7f_fffa),
+        ("cdna3_fp8", 0x3f7f_fffa),
+    ];
+    for (name, expected) in sums {
+        let unit = MatrixUnit::find(name).expect("a unit");
+        let five = |element: &&Element| element.exponent_bits >= 5;
+        let element = *unit.operands.iter().find(five).expect("a type with 2^-13");
+        let power = |n: u64| {
+            let one = (1 - element.least_exponent()) as u64;
+            (one - n) << (element.fraction_bits + element.ignored_bits)
+        };
+        let minus = 1 << (element.width() - 1);
+        let a = [vec![power(0)], vec![power(12); 8], vec![power(12) | minus; 7]].concat();
+        let b = [vec![power(0)], vec![power(13); 8], vec![power(12); 7]].concat();
+        assert_eq!(dot(&unit, element, &a, &b, 0), expected, "{name}: {:x}", dot(&unit, element, &a, &b, 0));
     }
 }

@@ -1,12 +1,15 @@
 //! `crossbar alu`: one operation of a number format on bit patterns.
 
 mod line;
+mod matrix;
 mod operation;
 mod row;
 mod stream;
 
 use std::io::{self, Read};
 
+use clap::builder::ArgPredicate;
+use refsim::num::matrix::MatrixUnit;
 use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
 use self::operation::{AluOperation, Unit};
@@ -26,6 +29,8 @@ Examples:
       1 and 96 with a shared scale: prints 83 0 7, which are 2^4, 0 and 6
   echo 6800 3C00 3C00 3C00 3C00 3C00 | crossbar alu dot --format fp16 --accumulator fp32
       2048 * 1 + 1 * 1 + 1 * 1, summed in single precision: prints 6801, 2050; without --accumulator 2048
+  echo 3C008C00 3C000C00 00000000 | crossbar alu dot --unit hopper-f16
+      1 * 1 - 2^-12 * 2^-12 on a tensor core of Hopper: prints 3f7fffff; on Volta 3f800000
 
 Lines: hexadecimal operands parted by blanks, as TestFloat writes them; blank lines are skipped. A result has as many \
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
@@ -47,8 +52,22 @@ pub(super) struct Args {
     op: AluOperation,
 
     /// The number format of operands and result
-    #[arg(long, value_name = "F")]
+    #[arg(
+        long,
+        value_name = "F",
+        required = false,
+        required_unless_present = "unit",
+        default_value_if("unit", ArgPredicate::IsPresent, "fp32")
+    )]
     format: Format,
+
+    /// The matrix unit of a GPU in which `dot` sums, as `crossbar units` lists them, in place of --format
+    ///
+    /// A line is `a b c`, each with its numbers one after the other; `ta tb a b c` where the unit takes several types, and
+    /// `a b c sa sb` where it has scales.
+    #[arg(long, value_name = "UNIT", value_parser = MatrixUnit::find,
+          conflicts_with_all = ["format", "to", "block", "accumulator", "summation", "flags", "seed"])]
+    unit: Option<MatrixUnit>,
 
     /// The format that `convert` goes to
     #[arg(long, value_name = "F2")]
@@ -97,6 +116,11 @@ fn blocks() -> OneOf<BlockFormat> {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    if let Some(unit) = &args.unit {
+        let others = [("--unit", args.op != AluOperation::Dot)];
+        given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
+        return matrix::run(unit, args.verify, io::stdin().lock(), out);
+    }
     refuse_others(args)?;
     if let Some(unit) = row_unit(args)? {
         row::run(&unit, args.flags, io::stdin().lock(), out)?;
