@@ -44,8 +44,9 @@ pub(super) const TABLE: &[Tried] = &[
             "alu dot --format fp16 < 6800 3C00 3C00 3C00 3C00 3C00",
             "alu quantize --format fp32 --block mxfp4 < 3f9ccccd",
             "alu mul --format e4m3fn:rst < 3B 3B",
+            "alu dot --unit hopper-f16 < 3C008C00 3C000C00 00000000",
         ],
-        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --flags --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1",
+        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --flags --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1 --unit=volta-f16@9",
     },
     Tried {
         bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],
@@ -319,6 +320,12 @@ pub(super) const TABLE: &[Tried] = &[
         ),
     },
     Tried { bases: &["merge court_2.part court_1.part --out OUT.npz"], options: "--out=other.npz" },
+    Tried {
+        bases: &["matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8 --out OUT"],
+        options: "--unit=ada-fp8 --c=nowhere.npy --type=e5m2 --promote=64 --against=blackwell-f8f6f4 --blame=1,2 \
+                  --goal=worst<=0.001 --out=other",
+    },
+    Tried { bases: &["units", "units hopper-fp8"], options: "" },
     Tried {
         bases: &["measure docs/examples/measured.csv --device nv25"],
         options: "--device=nv20 --switch=rounding=rtz",
