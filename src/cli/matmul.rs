@@ -45,7 +45,7 @@ pub(super) struct Args {
     unit: Vec<MatrixUnit>,
 
     /// Types of A and B, or one of both [default: the first that a unit takes]
-    #[arg(long = "type", value_name = "TYPE,...", value_delimiter = ',', num_args = 1..=2, value_parser = element)]
+    #[arg(long = "type", value_name = "TYPE,...", value_delimiter = ',', value_parser = element)]
     types: Vec<Element>,
 
     /// Also add a partial sum to single precision every so many products

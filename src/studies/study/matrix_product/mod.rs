@@ -42,21 +42,21 @@ pub struct MatrixProduct {
 
 /// Errors of all elements. Relative ones are shares of the reference's magnitude, element by element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Errors {
+struct Errors {
     /// Largest relative error.
-    pub(super) worst: f64,
+    worst: f64,
     /// Mean relative error with its sign, that of larger results.
-    pub(super) mean: f64,
+    mean: f64,
     /// Largest error as a share of the sum of the magnitudes of an element's addends.
-    pub(super) of_addends: f64,
+    of_addends: f64,
     /// Elements that differ from the reference.
-    pub(super) differing: usize,
+    differing: usize,
     /// Elements that are not finite on either side, which are in no error.
-    pub(super) not_finite: usize,
+    not_finite: usize,
 }
 
 impl Errors {
-    pub(super) const MEASURES: &str = "worst, mean, bits, of_addends or differing";
+    const MEASURES: &str = "worst, mean, bits, of_addends or differing";
 
     fn of(found: &[f64], reference: &[ExactSum]) -> Self {
         let (mut errors, mut sum) = (Self::default(), 0.0);
@@ -79,7 +79,7 @@ impl Errors {
     }
 
     /// Bits that are right in the worst element.
-    pub(super) fn bits(&self) -> f64 {
+    fn bits(&self) -> f64 {
         -crate::elementary::ln(self.worst) / std::f64::consts::LN_2
     }
 
@@ -97,29 +97,29 @@ impl Errors {
 
 /// A unit with a promotion: errors by depth, and D.
 #[derive(Debug)]
-pub(super) struct ProductRow {
-    pub(super) unit: MatrixUnit,
-    pub(super) promote: Option<usize>,
-    pub(super) errors: Vec<Errors>,
-    pub(super) product: Vec<f64>,
+struct ProductRow {
+    unit: MatrixUnit,
+    promote: Option<usize>,
+    errors: Vec<Errors>,
+    product: Vec<f64>,
 }
 
 /// What the search for a goal found.
 #[derive(Debug)]
-pub(super) struct GoalOutcome {
-    pub(super) fewest_bits: Option<u32>,
+struct GoalOutcome {
+    fewest_bits: Option<u32>,
     /// Products per promotion, at most; the depth for one accumulator.
-    pub(super) rarest_promotion: Option<usize>,
+    rarest_promotion: Option<usize>,
 }
 
 /// Everything that was computed.
 #[derive(Debug)]
-pub(super) struct ProductOutcome {
-    pub(super) shape: [usize; 3],
-    pub(super) depths: Vec<usize>,
-    pub(super) rows: Vec<ProductRow>,
-    pub(super) blame: Option<blame::Blame>,
-    pub(super) goal: Option<GoalOutcome>,
+struct ProductOutcome {
+    shape: [usize; 3],
+    depths: Vec<usize>,
+    rows: Vec<ProductRow>,
+    blame: Option<blame::Blame>,
+    goal: Option<GoalOutcome>,
 }
 
 impl Study for MatrixProduct {

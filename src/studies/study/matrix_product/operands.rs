@@ -9,7 +9,6 @@ use refsim::num::{Encoding, Format, Overflow, ops};
 
 use crate::error::InputError;
 use crate::io::{NumberArray, NumbersOrCodes, load_numbers_or_codes};
-use crate::study::StudyError;
 use crate::study::error::library_errors;
 
 /// Longest file that is read, in bytes (1 GiB).

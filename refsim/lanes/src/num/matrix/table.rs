@@ -24,7 +24,24 @@ const HOPPER: &str = "Hopper, Blackwell, RTX Blackwell: mma, wgmma, tcgen05 kind
 const HOPPER_8: &str = "Hopper: wgmma k32";
 const SYNC: &str = "Hopper, B200: mma.sync m16n8k32, which is converted to fp16";
 const BLACKWELL: &str = "B200: tcgen05 kind::f8f6f4; RTX Blackwell: mma kind::f8f6f4, and Ada's FP8 forms";
+const MXF8: &str = "B200: tcgen05; RTX Blackwell: mma; mxf8f6f4";
 const MXF4: &str = "B200: tcgen05; RTX Blackwell: mma; mxf4nvf4";
+
+type Known = (Evidence, &'static str);
+const V100: Known = (Measured, "V100 (K); Turing: M");
+const V100_BITS: Known = (Measured, "V100 (K); its bits: M, K");
+const FOUR_CHIPS: Known = (Measured, "A100 A2 Ada L40S (K); Turing: M");
+const FOUR_CHIPS_BITS: Known = (Measured, "A100 A2 Ada L40S (K); Turing: M; its bits: M, K");
+const CHAIN: Known = (Measured, "one block: A100 A2 Ada L40S (K); two: M, K");
+const CHAIN_BITS: Known = (Measured, "one block: A100 A2 Ada L40S (K); two, and its bits: M, K");
+const MMA: Known = (Measured, "mma: H100 H200 B200 (K); wgmma, tcgen05: M, K; RTX: M");
+const MMA_BITS: Known = (Measured, "mma: H100 H200 B200 (K); wgmma, tcgen05, its bits: M, K; RTX: M");
+const MMA_LEAST: Known =
+    (Measured, "mma: H100 H200 B200 (K), its least exponent: one result of H100; wgmma, tcgen05: M, K; RTX: M");
+const SHORT_BLOCK: Known = (Measured, "blocks of 4: H100 H200 B200 (K); of 8: M, K; RTX: M");
+const NO_ADDEND: Known = (Measured, "with c = 0: H100 H200 (K); c: M, K, SageAttention 2");
+const DEEP_GEMM: Known = (OneModel, "M; bits: also DeepGEMM issue 176");
+const MODEL: Known = (OneModel, "M");
 
 /// NVIDIA's adder: the least exponent follows from the bits of the unit's 16-bit types.
 const fn nvidia(
@@ -33,7 +50,7 @@ const fn nvidia(
     operands: &'static [Element],
     [length, block, bits, half_bits]: [u32; 4],
     result: ResultFormat,
-    (evidence, source): (Evidence, &'static str),
+    (evidence, source): Known,
 ) -> MatrixUnit {
     let least = if matches!(result, Nearest16) { 4 - half_bits as i32 } else { -108 - half_bits as i32 };
     let (length, block) = (length as usize, block as usize);
@@ -55,7 +72,7 @@ const fn amd(
 }
 
 const fn groups(name: &'static str, chips: &'static str, block: usize, is_e4m3: bool) -> MatrixUnit {
-    let unit = nvidia(name, chips, FOUR, [64, 64, 35, 25], Cut32, (OneModel, "M; bits: also DeepGEMM issue 176"));
+    let unit = nvidia(name, chips, FOUR, [64, 64, 35, 25], Cut32, DEEP_GEMM);
     MatrixUnit { rule: Rule::Groups { bits: 35 }, scaling: Some(Scaling { block, is_e4m3 }), ..unit }
 }
 
@@ -72,117 +89,30 @@ const fn synchronous(
 
 /// Every unit, oldest first.
 pub static UNITS: [MatrixUnit; 36] = [
-    nvidia("volta_f16_f32", VOLTA, HALF, [4, 4, 23, 23], Cut32, (Measured, "V100 (K); Turing: M")),
-    MatrixUnit {
-        addend: Element::FP16,
-        ..nvidia("volta_f16_f32_c16", VOLTA, HALF, [4, 4, 23, 23], Cut32, (OneModel, "M"))
-    },
-    nvidia("volta_f16_f16", VOLTA, HALF, [4, 4, 23, 23], Nearest16, (Measured, "V100 (K); its bits: M, K")),
-    nvidia("turing_f16_f32", TURING, HALF, [8, 8, 24, 24], Cut32, (Measured, "A100 A2 Ada L40S (K); Turing: M")),
-    nvidia(
-        "turing_f16_f16",
-        TURING,
-        HALF,
-        [8, 8, 24, 24],
-        Nearest16,
-        (Measured, "A100 A2 Ada L40S (K); Turing: M; its bits: M, K"),
-    ),
-    nvidia(
-        "ampere_f16_f32",
-        AMPERE,
-        HALF,
-        [16, 8, 24, 24],
-        Cut32,
-        (Measured, "one block: A100 A2 Ada L40S (K); two: M, K"),
-    ),
-    nvidia(
-        "ampere_f16_f16",
-        AMPERE,
-        HALF,
-        [16, 8, 24, 24],
-        Nearest16,
-        (Measured, "one block: A100 A2 Ada L40S (K); two, and its bits: M, K"),
-    ),
-    nvidia(
-        "ampere_bf16_f32",
-        AMPERE,
-        BRAIN,
-        [16, 8, 24, 24],
-        Cut32,
-        (Measured, "one block: A100 A2 Ada L40S (K); two: M, K"),
-    ),
-    nvidia(
-        "ampere_tf32_f32",
-        "Ampere, Ada: m16n8k8 and k4",
-        TF32,
-        [8, 4, 24, 24],
-        Cut32,
-        (Measured, "one block: A100 A2 Ada L40S (K); two: M, K"),
-    ),
+    nvidia("volta_f16_f32", VOLTA, HALF, [4, 4, 23, 23], Cut32, V100),
+    MatrixUnit { addend: Element::FP16, ..nvidia("volta_f16_f32_c16", VOLTA, HALF, [4, 4, 23, 23], Cut32, MODEL) },
+    nvidia("volta_f16_f16", VOLTA, HALF, [4, 4, 23, 23], Nearest16, V100_BITS),
+    nvidia("turing_f16_f32", TURING, HALF, [8, 8, 24, 24], Cut32, FOUR_CHIPS),
+    nvidia("turing_f16_f16", TURING, HALF, [8, 8, 24, 24], Nearest16, FOUR_CHIPS_BITS),
+    nvidia("ampere_f16_f32", AMPERE, HALF, [16, 8, 24, 24], Cut32, CHAIN),
+    nvidia("ampere_f16_f16", AMPERE, HALF, [16, 8, 24, 24], Nearest16, CHAIN_BITS),
+    nvidia("ampere_bf16_f32", AMPERE, BRAIN, [16, 8, 24, 24], Cut32, CHAIN),
+    nvidia("ampere_tf32_f32", "Ampere, Ada: m16n8k8 and k4", TF32, [8, 4, 24, 24], Cut32, CHAIN),
     nvidia("ada_fp8_f32", ADA, EIGHT, [32, 16, 13, 24], Cut22, (Measured, "RTX 1000 Ada, L40S (K)")),
     nvidia("ada_fp8_f16", ADA, EIGHT, [32, 16, 13, 24], Nearest16, (Measured, "RTX 1000 Ada (K)")),
-    nvidia(
-        "hopper_f16_f32",
-        HOPPER,
-        HALF,
-        [16, 16, 25, 25],
-        Cut32,
-        (Measured, "mma: H100 H200 B200 (K); wgmma, tcgen05: M, K; RTX: M"),
-    ),
-    nvidia(
-        "hopper_f16_f16",
-        HOPPER,
-        HALF,
-        [16, 16, 25, 25],
-        Nearest16,
-        (Measured, "mma: H100 H200 B200 (K); wgmma, tcgen05, its bits: M, K; RTX: M"),
-    ),
-    nvidia(
-        "hopper_bf16_f32",
-        HOPPER,
-        BRAIN,
-        [16, 16, 25, 25],
-        Cut32,
-        (Measured, "mma: H100 H200 B200 (K), its least exponent: one result of H100; wgmma, tcgen05: M, K; RTX: M"),
-    ),
-    nvidia(
-        "hopper_tf32_f32",
-        HOPPER,
-        TF32,
-        [8, 8, 25, 25],
-        Cut32,
-        (Measured, "blocks of 4: H100 H200 B200 (K); of 8: M, K; RTX: M"),
-    ),
-    nvidia(
-        "hopper_fp8_f32",
-        HOPPER_8,
-        EIGHT,
-        [32, 32, 13, 25],
-        Cut22,
-        (Measured, "with c = 0: H100 H200 (K); c: M, K, SageAttention 2"),
-    ),
+    nvidia("hopper_f16_f32", HOPPER, HALF, [16, 16, 25, 25], Cut32, MMA),
+    nvidia("hopper_f16_f16", HOPPER, HALF, [16, 16, 25, 25], Nearest16, MMA_BITS),
+    nvidia("hopper_bf16_f32", HOPPER, BRAIN, [16, 16, 25, 25], Cut32, MMA_LEAST),
+    nvidia("hopper_tf32_f32", HOPPER, TF32, [8, 8, 25, 25], Cut32, SHORT_BLOCK),
+    nvidia("hopper_fp8_f32", HOPPER_8, EIGHT, [32, 32, 13, 25], Cut22, NO_ADDEND),
     nvidia("hopper_fp8_f16", HOPPER_8, EIGHT, [32, 32, 13, 25], Nearest16, (TwoModels, "M, K")),
     synchronous("sync_fp8_f32", 25, -133, Cut32, "B200 (K); special values: none"),
     synchronous("sync_fp8_f16", 25, -21, Nearest16, "H100 H200 B200 (K); special values: none"),
-    nvidia(
-        "blackwell_f8f6f4_f32",
-        BLACKWELL,
-        SHORT,
-        [32, 32, 25, 25],
-        Cut32,
-        (OneModel, "M; bits: also DeepGEMM issue 176"),
-    ),
-    nvidia("blackwell_f8f6f4_f16", BLACKWELL, SHORT, [32, 32, 25, 25], Nearest16, (OneModel, "M")),
+    nvidia("blackwell_f8f6f4_f32", BLACKWELL, SHORT, [32, 32, 25, 25], Cut32, DEEP_GEMM),
+    nvidia("blackwell_f8f6f4_f16", BLACKWELL, SHORT, [32, 32, 25, 25], Nearest16, MODEL),
     MatrixUnit {
         scaling: Some(Scaling { block: 32, is_e4m3: false }),
-        ..nvidia(
-            "blackwell_mxf8f6f4",
-            "B200: tcgen05; RTX Blackwell: mma; mxf8f6f4",
-            SHORT,
-            [32, 32, 25, 25],
-            Cut32,
-            (OneModel, "M"),
-        )
+        ..nvidia("blackwell_mxf8f6f4", MXF8, SHORT, [32, 32, 25, 25], Cut32, MODEL)
     },
     groups("blackwell_mxf4", "B200: tcgen05; RTX Blackwell: mma; mxf4, and mxf4nvf4 with blocks of 32", 32, false),
     groups("blackwell_mxf4_block16", MXF4, 16, false),
