@@ -75,7 +75,7 @@ fn ordinary(element: Element, count: usize, seed: u64) -> Vec<u64> {
     let code = |k: usize| {
         let word = u64::from(random_word(seed, k as u64));
         let exponent = middle - spread / 2 + (word >> 24) % spread.max(1);
-        word % 2 << (element.width() - 1) | exponent << fraction | (word >> 1) & ((1 << fraction) - 1)
+        ((word % 2) << (element.width() - 1)) | (exponent << fraction) | ((word >> 1) & ((1 << fraction) - 1))
     };
     (0..count).map(code).collect()
 }
@@ -164,8 +164,8 @@ fn a_unit_with_enough_bits_rounds_the_exact_sum_once() {
             // Integers, and what is left of them by f64, which holds sums of such numbers exactly.
             let number = |code: u64| match element.decode(code) {
                 Value::Finite(x) => {
-                    let size =
-                        x.magnitude as f64 * f64::from_bits(((x.exponent - x.fraction as i32 + 1023) as u64) << 52);
+                    let size = x.magnitude as f64
+                        * f64::from_bits(((x.exponent - x.fraction.cast_signed() + 1023) as u64) << 52);
                     if x.negative { -size } else { size }
                 }
                 _ => f64::NAN,
@@ -216,7 +216,7 @@ fn drawn(element: Element, count: usize, seed: u64) -> Vec<u64> {
     };
     match seed % 4 {
         0 => (0..count).map(any).collect(),
-        1 => (0..count).map(|k| if k % 7 == 0 { any(k) } else { 0 }).collect(),
+        1 => (0..count).map(|k| if k.is_multiple_of(7) { any(k) } else { 0 }).collect(),
         // No exponent at its end: neither infinities nor NaN.
         2 => (0..count).map(|k| any(k) & !(3 << (element.width() - 3))).collect(),
         _ => ordinary(element, count, seed),
@@ -232,8 +232,9 @@ fn columns_at_once_give_what_the_definition_gives() {
             let rows = |element: Element, count: usize, seed: u64| {
                 let share = unit.scaling.map_or(1, |scaling| scaling.block);
                 let scales = unit.scaling.map_or(0, |_| count * length.div_ceil(share));
-                let code =
-                    |k: usize| if seed % 3 == 0 { random_word(seed, k as u64) as u8 } else { 120 + (k % 16) as u8 };
+                let code = |k: usize| {
+                    if seed.is_multiple_of(3) { random_word(seed, k as u64) as u8 } else { 120 + (k % 16) as u8 }
+                };
                 let codes = drawn(element, count * length, seed);
                 MatrixRows { element, length, codes, scales: (0..scales).map(code).collect(), share }
             };

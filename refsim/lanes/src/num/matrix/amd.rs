@@ -44,10 +44,10 @@ pub(super) fn pairs(a: &[Value], b: &[Value], block: usize, c: Value) -> u64 {
         other => ResultFormat::Nearest32.special(other) as u32,
     };
     let product = |k: usize| match (a.get(k), b.get(k)) {
-        (Some(&x), Some(&y)) => ops::mul(&format, word(x), word(y)).bits,
+        (Some(&x), Some(&y)) => ops::mul(format, word(x), word(y)).bits,
         _ => 0,
     };
-    let add = |x: u32, y: u32| ops::add(&format, x, y).bits;
+    let add = |x: u32, y: u32| ops::add(format, x, y).bits;
     let mut sum = add(product(0), product(1));
     if block == 4 {
         sum = add(sum, add(product(2), product(3)));

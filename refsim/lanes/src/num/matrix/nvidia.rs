@@ -35,7 +35,7 @@ pub(super) fn synchronous(products: &[Value], c: u64, bits: u32, least: i32, res
     let first = block(&half(0), element.decode(0), bits, least, result);
     let second = block(&half(1), element.decode(first), bits, least, result);
     let format = if element == Element::FP16 { Format::FP16 } else { Format::FP32 };
-    let total = u64::from(ops::add(&format, second as u32, c as u32).bits);
+    let total = u64::from(ops::add(format, second as u32, c as u32).bits);
     if element.decode(total) == Value::Nan { result.special(Value::Nan) } else { total }
 }
 
@@ -60,7 +60,7 @@ fn group(products: &[Value], (sa, sb): GroupScales) -> Option<Addend> {
     let products: Vec<Addend> = products.iter().filter_map(|product| product.addend()).collect();
     // Magnitudes are below 6 * 6, in quarters.
     let quarters = |p: &Addend| {
-        let size = (p.magnitude << p.exponent) as i64;
+        let size = (p.magnitude << p.exponent).cast_signed();
         if p.negative { -size } else { size }
     };
     let fraction = products.first()?.fraction;

@@ -52,7 +52,7 @@ const fn nvidia(
     result: ResultFormat,
     (evidence, source): Known,
 ) -> MatrixUnit {
-    let least = if matches!(result, Nearest16) { 4 - half_bits as i32 } else { -108 - half_bits as i32 };
+    let least = if matches!(result, Nearest16) { 4 - half_bits.cast_signed() } else { -108 - half_bits.cast_signed() };
     let (length, block) = (length as usize, block as usize);
     let rule = Rule::Aligned { block, bits, least };
     let addend = result.element();
