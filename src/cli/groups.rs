@@ -9,7 +9,7 @@ const GROUPS: [(&str, &str); 5] = [
     ("Start here", "leaky-teapot render reproduce scene"),
     ("Systems", "intersect radiosity subsurface cpca all-frequency bi-scale atlas materials"),
     ("Cards and shaders", "devices check run compare timeline measure page"),
-    ("Numbers", "alu precision"),
+    ("Numbers", "alu precision matmul units"),
     ("Tools", "diff merge completions man help"),
 ];
 /// Width of the list: clap's, too, has at most so many columns.

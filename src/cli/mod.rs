@@ -25,6 +25,7 @@ mod intersect;
 mod leaky_teapot;
 mod man;
 mod materials;
+mod matmul;
 mod measure;
 mod merge;
 mod model_file;
@@ -49,6 +50,7 @@ mod subsurface;
 mod switch;
 mod timeline;
 mod transfer;
+mod units;
 mod version;
 mod view;
 mod words;
@@ -136,6 +138,7 @@ enum Command {
     LeakyTeapot(leaky_teapot::Args),
     Man(man::Args),
     Materials(materials::Args),
+    Matmul(matmul::Args),
     Measure(measure::Args),
     Merge(merge::Args),
     Page(page::Args),
@@ -147,6 +150,7 @@ enum Command {
     Scene(scene::Args),
     Subsurface(subsurface::Args),
     Timeline(timeline::Args),
+    Units(units::Args),
 }
 
 /// The program with all its options: a tree of commands, verbs and arguments.
@@ -236,6 +240,7 @@ fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, program(), out),
         Command::Materials(args) => materials::run(&args, out),
+        Command::Matmul(args) => study::run(&args, command_line, out),
         Command::Measure(args) => study::run(&args, command_line, out),
         Command::Merge(args) => merge(&args, out),
         Command::Page(args) => page::run(&args, out),
@@ -247,5 +252,6 @@ fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::
         Command::Run(args) => run::run(&args, out),
         Command::Scene(args) => scene::run(&args, out),
         Command::Timeline(args) => timeline::run(&args, out),
+        Command::Units(args) => units::run(&args, out),
     }
 }

@@ -308,3 +308,33 @@ fn a_closed_pipe_is_no_error() {
     assert_eq!(run(&["alu", "sqrt", "--format", "fp16"], "4400\n"), Some(0));
     assert_eq!(run(&["alu", "sqrt", "--format", "fp16", "--verify"], "4400 4001\n"), Some(1));
 }
+
+#[test]
+fn matrix_units_take_the_vectors_as_they_are() {
+    let dot = |unit: &str, input: &str| results(&format!("dot --unit {unit}"), input);
+    assert_eq!(dot("hopper-f16", "3C008C00 3C000C00 00000000\n3c00,3c00,3f800000"), ["3f7fffff", "40000000"]);
+    assert_eq!(dot("volta_f16_f32", "3C008C00,3C000C00,00000000"), ["3f800000"]);
+    for unit in ["ada_fp8_f32", "blackwell_nvf4", "cdna3_fp8", "fma_f64", "volta_f16_f32_c16"] {
+        let path = format!("refsim/lanes/tests/matrix_vectors/{unit}.csv");
+        let vectors = std::fs::read_to_string(path).expect("vectors");
+        let ran = alu(&format!("dot --unit {unit} --verify"), &vectors);
+        assert_eq!(ran.code, Some(0), "{unit}: {}", ran.stdout);
+        assert_eq!(ran.stdout, format!("{} passed, 0 failed\n", vectors.lines().count() - 1), "{unit}");
+    }
+    let wrong = alu("dot --unit volta-f16 --verify", "3C00 3C00 00000000 3f800001\n");
+    assert_eq!((wrong.code, wrong.stdout.lines().count()), (Some(1), 2), "{}", wrong.stdout);
+    for (unit, line) in [
+        ("hopper-f16", "3C0 3C00 00000000"),
+        ("hopper-f16", "3C00 3C003C00 00000000"),
+        ("hopper-f16", "3C00 3C00"),
+        ("hopper-fp8", "fp8 e4m3 38 38 00000000"),
+        ("blackwell-f8f6f4", "e2m3 e2m3 40 40 00000000"),
+        ("blackwell-nvf4", "1 1 00000000 38 3838"),
+        ("hopper-f16", "3C00 3C00 0000000000000000"),
+    ] {
+        let ran = alu(&format!("dot --unit {unit}"), line);
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{unit} {line}: {}", ran.stderr);
+    }
+    assert_eq!(alu("add --unit hopper-f16", "").code, Some(2));
+    assert_eq!(alu("add", "").code, Some(2));
+}

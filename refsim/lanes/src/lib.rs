@@ -14,5 +14,8 @@ pub mod num;
 mod lanes;
 mod rows;
 
-pub use lanes::{AnyLane, LANES, LaneRow, Reading, SimdLevel, TRUE, convert, div_odd_long, evaluate, exact_dot};
+pub use lanes::{
+    AnyLane, LANES, LaneRow, MatrixColumns, MatrixRows, Reading, SimdLevel, TRUE, convert, div_odd_long, evaluate,
+    exact_dot,
+};
 pub use rows::{ArrayOperation, LaneCode, LaneOp, OPERANDS, RowSum, Slot, Slots, add_rows, run};

@@ -2,6 +2,7 @@
 
 mod device;
 mod line;
+mod matrix;
 mod operation;
 mod row;
 mod stream;
@@ -9,6 +10,7 @@ mod vector;
 
 use std::io::{self, Read};
 
+use refsim::num::matrix::MatrixUnit;
 use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
 use self::device::{Arithmetic, Stage, State, refuse_foreign, refuse_lacking};
@@ -31,6 +33,8 @@ Examples:
       2048 * 1 + 1 * 1 + 1 * 1, summed in single precision: prints 6801, 2050; without --accumulator 2048
   echo 3F800000 B3800000 | crossbar alu add --device nv20
       1 - 2^-24 by the vertex unit of a GeForce3: prints 3F7FFFFF, a cut sum
+  echo 3C008C00 3C000C00 00000000 | crossbar alu dot --unit hopper-f16
+      1 * 1 - 2^-12 * 2^-12 on a tensor core of Hopper: prints 3f7fffff; on Volta 3f800000
 
 Lines: hexadecimal operands parted by blanks or commas, as TestFloat writes them; blank lines are skipped. A result has as many \
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
@@ -53,7 +57,7 @@ pub(super) struct Args {
     op: AluOperation,
 
     /// The number format of operands and result
-    #[arg(long, value_name = "F", required_unless_present = "device")]
+    #[arg(long, value_name = "F", required_unless_present_any = ["device", "unit"])]
     format: Option<Format>,
 
     /// A device, in place of a format: its instruction of this name, by the unit that was measured or by its rules
@@ -67,6 +71,14 @@ pub(super) struct Args {
     /// The state of the device's unit; by default modern, or ieee
     #[arg(long, requires = "device", value_parser = states())]
     state: Option<State>,
+
+    /// The matrix unit of a GPU in which `dot` sums, as `crossbar units` lists them, in place of --format
+    ///
+    /// A line is `a b c`, each with its numbers one after the other; `ta tb a b c` where the unit takes several types, and
+    /// `a b c sa sb` where it has scales.
+    #[arg(long, value_name = "UNIT", value_parser = MatrixUnit::find,
+          conflicts_with_all = ["format", "device", "to", "block", "accumulator", "summation", "flags", "seed"])]
+    unit: Option<MatrixUnit>,
 
     /// The format that `convert` goes to
     #[arg(long, value_name = "F2")]
@@ -130,6 +142,11 @@ fn blocks() -> OneOf<BlockFormat> {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    if let Some(unit) = &args.unit {
+        let others = [("--unit", args.op != AluOperation::Dot)];
+        given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
+        return matrix::run(unit, args.verify, io::stdin().lock(), out);
+    }
     let arithmetic = arithmetic(args)?;
     refuse_others(args, &arithmetic.format)?;
     if let Some(unit) = row_unit(args, arithmetic)? {

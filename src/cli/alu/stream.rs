@@ -25,8 +25,8 @@ const TASK_LINES: usize = 4096;
 #[derive(Default)]
 pub(super) struct TaskOutput {
     pub(super) text: Vec<u8>,
-    passed: u64,
-    failed: u64,
+    pub(super) passed: u64,
+    pub(super) failed: u64,
     error: Option<InputError>,
 }
 

@@ -237,6 +237,27 @@ pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<Num
     parse_npy_array(&read_file(path, what, limit)?, path)
 }
 
+/// Numbers, or patterns of a number format.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NumbersOrCodes {
+    /// Of type f4 or f8.
+    Numbers(NumberArray),
+    /// Of type u1, u2 or u4.
+    Codes(NumberArray<u64>),
+}
+
+/// An array of floats, or of unsigned integers in little-endian order, from a file of at most `limit` bytes, which is a
+/// `what`.
+pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Result<NumbersOrCodes, InputError> {
+    let bytes = read_file(path, what, limit)?;
+    let view = view(&bytes, path)?;
+    if matches!(view.descr.as_bytes(), [b'<' | b'|', b'u', b'1' | b'2' | b'4']) && !view.data.is_empty() {
+        let values = view.elements().collect();
+        return Ok(NumbersOrCodes::Codes(NumberArray { shape: view.shape, values }));
+    }
+    parse_npy_array(&bytes, path).map(NumbersOrCodes::Numbers)
+}
+
 /// Writes a table as an array of little-endian f4, in version 1.
 ///
 /// # Panics

@@ -7,6 +7,7 @@ pub mod configuration;
 mod error;
 pub mod framing;
 pub mod leaky_teapot;
+pub mod matrix_product;
 pub mod measure;
 pub mod page;
 pub mod picture_difference;

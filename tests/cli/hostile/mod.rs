@@ -64,6 +64,7 @@ const COMMANDS: &[&str] = &[
     "leaky-teapot --device nowhere",
     "man nowhere",
     "materials nowhere",
+    "matmul nowhere.npy nowhere.npy --unit hopper-fp8",
     "measure nowhere.csv --device r200",
     "merge nowhere.part --out x",
     "precision nowhere.toml",
@@ -75,6 +76,7 @@ const COMMANDS: &[&str] = &[
     "subsurface nowhere.obj --mm-per-unit 1 --material marble",
     "timeline nowhere.toml",
     "page nowhere",
+    "units nowhere",
 ];
 
 /// Commands without options that take values.

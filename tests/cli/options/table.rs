@@ -45,8 +45,9 @@ pub(super) const TABLE: &[Tried] = &[
             "alu quantize --format fp32 --block mxfp4 < 3f9ccccd",
             "alu mul --format e4m3fn:rst < 3B 3B",
             "alu mul --device nv30 < 3FC00001 3F800001;00000000 7F800000",
+            "alu dot --unit hopper-f16 < 3C008C00 3C000C00 00000000",
         ],
-        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --flags --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1 --device=nv20 --stage=pixel --state=legacy",
+        options: "--format=bf16@0,1,2,3,4,5,6 --to=fp24 --verify --flags --accumulator=fp32 --summation=exact --block=mxfp6-e3m2 --seed=1 --device=nv20 --stage=pixel --state=legacy --unit=volta-f16@10",
     },
     Tried {
         bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],
@@ -320,6 +321,12 @@ pub(super) const TABLE: &[Tried] = &[
         ),
     },
     Tried { bases: &["merge court_2.part court_1.part --out OUT.npz"], options: "--out=other.npz" },
+    Tried {
+        bases: &["matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8 --out OUT"],
+        options: "--unit=ada-fp8 --c=nowhere.npy --type=e5m2 --promote=64 --against=blackwell-f8f6f4 --blame=1,2 \
+                  --goal=worst<=0.001 --out=other",
+    },
+    Tried { bases: &["units", "units hopper-fp8"], options: "" },
     Tried {
         bases: &["measure docs/examples/measured.csv --device nv25"],
         options: "--device=nv20 --switch=rounding=rtz",

@@ -5,6 +5,7 @@
 //!   in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
 //! - `unit`: units of cards, on words.
 //! - `any`: which format gets which; `reading`: what slots hold as numbers of the host.
+//! - `matrix`: products of matrices in the units of [`crate::num::matrix`].
 //! - `simd`: vector instructions; `evaluate`: one operation on many operands, for the proof.
 
 mod any;
@@ -14,6 +15,7 @@ mod float;
 mod ieee;
 mod lane;
 mod layout;
+mod matrix;
 mod normalized;
 mod odd;
 mod power;
@@ -30,6 +32,7 @@ pub(crate) use evaluate::{apply, is_finite};
 pub use evaluate::{convert, evaluate, exact_dot};
 pub(crate) use lane::{Lane, RegisterNumber};
 pub(crate) use layout::pow2;
+pub use matrix::{MatrixColumns, MatrixRows};
 pub(crate) use odd::add_odd;
 pub use odd::div_odd_long;
 pub use reading::Reading;

@@ -57,6 +57,7 @@ pub mod decimal;
 mod env;
 mod flags;
 mod format;
+pub mod matrix;
 mod operation;
 pub mod ops;
 mod parse;

@@ -18,6 +18,6 @@ mod tile;
 mod vertex;
 
 pub use executor::BatchExecutor;
-pub use refsim_lanes::{ArrayOperation, SimdLevel, convert, evaluate, exact_dot};
+pub use refsim_lanes::{ArrayOperation, MatrixColumns, MatrixRows, SimdLevel, convert, evaluate, exact_dot};
 pub use tile::{BatchTiles, TileRound};
 pub use vertex::{AttributeRows, BatchVertices, Instances, Surfaces, VertexRows};

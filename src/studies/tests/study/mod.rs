@@ -3,6 +3,7 @@
 mod error;
 mod framing;
 mod leaky_teapot;
+mod matrix_product;
 mod measure;
 mod page;
 mod picture_difference;

@@ -1,0 +1,300 @@
+//! Products of matrices in matrix units: sixteen columns at a time, in code that the compiler turns into vector
+//! instructions. Written apart from [`crate::num::matrix`], which defines every bit.
+
+use std::ops::Range;
+
+use super::SimdLevel;
+use crate::num::matrix::{Element, MatrixUnit, Operand, ResultFormat, Rule, Value};
+
+/// Columns that are computed at once.
+const WIDTH: usize = 16;
+/// Products that are added in 32 bits: each is below `2^27`, being below 4 in units of `2^-25`.
+const CHUNK: usize = 16;
+/// The most bits below the largest exponent that fit.
+const MAX_BITS: u32 = 25;
+/// Exponent of zeros: two of them are below that of all products, and fit.
+const ZERO: i16 = -1 << 13;
+
+/// Rows of A or columns of B, each along k.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MatrixRows {
+    /// Type of the numbers.
+    pub element: Element,
+    /// Numbers of a row, at least 1.
+    pub length: usize,
+    /// Patterns, row after row.
+    pub codes: Vec<u64>,
+    /// Patterns of the scales, row after row; empty without.
+    pub scales: Vec<u8>,
+    /// Numbers of a row that share a scale, at least 1.
+    pub share: usize,
+}
+
+impl MatrixRows {
+    /// Number of rows.
+    pub fn count(&self) -> usize {
+        self.codes.len() / self.length.max(1)
+    }
+
+    /// The first `depth` numbers of a row behind `start`, with their scales. `start` is a multiple of the numbers that
+    /// share a scale.
+    pub fn row(&self, row: usize, start: usize, depth: usize) -> Operand<'_> {
+        let codes = &self.codes[row * self.length + start..][..depth];
+        let first = row * self.length.div_ceil(self.share) + start / self.share;
+        let scales = if self.scales.is_empty() { &[] } else { &self.scales[first..][..depth.div_ceil(self.share)] };
+        Operand { element: self.element, codes, scales }
+    }
+}
+
+/// The numbers of a fast adder: signed magnitudes and exponents.
+#[derive(Clone, Copy)]
+struct Adder {
+    block: usize,
+    bits: i32,
+    least: i32,
+    /// Fraction bits of a product.
+    fraction: i32,
+    result: ResultFormat,
+}
+
+/// A number unpacked: signed magnitude, of 11 bits at most, and exponent.
+type Unpacked = (i16, i16);
+/// Sixteen numbers of one k: magnitudes, then exponents.
+type Lanes = [[i16; WIDTH]; 2];
+
+/// Columns of B, unpacked once: sixteen of them side by side.
+#[derive(Debug)]
+pub struct MatrixColumns<'a> {
+    unit: MatrixUnit,
+    columns: &'a MatrixRows,
+    /// The numbers of all patterns of the unit's types of up to 16 bits; `None` for infinities and NaN.
+    tables: Vec<(Element, Vec<Option<Unpacked>>)>,
+    /// By group of columns, then k.
+    numbers: Vec<Lanes>,
+    /// By group: `true` if a number of it is none, which is left to the definition.
+    special: Vec<bool>,
+}
+
+fn unpack(element: Element, code: u64) -> Option<Unpacked> {
+    match element.decode(code) {
+        Value::Finite(x) if x.magnitude == 0 => Some((0, ZERO)),
+        Value::Finite(x) => {
+            let size = x.magnitude as i16;
+            Some((if x.negative { -size } else { size }, x.exponent as i16))
+        }
+        _ => None,
+    }
+}
+
+impl<'a> MatrixColumns<'a> {
+    /// Unpacks columns for a unit that takes their type.
+    pub fn new(unit: MatrixUnit, columns: &'a MatrixRows) -> Self {
+        let depth = columns.length;
+        let groups = columns.count().div_ceil(WIDTH);
+        let mut made = Self { unit, columns, tables: Vec::new(), numbers: Vec::new(), special: vec![false; groups] };
+        if made.adder(columns.element).is_none() {
+            return made;
+        }
+        let short = unit.operands.iter().filter(|element| element.width() <= 16);
+        let table =
+            |&element: &Element| (element, (0..1 << element.width()).map(|code| unpack(element, code)).collect());
+        made.tables = short.map(table).collect();
+        made.numbers = vec![[[0; WIDTH], [ZERO; WIDTH]]; groups * depth];
+        for column in 0..columns.count() {
+            let (group, lane) = (column / WIDTH, column % WIDTH);
+            let Some(numbers) = made.unpacked(columns.row(column, 0, depth)) else {
+                made.special[group] = true;
+                continue;
+            };
+            for (lanes, (magnitude, exponent)) in made.numbers[group * depth..].iter_mut().zip(numbers) {
+                (lanes[0][lane], lanes[1][lane]) = (magnitude, exponent);
+            }
+        }
+        made
+    }
+
+    /// The numbers of a row, their scales in the exponents; `None` if one is none.
+    fn unpacked(&self, row: Operand<'_>) -> Option<Vec<Unpacked>> {
+        let table = self.tables.iter().find(|(element, _)| *element == row.element);
+        let numbers: Option<Vec<Unpacked>> = match table {
+            Some((_, table)) => row.codes.iter().map(|&code| table[code as usize & (table.len() - 1)]).collect(),
+            None => row.codes.iter().map(|&code| unpack(row.element, code)).collect(),
+        };
+        let Some(scaling) = self.unit.scaling else { return numbers };
+        let mut numbers = numbers?;
+        for (numbers, &code) in numbers.chunks_mut(scaling.block).zip(row.scales) {
+            let Value::Finite(scale) = scaling.decode(code) else { return None };
+            numbers.iter_mut().filter(|number| number.0 != 0).for_each(|number| number.1 += scale.exponent as i16);
+        }
+        Some(numbers)
+    }
+
+    /// The unit's adder, if it is one that is computed here.
+    fn adder(&self, a: Element) -> Option<Adder> {
+        let Rule::Aligned { block, bits, least } = self.unit.rule else { return None };
+        let fits = bits <= MAX_BITS && self.unit.addend == self.unit.result.element();
+        let fraction = (a.fraction_bits + self.columns.element.fraction_bits).cast_signed();
+        fits.then_some(Adder { block, bits: bits.cast_signed(), least, fraction, result: self.unit.result })
+    }
+
+    /// Rows of D for rows of A: words of the result, as [`MatrixUnit::dot`] gives them, over `depth` products behind
+    /// `start`, which is a multiple of the block. `c` holds a pattern for each element of these rows of D.
+    pub fn multiply(&self, a: &MatrixRows, rows: Range<usize>, start: usize, depth: usize, c: &[u64]) -> Vec<u64> {
+        let count = self.columns.count();
+        let mut sums = c.to_vec();
+        let adder = self.adder(a.element);
+        let numbers: Vec<Option<Vec<Unpacked>>> =
+            rows.clone().map(|row| adder.and_then(|_| self.unpacked(a.row(row, start, depth)))).collect();
+        for group in 0..count.div_ceil(WIDTH) {
+            let lanes = group * WIDTH..count.min((group + 1) * WIDTH);
+            let is_fast = |numbers: &Option<Vec<Unpacked>>| numbers.is_some() && !self.special[group];
+            for (place, row) in rows.clone().enumerate().filter(|&(place, _)| !is_fast(&numbers[place])) {
+                for column in lanes.clone() {
+                    let sum = &mut sums[place * count + column];
+                    *sum = self.unit.dot(a.row(row, start, depth), self.columns.row(column, start, depth), *sum);
+                }
+            }
+            let Some(adder) = adder else { continue };
+            let fast: Vec<(usize, &[Unpacked])> = numbers
+                .iter()
+                .enumerate()
+                .filter(|(_, numbers)| is_fast(numbers))
+                .filter_map(|(place, numbers)| Some((place, numbers.as_deref()?)))
+                .collect();
+            let mut words = vec![[0; WIDTH]; fast.len()];
+            for ((place, _), words) in fast.iter().zip(&mut words) {
+                words[..lanes.len()].copy_from_slice(&sums[place * count..][lanes.clone()]);
+            }
+            let b = self.numbers.get(group * self.columns.length + start..).unwrap_or_default();
+            SimdLevel::widest().run(
+                #[inline(always)]
+                || chains(&adder, &fast, &b[..depth.min(b.len())], &mut words),
+            );
+            for ((place, _), words) in fast.iter().zip(&words) {
+                sums[place * count..][lanes.clone()].copy_from_slice(&words[..lanes.len()]);
+            }
+        }
+        sums
+    }
+}
+
+/// All blocks of rows of sixteen elements of D: a block of B stays in the cache while all rows of A pass.
+#[inline(always)]
+fn chains(adder: &Adder, rows: &[(usize, &[Unpacked])], b: &[Lanes], words: &mut [[u64; WIDTH]]) {
+    for (at, b) in b.chunks(adder.block).enumerate() {
+        for ((_, a), words) in rows.iter().zip(words.iter_mut()) {
+            block(adder, &a[at * adder.block..][..b.len()], b, words);
+        }
+    }
+}
+
+/// One block of sixteen elements of D.
+#[inline(always)]
+fn block(adder: &Adder, a: &[Unpacked], b: &[Lanes], words: &mut [u64; WIDTH]) {
+    let layout = Layout::of(adder.result);
+    let mut top = [adder.least; WIDTH];
+    for lane in 0..WIDTH {
+        top[lane] = top[lane].max(layout.exponent(words[lane]));
+    }
+    for (&(_, e), [_, exponents]) in a.iter().zip(b) {
+        for lane in 0..WIDTH {
+            top[lane] = top[lane].max(i32::from(e) + i32::from(exponents[lane]));
+        }
+    }
+    let mut total = [0_i64; WIDTH];
+    for (a, b) in a.chunks(CHUNK).zip(b.chunks(CHUNK)) {
+        let part = chunk(adder, a, b, &top);
+        for lane in 0..WIDTH {
+            total[lane] += i64::from(part[lane]);
+        }
+    }
+    for lane in 0..WIDTH {
+        words[lane] = layout.finish(adder, words[lane], total[lane], top[lane]);
+    }
+}
+
+/// The sum of up to sixteen products, cut below `top`.
+#[inline(always)]
+fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32; WIDTH] {
+    let up = (adder.bits - adder.fraction).max(0).cast_unsigned();
+    let down = (adder.fraction - adder.bits).max(0);
+    let mut sum = [0_i32; WIDTH];
+    for (&(m, e), [magnitudes, exponents]) in a.iter().zip(b) {
+        let (m, e) = (i32::from(m), i32::from(e) - down);
+        for lane in 0..WIDTH {
+            let product = m * i32::from(magnitudes[lane]);
+            let sign = product >> 31;
+            let size = ((product ^ sign) - sign).cast_unsigned() << up;
+            let cut = (top[lane] - e - i32::from(exponents[lane])).cast_unsigned().min(31);
+            let kept = (size >> cut).cast_signed();
+            sum[lane] += (kept ^ sign) - sign;
+        }
+    }
+    sum
+}
+
+/// Fields of the words of a result.
+#[derive(Clone, Copy)]
+struct Layout {
+    fraction: i32,
+    /// Fraction bits of results, fewer in e8m13.
+    kept: i32,
+    least: i32,
+    infinity: u64,
+    sign: u32,
+    nearest: bool,
+}
+
+impl Layout {
+    #[inline(always)]
+    fn of(result: ResultFormat) -> Self {
+        match result {
+            ResultFormat::Nearest16 => {
+                Self { fraction: 10, kept: 10, least: -14, infinity: 0x7c00, sign: 15, nearest: true }
+            }
+            _ => {
+                let kept = if result == ResultFormat::Cut22 { 13 } else { 23 };
+                Self { fraction: 23, kept, least: -126, infinity: 0x7f80_0000, sign: 31, nearest: false }
+            }
+        }
+    }
+
+    /// Exponent of an addend; [`i32::MIN`] halved of zeros.
+    #[inline(always)]
+    fn exponent(self, word: u64) -> i32 {
+        let size = word & ((1 << self.sign) - 1);
+        let exponent = self.least + ((size >> self.fraction) as i32).max(1) - 1;
+        if size == 0 { i32::MIN / 2 } else { exponent }
+    }
+
+    /// The result of a block: `total * 2^(top - bits)` and the addend `c`.
+    #[inline(always)]
+    fn finish(self, adder: &Adder, c: u64, total: i64, top: i32) -> u64 {
+        let size = c & ((1 << self.sign) - 1);
+        if size >= self.infinity {
+            return if size > self.infinity { (1 << self.sign) - 1 } else { c };
+        }
+        let field = size >> self.fraction;
+        let significand = size & ((1 << self.fraction) - 1) | u64::from(field != 0) << self.fraction;
+        // 35 bits more than the fraction: the largest `bits` is within them.
+        let cut = (top - self.exponent(c) + 35 - adder.bits + self.fraction).clamp(0, 63);
+        let kept = ((significand << 35) >> cut).cast_signed();
+        let sum = total + if c >> self.sign == 0 { kept } else { -kept };
+        if sum == 0 {
+            return 0;
+        }
+        let size = sum.unsigned_abs();
+        let unit = top - adder.bits;
+        let exponent = (63 - size.leading_zeros().cast_signed() + unit).max(self.least);
+        let dropped = exponent - self.kept - unit;
+        let mut digits = if dropped <= 0 { size << -dropped } else { size >> dropped.min(63) };
+        if self.nearest && dropped > 0 {
+            let shift = dropped.min(62);
+            let (rest, half) = (size & ((1 << shift) - 1), 1 << (shift - 1));
+            digits += u64::from(rest > half || rest == half && digits & 1 == 1);
+        }
+        let word = ((exponent - self.least) as u64) << self.kept;
+        let word = ((word + digits) << (self.fraction - self.kept)).min(self.infinity);
+        if word == 0 { 0 } else { word | u64::from(sum < 0) << self.sign }
+    }
+}

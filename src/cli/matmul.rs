@@ -1,0 +1,117 @@
+//! `crossbar matmul`: a matrix product in the matrix units of GPUs.
+
+use std::path::{Path, PathBuf};
+
+use refsim::num::matrix::{Element, MatrixUnit, UNITS};
+
+use super::study::{StudyArgs, StudyFiles};
+use crate::study::matrix_product::{MatrixInput, MatrixProduct};
+use crate::study::precision::Goal;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar matmul A.npy B.npy --unit hopper-fp8,blackwell-f8f6f4 --promote 128,512
+      how far FP8 sums drift on Hopper, with one accumulator and promoted, and on Blackwell
+  crossbar matmul A.npy B.npy --unit hopper-f16 --against ampere-f16 --blame 3,7
+      elements that differ between two generations; for one of them the block and the addend
+  crossbar matmul A.npy B.npy --unit hopper-fp8 --goal \"worst<=1e-3\"
+      the fewest bits, or the rarest promotion, that keep the error below a thousandth
+
+A is M x K, B is K x N, of f4 or f8, which are quantised to nearest even (types of up to 8 bits saturate; units with scales \
+take OCP's), or patterns of u1, u2 or u4. K need not be whole blocks: zeros are left out of sums, so padding is exact. \
+Measures of goals: worst, mean, bits, of_addends, differing. Written to --out: index.html, D of every unit as .npy, \
+errors.csv, curve.csv, addends.csv.
+
+Exit codes: 0 done, 1 no number of bits and no promotion meets the goal, 2 the input cannot be used.";
+
+/// Multiply matrices as the matrix units of GPUs do, and show the errors
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// A, an array of NumPy's
+    #[arg(value_name = "A.npy")]
+    a: PathBuf,
+
+    /// B, an array of NumPy's
+    #[arg(value_name = "B.npy")]
+    b: PathBuf,
+
+    /// C, an array of f4 that is added
+    #[arg(long, value_name = "C.npy")]
+    c: Option<PathBuf>,
+
+    /// The units, as `crossbar units` lists them
+    #[arg(long, value_name = "UNIT,...", required = true, value_delimiter = ',', value_parser = MatrixUnit::find)]
+    unit: Vec<MatrixUnit>,
+
+    /// Types of A and B, or one of both [default: the first that a unit takes]
+    #[arg(long = "type", value_name = "TYPE,...", value_delimiter = ',', value_parser = element)]
+    types: Vec<Element>,
+
+    /// Also add a partial sum to single precision every so many products
+    #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
+    promote: Vec<u32>,
+
+    /// What errors are against: exact, or a unit
+    #[arg(long, value_name = "exact|UNIT", default_value = "exact", value_parser = reference)]
+    against: Reference,
+
+    /// Follow the sum of one element of D, counted from 0
+    #[arg(long, value_name = "ROW,COLUMN", value_parser = place)]
+    blame: Option<[usize; 2]>,
+
+    /// Find the fewest bits below the largest exponent, and the rarest promotion, of the first unit that meet a bound
+    #[arg(long, value_name = "GOAL")]
+    goal: Option<Goal>,
+
+    /// Where to write the page, the tables and the products
+    #[arg(long, value_name = "DIR", default_value = "out/matmul")]
+    out: PathBuf,
+}
+
+/// What errors are against.
+#[derive(Clone, Debug)]
+struct Reference(Option<MatrixUnit>);
+
+fn reference(text: &str) -> Result<Reference, String> {
+    if text == "exact" {
+        return Ok(Reference(None));
+    }
+    MatrixUnit::find(text).map(|unit| Reference(Some(unit))).map_err(|error| error.to_string())
+}
+
+fn element(text: &str) -> Result<Element, String> {
+    let mut all = UNITS.iter().flat_map(|unit| unit.operands);
+    all.find(|element| element.name == text).copied().ok_or_else(|| format!("expected a type, found `{text}`"))
+}
+
+fn place(text: &str) -> Result<[usize; 2], String> {
+    let parts: Option<Vec<usize>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let place = parts.and_then(|parts| <[usize; 2]>::try_from(parts).ok());
+    place.ok_or_else(|| format!("expected ROW,COLUMN, found `{text}`"))
+}
+
+impl StudyArgs for Args {
+    type Study = MatrixProduct;
+    const QUICKER: &'static str = "fewer units, or smaller matrices";
+
+    fn files(&self) -> StudyFiles<'_> {
+        let inputs = [&self.a, &self.b].into_iter().chain(&self.c).map(PathBuf::as_path).collect();
+        StudyFiles::new(Some(&self.out), None, inputs)
+    }
+
+    fn study(&self) -> miette::Result<MatrixProduct> {
+        let load = |path: &Path| MatrixInput::load(path);
+        let promotions = self.promote.iter().map(|&step| Some(step as usize));
+        Ok(MatrixProduct {
+            factors: [load(&self.a)?, load(&self.b)?],
+            addend: self.c.as_deref().map(load).transpose()?,
+            units: self.unit.clone(),
+            elements: [self.types.first().copied(), self.types.last().copied()],
+            promotions: std::iter::once(None).chain(promotions).collect(),
+            against: self.against.0,
+            blame: self.blame,
+            goal: self.goal.clone(),
+        })
+    }
+}

@@ -1,0 +1,97 @@
+//! Products in matrix units: errors, promotion, where elements part.
+
+use crossbar_ground::io::{NumberArray, NumbersOrCodes};
+use crossbar_studies::report::Verdict;
+use crossbar_studies::study::Study;
+use crossbar_studies::study::matrix_product::{MatrixInput, MatrixProduct};
+use refsim::num::{matrix::MatrixUnit, random_word};
+
+use super::{StudyFiles, findings, number};
+
+/// Numbers uniform in [0, 448), the range of E4M3.
+fn uniform(shape: [usize; 2], seed: u64) -> MatrixInput {
+    let number = |k: usize| 448.0 * (f64::from(random_word(seed, k as u64)) / 4_294_967_296.0) as f32;
+    let values = (0..shape[0] * shape[1]).map(number).collect();
+    MatrixInput {
+        name: "random".to_owned(),
+        data: NumbersOrCodes::Numbers(NumberArray { shape: shape.to_vec(), values }),
+    }
+}
+
+fn product(units: &[&str], [rows, depth, columns]: [usize; 3]) -> MatrixProduct {
+    MatrixProduct {
+        factors: [uniform([rows, depth], 1), uniform([depth, columns], 2)],
+        addend: None,
+        units: units.iter().map(|name| MatrixUnit::find(name).expect("a unit")).collect(),
+        elements: [None, None],
+        promotions: vec![None],
+        against: None,
+        blame: None,
+        goal: None,
+    }
+}
+
+#[test]
+fn eight_bit_sums_drift_on_hopper_and_promotion_helps() {
+    let mut study = product(&["hopper-fp8", "blackwell-f8f6f4"], [16, 4096, 16]);
+    study.promotions = vec![None, Some(512), Some(128)];
+    let rows = StudyFiles::of(&study).rows("errors.csv");
+    let worst: Vec<f64> = rows.iter().map(|row| number(row, "worst")).collect();
+    for (worst, printed) in worst.iter().zip([7.8e-2, 6.4e-3, 6.5e-4, 1.7e-6]) {
+        assert!((worst / printed - 1.0).abs() < 0.15, "{worst} against {printed}");
+    }
+    assert!(rows.iter().take(3).all(|row| number(row, "mean") < 0.0), "cut sums are too small");
+}
+
+#[test]
+fn an_element_is_followed_to_the_block_where_it_parts() {
+    let mut study = product(&["hopper-f16"], [3, 100, 4]);
+    study.against = Some(MatrixUnit::find("ampere-f16").expect("a unit"));
+    study.blame = Some([1, 2]);
+    let files = StudyFiles::of(&study);
+    let addends = files.rows("addends.csv");
+    assert!(addends.iter().any(|row| number(row, "cut") != 0.0), "something was cut");
+    assert!(addends.iter().all(|row| number(row, "exact") - number(row, "kept") == number(row, "cut")));
+    assert_eq!(files.bytes("hopper_f16_f32.npy").len(), 128 + 4 * 12);
+    study.blame = Some([3, 0]);
+    assert!(study.findings(&mut |_, _, _| {}).is_err(), "there are three rows");
+}
+
+#[test]
+fn goals_find_bits_and_promotion() {
+    let mut study = product(&["hopper-fp8"], [4, 1024, 4]);
+    study.goal = Some("worst<=1e-3".parse().expect("a goal"));
+    let found = findings(&study);
+    let document = found.plain_document();
+    let [bits, promotion] = ["fewest_bits", "rarest_promotion"].map(|name| document[name].as_u64().expect("a number"));
+    assert!((14..=24).contains(&bits) && (32..1024).contains(&promotion), "{bits} {promotion}");
+    assert_eq!(found.verdict(), Verdict::Done);
+    study.goal = Some("largest<=1".parse().expect("a goal"));
+    assert!(study.findings(&mut |_, _, _| {}).is_err(), "no such measure");
+}
+
+#[test]
+fn matrices_that_do_not_fit_are_refused() {
+    let refused = |change: fn(&mut MatrixProduct)| {
+        let mut study = product(&["hopper-fp8"], [2, 64, 2]);
+        change(&mut study);
+        assert!(study.findings(&mut |_, _, _| {}).is_err());
+    };
+    let codes = |shape: &[usize], code| MatrixInput {
+        name: "codes".to_owned(),
+        data: NumbersOrCodes::Codes(NumberArray { shape: shape.to_vec(), values: vec![code; shape.iter().product()] }),
+    };
+    assert!(codes(&[64], 0).shape().is_err());
+    refused(|study| study.factors[1] = uniform([63, 2], 3));
+    refused(|study| study.promotions = vec![Some(48)]);
+    refused(|study| study.addend = Some(uniform([2, 3], 3)));
+    refused(|study| study.elements = [MatrixUnit::find("volta-f16").ok().map(|unit| unit.operands[0]); 2]);
+    refused(|study| study.units = vec![MatrixUnit::find("blackwell-nvf4").expect("a unit")]);
+    let mut study = product(&["hopper-fp8", "blackwell-mxf8f6f4"], [2, 64, 2]);
+    assert_eq!(StudyFiles::of(&study).rows("errors.csv").len(), 2);
+    study.units.truncate(1);
+    study.factors[0] = codes(&[2, 64], 0x38);
+    assert_eq!(StudyFiles::of(&study).rows("errors.csv").len(), 1);
+    study.factors[0] = codes(&[2, 64], 0x100);
+    assert!(study.findings(&mut |_, _, _| {}).is_err(), "nine bits");
+}
