@@ -22,11 +22,9 @@ pub enum Form {
 }
 
 /// How the edge that two triangles share is evaluated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeRule {
     /// As in the paper: by each triangle anew, from its own corner a. Rounding may put a ray outside both.
-    #[default]
     Paper,
     /// From the edge's own two corners, in one orientation, so that both triangles get the same bits: no ray is outside
     /// both. Rays of one origin on `ps_1_4`, of any origin on `ps_2_0`.
@@ -49,7 +47,7 @@ pub struct Kernel {
     pub signed_rays: bool,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
-    /// Who evaluates an edge.
+    /// How shared edges are evaluated.
     pub edges: EdgeRule,
 }
 

@@ -2,14 +2,13 @@
 
 use refsim::event::{FlowConstants, ProgramWork};
 use refsim::timing::{Level, Model};
-use serde::Serialize;
 
 use super::Parameters;
 use crate::ray_engine::{EdgeRule, EngineError, Kernel};
 use crate::study::configuration::Configuration;
 
 /// Cost of the pixel program of a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IntersectionCost {
     /// Arithmetic slots; a pair of a color and an alpha instruction is one.
     pub arithmetic: u32,

@@ -2,8 +2,6 @@
 
 use std::collections::HashMap;
 
-use serde::Serialize;
-
 use super::JudgedRays;
 use crate::geom::Mesh;
 use crate::geom::classify::HitVerdict;
@@ -14,7 +12,7 @@ use crate::geom::vector::wide;
 const FACING: f64 = 1.0 / 16.0;
 
 /// Rays whose exact first hit lies inside the surface, and how many of them a card misses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Holes {
     /// Rays that meet the inside of the surface.
     pub rays: u64,

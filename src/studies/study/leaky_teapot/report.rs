@@ -84,7 +84,9 @@ fn programs(outcome: &TeapotOutcome) -> Table {
             continue;
         }
         let [eye, edges, vertices] = row.holes;
-        let counts = [edges, vertices, eye].into_iter().flat_map(|holes| [holes.rays.into(), holes.leaks.into()]);
+        let counts = [edges, vertices, eye]
+            .into_iter()
+            .flat_map(|holes| -> [Cell; 2] { [holes.rays.into(), holes.leaks.into()] });
         let rule = match row.edge_rule {
             EdgeRule::Paper => "paper",
             EdgeRule::SharedEdges => "shared",
@@ -204,7 +206,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     let of = if switched { ["switch", "switches"] } else { ["row", "rows"] };
     let folded = |table: Table, same| FoundTable::from(table).folded(&first, |row| names[row].clone(), (of, same));
     let (rows, edges) = (folded(rows, "the same bits"), folded(edges, "the same counts"));
-    let programs = aimed(parameters).then(|| programs(&outcome));
+    let programs = (aimed(parameters) && !parameters.shared.is_empty()).then(|| programs(&outcome));
     let groups = groups(&outcome);
     // Files of rows with the same bits would be copies.
     found.field("same_bits", same_bits(&groups));
