@@ -88,8 +88,14 @@ fn program(row: &TeapotRow) -> String {
 
 /// The table of the programs: each configuration with the paper's and with shared edges.
 fn programs(outcome: &TeapotOutcome) -> String {
-    let of = |label: &str| outcome.rows.iter().filter(move |row| row.configuration.label == label).map(program);
-    let rows = CURED.iter().flat_map(|label| of(label).chain(of(&format!("{label}-shared-edges"))).collect::<Vec<_>>());
+    let of = |rule: EdgeRule, label: &str| {
+        let wanted = match rule {
+            EdgeRule::Paper => label.to_owned(),
+            EdgeRule::SharedEdges => format!("{label}-shared-edges"),
+        };
+        program(outcome.rows.iter().find(|row| row.configuration.label == wanted).expect("a row of the defaults"))
+    };
+    let rows = CURED.iter().flat_map(|label| [EdgeRule::Paper, EdgeRule::SharedEdges].map(|rule| of(rule, label)));
     format!(
         "\n| card or format | kernel | edges | vertices | eye rays | arithmetic slots | texture slots | clocks |\n\
          |---|---|---|---|---|---|---|---|\n{}",
