@@ -15,7 +15,8 @@ use super::{Problem, view};
 use crate::geom::teapot::teapot;
 use crate::io::load_rays;
 use crate::options::Size;
-use crate::ray_engine::RayBatch;
+use crate::options::one_of::{OneOf, one_of};
+use crate::ray_engine::{EdgeRule, RayBatch};
 use crate::scene::Camera;
 use crate::study::configuration::Configuration;
 use crate::study::leaky_teapot::{LeakyTeapotOptions, Parameters};
@@ -28,14 +29,19 @@ Examples:
       number formats of your own choice, on a device without limits
   crossbar leaky-teapot --device r300 --device nv35 --json
       two cards as they are, the rows as JSON on standard output
+  crossbar leaky-teapot --size 256x256 --device r200 --device r300 --kernel paper --kernel shared-edges
+      two cards with the paper's program, and with one whose edges can not leak
   crossbar leaks --mesh docs/examples/step.obj --size 128x128 --device r200 --out leaks
       a model of your own on a Radeon 8500: `leaks` is another name of the command
   crossbar leaks --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --device r300 --out leaks
       rays of your own, as for `crossbar intersect`, on two cards
 
 With --device and --format both, every device runs in every format; what a device file sets stays.
-Written to --out: index.html (self-contained), rows.csv, edges.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where),
+Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where),
 NAME.exr (t and triangle); rows with the same bits have them once: see same_bits in study.json.";
+
+/// Rows without options that run with shared edges, too.
+const CURED: [&str; 5] = ["r200", "r200-rounding-rne", "fp16", "fp24", "fp32"];
 
 /// Trace the teapot, or a model of your own, in each number format, against exact arithmetic: leaks, false hits, wrong
 /// triangles
@@ -70,6 +76,11 @@ pub(super) struct Args {
     /// A number format to compute in; may be repeated [default: fp16, fp24 and fp32]
     #[arg(long, value_name = "F")]
     format: Vec<String>,
+
+    /// The program: the paper's, whose edges leak, or one that evaluates an edge once for both triangles; may be repeated
+    /// [default: paper; without --device and --format five rows with shared edges, too]
+    #[arg(long, value_name = "K", value_parser = kernels())]
+    kernel: Vec<EdgeRule>,
 
     #[command(flatten)]
     part: PartArgs,
@@ -114,16 +125,30 @@ impl StudyArgs for Args {
                 (RayBatch::new(width, height, camera.rays()).into_diagnostic()?, None)
             }
         };
+        let configurations = configurations(self)?;
+        let asks_for = |kernel| self.kernel.contains(&kernel) || (self.kernel.is_empty() && kernel == EdgeRule::Paper);
+        let mut shared = if asks_for(EdgeRule::SharedEdges) { configurations.clone() } else { Vec::new() };
+        if self.kernel.is_empty() && self.device.is_empty() && self.format.is_empty() {
+            shared.extend(configurations.iter().filter(|row| CURED.contains(&row.label.as_str())).cloned());
+        }
         Ok(Parameters {
             model: self.mesh.as_ref().map(|path| path.display().to_string()),
             mesh,
             view,
             listed,
-            configurations: configurations(self)?,
+            configurations: if asks_for(EdgeRule::Paper) { configurations } else { Vec::new() },
+            shared,
             executor: self.executor.open()?,
             options: self.options,
         })
     }
+}
+
+/// The programs, for `--kernel`.
+fn kernels() -> OneOf<EdgeRule> {
+    let paper = ("paper", "The paper's equations, evaluated by each triangle anew", EdgeRule::Paper);
+    let shared = ("shared-edges", "Each edge evaluated once, for both of its triangles", EdgeRule::SharedEdges);
+    one_of([paper, shared])
 }
 
 fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {

@@ -16,6 +16,7 @@ pub(crate) fn parameters(size: u32, rate: u32, configurations: Vec<Configuration
         configurations,
         model: None,
         listed: None,
+        shared: Vec::new(),
         executor: ExecutorKind::Batch.into(),
         options: LeakyTeapotOptions { rays_per_edge: 2, sides: Sides::Front, all_pairs: false },
     }

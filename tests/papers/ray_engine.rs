@@ -77,6 +77,7 @@ fn slots(program: &Program) -> [(u32, u32); 2] {
 fn the_radeon_8500_kernels_take_the_slots_that_the_book_says() {
     let expected = [
         (kernels::ONE_ORIGIN_UNSIGNED, [(5, 6), (6, 5)]),
+        (kernels::ONE_ORIGIN_SHARED_UNSIGNED, [(6, 6), (3, 3)]),
         (kernels::ANY_ORIGIN_UNSIGNED, [(5, 8), (6, 5)]),
         (kernels::ANY_ORIGIN_BOTH_UNSIGNED, [(5, 8), (5, 8)]),
     ];

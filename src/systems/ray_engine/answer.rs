@@ -19,6 +19,15 @@ pub enum EngineError {
     #[error("device `{device}` runs no intersection program: expected ps_1_4 or ps_2_0")]
     #[diagnostic(code(ray_engine::no_kernel), help("take r200, r300, r350, nv30, nv35 or ideal-<format>"))]
     NoKernel { device: String },
+    /// Seven vectors and the coordinates of a texture do not fit into the six coordinate sets of ps_1_4.
+    #[error(
+        "device `{device}` has no program with shared edges for rays of more than one origin: it would take two passes"
+    )]
+    #[diagnostic(
+        code(ray_engine::no_shared_edges),
+        help("give the rays one origin, or take a device with ps_2_0: r300, r350, nv30, nv35")
+    )]
+    NoSharedEdges { device: String },
     /// The device refuses a program.
     #[error(transparent)]
     #[diagnostic(transparent)]

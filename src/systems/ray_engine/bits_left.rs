@@ -1,5 +1,6 @@
 //! Loss of triangle normals to the precision of a card's number format.
 
+use super::EdgeRule;
 use super::units::Units;
 use crate::geom::Mesh;
 
@@ -18,10 +19,10 @@ pub struct BitsLeft {
 
 impl BitsLeft {
     /// Counts the triangles of a mesh in the units chosen for some rays.
-    pub(super) fn of(mesh: &Mesh, units: &Units) -> Self {
+    pub(super) fn of(mesh: &Mesh, edges: EdgeRule, units: &Units) -> Self {
         let mut found = Self::default();
         for corners in mesh.iter_corners() {
-            let (n, step) = units.largest_normal(corners);
+            let (n, step) = units.largest_normal(corners, edges);
             found.fixed_point |= step > 0.0;
             found.triangles += u64::from(n > 0.0);
             found.below_step += u64::from(n > 0.0 && n < step);

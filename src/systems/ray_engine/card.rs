@@ -12,8 +12,9 @@ use refsim::raster::Primitive;
 use refsim::texture::{Image, Region, SamplerState, TexelFormat};
 
 use super::id_color::{color_of_id, id_of_color};
+use super::sorted::SortedTriangle;
 use super::units::{Units, ray_textures};
-use super::{EngineError, Form, Kernel, RayBatch};
+use super::{EdgeRule, EngineError, Form, Kernel, RayBatch};
 use crate::card::NearestTarget;
 use crate::geom::{Hit, Mesh, Ray};
 
@@ -96,6 +97,10 @@ impl RayTextures {
         // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
         call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
         self.target.keep_nearest(&mut call);
+        if kernel.edges == EdgeRule::SharedEdges {
+            // Depth 1, of a t that rounding lost, is a hit.
+            call.depth.test = Some(CompareFunction::LessEqual);
+        }
         Ok(machine.draw(&call)?)
     }
 
@@ -173,11 +178,20 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    /// Builds the streams of triangles in the order of `ids`, colored by these. The fourth component of a holds the
-    /// position in the pass, that of b the edge scale; that of c is unused.
-    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32]) -> Self {
+    /// Builds the streams of triangles, given in ascending order, for a program, colored by their ids.
+    pub(super) fn new(mesh: &Mesh, kernel: &Kernel, units: &Units, ids: &[u32]) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
+        let triangles = match kernel.edges {
+            EdgeRule::Paper => Self::as_given(mesh, units, ids),
+            EdgeRule::SharedEdges => Self::sorted(mesh, units, ids),
+        };
+        Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
+    }
+
+    /// Triangles in the order of `ids`. The fourth component of a holds the position in the pass, that of b the edge
+    /// scale; that of c is unused.
+    fn as_given(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (place, id, corners) in ids.iter().enumerate().filter_map(|(i, id)| Some((i, *id, mesh.corners(*id)?))) {
             let fourth = [(place + 1) as f32, units.edge_scale(corners) as f32, 0.0];
@@ -186,7 +200,24 @@ impl Streams {
             }
             triangles[3].push(color_of_id(id));
         }
-        Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
+        triangles
+    }
+
+    /// Triangles with sorted corners, the largest id first: the last of equal depths stays, which is the smallest id.
+    /// The fourth components of the corners hold the scales of the edges, that of the color the scale of the normal with
+    /// the sign of the sorting.
+    fn sorted(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
+        let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
+        for (id, corners) in ids.iter().rev().filter_map(|id| Some((*id, mesh.corners(*id)?))) {
+            let sorted = SortedTriangle::new(corners);
+            for ((stream, [x, y, z]), [p, q]) in triangles.iter_mut().zip(sorted.corners).zip(sorted.edges()) {
+                stream.push([x, y, z, units.shared_edge_scale(p, q) as f32].map(f32::to_bits));
+            }
+            let [red, green, blue, _] = color_of_id(id);
+            let normal = units.normal_scale(corners) * sorted.turn;
+            triangles[3].push([red, green, blue, (normal as f32).to_bits()]);
+        }
+        triangles
     }
 }
 

@@ -16,7 +16,7 @@ use super::pass::PassCard;
 use super::range::Range;
 use super::resident::ResidentCrossbar;
 use super::units::Units;
-use super::{Kernel, RayBatch};
+use super::{EdgeRule, Kernel, RayBatch};
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 
@@ -43,6 +43,7 @@ pub struct Crossbar {
     profile: Arc<Profile>,
     executor: Executor,
     all_pairs: bool,
+    edges: EdgeRule,
     /// Cache of assembled and checked programs, by use.
     kernels: Arc<Mutex<Vec<ChosenKernel>>>,
 }
@@ -56,7 +57,13 @@ type ChosenKernel = (KernelUse, Arc<Kernel>);
 impl Crossbar {
     /// Creates a crossbar on a card with this profile.
     pub fn new(profile: impl Into<Arc<Profile>>, executor: impl Into<Executor>) -> Self {
-        Self { profile: profile.into(), executor: executor.into(), all_pairs: false, kernels: Arc::default() }
+        Self {
+            profile: profile.into(),
+            executor: executor.into(),
+            all_pairs: false,
+            edges: EdgeRule::Paper,
+            kernels: Arc::default(),
+        }
     }
 
     /// Disables or enables buckets. With `all_pairs`, every ray is tested against every triangle; otherwise rays of one
@@ -65,6 +72,15 @@ impl Crossbar {
     #[must_use]
     pub fn all_pairs(mut self, all_pairs: bool) -> Self {
         self.all_pairs = all_pairs;
+        self
+    }
+
+    /// Sets how shared edges are evaluated; the paper's way is the default. Passes of the engine
+    /// ([`Crossbar::intersect_pass`]) have the paper's way only.
+    #[must_use]
+    pub fn edges(mut self, edges: EdgeRule) -> Self {
+        self.edges = edges;
+        self.kernels = Arc::default();
         self
     }
 
@@ -142,7 +158,7 @@ impl Crossbar {
             let mut machine = self.machine()?;
             let sheet = RayTextures::new(&mut machine, kernel, rays, &units)?;
             let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-            resident.work = Some((machine, sheet, units, Streams::new(mesh, &units, &ids)));
+            resident.work = Some((machine, sheet, units, Streams::new(mesh, kernel, &units, &ids)));
         }
         Ok(resident)
     }
@@ -157,7 +173,10 @@ impl Crossbar {
         if let Some((_, kernel)) = known.iter().find(|(held, _)| *held == wanted) {
             return Ok(Arc::clone(kernel));
         }
-        let kernel = Arc::new(Kernel::choose(&self.profile, wanted.0, wanted.1)?);
+        let kernel = Arc::new(match self.edges {
+            EdgeRule::Paper => Kernel::choose(&self.profile, wanted.0, wanted.1)?,
+            EdgeRule::SharedEdges => Kernel::with_shared_edges(&self.profile, wanted.0, wanted.1)?,
+        });
         known.push((wanted, Arc::clone(&kernel)));
         Ok(kernel)
     }
@@ -185,7 +204,8 @@ impl Crossbar {
             let sheet = RayTextures::new(&mut machine, &kernel, &bucket, &units)?;
             // New targets have these contents already; targets kept from bucket to bucket must be cleared.
             sheet.clear(&mut machine)?;
-            let events = sheet.draw(&mut machine, &kernel, &units, &[], &Streams::new(mesh, &units, &triangles))?;
+            let events =
+                sheet.draw(&mut machine, &kernel, &units, &[], &Streams::new(mesh, &kernel, &units, &triangles))?;
             let (hits, _) = sheet.read_back(&machine, &bucket, &units, true)?;
             Ok((region, rounded(hits), events, machine.take_log()))
         };
@@ -230,7 +250,8 @@ impl Crossbar {
         if rays.is_empty() || mesh.is_empty() {
             return Ok(BitsLeft::default());
         }
-        Ok(BitsLeft::of(mesh, &Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, &batch)))
+        let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, &batch);
+        Ok(BitsLeft::of(mesh, kernel.edges, &units))
     }
 
     /// Splits a batch into buckets, each with its own textures and targets (section 5.3), and lists the triangles to

@@ -21,6 +21,16 @@ pub enum Form {
     Float,
 }
 
+/// How the edge that two triangles share is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeRule {
+    /// As in the paper: by each triangle anew, from its own corner a. Rounding may put a ray outside both.
+    Paper,
+    /// From the edge's own two corners, in one orientation, so that both triangles get the same bits: no ray is outside
+    /// both. Rays of one origin on `ps_1_4`, of any origin on `ps_2_0`.
+    SharedEdges,
+}
+
 /// Intersection program that its device accepts.
 #[derive(Clone, Debug)]
 pub struct Kernel {
@@ -37,6 +47,8 @@ pub struct Kernel {
     pub signed_rays: bool,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
+    /// How shared edges are evaluated.
+    pub edges: EdgeRule,
 }
 
 impl Kernel {
@@ -71,6 +83,32 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
     }
 
+    /// Chooses the program that evaluates each edge once.
+    ///
+    /// # Errors
+    /// [`EngineError::NoKernel`] if the device runs no intersection program, [`EngineError::NoSharedEdges`] if it runs
+    /// one for these rays, but not with shared edges.
+    pub fn with_shared_edges(profile: &Profile, one_origin: bool, sides: Sides) -> Result<Self, EngineError> {
+        let paper = Self::choose(profile, one_origin, sides)?;
+        let front = sides == Sides::Front;
+        let (setup, pixel) = match paper.form {
+            Form::AnyOrigin => return Err(EngineError::NoSharedEdges { device: profile.name.clone() }),
+            Form::OneOrigin => (
+                if front { kernels::ONE_ORIGIN_SHARED_SETUP } else { kernels::ONE_ORIGIN_BOTH_SHARED_SETUP },
+                match paper.signed_rays {
+                    true => kernels::ONE_ORIGIN_SHARED_SIGNED,
+                    false => kernels::ONE_ORIGIN_SHARED_UNSIGNED,
+                },
+            ),
+            Form::Float => (
+                kernels::SEVEN_VECTORS_SHARED_SETUP,
+                if front { kernels::FLOAT_SHARED } else { kernels::FLOAT_BOTH_SHARED },
+            ),
+        };
+        let shared = Self::load(profile, paper.form, setup, pixel, paper.signed_rays)?;
+        Ok(Self { edges: EdgeRule::SharedEdges, ..shared })
+    }
+
     /// Chooses the program for passes of rays of any origin, with or without culling by the bucket.
     pub(super) fn for_passes(profile: &Profile, sides: Sides, cull: bool) -> Result<Self, EngineError> {
         let plain = Self::choose(profile, false, sides)?;
@@ -98,6 +136,7 @@ impl Kernel {
             pixel: pixel.checked(profile)?,
             signed_rays,
             culls: false,
+            edges: EdgeRule::Paper,
         })
     }
 }

@@ -65,7 +65,7 @@ impl PassCard {
             Entry::Vacant(slot) => slot.insert(RayTextures::new(machine, kernel, rays, &units)?),
         };
         loaded.clear(machine)?;
-        let events = loaded.draw(machine, kernel, &units, &bucket, &Streams::new(mesh, &units, triangles))?;
+        let events = loaded.draw(machine, kernel, &units, &bucket, &Streams::new(mesh, kernel, &units, triangles))?;
         Ok(DrawnPass { units, sheet, events })
     }
 

@@ -131,13 +131,26 @@ impl Range {
     /// normal near 1, so that neither its products nor the quotient by n.d leave the range. A power of two changes
     /// nothing else.
     pub(super) fn edge_scale(&self, sum: f64, normal: f64) -> f64 {
-        // A vertex constant is single precision.
-        let fits = (1.0 / ceil_power_of_two(sum / self.of_sums())).min(power_of_two(64));
+        let fits = self.fitting_scale(sum);
         match self.kind {
             RangeKind::Wide => 1.0,
             RangeKind::Fixed => fits.min(1.0),
             RangeKind::Narrow => fits.min((1.0 / ceil_power_of_two(normal)).max(1.0)),
         }
+    }
+
+    /// Chooses the scale of a vector that no other number has to keep step with: as [`Self::edge_scale`], but in fixed
+    /// point the largest that fits, for the most bits.
+    pub(super) fn own_scale(&self, sum: f64, largest: f64) -> f64 {
+        match self.kind {
+            RangeKind::Fixed => self.fitting_scale(sum),
+            RangeKind::Narrow | RangeKind::Wide => self.edge_scale(sum, largest),
+        }
+    }
+
+    /// Largest scale with which a sum stays in range. A vertex constant is single precision.
+    fn fitting_scale(&self, sum: f64) -> f64 {
+        (1.0 / ceil_power_of_two(sum / self.of_sums())).min(power_of_two(64))
     }
 
     /// Returns `true` if each triangle needs its own edge scale.

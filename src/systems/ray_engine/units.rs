@@ -8,7 +8,7 @@ use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
 
 use super::range::Range;
 use super::reach::{Reach, VectorRange, inner, largest, mixed, most_of_partial_sums};
-use super::{Form, Kernel, RayBatch};
+use super::{EdgeRule, Form, Kernel, RayBatch};
 use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::scale::{ceil_power_of_two, in_single_precision, normalize_range, scale_into};
@@ -106,24 +106,76 @@ impl Units {
         }
 
         let turned = |e: DVec3| most_of_partial_sums(e, |e| ao.triple(e, d)) + inner(e, DVec3::splat(error));
-        let n_d = most_of_partial_sums(n, |n| d.dot(n)) + inner(n, DVec3::splat(texel));
-        let n_ao = match self.form {
-            // The vertex program computes it, in single precision.
-            Form::OneOrigin => ao.dot(n) / self.t_max,
-            Form::AnyOrigin | Form::Float => {
-                most_of_partial_sums(n, |n| ao.dot(n)) + inner(n, DVec3::splat(texel + 2.0 * self.range.step))
-            }
-        };
         // w is the difference of n.d and bc.aod, and has the errors of both.
         let w = bo.triple(bc, d) + inner(bc, DVec3::splat(error)) + inner(n, DVec3::splat(texel));
-        let sums = [n_d * self.range.of_divisors(), n_ao, turned(ac), turned(ab), turned(bc), w];
+        let sums = [self.n_d(n), self.n_ao(n, a), turned(ac), turned(ab), turned(bc), w];
         scale(sums.into_iter().fold(0.0, f64::max))
     }
 
-    /// Largest component of a triangle's normal in card units, and the step of the card's format.
-    pub(super) fn largest_normal(&self, corners: [[f32; 3]; 3]) -> (f64, f64) {
+    /// Scale of an edge that is evaluated once for both of its triangles: a power of two, from its two corners alone,
+    /// that brings E = d . (e x (o - p)) and what it is computed from into the range of the format.
+    pub(super) fn shared_edge_scale(&self, p: [f32; 3], q: [f32; 3]) -> f64 {
+        if !self.range.has_edge_scale() {
+            return 1.0;
+        }
+        let [p, q] = [p, q].map(|corner| wide(corner) * self.scale);
+        let (e, po, d) = (q - p, self.origins.minus(p), self.directions);
+        match self.form {
+            // Registers hold the moment e x (o - p).
+            Form::OneOrigin => {
+                let moment = e.cross(wide(self.origin) - p);
+                let sum =
+                    most_of_partial_sums(moment, |m| d.dot(m)) + inner(moment, DVec3::splat(self.range.texel_error()));
+                self.range.own_scale(sum.max(largest(moment)), largest(moment))
+            }
+            // Registers hold e and (o - p) x d.
+            Form::AnyOrigin | Form::Float => {
+                let error = DVec3::splat(self.range.cross_product_error());
+                let sum = most_of_partial_sums(e, |e| po.triple(e, d)) + inner(e, error);
+                self.range.own_scale(sum.max(largest(e)), largest(e))
+            }
+        }
+    }
+
+    /// Scale of a normal that serves n.d and n.ao alone, where edges have scales of their own.
+    pub(super) fn normal_scale(&self, corners: [[f32; 3]; 3]) -> f64 {
+        if !self.range.has_edge_scale() {
+            return 1.0;
+        }
         let [a, b, c] = corners.map(|corner| wide(corner) * self.scale);
-        (largest((b - a).cross(c - a)) * self.edge_scale(corners), self.range.step)
+        let n = (b - a).cross(c - a);
+        let sum = self.n_d(n).max(self.n_ao(n, a));
+        self.range.own_scale(sum.max(largest(n)), largest(n))
+    }
+
+    /// Bound on n.d and its partial sums as a divisor.
+    fn n_d(&self, n: DVec3) -> f64 {
+        let sum =
+            most_of_partial_sums(n, |n| self.directions.dot(n)) + inner(n, DVec3::splat(self.range.texel_error()));
+        sum * self.range.of_divisors()
+    }
+
+    /// Bound on n.ao, or n.ao / t_max, and its partial sums.
+    fn n_ao(&self, n: DVec3, a: DVec3) -> f64 {
+        let ao = self.origins.minus(a);
+        match self.form {
+            // The vertex program computes it, in single precision.
+            Form::OneOrigin => ao.dot(n) / self.t_max,
+            Form::AnyOrigin | Form::Float => {
+                let error = self.range.texel_error() + 2.0 * self.range.step;
+                most_of_partial_sums(n, |n| ao.dot(n)) + inner(n, DVec3::splat(error))
+            }
+        }
+    }
+
+    /// Largest component of a triangle's normal in card units, and the step of the card's format.
+    pub(super) fn largest_normal(&self, corners: [[f32; 3]; 3], edges: EdgeRule) -> (f64, f64) {
+        let [a, b, c] = corners.map(|corner| wide(corner) * self.scale);
+        let scale = match edges {
+            EdgeRule::Paper => self.edge_scale(corners),
+            EdgeRule::SharedEdges => self.normal_scale(corners),
+        };
+        (largest((b - a).cross(c - a)) * scale, self.range.step)
     }
 
     /// Vertex constants: `c0` belongs to the program; `c1` is scene scale, unused, 1 / t_max; `c2` is the common

@@ -7,6 +7,7 @@ mod cpca;
 mod radiosity;
 mod ray_engine;
 mod renderer;
+mod shared_edges;
 mod subsurface;
 mod transfer;
 

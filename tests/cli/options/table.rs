@@ -87,7 +87,7 @@ pub(super) const TABLE: &[Tried] = &[
             "leaky-teapot --mesh odd.obj --rays rays.csv --rays-per-edge 0 --format fp16 --out OUT",
         ],
         options: concat!(
-            "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --part=1/1 --out=other \
+            "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --kernel=shared-edges --part=1/1 --out=other \
              --rays-per-edge=2@0,1 --sides=both@0,2 same:--sides=both@1 same:--executor=scalar --model-up=y --strict",
             eye!()
         ),

@@ -186,6 +186,7 @@ fn every_wrong_pixel_is_shown() {
         configurations: vec![Configuration::device("r200").expect("a card")],
         model: None,
         listed: None,
+        shared: Vec::new(),
         executor: ExecutorKind::Batch.into(),
         options: LeakyTeapotOptions { rays_per_edge: 0, sides: Sides::Front, all_pairs: false },
     };

@@ -2,7 +2,8 @@
 
 use std::cmp::Reverse;
 
-use super::{FormatLimits, Tally, TeapotRow};
+use super::{FormatLimits, Holes, Tally, TeapotRow};
+use crate::ray_engine::EdgeRule;
 use crate::report::digits::count;
 use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
@@ -24,7 +25,7 @@ pub(super) type CountUnit = [&'static str; 2];
 
 /// Adds verdict, worst row, seams and tally to the findings.
 pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUnit) {
-    let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows)];
+    let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows), cured(rows)];
     let limited: Vec<(&str, FormatLimits)> = rows.iter().map(|row| (label(row), row.limits)).collect();
     sentences.into_iter().flatten().chain(limits(&limited)).for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
@@ -117,8 +118,27 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     ))
 }
 
-/// Sentence on the rays aimed at edges; `None` if there were none.
+/// Sentence on the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the surface.
+fn cured(rows: &[TeapotRow]) -> Option<String> {
+    let shared = || rows.iter().filter(|row| row.edge_rule == EdgeRule::SharedEdges);
+    let most = |which: usize| shared().map(|row| row.holes[which]).max_by_key(|holes| holes.leaks);
+    let said = |Holes { rays, leaks }: Holes| match leaks {
+        0 => format!("none of {}", count(rays)),
+        some => format!("up to {} of {}", count(some), count(rays)),
+    };
+    let [edges, vertices] = [most(1)?, most(2)?];
+    (edges.rays > 0).then(|| {
+        format!(
+            "With shared edges {} rays aimed at edges inside the surface leak, and {} aimed at vertices.",
+            said(edges),
+            said(vertices)
+        )
+    })
+}
+
+/// Sentence on the rays aimed at edges, by the paper's program; `None` if there were none.
 fn seams(rows: &[TeapotRow]) -> Option<String> {
+    let rows: Vec<&TeapotRow> = rows.iter().filter(|row| row.edge_rule == EdgeRule::Paper).collect();
     let shares = rows.iter().filter(|row| row.edges.surface > 0).map(|row| row.edges.leak_share());
     let leaking = rows.iter().filter(|row| row.edges.leaks > 0).count();
     let least = shares.clone().min_by(f64::total_cmp)?;

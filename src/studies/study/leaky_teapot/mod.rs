@@ -3,16 +3,21 @@
 //!
 //! The eye rays meet the triangles on the emulated card, in buckets or all pairs; the hits are compared with first hits
 //! that are decided exactly on the same f32 inputs. A second question aims rays at the edges and corners that triangles
-//! share, where the paper's equations are evaluated once for each neighbour and need not agree.
+//! share, where the paper's equations are evaluated once for each neighbour and need not agree. Rows with shared edges
+//! ([`EdgeRule::SharedEdges`]) answer a third: what leaks where the card evaluates each edge once.
 
 mod conclusion;
+mod cost;
 mod format_limits;
+mod inside;
 mod outcome;
 mod pixel_verdict;
 mod report;
 
+use std::borrow::Cow;
 use std::ops::Range;
 
+use inside::Inside;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +29,7 @@ use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::picture::{RgbImage, rgb8};
-use crate::ray_engine::{Crossbar, EngineError};
+use crate::ray_engine::{Crossbar, EdgeRule, EngineError};
 use crate::report::{Findings, Provenance};
 use crate::split::{Computed, SplitRun};
 use crate::study::StudyError;
@@ -34,7 +39,9 @@ use crate::study::error::library_errors;
 /// Seed of the points on the edges.
 const SEED: u64 = 1;
 
+pub use cost::IntersectionCost;
 pub use format_limits::FormatLimits;
+pub use inside::Holes;
 pub use outcome::{LeakyTeapotOptions, Parameters, Tally, TeapotOutcome, TeapotRow};
 pub use pixel_verdict::PixelVerdict;
 
@@ -81,6 +88,18 @@ impl JudgedRays {
     }
 }
 
+impl Parameters {
+    /// The rows: each configuration with the way in which it evaluates edges.
+    fn cases(&self) -> impl Iterator<Item = (Cow<'_, Configuration>, EdgeRule)> {
+        let shared = |configuration: &Configuration| {
+            let label = format!("{}-shared-edges", configuration.label);
+            (Cow::Owned(Configuration { label, ..configuration.clone() }), EdgeRule::SharedEdges)
+        };
+        let paper = self.configurations.iter().map(|configuration| (Cow::Borrowed(configuration), EdgeRule::Paper));
+        paper.chain(self.shared.iter().map(shared))
+    }
+}
+
 /// Hits of the rays of a configuration: the listed or the camera's, those aimed at edges, those aimed at vertices.
 #[derive(Debug, Serialize, Deserialize)]
 struct ConfigurationHits {
@@ -123,15 +142,18 @@ fn hits(
 /// If a configuration has no intersection program, or the card refuses the work.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<TeapotOutcome, EngineError> {
     let aimed = aimed(parameters);
-    let found = of_range(parameters, &aimed, 0..parameters.configurations.len(), progress)?;
+    let found = of_range(parameters, &aimed, 0..parameters.cases().count(), progress)?;
     judged(parameters, aimed, found, progress)
 }
 
-fn crossbar(parameters: &Parameters, configuration: &Configuration) -> Crossbar {
-    Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.options.all_pairs)
+/// The card of a configuration.
+fn crossbar(parameters: &Parameters, configuration: &Configuration, edges: EdgeRule) -> Crossbar {
+    Crossbar::new(configuration.profile.clone(), parameters.executor.clone())
+        .all_pairs(parameters.options.all_pairs)
+        .edges(edges)
 }
 
-/// The hits of a range of the configurations.
+/// The hits of a range of the cases.
 fn of_range(
     parameters: &Parameters,
     [edges, vertices]: &[Vec<Ray>; 2],
@@ -139,10 +161,10 @@ fn of_range(
     progress: &mut ProgressFn<'_>,
 ) -> Result<Vec<ConfigurationHits>, EngineError> {
     let steps = range.len() as u64 + 1;
-    let configurations = (0..).zip(&parameters.configurations[range]);
-    let found = configurations.map(|(done, configuration)| {
+    let cases = (0..).zip(parameters.cases().skip(range.start).take(range.len()));
+    let found = cases.map(|(done, (configuration, edge_rule))| {
         progress(&configuration.label, done, steps);
-        hits(parameters, &crossbar(parameters, configuration), [edges, vertices])
+        hits(parameters, &crossbar(parameters, &configuration, edge_rule), [edges, vertices])
     });
     found.collect()
 }
@@ -156,7 +178,7 @@ fn judged(
 ) -> Result<TeapotOutcome, EngineError> {
     let Parameters { mesh, options: LeakyTeapotOptions { sides, .. }, .. } = parameters;
     let (width, height) = (parameters.view.width(), parameters.view.height());
-    let steps = parameters.configurations.len() as u64;
+    let steps = parameters.cases().count() as u64;
     progress("exact arithmetic", steps, steps + 1);
     let tracer = Tracer::new(mesh);
     let view = JudgedRays::new(&tracer, parameters.rays().to_vec(), *sides);
@@ -168,17 +190,25 @@ fn judged(
     exact.resize(pixels, None);
     let exact_picture = shader.picture(&parameters.view, &exact);
     let mut rows = Vec::new();
-    for (configuration, found) in parameters.configurations.iter().zip(found) {
+    let inside = parameters.view.common_origin().map(|eye| Inside::new(mesh, eye));
+    for ((configuration, edge_rule), found) in parameters.cases().zip(found) {
         let ConfigurationHits { view: mut hits, edges: edge_hits, vertices: vertex_hits } = found;
-        let bits_left = crossbar(parameters, configuration).bits_left(mesh, &view.rays, *sides)?;
+        let bits_left = crossbar(parameters, &configuration, edge_rule).bits_left(mesh, &view.rays, *sides)?;
         let limits = FormatLimits::new(bits_left, &hits);
         let (mut verdicts, tally) = view.judge(mesh, &hits);
+        let (edge_verdicts, edge_tally) = edges.judge(mesh, &edge_hits);
+        let (vertex_verdicts, vertex_tally) = vertices.judge(mesh, &vertex_hits);
+        let holes = [(&view, &verdicts), (&edges, &edge_verdicts), (&vertices, &vertex_verdicts)]
+            .map(|(rays, verdicts)| inside.as_ref().map(|inside| inside.holes(rays, verdicts)).unwrap_or_default());
         hits.resize(pixels, None);
         verdicts.resize(pixels, HitVerdict::Right);
         let triangles: Vec<Option<u32>> = hits.iter().map(|h| h.map(|h| h.triangle)).collect();
         let picture = shader.picture(&parameters.view, &triangles);
         rows.push(TeapotRow {
-            configuration: configuration.clone(),
+            cost: IntersectionCost::of(parameters, &configuration, edge_rule)?,
+            edge_rule,
+            holes,
+            configuration: configuration.into_owned(),
             tally,
             pixels_differing: pixels_differing(&picture, &exact_picture),
             map: rgb8(
@@ -190,8 +220,8 @@ fn judged(
             picture,
             t: hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t)).collect(),
             triangle: triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
-            edges: edges.judge(mesh, &edge_hits).1,
-            vertices: vertices.judge(mesh, &vertex_hits).1,
+            edges: edge_tally,
+            vertices: vertex_tally,
             limits,
         });
     }
@@ -215,13 +245,13 @@ impl Study for Parameters {
     ) -> Result<Computed<Findings>, StudyError> {
         let aimed = aimed(self);
         let of_range = |range| Ok::<_, StudyError>(of_range(self, &aimed, range, progress)?);
-        let found = split.compute("configurations", self.configurations.len(), of_range)?;
+        let found = split.compute("configurations", self.cases().count(), of_range)?;
         found.and_then(|found| Ok(report::findings(self, judged(self, aimed, found, progress)?)?))
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
         provenance.seed = Some(SEED);
-        for configuration in &self.configurations {
+        for configuration in self.configurations.iter().chain(&self.shared) {
             if !provenance.profiles.contains(&configuration.profile.name) {
                 provenance.profiles.push(configuration.profile.name.clone());
             }

@@ -3,13 +3,15 @@
 use refsim::machine::Executor;
 use serde::Serialize;
 
+use super::cost::IntersectionCost;
 use super::format_limits::FormatLimits;
+use super::inside::Holes;
 use crate::geom::classify::HitVerdict;
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
 use crate::options::sides;
 use crate::picture::RgbImage;
-use crate::ray_engine::RayBatch;
+use crate::ray_engine::{EdgeRule, RayBatch};
 use crate::study::configuration::Configuration;
 
 /// Rays, surface and configurations to trace.
@@ -24,8 +26,10 @@ pub struct Parameters {
     /// Number of rays, if they are a list instead of a view; the pictures show them row by row, and the rest of `view`
     /// is padding that is not traced.
     pub listed: Option<usize>,
-    /// Configurations, one per row.
+    /// Configurations with the paper's program, one per row.
     pub configurations: Vec<Configuration>,
+    /// Configurations with shared edges, one per row, after the others.
+    pub shared: Vec<Configuration>,
     /// Executor of the cards.
     pub executor: Executor,
     /// Options.
@@ -117,6 +121,10 @@ impl Tally {
 pub struct TeapotRow {
     /// Configuration.
     pub configuration: Configuration,
+    /// How the program evaluates edges.
+    pub edge_rule: EdgeRule,
+    /// What an intersection costs.
+    pub cost: IntersectionCost,
     /// Verdicts of the eye rays.
     pub tally: Tally,
     /// Number of pixels of the shaded picture that differ from the exact one.
@@ -135,6 +143,9 @@ pub struct TeapotRow {
     pub edges: Tally,
     /// Verdicts of rays aimed at vertices.
     pub vertices: Tally,
+    /// Eye rays, rays aimed at shared edges and rays aimed at vertices that meet the inside of the surface; none
+    /// without a common origin.
+    pub holes: [Holes; 3],
     /// Loss to the number format.
     pub limits: FormatLimits,
 }

@@ -8,6 +8,7 @@ use super::conclusion::{MAX_NAMES, conclude};
 use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
 use crate::error::InputError;
 use crate::picture::{ChannelUnit, Picture, RgbImage, Samples};
+use crate::ray_engine::EdgeRule;
 use crate::report::words::{counted, listed};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 
@@ -63,6 +64,39 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
         edges.push([label].into_iter().chain(shares).chain([device, format, switch]));
     }
     [rows, edges]
+}
+
+/// Builds the table of the programs: leaks inside the surface, and what an intersection costs. Switches that are traced by
+/// the paper's program alone are left out.
+fn programs(outcome: &TeapotOutcome) -> Table {
+    let mut programs = Table::of(
+        "Leaks inside the surface, away from outlines, and the cost of an intersection",
+        "row edges edge_rays edge_leaks vertex_rays vertex_leaks eye_rays eye_leaks arithmetic_slots texture_slots clocks \
+         format",
+    );
+    let shared: Vec<_> = outcome.rows.iter().filter(|row| row.edge_rule == EdgeRule::SharedEdges).collect();
+    let same = |a: &TeapotRow, b: &TeapotRow| {
+        let [a, b] = [a, b].map(|row| (&row.configuration.profile.name, &row.configuration.switch));
+        a == b
+    };
+    for row in &outcome.rows {
+        if row.configuration.switch.is_some() && !shared.iter().any(|other| same(row, other)) {
+            continue;
+        }
+        let [eye, edges, vertices] = row.holes;
+        let counts = [edges, vertices, eye]
+            .into_iter()
+            .flat_map(|holes| -> [Cell; 2] { [holes.rays.into(), holes.leaks.into()] });
+        let rule = match row.edge_rule {
+            EdgeRule::Paper => "paper",
+            EdgeRule::SharedEdges => "shared",
+        };
+        let cost = row.cost;
+        let costs: [Cell; 3] = [cost.arithmetic.into(), cost.texture.into(), cost.clocks.into()];
+        let [label, _, format, _] = head(row);
+        programs.push([label, rule.into()].into_iter().chain(counts).chain(costs).chain([format]));
+    }
+    programs
 }
 
 /// Returns `true` if rays were aimed at edges and vertices: there are some for each edge, and one eye.
@@ -172,6 +206,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     let of = if switched { ["switch", "switches"] } else { ["row", "rows"] };
     let folded = |table: Table, same| FoundTable::from(table).folded(&first, |row| names[row].clone(), (of, same));
     let (rows, edges) = (folded(rows, "the same bits"), folded(edges, "the same counts"));
+    let programs = (aimed(parameters) && !parameters.shared.is_empty()).then(|| programs(&outcome));
     let groups = groups(&outcome);
     // Files of rows with the same bits would be copies.
     found.field("same_bits", same_bits(&groups));
@@ -196,19 +231,62 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
         );
     }
     found.table(edges.csv("edges").field("edges"));
+    if let Some(programs) = programs {
+        found.heading("Where an edge is evaluated once");
+        found.paragraph(
+            "Rows with shared edges sort the corners of each triangle, and compute an edge from its own two corners alone, by \
+             the same operations in both of its triangles: both get the same bits, one asks for at least 0, the other for at \
+             most 0, so no ray is outside both. Near a vertex every edge of the fan can still be rounded to the same side. \
+             Counted are rays whose first hit lies where all triangles around face the eye: beside an outline a miss may be \
+             right for the rounded ray.",
+        );
+        found.table(FoundTable::from(programs).csv("programs").field("programs"));
+    }
     Ok(found)
 }
 
-/// Adds the pictures of the page: of the row that leaks most and the exact one first, then of all others. One picture
-/// and one map of each group are shown on the page.
+/// The group that leaks most, the first of equals.
+fn worst(groups: &[Group<'_>]) -> Option<usize> {
+    groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(at, _)| at)
+}
+
+/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared edges as
+/// the paper has it, the same rounded to nearest, and the same with shared edges.
+fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
+    let find = |wanted: &dyn Fn(&TeapotRow) -> bool| {
+        groups.iter().position(|group| std::iter::once(&group.row).chain(&group.same).any(|row| wanted(row)))
+    };
+    let cured = find(&|row| row.edge_rule == EdgeRule::SharedEdges && row.configuration.switch.is_none())?;
+    let device = &groups[cured].row.configuration.profile.name;
+    let paper = |switch: Option<(&str, &str)>| {
+        find(&|row| {
+            let TeapotRow { configuration, edge_rule, .. } = row;
+            let turned = configuration.switch.as_ref().map(|(name, value)| (name.as_str(), value.as_str()));
+            *edge_rule == EdgeRule::Paper && configuration.profile.name == *device && turned == switch
+        })
+    };
+    let three = [paper(None)?, paper(Some(("rounding", "rne")))?, cured];
+    let differ = three[0] != three[1] && three[0] != three[2] && three[1] != three[2];
+    differ.then_some(three)
+}
+
+/// Adds the pictures of the page: of the card that leaks and its cure, or of the row that leaks most, and the exact one
+/// first, then of all others. One picture and one map of each group are shown on the page.
 fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutcome) {
     let mut groups = groups(outcome);
-    // The first of equals.
-    let worst = groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(n, _)| n);
-    let first = worst.map(|worst| groups.remove(worst));
     let mut lead: Vec<NamedPicture> = Vec::new();
-    for group in first.iter() {
-        let [picture, map] = pair(group, &outcome.exact_picture);
+    if let Some(three) = cure(&groups) {
+        let pairs = three.map(|at| pair(&groups[at], &outcome.exact_picture));
+        let [pictures, maps] = [0, 1].map(|which| pairs.iter().map(|pair| pair[which].clone()).collect());
+        found.pictures(pictures);
+        lead = maps;
+        let mut at = 0;
+        groups.retain(|_| {
+            at += 1;
+            !three.contains(&(at - 1))
+        });
+    } else if let Some(worst) = worst(&groups) {
+        let [picture, map] = pair(&groups.remove(worst), &outcome.exact_picture);
         lead.extend([map, picture]);
     }
     lead.push(NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic"));

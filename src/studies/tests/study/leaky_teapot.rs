@@ -44,6 +44,7 @@ fn limited(formats: &[&str]) -> (Vec<FormatLimits>, Vec<String>) {
         view: RayBatch::new(side, side, rays).expect("a ray per pixel"),
         listed: None,
         configurations: formats.iter().zip('a'..).map(label).collect(),
+        shared: Vec::new(),
         executor: ExecutorKind::Batch.into(),
         options: LeakyTeapotOptions { rays_per_edge: 0, sides: Sides::Front, all_pairs: false },
     };

@@ -21,4 +21,11 @@ kernels! {
     ID "id.psa"
     ANY_ORIGIN_BUCKET_SETUP "any_origin_bucket.vsa"
     SEVEN_VECTORS_BUCKET_SETUP "seven_vectors_bucket.vsa"
+    ONE_ORIGIN_SHARED_SETUP "one_origin_shared.vsa"
+    ONE_ORIGIN_BOTH_SHARED_SETUP "one_origin_both_shared.vsa"
+    ONE_ORIGIN_SHARED_UNSIGNED "one_origin_shared_unsigned.psa"
+    ONE_ORIGIN_SHARED_SIGNED "one_origin_shared_signed.psa"
+    SEVEN_VECTORS_SHARED_SETUP "seven_vectors_shared.vsa"
+    FLOAT_SHARED "float_shared.psa"
+    FLOAT_BOTH_SHARED "float_both_shared.psa"
 }

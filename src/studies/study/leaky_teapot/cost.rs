@@ -1,0 +1,44 @@
+//! What an intersection costs: slots of the pixel program, and clocks of a pipeline.
+
+use refsim::event::{FlowConstants, ProgramWork};
+use refsim::timing::{Level, Model};
+
+use super::Parameters;
+use crate::ray_engine::{EdgeRule, EngineError, Kernel};
+use crate::study::configuration::Configuration;
+
+/// Cost of the pixel program of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct IntersectionCost {
+    /// Arithmetic slots; a pair of a color and an alpha instruction is one.
+    pub arithmetic: u32,
+    /// Texture slots.
+    pub texture: u32,
+    /// Clocks of one pixel pipeline; `None` for devices without figures of time.
+    pub clocks: Option<u64>,
+}
+
+impl IntersectionCost {
+    /// Cost of the program that a configuration runs on the rays of the study.
+    pub(super) fn of(
+        parameters: &Parameters,
+        configuration: &Configuration,
+        edges: EdgeRule,
+    ) -> Result<Self, EngineError> {
+        let profile = &configuration.profile;
+        let one_origin = parameters.view.common_origin().is_some();
+        let sides = parameters.options.sides;
+        let kernel = match edges {
+            EdgeRule::Paper => Kernel::choose(profile, one_origin, sides)?,
+            EdgeRule::SharedEdges => Kernel::with_shared_edges(profile, one_origin, sides)?,
+        };
+        let [first, second] = kernel.pixel.facts().slots;
+        let work = ProgramWork::new(&kernel.pixel, FlowConstants::default());
+        let model = Model::new(Level::Pipeline, profile).ok();
+        Ok(Self {
+            arithmetic: first.arithmetic + second.arithmetic,
+            texture: first.texture + second.texture,
+            clocks: model.map(|model| model.fragment(&work).total().0),
+        })
+    }
+}
