@@ -23,22 +23,16 @@ const BEYOND: [[u32; 2]; 5] =
     [[0xbf80_0000, ONE], [0xc100_0000, ONE], [0, 0x4100_0000], [0xff7f_ffff, 0x7f7f_ffff], [0xff80_0000, 0x7f80_0000]];
 
 pub(crate) fn rules() -> Vec<Rule> {
-    let product = Rule {
-        name: "Vertex programs: 0 times anything is 0",
+    let unit = Rule {
+        name: "Vertex programs: 0 times anything is 0, there are no subnormal numbers, a moved NaN keeps its sign",
         data: ENDS,
         unit: "color",
-        hypotheses: Hypotheses::Switch("vertex-zero-times-anything"),
-        redraw: ends,
-        unexplained: 1,
-        settled: true,
-        open: "Nothing: these pictures show products; that sums and dot products obey it, too, GL_NV_vertex_program says, and \
-               vectors of the unit show. The value that is not predicted is -NaN, moved (next row but two).",
-    };
-    let subnormals = Rule {
-        name: "Vertex programs: subnormal numbers are 0",
         hypotheses: Hypotheses::Switch("vertex-format"),
-        open: "As above.",
-        ..product.clone()
+        redraw: ends,
+        unexplained: 0,
+        settled: true,
+        open: "Nothing: these pictures show products and moves. Sums, dot products and all other instructions are settled by \
+               vectors of the unit (numbers.md).",
     };
     let clamp = Rule {
         name: "Vertex colors are clamped at the vertex; NaN is 1",
@@ -49,18 +43,8 @@ pub(crate) fn rules() -> Vec<Rule> {
             values.0.extend(gradients_beyond(profile, executor).0);
             values
         },
-        open: "-NaN by a move (next row).",
-        ..product.clone()
-    };
-    let moved = Rule {
-        name: "Vertex programs: a moved NaN keeps its sign",
-        hypotheses: Hypotheses::Computed("no", &[("yes", moved_as_they_are)]),
-        redraw: moved_nans,
-        settled: false,
-        open: "The card keeps it: its MOV copies words (envytools, xf.cc:197). We do without a vertex program, but not in \
-               one: -NaN, moved to a color, is 0 there and 1 here. NaNs that a program makes are positive on the card, too: \
-               only those in attributes tell.",
-        ..product.clone()
+        open: "nothing",
+        ..unit.clone()
     };
     let iterated = Rule {
         name: "Iterated colors to the code",
@@ -118,36 +102,12 @@ pub(crate) fn rules() -> Vec<Rule> {
                256ths, where the error of the plane decides.",
         ..iterated.clone()
     };
-    vec![product, subnormals, clamp, moved, iterated, near, rounding, dither, alpha]
+    vec![unit, clamp, iterated, near, rounding, dither, alpha]
 }
 
 /// Constant colors of `mov oD0, v1` and `mul oD0, v1, c0`, a cell each.
 fn ends(profile: &Profile, executor: &Executor) -> Values {
     by_program(profile, executor, &table(ENDS))
-}
-
-/// The rows that move a NaN.
-fn nans() -> Vec<Row> {
-    let is_nan = |row: &Row| row.text("constant_bits") == "mov" && f32::from_bits(row.hex("attribute_bits")).is_nan();
-    table(ENDS).into_iter().filter(is_nan).collect()
-}
-
-fn moved_nans(profile: &Profile, executor: &Executor) -> Values {
-    by_program(profile, executor, &nans())
-}
-
-/// NaNs as colors of vertices that no program has made, which are clamped by their patterns.
-fn moved_as_they_are(profile: &Profile, executor: &Executor) -> Values {
-    let (table, program, constants) = (nans(), color_program(profile), Constants::default());
-    let mut machine = executor.machine(profile.clone()).expect("a machine");
-    let target = machine.create_target(TexelFormat::Bgra8, COLUMNS, rows(table.len())).expect("a target");
-    let corners = |(i, row): (usize, &Row)| {
-        let color = [row.hex("attribute_bits"); 4];
-        cell(i).map(|corner| Vertex { colors: [color; 2], ..corner })
-    };
-    let vertices: Vec<Vertex> = table.iter().enumerate().flat_map(corners).collect();
-    machine.draw(&quads(VertexSource::Transformed(&vertices), &program, &constants, target)).expect("drawn");
-    compared(&table, machine.read_back(target).expect("read back"))
 }
 
 /// The measured codes beside the red of the rows' cells.

@@ -42,7 +42,8 @@ impl<'a> VertexProgram<'a> {
         let mut run = Interpreter::new(&self.prepared, 0b0001, observer);
         run.lanes[0].input = attributes.map(|v| v.map(|x| ops::convert(&Format::FP32, format, x).bits));
         run.run();
-        let out = |x: u32| ops::convert(&format, Format::FP32, x).bits;
+        // Units of cards hand words on as they are: a moved NaN keeps its sign (docs/measured.md).
+        let out = |x: u32| if format.unit.is_card() { x } else { ops::convert(&format, Format::FP32, x).bits };
         let registers = &run.lanes[0];
         let clamp = self.prepared.rules.color_clamp;
         let color = |x: u32| match clamp {

@@ -226,7 +226,8 @@ impl BatchVertices {
             VertexCode::Straight(block, cost) => {
                 run_steps(&block.steps, &around, &lanes, slots);
                 out.executed += cost * count as u64;
-                self.each_row(out, |i, row| row.extend(slots.row(block.roots[i])[..count].iter().map(canonical)));
+                let outcome = if self.hands_on_words() { |bits: &u32| *bits } else { canonical };
+                self.each_row(out, |i, row| row.extend(slots.row(block.roots[i])[..count].iter().map(outcome)));
             }
             VertexCode::Flow(plan) => {
                 let mut run = FlowRun::new(plan, &around, &lanes, &lanes);
@@ -251,10 +252,15 @@ impl BatchVertices {
         slots.row(slot)[..count].iter().map(value).collect()
     }
 
+    /// Returns `true` if the program computes in the unit of a card, whose outputs are words as they are.
+    fn hands_on_words(&self) -> bool {
+        self.formats.format(Arith::Main).unit.is_card()
+    }
+
     /// Contents of a slot as a single-precision pattern.
     fn single(&self, raw: u32) -> u32 {
         let (main, single) = (self.formats.lane(Arith::Main), self.formats.lane(Arith::Single));
-        if self.formats.format(Arith::Main) == Format::FP32 {
+        if self.formats.format(Arith::Main) == Format::FP32 || self.hands_on_words() {
             return main.encode(raw);
         }
         single.encode(single.round(main.reading().to_f64(raw)))
@@ -296,7 +302,7 @@ fn straight(
                 }
                 _ => value,
             };
-            t.make.convert(Arith::Main, Arith::Single, value)
+            if t.make.graph.is_card(Arith::Main) { value } else { t.make.convert(Arith::Main, Arith::Single, value) }
         })
         .collect();
     VertexCode::Straight(schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0), cost)
