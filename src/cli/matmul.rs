@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use refsim::num::matrix::{Element, MatrixUnit, UNITS};
 
+use super::Problem;
 use super::study::{StudyArgs, StudyFiles};
 use crate::study::matrix_product::{MatrixInput, MatrixProduct};
 use crate::study::precision::Goal;
@@ -101,6 +102,10 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<MatrixProduct> {
+        if self.types.len() > 2 {
+            let help = "write one type, or that of A and that of B: `--type e4m3,e5m2`";
+            return Err(Problem::usage("`--type` takes at most two types", help).into());
+        }
         let load = |path: &Path| MatrixInput::load(path);
         let promotions = self.promote.iter().map(|&step| Some(step as usize));
         Ok(MatrixProduct {
