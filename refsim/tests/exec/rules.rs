@@ -219,7 +219,7 @@ fn results_of_nv2x_are_clamped_to_one() {
     let ran = with_texture(text, &nv25, &[t, row[0], row[1]], BumpStage::default());
     assert_eq!((ran.value(1), ran.value(2)), (s([1.0; 4]), s([-1.0; 4])));
     // Vertex programs are not affected.
-    assert_eq!(nv25.rules.vertex_format, "fp32:ftz".parse().unwrap());
+    assert_eq!(nv25.rules.vertex_format, "e8m23:nv2x".parse().unwrap());
 }
 
 #[test]
