@@ -85,10 +85,11 @@ const SMALL: [(&str, Margin); 12] = [
 #[test]
 fn a_neighbour_always_accepts_what_the_other_rejects() {
     let mut leaks_of_the_paper = 0;
-    for (format, margin) in SMALL {
+    for (turn, (format, margin)) in SMALL.into_iter().enumerate() {
         let pairs = pairs(margin);
         assert!(pairs.len() > 20, "{format}: {} pairs", pairs.len());
-        for (i, (mesh, rays)) in pairs.iter().enumerate() {
+        // Every fourth pair, in each format others: the roundings of a format take turns.
+        for (i, (mesh, rays)) in pairs.iter().skip(turn % 4).step_by(4).enumerate() {
             let work = |sides| (mesh, &rays[..], sides);
             let shared = |executor, sides| missed(format, EdgeRule::SharedEdges, executor, work(sides));
             assert_eq!(shared(ExecutorKind::Batch, Sides::Front), 0, "{format}, pair {i}");
@@ -99,7 +100,7 @@ fn a_neighbour_always_accepts_what_the_other_rejects() {
             }
         }
     }
-    assert!(leaks_of_the_paper > 20, "the rays ask for trouble: {leaks_of_the_paper}");
+    assert!(leaks_of_the_paper > 5, "the rays ask for trouble: {leaks_of_the_paper}");
 }
 
 /// For each vertex of a welded mesh, if it lies away from every outline: all its triangles face the eye.
