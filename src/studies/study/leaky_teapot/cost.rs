@@ -1,11 +1,11 @@
 //! What an intersection costs: slots of the pixel program, and clocks of a pipeline.
 
+use refsim::device::Profile;
 use refsim::event::{FlowConstants, ProgramWork};
 use refsim::timing::{Level, Model};
 
-use super::Parameters;
+use crate::geom::exact::Sides;
 use crate::ray_engine::{EdgeRule, EngineError, Kernel};
-use crate::study::configuration::Configuration;
 
 /// Cost of the pixel program of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,15 +19,8 @@ pub struct IntersectionCost {
 }
 
 impl IntersectionCost {
-    /// Cost of the program that a configuration runs on the rays of the study.
-    pub(super) fn of(
-        parameters: &Parameters,
-        configuration: &Configuration,
-        edges: EdgeRule,
-    ) -> Result<Self, EngineError> {
-        let profile = &configuration.profile;
-        let one_origin = parameters.view.common_origin().is_some();
-        let sides = parameters.options.sides;
+    /// Cost of the program that a device runs on rays of one origin, or of any.
+    pub(super) fn of(profile: &Profile, one_origin: bool, sides: Sides, edges: EdgeRule) -> Result<Self, EngineError> {
         let kernel = match edges {
             EdgeRule::Paper => Kernel::choose(profile, one_origin, sides)?,
             EdgeRule::SharedEdges => Kernel::with_shared_edges(profile, one_origin, sides)?,

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::JudgedRays;
 use crate::geom::Mesh;
 use crate::geom::classify::HitVerdict;
+use crate::geom::exact::NearestHit;
 use crate::geom::vector::wide;
 
 /// Least cosine between a triangle's normal and the way to the eye, for a triangle that faces it: nearer to edge-on, what a
@@ -49,10 +49,10 @@ impl Inside {
         Self(mesh.triangles().iter().map(|corners| corners.iter().all(|vertex| is_inside[*vertex as usize])).collect())
     }
 
-    /// Counts the holes among rays with their verdicts.
-    pub(super) fn holes(&self, rays: &JudgedRays, verdicts: &[HitVerdict]) -> Holes {
+    /// Counts the holes among rays with these exact first hits and verdicts.
+    pub(super) fn holes(&self, nearest: &[Option<NearestHit>], verdicts: &[HitVerdict]) -> Holes {
         let mut holes = Holes::default();
-        for (nearest, verdict) in rays.nearest.iter().zip(verdicts) {
+        for (nearest, verdict) in nearest.iter().zip(verdicts) {
             let is_inside = |triangle: u32| self.0.get(triangle as usize).is_some_and(|inside| *inside);
             if nearest.as_ref().is_some_and(|hit| is_inside(hit.triangle)) {
                 holes.rays += 1;

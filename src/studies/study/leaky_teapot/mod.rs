@@ -190,6 +190,7 @@ fn judged(
     exact.resize(pixels, None);
     let exact_picture = shader.picture(&parameters.view, &exact);
     let mut rows = Vec::new();
+    let one_origin = parameters.view.common_origin().is_some();
     let inside = parameters.view.common_origin().map(|eye| Inside::new(mesh, eye));
     for ((configuration, edge_rule), found) in parameters.cases().zip(found) {
         let ConfigurationHits { view: mut hits, edges: edge_hits, vertices: vertex_hits } = found;
@@ -198,14 +199,16 @@ fn judged(
         let (mut verdicts, tally) = view.judge(mesh, &hits);
         let (edge_verdicts, edge_tally) = edges.judge(mesh, &edge_hits);
         let (vertex_verdicts, vertex_tally) = vertices.judge(mesh, &vertex_hits);
-        let holes = [(&view, &verdicts), (&edges, &edge_verdicts), (&vertices, &vertex_verdicts)]
-            .map(|(rays, verdicts)| inside.as_ref().map(|inside| inside.holes(rays, verdicts)).unwrap_or_default());
+        let holes =
+            [(&view, &verdicts), (&edges, &edge_verdicts), (&vertices, &vertex_verdicts)].map(|(rays, verdicts)| {
+                inside.as_ref().map(|inside| inside.holes(&rays.nearest, verdicts)).unwrap_or_default()
+            });
         hits.resize(pixels, None);
         verdicts.resize(pixels, HitVerdict::Right);
         let triangles: Vec<Option<u32>> = hits.iter().map(|h| h.map(|h| h.triangle)).collect();
         let picture = shader.picture(&parameters.view, &triangles);
         rows.push(TeapotRow {
-            cost: IntersectionCost::of(parameters, &configuration, edge_rule)?,
+            cost: IntersectionCost::of(&configuration.profile, one_origin, *sides, edge_rule)?,
             edge_rule,
             holes,
             configuration: configuration.into_owned(),
