@@ -102,8 +102,8 @@ fn format_strings() {
     assert!(matches!(fail("fp16:rtz:rne"), FormatError::Twice { rule: "rounding", .. }));
     assert_eq!(
         fail("s3.12:up").to_string(),
-        "number format `s3.12:up`: expected a suffix :rne :rna :rtz :rdn :rup :rod :rst, :sat :wrap :inf :nvovf, :keep :ftz or \
-         :ieee :nv, found `:up` at character 5"
+        "number format `s3.12:up`: expected a suffix :rne :rna :rtz :rdn :rup :rod :rst, :sat :wrap :inf :nvovf, :keep :ftz, \
+         :ieee :nv or a card's unit :nv2x :nv3x-legacy :nv3x :gt200 :gt200-zero-wins, found `:up` at character 5"
     );
 }
 
