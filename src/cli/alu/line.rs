@@ -1,6 +1,6 @@
 //! TestFloat's line format.
 
-use super::operation::Unit;
+use super::operation::AluUnit;
 use crate::error::{InputError, ensure, input_error};
 
 /// The most fields of a good line: three operands, a result and flags.
@@ -41,7 +41,7 @@ pub(super) struct AluLine {
 
 impl LineFormat {
     /// Operands alone.
-    pub(super) const fn compute(unit: &Unit) -> Self {
+    pub(super) const fn compute(unit: &AluUnit) -> Self {
         Self {
             operands: unit.op.operands(),
             operand_width: unit.operand_width(),
@@ -51,7 +51,7 @@ impl LineFormat {
     }
 
     /// Operands, result and flags; without `flags` the last may be missing.
-    pub(super) const fn verify(unit: &Unit, flags: bool) -> Self {
+    pub(super) const fn verify(unit: &AluUnit, flags: bool) -> Self {
         let mut format = Self::compute(unit);
         format.after = if flags { (2, 2) } else { (1, 2) };
         format

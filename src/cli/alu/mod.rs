@@ -14,7 +14,7 @@ use refsim::num::matrix::MatrixUnit;
 use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
 use self::device::{Arithmetic, Stage, State, refuse_foreign, refuse_lacking};
-use self::operation::{AluOperation, Unit};
+use self::operation::{AluOperation, AluUnit};
 use self::row::{RowOperation, RowUnit};
 use super::{Out, Problem, Verdict, given};
 use crate::options::one_of::{OneOf, one_of};
@@ -185,7 +185,7 @@ fn refuse_others(args: &Args, format: &Format) -> Result<(), Problem> {
     given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")
 }
 
-fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
+fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
     stream::compute(unit, flags, input, out)?;
     Ok(Verdict::Done)
 }
@@ -243,7 +243,7 @@ fn row_unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<Opt
 }
 
 /// The unit that the options make, once they go together.
-fn unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<Unit, Problem> {
+fn unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<AluUnit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {
         Some(to) if convert => to,
@@ -262,5 +262,5 @@ fn unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<Unit, P
         }
     };
     let seed = args.seed.unwrap_or_default();
-    Ok(Unit { op: args.op, env: format.tininess(Tininess::After), to, seed, steps })
+    Ok(AluUnit { op: args.op, env: format.tininess(Tininess::After), to, seed, steps })
 }

@@ -119,7 +119,7 @@ impl AluOperation {
 
 /// An operation in its format.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unit {
+pub(super) struct AluUnit {
     pub(super) op: AluOperation,
     /// The format of the operands.
     pub(super) env: Env,
@@ -131,7 +131,7 @@ pub(super) struct Unit {
     pub(super) steps: Steps,
 }
 
-impl Unit {
+impl AluUnit {
     /// Bits of an operand.
     pub(super) const fn operand_width(&self) -> u32 {
         self.env.format.width()

@@ -11,7 +11,7 @@ use serde_json::json;
 
 use super::{
     line::{AluLine, LineFormat, push_hex},
-    operation::Unit,
+    operation::AluUnit,
 };
 use crate::cli::{Out, OutputError, Verdict};
 use crate::error::{InputError, input_error};
@@ -94,7 +94,7 @@ fn run_task(
 }
 
 /// Writes the result of every line of operands.
-pub(super) fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<()> {
+pub(super) fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<()> {
     let format = LineFormat::compute(unit);
     let json = out.json();
     let work = |part: &mut TaskOutput, text: &[u8], number: u64| {
@@ -114,7 +114,7 @@ pub(super) fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out)
     })
 }
 
-fn push_result(text: &mut Vec<u8>, unit: &Unit, flags: bool, outcome: Outcome) {
+fn push_result(text: &mut Vec<u8>, unit: &AluUnit, flags: bool, outcome: Outcome) {
     push_hex(text, outcome.bits, unit.result_width());
     if flags {
         text.push(b' ');
@@ -122,7 +122,7 @@ fn push_result(text: &mut Vec<u8>, unit: &Unit, flags: bool, outcome: Outcome) {
     }
 }
 
-fn push_json_result(text: &mut Vec<u8>, unit: &Unit, flags: bool, outcome: Outcome) {
+fn push_json_result(text: &mut Vec<u8>, unit: &AluUnit, flags: bool, outcome: Outcome) {
     text.extend_from_slice(b"{\"result\":\"");
     push_hex(text, outcome.bits, unit.result_width());
     if flags {
@@ -133,7 +133,7 @@ fn push_json_result(text: &mut Vec<u8>, unit: &Unit, flags: bool, outcome: Outco
 }
 
 /// Compares the results that the lines bring with ours; a closed pipe does not change the verdict.
-pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn verify(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
     out.outlive_reader();
     let format = LineFormat::verify(unit, flags);
     let json = out.json();
@@ -177,14 +177,14 @@ pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) 
     Ok(Verdict::held(failed == 0))
 }
 
-fn agrees(unit: &Unit, flags: bool, line: &AluLine, outcome: Outcome) -> bool {
+fn agrees(unit: &AluUnit, flags: bool, line: &AluLine, outcome: Outcome) -> bool {
     let same = outcome.bits == line.result || (unit.is_nan(outcome.bits) && unit.is_nan(line.result));
     same && (!flags || line.flags == Some(outcome.flags.bits()))
 }
 
 fn push_mismatch(
     text: &mut Vec<u8>,
-    unit: &Unit,
+    unit: &AluUnit,
     flags: bool,
     line: &AluLine,
     outcome: Outcome,

@@ -2,7 +2,7 @@
 
 use super::any::{AnyLane, Arithmetic, with_any_lane};
 use super::lane::Lane;
-use super::unit::{CardLane, Unit};
+use super::unit::{CardLane, CardUnit};
 use crate::num::{Format, NumberOperation};
 
 /// The operation on operands given as bit patterns of `format`; missing operands count as zero. Comparisons give the
@@ -23,7 +23,7 @@ pub fn evaluate(format: Format, operation: NumberOperation, [a, b, c]: [&[u32]; 
 }
 
 /// The operation of a card's unit, on words.
-fn words<U: Unit>(lane: &CardLane<U>, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
+fn words<U: CardUnit>(lane: &CardLane<U>, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
     use NumberOperation::{Equal, Less, LessEqual};
     let compares = matches!(operation, Less | LessEqual | Equal);
     let word = |i: usize, a: u32| lane.word(operation, [a, bits_at(b, i), bits_at(c, i)]);

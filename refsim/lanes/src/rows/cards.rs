@@ -7,7 +7,7 @@ use super::code::{LaneCode, LaneOp};
 use super::ops::apart;
 use super::pack;
 use super::slots::Slots;
-use crate::lanes::{CardLane, LANES, Lane, LaneRow, SimdLevel, TRUE, Unit};
+use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, SimdLevel, TRUE};
 use crate::num::NumberOperation as Op;
 
 /// The sign bit.
@@ -15,7 +15,7 @@ const SIGN: u32 = 1 << 31;
 
 /// Executes operations in the arithmetic of a unit. Fused codes are not among them.
 #[inline(never)]
-pub(super) fn run<U: Unit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
+pub(super) fn run<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
         if op.code == LaneCode::Widen {
             let Slots { rows, wide, .. } = slots;
@@ -60,7 +60,7 @@ fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32)
 
 /// Computes an operation in vector code, if there is such code; returns `true` if all results are right.
 #[inline(always)]
-fn quick<U: Unit>(lane: &CardLane<U>, op: &LaneOp, slots: &mut Slots) -> bool {
+fn quick<U: CardUnit>(lane: &CardLane<U>, op: &LaneOp, slots: &mut Slots) -> bool {
     let Slots { rows, scratch, .. } = slots;
     let out: &mut LaneRow = scratch;
     let arg = |k: usize| -> &LaneRow { &rows[usize::from(op.args[k])] };
@@ -94,7 +94,7 @@ fn quick<U: Unit>(lane: &CardLane<U>, op: &LaneOp, slots: &mut Slots) -> bool {
 }
 
 /// Computes an operation lane by lane.
-fn each<U: Unit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &mut Slots) {
+fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &mut Slots) {
     let Slots { rows, scratch, wide, .. } = slots;
     let out: &mut LaneRow = scratch;
     let x = |k: usize, i: usize| rows[usize::from(op.args[k])][i];
@@ -138,7 +138,7 @@ fn each<U: Unit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &mut S
 }
 
 /// The dot product of a lane whose operands `x` has, the factors of one product after the other.
-fn dot<U: Unit>(lane: &CardLane<U>, terms: u8, x: impl Fn(usize) -> u32) -> u32 {
+fn dot<U: CardUnit>(lane: &CardLane<U>, terms: u8, x: impl Fn(usize) -> u32) -> u32 {
     match terms {
         2 => lane.unit.dot([x(0), x(2)], [x(1), x(3)]),
         3 => lane.unit.dot([x(0), x(2), x(4)], [x(1), x(3), x(5)]),

@@ -15,7 +15,7 @@ const HALF: u32 = 0x3f00_0000;
 
 /// What differs from unit to unit. The quick versions are for loops of vector code: with their result they hand back
 /// all ones if it may be wrong, else zero.
-pub(crate) trait Unit: Copy + Send + Sync + Debug {
+pub(crate) trait CardUnit: Copy + Send + Sync + Debug {
     /// True if comparisons set NaN where words have no order.
     const SETS_NAN: bool;
 
@@ -54,7 +54,7 @@ pub(crate) trait Unit: Copy + Send + Sync + Debug {
     fn max(&self, a: u32, b: u32) -> u32;
 }
 
-impl Unit for Nv {
+impl CardUnit for Nv {
     const SETS_NAN: bool = true;
 
     fn new(format: &Format) -> Self {
@@ -150,7 +150,7 @@ impl Unit for Nv {
     }
 }
 
-impl Unit for Gt200 {
+impl CardUnit for Gt200 {
     const SETS_NAN: bool = false;
 
     fn new(format: &Format) -> Self {
@@ -240,7 +240,7 @@ pub(crate) struct CardLane<U> {
     ideal: GeneralLane,
 }
 
-impl<U: Unit> CardLane<U> {
+impl<U: CardUnit> CardLane<U> {
     /// The arithmetic of a format whose unit is `U`.
     pub(crate) fn new(format: &Format) -> Self {
         let (exp_bits, man_bits) = match format.kind {
@@ -333,7 +333,7 @@ impl<U: Unit> CardLane<U> {
 }
 
 /// Numbers in slots are words, held as integers.
-impl<U: Unit> Lane for CardLane<U> {
+impl<U: CardUnit> Lane for CardLane<U> {
     type T = i32;
     type General = GeneralLane;
 

@@ -14,6 +14,6 @@ mod nv;
 mod nv_functions;
 mod word;
 
-pub(crate) use card::{CardLane, Unit};
+pub(crate) use card::{CardLane, CardUnit};
 pub(crate) use gt200::Gt200;
 pub(crate) use nv::Nv;
