@@ -55,7 +55,7 @@ pub(super) struct Args {
 
     /// What errors are against: exact, or a unit
     #[arg(long, value_name = "exact|UNIT", default_value = "exact", value_parser = reference)]
-    against: Reference,
+    against: MatmulReference,
 
     /// Follow the sum of one element of D, counted from 0
     #[arg(long, value_name = "ROW,COLUMN", value_parser = place)]
@@ -72,13 +72,13 @@ pub(super) struct Args {
 
 /// What errors are against.
 #[derive(Clone, Debug)]
-struct Reference(Option<MatrixUnit>);
+struct MatmulReference(Option<MatrixUnit>);
 
-fn reference(text: &str) -> Result<Reference, String> {
+fn reference(text: &str) -> Result<MatmulReference, String> {
     if text == "exact" {
-        return Ok(Reference(None));
+        return Ok(MatmulReference(None));
     }
-    MatrixUnit::find(text).map(|unit| Reference(Some(unit))).map_err(|error| error.to_string())
+    MatrixUnit::find(text).map(|unit| MatmulReference(Some(unit))).map_err(|error| error.to_string())
 }
 
 fn element(text: &str) -> Result<Element, String> {

@@ -8,7 +8,7 @@ use crate::cli::{Problem, switch};
 
 /// A programmable stage, for `--stage`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stage {
+pub(super) enum AluStage {
     Vertex,
     Pixel,
 }
@@ -53,24 +53,24 @@ impl Default for Steps {
 
 /// The arithmetic of one stage.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arithmetic {
+pub(super) struct AluArithmetic {
     pub(super) format: Format,
     pub(super) steps: Steps,
 }
 
-impl Arithmetic {
+impl AluArithmetic {
     /// That of a format.
     pub(super) fn of_format(format: Format) -> Self {
         Self { format, steps: Steps::default() }
     }
 
     /// That of a device's stage; by default of the stage whose unit was measured, or else the pixels'.
-    pub(super) fn of_device(name: &str, stage: Option<Stage>, state: Option<State>) -> miette::Result<Self> {
+    pub(super) fn of_device(name: &str, stage: Option<AluStage>, state: Option<State>) -> miette::Result<Self> {
         let rules = switch::device(name, &[])?.rules;
         let measured = |format: Format| format.unit.is_card();
         let stage = stage.unwrap_or(match (measured(rules.vertex_format), measured(rules.format)) {
-            (true, false) => Stage::Vertex,
-            _ => Stage::Pixel,
+            (true, false) => AluStage::Vertex,
+            _ => AluStage::Pixel,
         });
         let mut arithmetic = Self::of_stage(&rules, stage);
         if let Some(state) = state {
@@ -79,17 +79,17 @@ impl Arithmetic {
         Ok(arithmetic)
     }
 
-    fn of_stage(rules: &Rules, stage: Stage) -> Self {
+    fn of_stage(rules: &Rules, stage: AluStage) -> Self {
         let (format, zero_wins) = match stage {
-            Stage::Vertex => (rules.vertex_format, rules.vertex_zero_times_anything),
-            Stage::Pixel => (rules.format, rules.zero_times_anything),
+            AluStage::Vertex => (rules.vertex_format, rules.vertex_zero_times_anything),
+            AluStage::Pixel => (rules.format, rules.zero_times_anything),
         };
         Self { format, steps: Steps { fused: rules.mad == MadMode::Fused, order: rules.dot, zero_wins } }
     }
 }
 
-fn no_state(name: &str, stage: Stage) -> Problem {
-    let stage = if stage == Stage::Vertex { "vertex" } else { "pixel" };
+fn no_state(name: &str, stage: AluStage) -> Problem {
+    let stage = if stage == AluStage::Vertex { "vertex" } else { "pixel" };
     Problem::usage(
         format!("the {stage} arithmetic of `{name}` has no such state"),
         "leave `--state` out, or take `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",

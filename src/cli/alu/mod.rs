@@ -13,7 +13,7 @@ use std::io::{self, Read};
 use refsim::num::matrix::MatrixUnit;
 use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
-use self::device::{Arithmetic, Stage, State, refuse_foreign, refuse_lacking};
+use self::device::{AluArithmetic, AluStage, State, refuse_foreign, refuse_lacking};
 use self::operation::{AluOperation, AluUnit};
 use self::row::{RowOperation, RowUnit};
 use super::{Out, Problem, Verdict, given};
@@ -66,7 +66,7 @@ pub(super) struct Args {
 
     /// The stage of the device; by default the one whose unit was measured, or else pixels
     #[arg(long, requires = "device", value_parser = stages())]
-    stage: Option<Stage>,
+    stage: Option<AluStage>,
 
     /// The state of the device's unit; by default modern, or ieee
     #[arg(long, requires = "device", value_parser = states())]
@@ -122,8 +122,8 @@ fn summation(text: &str) -> Result<DotOrder, String> {
 }
 
 /// The stages, for `--stage`.
-fn stages() -> OneOf<Stage> {
-    one_of([("vertex", "vertex programs", Stage::Vertex), ("pixel", "pixel programs", Stage::Pixel)])
+fn stages() -> OneOf<AluStage> {
+    one_of([("vertex", "vertex programs", AluStage::Vertex), ("pixel", "pixel programs", AluStage::Pixel)])
 }
 
 /// The states of units, for `--state`.
@@ -159,15 +159,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 }
 
 /// What computes: a format, or a stage of a device.
-fn arithmetic(args: &Args) -> miette::Result<Arithmetic> {
+fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
     let arithmetic = match (&args.device, args.format) {
         (Some(device), _) => {
-            let arithmetic = Arithmetic::of_device(device, args.stage, args.state)?;
+            let arithmetic = AluArithmetic::of_device(device, args.stage, args.state)?;
             refuse_lacking(args.op, arithmetic.format)?;
             arithmetic
         }
         // The parser asks for one of both.
-        (None, format) => Arithmetic::of_format(format.unwrap_or(Format::FP32)),
+        (None, format) => AluArithmetic::of_format(format.unwrap_or(Format::FP32)),
     };
     refuse_foreign(args.op, arithmetic.format)?;
     Ok(arithmetic)
@@ -191,7 +191,7 @@ fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miet
 }
 
 /// The unit of an operation on lines of many numbers, once its options go together; `None` for other operations.
-fn row_unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<Option<RowUnit>, Problem> {
+fn row_unit(args: &Args, AluArithmetic { format, steps }: AluArithmetic) -> Result<Option<RowUnit>, Problem> {
     if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
         return Err(Problem::usage(
             "`--accumulator` and `--summation` are for `dot` only",
@@ -243,7 +243,7 @@ fn row_unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<Opt
 }
 
 /// The unit that the options make, once they go together.
-fn unit(args: &Args, Arithmetic { format, steps }: Arithmetic) -> Result<AluUnit, Problem> {
+fn unit(args: &Args, AluArithmetic { format, steps }: AluArithmetic) -> Result<AluUnit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {
         Some(to) if convert => to,

@@ -1,7 +1,7 @@
 //! One operation on many operands, through the same lanes that programs run in.
 
 use super::any::{AnyLane, Arithmetic, with_any_lane};
-use super::lane::Lane;
+use super::lane::{Lane, apply, is_finite};
 use super::unit::{CardLane, CardUnit};
 use crate::num::{Format, NumberOperation};
 
@@ -73,38 +73,6 @@ fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) 
         _ => None,
     };
     Some(lane.encode(raw.map_or(value, L::load)))
-}
-
-/// Returns `true` if the float in a slot is neither infinite nor NaN.
-#[inline(always)]
-pub(crate) fn is_finite(raw: u32) -> bool {
-    raw & 0x7fff_ffff < 0x7f80_0000
-}
-
-/// The operations that compute a number from numbers.
-pub(crate) fn apply<L: Lane>(lane: &L, operation: NumberOperation, [a, b, c]: [L::T; 3]) -> Option<L::T> {
-    use NumberOperation as Op;
-    Some(match operation {
-        Op::Add => lane.add(a, b),
-        Op::Sub => lane.sub(a, b),
-        Op::Mul => lane.mul(a, b),
-        Op::Mad => lane.add(lane.mul(a, b), c),
-        Op::FusedMad => lane.fused_mad(a, b, c),
-        Op::Div => lane.div(a, b),
-        Op::Sqrt => lane.sqrt(a),
-        Op::Rcp => lane.rcp(a),
-        Op::Rsq => lane.rsq(a),
-        Op::Exp2 => lane.exp2(a),
-        Op::Log2 => lane.log2(a),
-        Op::Min => lane.min(a, b),
-        Op::Max => lane.max(a, b),
-        Op::Floor => lane.floor(a),
-        Op::Frc => lane.frc(a),
-        Op::Neg => lane.neg(a),
-        Op::Abs => lane.abs(a),
-        Op::Saturate => lane.saturate(a),
-        _ => return None,
-    })
 }
 
 /// Bit patterns of `from` converted to `to`, as [`crate::num::ops::convert`] defines it.

@@ -4,6 +4,7 @@ use std::fmt::Debug;
 
 use super::layout::pow2;
 use super::reading::Reading;
+use crate::num::NumberOperation;
 
 /// A number as registers hold it: an integer or a float of the host.
 pub(crate) trait RegisterNumber: Copy + Default + Send + Sync + Debug + PartialOrd {
@@ -177,4 +178,36 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn above_half(&self, a: Self::T) -> bool;
     /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
     fn factor(&self, a: Self::T, b: Self::T) -> Self::T;
+}
+
+/// Returns `true` if the float in a slot is neither infinite nor NaN.
+#[inline(always)]
+pub(crate) fn is_finite(raw: u32) -> bool {
+    raw & 0x7fff_ffff < 0x7f80_0000
+}
+
+/// The operations that compute a number from numbers.
+pub(crate) fn apply<L: Lane>(lane: &L, operation: NumberOperation, [a, b, c]: [L::T; 3]) -> Option<L::T> {
+    use NumberOperation as Op;
+    Some(match operation {
+        Op::Add => lane.add(a, b),
+        Op::Sub => lane.sub(a, b),
+        Op::Mul => lane.mul(a, b),
+        Op::Mad => lane.add(lane.mul(a, b), c),
+        Op::FusedMad => lane.fused_mad(a, b, c),
+        Op::Div => lane.div(a, b),
+        Op::Sqrt => lane.sqrt(a),
+        Op::Rcp => lane.rcp(a),
+        Op::Rsq => lane.rsq(a),
+        Op::Exp2 => lane.exp2(a),
+        Op::Log2 => lane.log2(a),
+        Op::Min => lane.min(a, b),
+        Op::Max => lane.max(a, b),
+        Op::Floor => lane.floor(a),
+        Op::Frc => lane.frc(a),
+        Op::Neg => lane.neg(a),
+        Op::Abs => lane.abs(a),
+        Op::Saturate => lane.saturate(a),
+        _ => return None,
+    })
 }

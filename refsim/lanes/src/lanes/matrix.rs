@@ -191,7 +191,7 @@ fn chains(adder: &Adder, rows: &[(usize, &[Unpacked])], b: &[Lanes], words: &mut
 /// One block of sixteen elements of D.
 #[inline(always)]
 fn block(adder: &Adder, a: &[Unpacked], b: &[Lanes], words: &mut [u64; WIDTH]) {
-    let layout = Layout::of(adder.result);
+    let layout = MatrixLayout::of(adder.result);
     let mut top = [adder.least; WIDTH];
     for lane in 0..WIDTH {
         top[lane] = top[lane].max(layout.exponent(words[lane]));
@@ -235,7 +235,7 @@ fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32
 
 /// Fields of the words of a result.
 #[derive(Clone, Copy)]
-struct Layout {
+struct MatrixLayout {
     fraction: i32,
     /// Fraction bits of results, fewer in e8m13.
     kept: i32,
@@ -245,7 +245,7 @@ struct Layout {
     nearest: bool,
 }
 
-impl Layout {
+impl MatrixLayout {
     #[inline(always)]
     fn of(result: ResultFormat) -> Self {
         match result {

@@ -4,9 +4,9 @@ use std::fmt::Debug;
 
 use super::word::{NAN, ONE, SIGN, flushed, is_nan, mask};
 use super::{Gt200, Nv, gt200_functions, nv_functions};
-use crate::lanes::evaluate::apply;
 use crate::lanes::float::GeneralLane;
 use crate::lanes::lane::Lane;
+use crate::lanes::lane::apply;
 use crate::lanes::reading::Reading;
 use crate::num::{Format, FormatKind, NumberOperation as Op, Unit as Name};
 
