@@ -1,7 +1,7 @@
 //! The arithmetic of a device's stage: its format, the unit that computes, and the rules beside them.
 
-use refsim::device::{MadMode, Rules};
-use refsim::num::{DotOrder, Format, NumberOperation as Op, Unit};
+use refsim::device::{AddMode, MadMode, Rules};
+use refsim::num::{DotOrder, Format, NumberOperation as Op, Rounding, Unit};
 
 use super::operation::{AluOperation, VectorOperation};
 use crate::cli::{Problem, switch};
@@ -38,8 +38,10 @@ impl State {
 /// How operations of several steps are done. Units of cards have rules of their own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Steps {
-    /// `a * b + c` is rounded once.
-    pub(super) fused: bool,
+    pub(super) mad: MadMode,
+    /// Rounding of products, if not that of sums.
+    pub(super) products: Option<Rounding>,
+    pub(super) add: AddMode,
     pub(super) order: DotOrder,
     /// A zero times infinity or NaN is +0.
     pub(super) zero_wins: bool,
@@ -47,7 +49,8 @@ pub(super) struct Steps {
 
 impl Default for Steps {
     fn default() -> Self {
-        Self { fused: false, order: DotOrder::Sequential, zero_wins: false }
+        let (mad, add, order) = (MadMode::TwoRoundings, AddMode::Rounded, DotOrder::Sequential);
+        Self { mad, products: None, add, order, zero_wins: false }
     }
 }
 
@@ -80,11 +83,19 @@ impl AluArithmetic {
     }
 
     fn of_stage(rules: &Rules, stage: AluStage) -> Self {
-        let (format, zero_wins) = match stage {
-            AluStage::Vertex => (rules.vertex_format, rules.vertex_zero_times_anything),
-            AluStage::Pixel => (rules.format, rules.zero_times_anything),
+        // The rules of products and sums are those of pixels.
+        let (format, steps) = match stage {
+            AluStage::Vertex => {
+                let zero_wins = rules.vertex_zero_times_anything;
+                (rules.vertex_format, Steps { zero_wins, ..Steps::default() })
+            }
+            AluStage::Pixel => {
+                let Rules { mad, product_rounding: products, add, dot: order, zero_times_anything: zero_wins, .. } =
+                    *rules;
+                (rules.format, Steps { mad, products, add, order, zero_wins })
+            }
         };
-        Self { format, steps: Steps { fused: rules.mad == MadMode::Fused, order: rules.dot, zero_wins } }
+        Self { format, steps }
     }
 }
 

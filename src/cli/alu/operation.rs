@@ -1,5 +1,6 @@
 //! The operations by name.
 
+use refsim::device::{AddMode, MadMode};
 use refsim::num::unit::nv_functions;
 use refsim::num::{Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
 
@@ -157,6 +158,7 @@ impl AluUnit {
             }
         }
         match self.op {
+            AluOperation::Table(Op::Add) => add(env, self.steps, a, b),
             AluOperation::Table(Op::Mul) => mul(env, self.steps, a, b),
             AluOperation::Mad => mad(env, self.steps, a, b, c),
             AluOperation::Mov => ops::convert(&env.format, env, a),
@@ -184,12 +186,38 @@ pub(super) fn factors(format: &Format, steps: Steps, a: u32, b: u32) -> (u32, u3
 /// A product under the rules of a device.
 pub(super) fn mul(env: Env, steps: Steps, a: u32, b: u32) -> Outcome {
     let (a, b) = factors(&env.format, steps, a, b);
-    ops::mul(env, a, b)
+    ops::mul(products(env, steps), a, b)
+}
+
+/// Where products are rounded. Units of cards have a rule of their own.
+pub(super) fn products(env: Env, steps: Steps) -> Env {
+    let rounding = steps.products.filter(|_| !env.format.unit.is_card());
+    Env { format: rounding.map_or(env.format, |rounding| env.format.with_rounding(rounding)), ..env }
+}
+
+/// A sum under the rules of a device.
+pub(super) fn add(env: Env, steps: Steps, a: u32, b: u32) -> Outcome {
+    match steps.add {
+        AddMode::Aligned(bits) if !env.format.unit.is_card() && !env.format.is_fixed() => {
+            ops::sum_aligned(env, bits, &[a, b])
+        }
+        _ => ops::add(env, a, b),
+    }
 }
 
 fn mad(env: Env, steps: Steps, a: u32, b: u32, c: u32) -> Outcome {
-    let (a, b) = factors(&env.format, steps, a, b);
-    if steps.fused { ops::fused_mad(env, a, b, c) } else { ops::mad(env, a, b, c) }
+    if env.format.unit.is_card() {
+        return ops::mad(env, a, b, c);
+    }
+    let (x, y) = factors(&env.format, steps, a, b);
+    match steps.mad {
+        MadMode::Fused => ops::fused_mad(env, x, y, c),
+        MadMode::ProductCut => ops::product_cut_mad(env, x, y, c),
+        MadMode::TwoRoundings => {
+            let product = mul(env, steps, a, b);
+            add(env, steps, product.bits, c).also(product.flags)
+        }
+    }
 }
 
 /// A comparison as a number: by the unit of a card, or else quiet.

@@ -3,7 +3,7 @@
 use refsim::num::{Env, NumberOperation as Op, Outcome, ops};
 
 use super::device::Steps;
-use super::operation::{VectorOperation, factors, mul};
+use super::operation::{VectorOperation, add, factors, mul, products};
 
 impl VectorOperation {
     /// The number of words of a line, and what to say where there are others.
@@ -47,7 +47,7 @@ impl VectorOperation {
 fn dot(env: Env, steps: Steps, words: &[u32]) -> Outcome {
     let (a, b) = words.split_at(words.len() / 2);
     let terms: Vec<(u32, u32)> = a.iter().zip(b).map(|(&a, &b)| factors(&env.format, steps, a, b)).collect();
-    ops::dot(env, steps.order, &terms)
+    ops::dot_of_products(env, products(env, steps), env, steps.order, &terms)
 }
 
 /// DPH: a fourth product by 1 in the unit of a card, or else the dot product of three components and a sum.
@@ -60,5 +60,5 @@ fn homogeneous(env: Env, steps: Steps, words: &[u32]) -> Outcome {
     let last = words.remove(7);
     words.remove(3);
     let three = dot(env, steps, &words);
-    ops::add(env, three.bits, last).also(three.flags)
+    add(env, steps, three.bits, last).also(three.flags)
 }

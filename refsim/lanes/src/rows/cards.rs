@@ -100,21 +100,21 @@ fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &m
     let x = |k: usize, i: usize| rows[usize::from(op.args[k])][i];
     let (operation, immediate) = match op.code {
         LaneCode::Dot(terms) => {
-            for i in 0..LANES {
-                out[i] = dot(lane, terms, |k| x(k, i));
+            for (i, out) in out.iter_mut().enumerate() {
+                *out = dot(lane, terms, |k| x(k, i));
             }
             return;
         }
         LaneCode::Neighbors(down) => {
             let bit = if down { 16 } else { 1 };
-            for i in 0..LANES {
-                out[i] = lane.unit.add(x(0, i | bit), x(0, i & !bit) ^ SIGN);
+            for (i, out) in out.iter_mut().enumerate() {
+                *out = lane.unit.add(x(0, i | bit), x(0, i & !bit) ^ SIGN);
             }
             return;
         }
         LaneCode::OrLess => {
-            for i in 0..LANES {
-                out[i] = x(0, i) | if lane.less(x(1, i), x(2, i)) { TRUE } else { 0 };
+            for (i, out) in out.iter_mut().enumerate() {
+                *out = x(0, i) | if lane.less(x(1, i), x(2, i)) { TRUE } else { 0 };
             }
             return;
         }
@@ -128,9 +128,9 @@ fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &m
         let rows = [0, 1, 2].map(|k| -> &LaneRow { &rows[usize::from(op.args[k])] });
         return apart(lane, simd, op.code, rows, wide, out);
     }
-    for i in 0..LANES {
+    for (i, out) in out.iter_mut().enumerate() {
         let operands = [x(0, i), immediate.unwrap_or_else(|| x(1, i)), x(2, i)];
-        out[i] = lane.word(operation, operands).unwrap_or_default();
+        *out = lane.word(operation, operands).unwrap_or_default();
     }
     if op.code == LaneCode::Plain(Op::AddressFloor) {
         pack::to_addresses(lane.reading(), out);

@@ -64,8 +64,8 @@ pub(super) fn rcp(x: u32) -> u32 {
     }
     let f = i64::from(significand(x));
     let [mut a] = NV_RCP[(m >> 17) as usize];
-    a = ((1 << 31) - a * f) * a >> 24;
-    a = ((1 << 37) - a * f) * a >> 25;
+    a = (((1 << 31) - a * f) * a) >> 24;
+    a = (((1 << 37) - a * f) * a) >> 25;
     normal(sign, 253 - e, a)
 }
 
@@ -94,8 +94,8 @@ impl Nv {
         let g = i128::from(significand(x)) << (1 - odd);
         let [first] = NV_RSQ[(64 * (1 - odd)) as usize + (m >> 17) as usize];
         let mut a = i128::from(first);
-        a = ((3 << 37) - a * a * g) * a >> 32;
-        a = ((3 << 49) - a * a * g) * a >> 39;
+        a = (((3 << 37) - a * a * g) * a) >> 32;
+        a = (((3 << 49) - a * a * g) * a) >> 39;
         normal(0, 126 - ((e - 128 + odd) >> 1), a as i64)
     }
 
@@ -187,7 +187,7 @@ impl Nv {
             return finished(!negative_w);
         }
         let exponent = in_8192ths(w).clamp(-(1 << 20), (1 << 20) - 1);
-        match logarithm(y) * exponent >> 26 {
+        match (logarithm(y) * exponent) >> 26 {
             ..-0x8000_0000 => 0,
             0x8000_0000.. => FIELD,
             p => power(p),
