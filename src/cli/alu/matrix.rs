@@ -69,7 +69,10 @@ fn compute<'a>(
     };
     let [ta, tb] = [element(0)?, element(1)?];
     let [a, b] = [codes(cells[types], ta, number)?, codes(cells[types + 1], tb, number)?];
-    let c = codes(cells[types + 2], unit.addend, number)?;
+    // One number, in up to a word: bits above those of its type are ignored.
+    let word =
+        Some(cells[types + 2]).filter(|cell| cell.len() <= 8).and_then(|cell| u64::from_str_radix(cell, 16).ok());
+    let c = word.map_or_else(|| codes(cells[types + 2], unit.addend, number), |word| Ok(vec![word]))?;
     ensure!(c.len() == 1, "crossbar::alu::fields" => "line {number}: expected one number c, found {}", c.len());
     let scales = |at: usize| -> Result<Vec<u8>, InputError> {
         let Some(_) = unit.scaling else { return Ok(Vec::new()) };

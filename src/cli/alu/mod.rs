@@ -166,7 +166,14 @@ fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
             refuse_lacking(args.op, arithmetic.format)?;
             arithmetic
         }
-        // The parser asks for one of both.
+        // The parser asks for one of both, but lets these pass beside a format, with which --device conflicts.
+        (None, _) if args.stage.is_some() || args.state.is_some() => {
+            return Err(Problem::usage(
+                "`--stage` and `--state` are for `--device` only",
+                "leave them out: a format names its unit itself, as in `e8m23:nv3x-legacy`",
+            )
+            .into());
+        }
         (None, format) => AluArithmetic::of_format(format.unwrap_or(Format::FP32)),
     };
     refuse_foreign(args.op, arithmetic.format)?;

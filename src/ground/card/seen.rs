@@ -20,7 +20,7 @@ pub struct SeenPixel {
 }
 
 /// The front face and barycentric weights at each pixel of a camera, row by row: from a draw in single precision with
-/// the device's subpixel precision of vertices. `None` where the background shows.
+/// the device's positions of vertices. `None` where the background shows.
 ///
 /// # Errors
 /// [`CardError::Draw`] for pictures that are too large.
@@ -35,6 +35,8 @@ pub fn seen_pixels(
     let (positions, triangles) = geometry;
     let mut ideal = Profile::named("ideal-fp32").expect("a device of the project");
     ideal.rules.subpixel_grid = profile.rules.subpixel_grid;
+    ideal.rules.subpixel_rounding = profile.rules.subpixel_rounding;
+    ideal.rules.vertex_format = profile.rules.vertex_format;
     let program =
         |kernel: super::KernelText| kernel.checked(&ideal).expect("the ideal device runs the project's programs");
     let (vertex, pixel) = (program(FLOAT_COLOR), program(SHADE));
