@@ -1,6 +1,6 @@
 //! Rays that meet the inside of a surface, where a miss is a hole and not the rounding of an outline.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::geom::Mesh;
 use crate::geom::classify::HitVerdict;
@@ -29,7 +29,7 @@ impl Inside {
     pub(super) fn new(mesh: &Mesh, eye: [f32; 3]) -> Self {
         let mesh = mesh.welded();
         let mut is_inside = vec![true; mesh.positions().len()];
-        let mut triangles_of_edge: HashMap<[u32; 2], u32> = HashMap::new();
+        let mut triangles_of_edge: BTreeMap<[u32; 2], u32> = BTreeMap::new();
         let with_area = |[a, b, c]: [u32; 3]| a != b && b != c && c != a;
         for (triangle, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {
             let [a, b, c] = corners.map(wide);

@@ -125,7 +125,7 @@ impl Operands {
                     for start in (0..depth).step_by(step) {
                         let parts = multiply(start, step.min(depth - start), &vec![0; c.len()]);
                         for (sum, part) in sums.iter_mut().zip(parts) {
-                            *sum = ops::add(&Format::FP32, *sum as u32, part as u32).bits.into();
+                            *sum = ops::add(Format::FP32, *sum as u32, part as u32).bits.into();
                         }
                     }
                     sums
