@@ -54,7 +54,7 @@ fn numbers(random: &mut Random) -> Vec<[u32; 4]> {
         let bits = random.bits();
         match random.below(8u32) {
             0..4 => bits & 0x8000_0000 | (118 + bits % 18) << 23 | bits >> 8 & 0x7f_ffff,
-            4 | 5 => bits & 0x8000_0000 | (124 + bits % 6) << 23 | (bits >> 4) % 32 << 18,
+            4 | 5 => bits & 0x8000_0000 | (124 + bits % 6) << 23 | ((bits >> 4) % 32) << 18,
             6 => random.number(),
             _ => random.special(),
         }
