@@ -15,11 +15,17 @@ use refsim::machine::ExecutorKind;
 const CARDS: [&str; 6] = ["nv20", "nv25", "r200", "r300", "nv30", "nv35"];
 const PRODUCTS: &str = "the only product out of range is -3 times -3, and with any third operand both results exceed 1, \
                         where registers end; else rounding commutes with the addition of multiples of the unit";
+const SIGNED: &str = "a signed byte k is 2k / 255 while texels are bytes (switch texel-values)";
 const TEXELS: &str = "chooses the texel format of a system's textures: the card has it, or refuses it";
 
 /// Switches whose values draw the same by every program of the card, with the reason.
-const UNDRAWN: [(&str, &str, &str); 3] =
-    [("nv20", "mad", PRODUCTS), ("nv25", "mad", PRODUCTS), ("r200", "ray-textures", TEXELS)];
+const UNDRAWN: [(&str, &str, &str); 5] = [
+    ("nv20", "mad", PRODUCTS),
+    ("nv20", "signed-texel-minimum", SIGNED),
+    ("nv25", "mad", PRODUCTS),
+    ("nv25", "signed-texel-minimum", SIGNED),
+    ("r200", "ray-textures", TEXELS),
+];
 
 /// The reason why no drawing decides a switch of a card.
 fn undrawn(device: &str, switch: &str) -> Option<&'static str> {
