@@ -108,8 +108,8 @@ impl Words {
         let mantissa = match shape % 8 {
             0 => 0,
             1 => 0x7f_ffff,
-            2 => 1 << (shape >> 8) % 23,
-            3 => 0x7f_ffff << (shape >> 8) % 23 & 0x7f_ffff,
+            2 => 1 << ((shape >> 8) % 23),
+            3 => (0x7f_ffff << ((shape >> 8) % 23)) & 0x7f_ffff,
             _ => self.word() & 0x7f_ffff,
         };
         if shape >> 20 & 15 == 0 { w & 1 << 31 } else { w & 1 << 31 | field << 23 | mantissa }
@@ -128,11 +128,11 @@ impl Words {
                 4 => self.number(64, 126),
                 5 => self.number(8, 14),
                 // What cancels.
-                6 => other[i] ^ 1 << 31 ^ self.word() % 4,
+                6 => other[i] ^ 1 << 31 ^ (self.word() % 4),
                 7 => (other[i] ^ 1 << 31).wrapping_add(1 << (self.word() % 26)),
                 8 => AWKWARD[self.word() as usize % 32],
                 9 => {
-                    if self.word() % 64 == 0 {
+                    if self.word().is_multiple_of(64) {
                         AWKWARD[self.word() as usize % 32]
                     } else {
                         self.number(127, 20)
@@ -230,12 +230,11 @@ fn sums_that_cancel_are_as_defined() {
     let mut words = Words(2);
     for span in (1..34).step_by(3) {
         let mut rows: [LaneRow; OPERANDS] = std::array::from_fn(|_| words.row(1, &[0; LANES]));
-        for i in 0..LANES {
-            rows[2][i] = rows[0][i] ^ 1 << 31;
-            rows[3][i] = rows[1][i] ^ (words.word() & 7);
-            rows[4][i] = rows[0][i].wrapping_sub(span << 23);
-            rows[6][i] = rows[0][i].wrapping_sub((span + 1) << 23);
-        }
+        let [first, second] = [rows[0], rows[1]];
+        rows[2] = first.map(|word| word ^ 1 << 31);
+        rows[3] = second.map(|word| word ^ (words.word() & 7));
+        rows[4] = first.map(|word| word.wrapping_sub(span << 23));
+        rows[6] = first.map(|word| word.wrapping_sub((span + 1) << 23));
         for text in FORMATS {
             compare(text, &rows, &codes(), &format!("addends {span} binades apart"));
         }
