@@ -1,9 +1,9 @@
 //! The arithmetic of a device's stage: its format, the unit that computes, and the rules beside them.
 
-use refsim::device::{AddMode, MadMode, Rules};
-use refsim::num::{DotOrder, Format, NumberOperation as Op, Rounding, Unit};
+use refsim::device::Rules;
+use refsim::num::{Format, NumberOperation as Op, Unit};
 
-use super::operation::{AluOperation, VectorOperation};
+use super::operation::{AluOperation, Steps, VectorOperation};
 use crate::cli::{Problem, switch};
 
 /// A programmable stage, for `--stage`.
@@ -32,25 +32,6 @@ impl State {
             (Unit::Gt200 | Unit::Gt200ZeroWins, Self::Ieee) => Some(Unit::Gt200),
             _ => None,
         }
-    }
-}
-
-/// How operations of several steps are done. Units of cards have rules of their own.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Steps {
-    pub(super) mad: MadMode,
-    /// Rounding of products, if not that of sums.
-    pub(super) products: Option<Rounding>,
-    pub(super) add: AddMode,
-    pub(super) order: DotOrder,
-    /// A zero times infinity or NaN is +0.
-    pub(super) zero_wins: bool,
-}
-
-impl Default for Steps {
-    fn default() -> Self {
-        let (mad, add, order) = (MadMode::TwoRoundings, AddMode::Rounded, DotOrder::Sequential);
-        Self { mad, products: None, add, order, zero_wins: false }
     }
 }
 

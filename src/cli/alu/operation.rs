@@ -2,9 +2,8 @@
 
 use refsim::device::{AddMode, MadMode};
 use refsim::num::unit::nv_functions;
-use refsim::num::{Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
+use refsim::num::{DotOrder, Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
 
-use super::device::Steps;
 use crate::options::one_of::{OneOf, one_of};
 
 /// An operation that the command has.
@@ -115,6 +114,25 @@ impl AluOperation {
     /// Returns `true` if the result is 0 or 1 instead of a number of the format.
     pub(super) const fn is_comparison(self) -> bool {
         matches!(self, Self::Table(Op::Equal | Op::LessEqual | Op::Less))
+    }
+}
+
+/// How operations of several steps are done. Units of cards have rules of their own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steps {
+    pub(super) mad: MadMode,
+    /// Rounding of products, if not that of sums.
+    pub(super) products: Option<Rounding>,
+    pub(super) add: AddMode,
+    pub(super) order: DotOrder,
+    /// A zero times infinity or NaN is +0.
+    pub(super) zero_wins: bool,
+}
+
+impl Default for Steps {
+    fn default() -> Self {
+        let (mad, add, order) = (MadMode::TwoRoundings, AddMode::Rounded, DotOrder::Sequential);
+        Self { mad, products: None, add, order, zero_wins: false }
     }
 }
 

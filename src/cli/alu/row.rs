@@ -5,9 +5,8 @@ use std::io::{Read, Write as _};
 
 use refsim::num::{DotOrder, Env, Flags, Format, block::BLOCK, block::BlockFormat, ops};
 
-use super::device::Steps;
 use super::line::{fields, hex, other_fields, push_hex};
-use super::operation::VectorOperation;
+use super::operation::{Steps, VectorOperation};
 use super::stream::{TaskOutput, each_line};
 use crate::cli::{Out, OutputError};
 use crate::error::InputError;

@@ -2,8 +2,7 @@
 
 use refsim::num::{Env, NumberOperation as Op, Outcome, ops};
 
-use super::device::Steps;
-use super::operation::{VectorOperation, add, factors, mul, products};
+use super::operation::{Steps, VectorOperation, add, factors, mul, products};
 
 impl VectorOperation {
     /// The number of words of a line, and what to say where there are others.

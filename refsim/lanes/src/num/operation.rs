@@ -5,10 +5,11 @@
 
 use super::env::Env;
 use super::flags::Outcome;
+use super::unit::UnitOperation;
 use super::{ops, unit};
 
 macro_rules! operations {
-    ($($(#[doc = $doc:literal])* $variant:ident($($operand:ident),+) $(= $definition:expr)? $(=> $unit:path)?;)*) => {
+    ($($(#[doc = $doc:literal])* $variant:ident($($operand:ident),+) $(= $definition:expr)? $(=> $unit:expr)?;)*) => {
         /// An operation on numbers of one format, on the words that packing instructions make, or on masks.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u32)]
@@ -32,8 +33,8 @@ macro_rules! operations {
             }
         }
     };
-    (@ $operation:ident $env:ident $operands:ident ($($operand:ident),+) => $unit:path) => {
-        $unit(&$env.format, $operation, &$operands[..$operation.operands()])
+    (@ $operation:ident $env:ident $operands:ident ($($operand:ident),+) => $unit:expr) => {
+        unit::evaluate(&$env.format, $unit, &$operands[..$operation.operands()])
     };
     (@ $operation:ident $env:ident $operands:ident ($($operand:ident),+) $definition:expr) => {{
         let [$($operand,)+ ..] = $operands;
@@ -135,31 +136,31 @@ operations! {
     /// Extracts a number stored by [`Self::JoinSignedByte`].
     SplitSignedByte(a, b);
     /// x of the vertex units' EXP: `2^floor(a)`.
-    ExpFloor(a) => unit::evaluate;
+    ExpFloor(a) => UnitOperation::ExpFloor;
     /// y of EXP: `a - floor(a)`.
-    ExpFraction(a) => unit::evaluate;
+    ExpFraction(a) => UnitOperation::ExpFraction;
     /// z of EXP: `2^a`, to about 11 bits.
-    ExpPower(a) => unit::evaluate;
+    ExpPower(a) => UnitOperation::ExpPower;
     /// x of the vertex units' LOG: the exponent of `|a|`.
-    LogExponent(a) => unit::evaluate;
+    LogExponent(a) => UnitOperation::LogExponent;
     /// y of LOG: the significand of `a`, in [1, 2).
-    LogMantissa(a) => unit::evaluate;
+    LogMantissa(a) => UnitOperation::LogMantissa;
     /// z of LOG: `log2 |a|`, to about 11 bits.
-    LogPower(a) => unit::evaluate;
+    LogPower(a) => UnitOperation::LogPower;
     /// y of the vertex units' LIT: `a`, or 0 if its sign is set.
-    LitDiffuse(a) => unit::evaluate;
+    LitDiffuse(a) => UnitOperation::LitDiffuse;
     /// z of LIT: `a > 0 ? b^c : 0`.
-    LitSpecular(a, b, c) => unit::evaluate;
+    LitSpecular(a, b, c) => UnitOperation::LitSpecular;
     /// 1 if `a < b`, else 0, by the unit of a card; modern NV3x gives NaN for NaN.
-    SetLess(a, b) => unit::evaluate;
+    SetLess(a, b) => UnitOperation::SetLess;
     /// 1 if `a <= b`, else 0, likewise.
-    SetLessEqual(a, b) => unit::evaluate;
+    SetLessEqual(a, b) => UnitOperation::SetLessEqual;
     /// 1 if `a == b`, else 0, likewise.
-    SetEqual(a, b) => unit::evaluate;
+    SetEqual(a, b) => UnitOperation::SetEqual;
     /// 1 if `a != b`, else 0, likewise.
-    SetNotEqual(a, b) => unit::evaluate;
+    SetNotEqual(a, b) => UnitOperation::SetNotEqual;
     /// -1, 0 or 1 as `a` compares with +0 (SSG of the vertex units).
-    Sign(a) => unit::evaluate;
+    Sign(a) => UnitOperation::Sign;
 }
 
 impl NumberOperation {

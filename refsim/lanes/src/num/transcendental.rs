@@ -16,11 +16,11 @@ use self::enclose::Enclosure;
 use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::FormatKind;
-use super::operation::NumberOperation;
 use super::ops::mul;
 use super::round::{divide_by_zero, from_parts, in_units, infinite, zero};
 use super::rules::{Overflow, Specials};
 use super::unit;
+use super::unit::UnitOperation;
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// Numbers of places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24
@@ -30,7 +30,7 @@ const PLACES: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
 /// `2^x`, correctly rounded. `2^-inf` is +0. In a wrapping format an overflowing result saturates.
 pub fn exp2(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Exp2, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Exp2, &[x]) {
         return done;
     }
     let format = &env.format;
@@ -78,7 +78,7 @@ fn floor_clamped(sign: bool, sig: u64, exp: i32, den: u32) -> i32 {
 /// in fixed point, it is `INVALID`.
 pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Log2, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Log2, &[x]) {
         return done;
     }
     let format = &env.format;
@@ -120,7 +120,7 @@ pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
 /// `cos x`, x in radians, correctly rounded. An infinite angle is `INVALID`.
 pub fn cos(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Cos, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Cos, &[x]) {
         return done;
     }
     circular(env, x, false)
@@ -129,7 +129,7 @@ pub fn cos(env: impl Into<Env>, x: u32) -> Outcome {
 /// `sin x`, x in radians, correctly rounded; a zero keeps its sign. An infinite angle is `INVALID`.
 pub fn sin(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Sin, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Sin, &[x]) {
         return done;
     }
     circular(env, x, true)

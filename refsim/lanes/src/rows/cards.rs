@@ -3,8 +3,8 @@
 //! What matters for speed is computed in loops of vector code first. Where these mark a result that may be wrong (a
 //! special value, an end of the range), the row is computed once more, lane by lane.
 
+use super::apart::apart;
 use super::code::{LaneCode, LaneOp};
-use super::ops::apart;
 use super::pack;
 use super::slots::Slots;
 use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, SimdLevel, TRUE};

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::blame::Blame;
-use super::{MatrixProduct, ProductOutcome, ProductRow};
+use super::product::{Errors, MatrixProduct, ProductOutcome, ProductRow};
 use crate::io::write_npy_array;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
@@ -71,7 +71,7 @@ pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result
     Ok(found)
 }
 
-fn last(row: &ProductRow) -> super::Errors {
+fn last(row: &ProductRow) -> Errors {
     row.errors.last().copied().unwrap_or_default()
 }
 

@@ -171,19 +171,6 @@ impl MatrixError {
 }
 
 impl MatrixUnit {
-    /// The unit of a name; `-` counts as `_`, and a missing `_f32` is added.
-    ///
-    /// # Errors
-    /// If there is none.
-    pub fn find(name: &str) -> Result<Self, MatrixError> {
-        let name = name.to_ascii_lowercase().replace('-', "_");
-        let named = |name: &str| UNITS.iter().find(|unit| unit.name == name).copied();
-        named(&name).or_else(|| named(&format!("{name}_f32"))).ok_or_else(|| {
-            let names: Vec<&str> = UNITS.iter().map(|unit| unit.name).collect();
-            MatrixError::new("matrix unit", names.join(" "), name.chars().take(40).collect::<String>())
-        })
-    }
-
     /// The same unit with another number of bits below the largest exponent, 1 to 60; `None` of units without an
     /// aligned adder.
     pub fn with_bits(mut self, kept: u32) -> Option<Self> {

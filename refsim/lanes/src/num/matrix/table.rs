@@ -5,7 +5,7 @@
 
 use super::Evidence::{Measured, OneModel, TwoModels};
 use super::ResultFormat::{Cut22, Cut32, Nearest16, Nearest32, Nearest64};
-use super::{Element, Evidence, MatrixUnit, ResultFormat, Rule, Scaling};
+use super::{Element, Evidence, MatrixError, MatrixUnit, ResultFormat, Rule, Scaling};
 
 const HALF: &[Element] = &[Element::FP16];
 const BRAIN: &[Element] = &[Element::BF16];
@@ -137,3 +137,18 @@ pub static UNITS: [MatrixUnit; 36] = [
         ..amd("fma_f32", "CDNA with fp32", &[Element::FP32], 4, Rule::Fused, "M; documented as FMA")
     },
 ];
+
+impl MatrixUnit {
+    /// The unit of a name; `-` counts as `_`, and a missing `_f32` is added.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn find(name: &str) -> Result<Self, MatrixError> {
+        let name = name.to_ascii_lowercase().replace('-', "_");
+        let named = |name: &str| UNITS.iter().find(|unit| unit.name == name).copied();
+        named(&name).or_else(|| named(&format!("{name}_f32"))).ok_or_else(|| {
+            let names: Vec<&str> = UNITS.iter().map(|unit| unit.name).collect();
+            MatrixError::new("matrix unit", names.join(" "), name.chars().take(40).collect::<String>())
+        })
+    }
+}

@@ -2,16 +2,16 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::operation::NumberOperation;
 use crate::num::round::infinite;
 use crate::num::sum::{Term, sum};
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a + b`. `inf - inf` is `INVALID`; an exact zero is +0, or -0 when rounding down or when both operands are -0.
 pub fn add(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Add, &[a, b]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Add, &[a, b]) {
         return done;
     }
     add_values(&env, unpack(&env.format, a), unpack(&env.format, b))
@@ -20,7 +20,7 @@ pub fn add(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
 /// `a - b`, which is `a + (-b)`.
 pub fn sub(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Sub, &[a, b]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Sub, &[a, b]) {
         return done;
     }
     let negated = match unpack(&env.format, b) {

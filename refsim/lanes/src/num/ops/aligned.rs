@@ -1,6 +1,5 @@
 //! Sums of an adder that aligns its addends, and the multiply-add that cuts its product.
 
-use super::dot::MAX_ALIGNED_BITS;
 use super::mad;
 use crate::num::aligned::{Addend, Alignment, aligned};
 use crate::num::env::Env;
@@ -9,6 +8,9 @@ use crate::num::format::FormatKind;
 use crate::num::round::{from_parts, infinite, zero};
 use crate::num::sum::{Term, cancelled, sum};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// Most bits that an adder of four addends keeps below the largest exponent: their sum has 31 bits and a sign.
+pub const MAX_ALIGNED_BITS: u8 = 28;
 
 /// The sum of numbers of a float format as one adder makes it: addends are aligned to the largest exponent, `bits` bits
 /// are kept below it and the rest of each magnitude is dropped, the kept magnitudes are added exactly, and that sum is

@@ -2,9 +2,9 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::operation::NumberOperation;
 use crate::num::round::{divide_by_zero, infinite, round_quotient, zero};
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a / b`. A finite nonzero `a` over zero is `DIVIDE_BY_ZERO`: infinity of the quotient's sign, or the end of the
@@ -19,7 +19,7 @@ pub fn div(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
 /// fixed point it gives the largest number.
 pub fn rcp(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Rcp, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Rcp, &[x]) {
         return done;
     }
     div_values(&env, Unpacked::Finite { sign: false, sig: 1, exp: 0, den: 1 }, unpack(&env.format, x))

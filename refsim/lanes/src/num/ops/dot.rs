@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 
 use super::mul::product;
-use super::{add, convert, sum_aligned};
+use super::{MAX_ALIGNED_BITS, add, convert, sum_aligned};
 use crate::num::Format;
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
@@ -28,9 +28,6 @@ pub enum DotOrder {
     /// [`Self::Sequential`].
     Aligned(u8),
 }
-
-/// Most bits that an adder of four addends keeps below the largest exponent: their sum has 31 bits and a sign.
-pub const MAX_ALIGNED_BITS: u8 = 28;
 
 impl DotOrder {
     /// The order with this name in profiles and options: `sequential`, `tree`, `exact`, or `aligned:F` with its bits.

@@ -3,16 +3,16 @@
 use super::{add, mul};
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::operation::NumberOperation;
 use crate::num::round::infinite;
 use crate::num::sum::{Term, sum_over};
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a * b + c` with the product rounded first: the multiply-add of the cards.
 pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Mad, &[a, b, c]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Mad, &[a, b, c]) {
         return done;
     }
     let product = mul(env, a, b);
@@ -24,7 +24,7 @@ pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
 pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::FusedMad, &[a, b, c]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::FusedMad, &[a, b, c]) {
         return done;
     }
     let format = &env.format;

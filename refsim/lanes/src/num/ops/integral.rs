@@ -2,17 +2,17 @@
 
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
-use crate::num::operation::NumberOperation;
 use crate::num::round::{from_parts, infinite};
 use crate::num::rules::Rounding;
 use crate::num::sum::{Term, sum};
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// The largest integer not above `x`. Never `INEXACT`; infinities and zeros keep their sign.
 pub fn floor(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Floor, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Floor, &[x]) {
         return done;
     }
     round_to_int_with(env, x, Rounding::Down, false)
@@ -69,7 +69,7 @@ fn split(sig: u64, exp: i32, den: u32) -> (u64, u64, u64) {
 /// infinities are `INVALID`.
 pub fn frc(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Frc, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Frc, &[x]) {
         return done;
     }
     let value = unpack(&env.format, x);

@@ -2,15 +2,15 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::operation::NumberOperation;
 use crate::num::round::{from_parts, infinite, round_quotient};
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a * b`. `0 * inf` is `INVALID`.
 pub fn mul(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Mul, &[a, b]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Mul, &[a, b]) {
         return done;
     }
     product(&env, unpack(&env.format, a), unpack(&env.format, b))

@@ -2,16 +2,16 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::operation::NumberOperation;
 use crate::num::round::{round, zero};
 use crate::num::rules::Specials;
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, key, nan_bits, nan_result, pass, unpack};
 
 /// `-x`. In fixed point the most negative number overflows. A NaN becomes the canonical one and raises nothing.
 pub fn neg(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Neg, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Neg, &[x]) {
         return done;
     }
     with_sign(&env, x, |sign| !sign)
@@ -20,7 +20,7 @@ pub fn neg(env: impl Into<Env>, x: u32) -> Outcome {
 /// `|x|`. In fixed point the most negative number overflows. A NaN becomes the canonical one and raises nothing.
 pub fn abs(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Abs, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Abs, &[x]) {
         return done;
     }
     with_sign(&env, x, |_| false)
@@ -43,7 +43,7 @@ fn with_sign(env: &Env, x: u32, change: impl Fn(bool) -> bool) -> Outcome {
 /// `x * 2^k`, rounded once: the shift modifiers `_x2 _x4 _x8 _d2 _d4 _d8`.
 pub fn scale(env: impl Into<Env>, x: u32, k: i32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Scale, &[x, k.cast_unsigned()]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Scale, &[x, k.cast_unsigned()]) {
         return done;
     }
     let value = unpack(&env.format, x);
@@ -58,7 +58,7 @@ pub fn scale(env: impl Into<Env>, x: u32, k: i32) -> Outcome {
 /// [`Specials::Nv`]. Raises nothing.
 pub fn saturate01(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Saturate, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Saturate, &[x]) {
         return done;
     }
     let format = env.format;

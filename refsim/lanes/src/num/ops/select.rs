@@ -9,16 +9,16 @@ use super::compare::order;
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
 use crate::num::format::FormatKind;
-use crate::num::operation::NumberOperation;
 use crate::num::rules::Specials;
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{key, nan_bits, pass};
 
 /// `a < b ? a : b` (Direct3D 9 `min`), so that a NaN on either side, and a pair of zeros, give `b`; with
 /// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn min(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Min, &[a, b]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Min, &[a, b]) {
         return done;
     }
     choose(env, a, b, Ordering::is_lt)
@@ -28,7 +28,7 @@ pub fn min(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
 /// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn max(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Max, &[a, b]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Max, &[a, b]) {
         return done;
     }
     choose(env, a, b, Ordering::is_ge)

@@ -2,10 +2,10 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::operation::NumberOperation;
 use crate::num::round::{divide_by_zero, in_units, infinite, zero};
 use crate::num::rules::Specials;
 use crate::num::unit;
+use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// The square root. Negative operands are `INVALID` (fixed point: 0); `sqrt(-0)` is -0.
@@ -34,7 +34,7 @@ pub fn sqrt(env: impl Into<Env>, x: u32) -> Outcome {
 /// `INVALID`, result 0.
 pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
-    if let Some(done) = unit::evaluate(&env.format, NumberOperation::Rsq, &[x]) {
+    if let Some(done) = unit::evaluate(&env.format, UnitOperation::Rsq, &[x]) {
         return done;
     }
     let format = &env.format;

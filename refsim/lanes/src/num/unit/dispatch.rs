@@ -1,10 +1,10 @@
 //! Which function of a unit an operation is.
 
+use super::operation::UnitOperation;
 use super::word::{NAN, ONE, SIGN, Word};
 use super::{gt200, gt200_conversions, gt200_functions, nv, nv_functions};
 use crate::num::flags::{Flags, Outcome};
 use crate::num::format::Format;
-use crate::num::operation::NumberOperation;
 use crate::num::rules::{Rounding, Unit};
 use std::cmp::Ordering;
 
@@ -15,7 +15,7 @@ fn outcome(bits: u32, operands: &[u32]) -> Outcome {
 }
 
 /// An operation by the unit of a format. `None` in ideal formats, and where the unit does not have the operation.
-pub(in crate::num) fn evaluate(format: &Format, operation: NumberOperation, operands: &[u32]) -> Option<Outcome> {
+pub(in crate::num) fn evaluate(format: &Format, operation: UnitOperation, operands: &[u32]) -> Option<Outcome> {
     let mut all = [0; 3];
     for (place, &operand) in all.iter_mut().zip(operands) {
         *place = operand;
@@ -31,8 +31,8 @@ pub(in crate::num) fn evaluate(format: &Format, operation: NumberOperation, oper
 }
 
 /// What all units do in the same way.
-fn common(unit: Unit, operation: NumberOperation, [a, b, _]: [u32; 3]) -> Option<u32> {
-    use NumberOperation::{Abs, Neg, SetEqual, SetLess, SetLessEqual, SetNotEqual};
+fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u32> {
+    use UnitOperation::{Abs, Neg, SetEqual, SetLess, SetLessEqual, SetNotEqual};
     let holds: fn(Ordering) -> bool = match operation {
         Neg => return Some(a ^ SIGN),
         Abs => return Some(a & !SIGN),
@@ -69,8 +69,8 @@ pub(in crate::num) fn dot(format: &Format, terms: &[(u32, u32)]) -> Option<Outco
     Some(outcome(bits, &operands))
 }
 
-fn vertex(unit: Unit, operation: NumberOperation, [a, b, c]: [u32; 3]) -> Option<u32> {
-    use NumberOperation as Op;
+fn vertex(unit: Unit, operation: UnitOperation, [a, b, c]: [u32; 3]) -> Option<u32> {
+    use UnitOperation as Op;
     Some(match operation {
         Op::Add => nv::add(unit, a, b),
         Op::Sub => nv::add(unit, a, b ^ SIGN),
@@ -99,8 +99,8 @@ fn vertex(unit: Unit, operation: NumberOperation, [a, b, c]: [u32; 3]) -> Option
     })
 }
 
-fn gt200(unit: Unit, rounding: Rounding, operation: NumberOperation, [a, b, c]: [u32; 3]) -> Option<u32> {
-    use NumberOperation as Op;
+fn gt200(unit: Unit, rounding: Rounding, operation: UnitOperation, [a, b, c]: [u32; 3]) -> Option<u32> {
+    use UnitOperation as Op;
     Some(match operation {
         Op::Add => gt200::add(rounding, a, b),
         Op::Sub => gt200::add(rounding, a, b ^ SIGN),

@@ -26,9 +26,11 @@ pub mod gt200_conversions;
 pub mod gt200_functions;
 pub mod nv;
 pub mod nv_functions;
+mod operation;
 pub mod tables;
 mod word;
 
 pub use word::NAN;
 
 pub(super) use dispatch::{dot, evaluate, order};
+pub(super) use operation::UnitOperation;

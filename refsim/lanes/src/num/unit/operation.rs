@@ -1,0 +1,38 @@
+//! The operations that units of cards have, under the names of [`crate::num::NumberOperation`].
+
+/// An operation of a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::num) enum UnitOperation {
+    Add,
+    Sub,
+    Mul,
+    Mad,
+    FusedMad,
+    Min,
+    Max,
+    Neg,
+    Abs,
+    Floor,
+    Frc,
+    Rcp,
+    Rsq,
+    Exp2,
+    Log2,
+    Sin,
+    Cos,
+    Saturate,
+    Scale,
+    ExpFloor,
+    ExpFraction,
+    ExpPower,
+    LogExponent,
+    LogMantissa,
+    LogPower,
+    LitDiffuse,
+    LitSpecular,
+    SetLess,
+    SetLessEqual,
+    SetEqual,
+    SetNotEqual,
+    Sign,
+}

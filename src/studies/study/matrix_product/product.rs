@@ -1,0 +1,202 @@
+//! The study's parameters, its products, and their errors.
+
+use refsim::num::matrix::{Element, MatrixError, MatrixUnit};
+
+use super::blame::{self, Blame};
+use super::multiply::{ExactSum, Operands};
+use super::operands::MatrixInput;
+use crate::study::precision::Goal;
+use crate::study::{ProgressFn, StudyError};
+
+/// Depths of a curve, at most.
+const POINTS: usize = 8;
+/// Bits below the largest exponent that the search for the fewest tries, at most.
+const MAX_BITS: u32 = 40;
+
+/// A product with the units that compute it.
+#[derive(Clone, Debug)]
+pub struct MatrixProduct {
+    /// A and B.
+    pub factors: [MatrixInput; 2],
+    /// C; zeros without.
+    pub addend: Option<MatrixInput>,
+    /// The units, at least one.
+    pub units: Vec<MatrixUnit>,
+    /// Types of A and B; by default the first that a unit has.
+    pub elements: [Option<Element>; 2],
+    /// Products after which a partial sum goes to single precision; `None` for one accumulator.
+    pub promotions: Vec<Option<usize>>,
+    /// The unit that errors are against; `None` for the exact product of the quantised operands.
+    pub against: Option<MatrixUnit>,
+    /// Row and column of an element whose sum is followed.
+    pub blame: Option<[usize; 2]>,
+    /// Bound for the search of the fewest bits and the rarest promotion of the first unit.
+    pub goal: Option<Goal>,
+}
+
+/// Errors of all elements. Relative ones are shares of the reference's magnitude, element by element.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Errors {
+    /// Largest relative error.
+    pub(super) worst: f64,
+    /// Mean relative error with its sign, that of larger results.
+    pub(super) mean: f64,
+    /// Largest error as a share of the sum of the magnitudes of an element's addends.
+    pub(super) of_addends: f64,
+    /// Elements that differ from the reference.
+    pub(super) differing: usize,
+    /// Elements that are not finite on either side, which are in no error.
+    pub(super) not_finite: usize,
+}
+
+impl Errors {
+    pub(super) const MEASURES: &str = "worst, mean, bits, of_addends or differing";
+
+    fn of(found: &[f64], reference: &[ExactSum]) -> Self {
+        let (mut errors, mut sum) = (Self::default(), 0.0);
+        for (&found, reference) in found.iter().zip(reference) {
+            let (error, size) = (reference.error(found), reference.value().abs());
+            if !error.is_finite() {
+                errors.not_finite += 1;
+                let [left, right] = [found, reference.value()];
+                errors.differing += usize::from(left != right && !(left.is_nan() && right.is_nan()));
+                continue;
+            }
+            errors.differing += usize::from(error != 0.0);
+            let share = |of: f64| if error == 0.0 { 0.0 } else { error / of };
+            errors.worst = errors.worst.max(share(size).abs());
+            errors.of_addends = errors.of_addends.max(share(reference.magnitudes).abs());
+            sum += if found < 0.0 { -share(size) } else { share(size) };
+        }
+        errors.mean = sum / (found.len() - errors.not_finite).max(1) as f64;
+        errors
+    }
+
+    /// Bits that are right in the worst element.
+    pub(super) fn bits(&self) -> f64 {
+        -crate::elementary::ln(self.worst) / std::f64::consts::LN_2
+    }
+
+    fn measure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "worst" => self.worst,
+            "mean" => self.mean.abs(),
+            "bits" => self.bits(),
+            "of_addends" => self.of_addends,
+            "differing" => self.differing as f64,
+            _ => return None,
+        })
+    }
+}
+
+/// A unit with a promotion: errors by depth, and D.
+#[derive(Debug)]
+pub(super) struct ProductRow {
+    pub(super) unit: MatrixUnit,
+    pub(super) promote: Option<usize>,
+    pub(super) errors: Vec<Errors>,
+    pub(super) product: Vec<f64>,
+}
+
+/// What the search for a goal found.
+#[derive(Debug)]
+pub(super) struct GoalOutcome {
+    pub(super) fewest_bits: Option<u32>,
+    /// Products per promotion, at most; the depth for one accumulator.
+    pub(super) rarest_promotion: Option<usize>,
+}
+
+/// Everything that was computed.
+#[derive(Debug)]
+pub(super) struct ProductOutcome {
+    pub(super) shape: [usize; 3],
+    pub(super) depths: Vec<usize>,
+    pub(super) rows: Vec<ProductRow>,
+    pub(super) blame: Option<Blame>,
+    pub(super) goal: Option<GoalOutcome>,
+}
+
+impl MatrixProduct {
+    fn operands(&self, unit: &MatrixUnit) -> Result<Operands, MatrixError> {
+        let [a, b] = &self.factors;
+        Operands::new(*unit, [a, b], self.addend.as_ref(), self.elements)
+    }
+
+    pub(super) fn compute(&self, progress: &mut ProgressFn<'_>) -> Result<ProductOutcome, StudyError> {
+        let [rows, depth] = self.factors[0].shape()?;
+        let mut depths: Vec<usize> = (0..POINTS).map(|half| depth >> half).filter(|&depth| depth > 0).collect();
+        depths.reverse();
+        let steps = (self.units.len() * self.promotions.len() + 1) as u64;
+        let mut outcome = ProductOutcome {
+            shape: [rows, depth, self.factors[1].shape()?[1]],
+            depths: depths.clone(),
+            rows: Vec::new(),
+            blame: None,
+            goal: None,
+        };
+        let against = self.against.map(|unit| Ok::<_, MatrixError>((unit, self.operands(&unit)?))).transpose()?;
+        for unit in &self.units {
+            progress(unit.name, outcome.rows.len() as u64, steps);
+            let operands = self.operands(unit)?;
+            let mut references = operands.exact(&depths);
+            if let Some((unit, operands)) = &against {
+                for (depth, sums) in depths.iter().zip(&mut references) {
+                    let product = operands.product(unit, *depth, None)?;
+                    sums.iter_mut().zip(product).for_each(|(sum, value)| *sum = sum.replaced(value));
+                }
+            }
+            for &promote in &self.promotions {
+                let mut row = ProductRow { unit: *unit, promote, errors: Vec::new(), product: Vec::new() };
+                for (&depth, reference) in depths.iter().zip(&references) {
+                    row.product = operands.product(unit, depth, promote)?;
+                    row.errors.push(Errors::of(&row.product, reference));
+                }
+                outcome.rows.push(row);
+                progress(unit.name, outcome.rows.len() as u64, steps);
+            }
+            if outcome.goal.is_none()
+                && let (Some(goal), Some(reference)) = (&self.goal, references.last())
+            {
+                outcome.goal = Some(search(goal, &operands, reference)?);
+            }
+            if outcome.blame.is_none()
+                && let Some(place) = self.blame
+            {
+                let other = against.as_ref().map(|(_, operands)| operands);
+                outcome.blame = Some(blame::blame(&operands, other, place)?);
+            }
+        }
+        Ok(outcome)
+    }
+}
+
+/// The fewest bits with one accumulator, and the rarest promotion with the unit's own bits, that meet a goal. More bits
+/// are taken to be no worse.
+fn search(goal: &Goal, operands: &Operands, reference: &[ExactSum]) -> Result<GoalOutcome, StudyError> {
+    let (unit, depth) = (operands.unit, operands.a.length);
+    let meets = |unit: &MatrixUnit, promote| -> Result<bool, StudyError> {
+        let errors = Errors::of(&operands.product(unit, depth, promote)?, reference);
+        let wrong = || StudyError::usage(format!("no measure `{}`", goal.measure), format!("use {}", Errors::MEASURES));
+        Ok(goal.met(errors.measure(&goal.measure).ok_or_else(wrong)?))
+    };
+    let (mut missed, mut fewest_bits) = (0, None);
+    while let Some(wider) = unit.with_bits(fewest_bits.map_or(MAX_BITS, |met| missed + (met - missed) / 2)) {
+        let bits = wider.bits().unwrap_or(MAX_BITS);
+        match (meets(&wider, None)?, fewest_bits) {
+            (true, _) => fewest_bits = Some(bits),
+            (false, None) => break,
+            (false, _) => missed = bits,
+        }
+        if fewest_bits.is_some_and(|met| met - missed <= 1) {
+            break;
+        }
+    }
+    let mut rarest_promotion = meets(&unit, None)?.then_some(depth);
+    let multiple = unit.block().max(operands.a.share);
+    let mut step = multiple * (depth / multiple).max(1).next_power_of_two();
+    while rarest_promotion.is_none() && step >= multiple && unit.result.element() == Element::FP32 {
+        rarest_promotion = (step < depth && meets(&unit, Some(step))?).then_some(step);
+        step /= 2;
+    }
+    Ok(GoalOutcome { fewest_bits, rarest_promotion })
+}
