@@ -35,6 +35,7 @@ typedef struct {
     Vector corner[12][ATTRIBUTES];
     int textured, texels[2], linear, automatic, depth;
     double texel[64][4], border[4], bias;
+    int unknown; /* the first line of its programs that the runner has no words for */
 } Probe;
 enum { TARGET = 16 };
 typedef struct {
@@ -274,7 +275,9 @@ static void read_probe(const char *path, Probe *probe) {
             char stage;
             fine = sscanf(line, "%cs_%d_%d", &stage, &program->major, &program->minor) == 3 && program->major < 3;
             program->vertex = stage == 'v';
-        } else if (program) fine = read_step(program, line);
+        } else if (program) {
+            if (!read_step(program, line) && !probe->unknown) probe->unknown = number;
+        }
         else if (listed && *line == ']') listed = 0;
         else if (listed) {
             fine =
@@ -351,7 +354,9 @@ static int measure(char *const *paths, int count) {
     put("case,column,row,red,green,blue,alpha,depth\n");
     for (int i = 0; i < count; i++) {
         const Probe *probe = &probes[i];
-        if (!draw(probe, &image)) {
+        if (probe->unknown)
+            snprintf(reason, sizeof reason, "its line %d is an instruction that the runner does not have", probe->unknown);
+        if (probe->unknown || !draw(probe, &image)) {
             fprintf(stderr, "runner: skipped %s: %s\n", paths[i], reason);
             put("# skipped %s: %s\n", paths[i], reason);
             continue;
