@@ -77,8 +77,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "F")]
     format: Vec<String>,
 
-    /// The program: the paper's, whose edges leak, or one that evaluates an edge once for both triangles; may be repeated
-    /// [default: paper; without --device and --format five rows with shared edges, too]
+    /// The program: the paper's, whose edges leak, or one that evaluates an edge once for both triangles; may be
+    /// repeated [default: paper; without --device and --format five rows with shared edges, too]
     #[arg(long, value_name = "K", value_parser = kernels())]
     kernel: Vec<EdgeRule>,
 

@@ -1,5 +1,5 @@
-//! Rows of the units of cards against the definition, bit for bit, in each level of vector instructions: numbers, awkward
-//! words, and the operands of the vectors that real chips' models gave.
+//! Rows of the units of cards against the definition, bit for bit, in each level of vector instructions: numbers,
+//! awkward words, and the operands of the vectors that real chips' models gave.
 
 use refsim_lanes::num::{DotOrder, Format, NumberOperation as Op, ops};
 use refsim_lanes::{AnyLane, LANES, LaneCode, LaneOp, LaneRow, OPERANDS, SimdLevel, Slots, TRUE, evaluate, run};

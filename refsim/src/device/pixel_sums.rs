@@ -25,8 +25,8 @@ impl SumRules {
 }
 
 impl Rules {
-    /// The rules of products and sums in a format of pixel arithmetic; units of cards have their own. Fixed point has neither exponents nor
-    /// significands: there sums are rounded, and what would cut a product has two roundings.
+    /// The rules of products and sums in a format of pixel arithmetic; units of cards have their own. Fixed point has
+    /// neither exponents nor significands: there sums are rounded, and what would cut a product has two roundings.
     pub(crate) fn sums_in(&self, format: Format) -> SumRules {
         if format.unit.is_card() {
             return SumRules::plain(format);

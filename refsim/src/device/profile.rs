@@ -68,8 +68,8 @@ impl RawProfile {
     }
 }
 
-/// Rules that [`Profile::set_switch`] set since the format was: those of the format, and those that need floats. Devices may be equal that came about in
-/// other ways.
+/// Rules that [`Profile::set_switch`] set since the format was: those of the format, and those that need floats.
+/// Devices may be equal that came about in other ways.
 #[derive(Clone, Debug, Default, Eq)]
 pub(super) struct StatedRules(pub(super) BTreeSet<String>);
 

@@ -4,8 +4,8 @@ use super::state::{ClipSpace, PixelCenter, RasterRules, RasterState};
 use crate::device::SubpixelRounding;
 use crate::texture::value;
 
-/// Limit at which positions saturate, in pixels from the origin. With 256 grid lines a pixel an edge function stays below
-/// 2^56.
+/// Limit at which positions saturate, in pixels from the origin. With 256 grid lines a pixel an edge function stays
+/// below 2^56.
 pub(crate) const FARTHEST: i64 = 1 << 17;
 
 /// Sign bit of an FP32 pattern.

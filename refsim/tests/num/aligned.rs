@@ -84,8 +84,8 @@ fn aligned_sums_are_cut_and_rounded_once() {
     });
 }
 
-/// Every pair of numbers: with enough bits nothing is cut, and the sum is that of `add`; special values are its own in any
-/// case.
+/// Every pair of numbers: with enough bits nothing is cut, and the sum is that of `add`; special values are its own in
+/// any case.
 #[test]
 fn enough_bits_make_the_exact_sum() {
     formats().par_iter().for_each(|&f| {

@@ -74,7 +74,8 @@ pub(super) struct Args {
 
     /// The matrix unit of a GPU in which `dot` sums, as `crossbar units` lists them, in place of --format
     ///
-    /// A line is `a b c`, each with its numbers one after the other; `ta tb a b c` where the unit takes several types, and
+    /// A line is `a b c`, each with its numbers one after the other; `ta tb a b c` where the unit takes several types,
+    /// and
     /// `a b c sa sb` where it has scales.
     #[arg(long, value_name = "UNIT", value_parser = MatrixUnit::find,
           conflicts_with_all = ["format", "device", "to", "block", "accumulator", "summation", "flags", "seed"])]
@@ -94,9 +95,9 @@ pub(super) struct Args {
 
     /// The order in which `dot` sums: `sequential`, `tree`, `exact` or `aligned:F`; by default sequential
     ///
-    /// sequential: ((x + y) + z) + w, each step rounded. tree: (x + y) + (z + w), each step rounded. exact: the exact sum,
-    /// rounded once into the accumulator. aligned:F, of floats: one adder for all rounded products, which drops what lies
-    /// more than F bits, 0 to 28, below the largest exponent; its sum is rounded once.
+    /// sequential: ((x + y) + z) + w, each step rounded. tree: (x + y) + (z + w), each step rounded. exact: the exact
+    /// sum, rounded once into the accumulator. aligned:F, of floats: one adder for all rounded products, which drops
+    /// what lies more than F bits, 0 to 28, below the largest exponent; its sum is rounded once.
     #[arg(long, value_name = "ORDER", value_parser = summation)]
     summation: Option<DotOrder>,
 

@@ -204,8 +204,8 @@ impl Streams {
     }
 
     /// Triangles with sorted corners, the largest id first: the last of equal depths stays, which is the smallest id.
-    /// The fourth components of the corners hold the scales of the edges, that of the color the scale of the normal with
-    /// the sign of the sorting.
+    /// The fourth components of the corners hold the scales of the edges, that of the color the scale of the normal
+    /// with the sign of the sorting.
     fn sorted(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (id, corners) in ids.iter().rev().filter_map(|id| Some((*id, mesh.corners(*id)?))) {

@@ -1,4 +1,5 @@
-//! Kernels that evaluate each edge once: no ray is outside both triangles of an edge, whatever the format and its rounding.
+//! Kernels that evaluate each edge once: no ray is outside both triangles of an edge, whatever the format and its
+//! rounding.
 
 use crossbar_base::geom::aimed::{aimed_at_edges, aimed_at_vertices};
 use crossbar_base::geom::exact::{Sides, Tracer};
@@ -41,8 +42,8 @@ fn corner(index: usize) -> [f32; 3] {
     [(index % 3) as f32 * 2.0 - 2.0, (index / 3) as f32 * 2.0 - 2.0, heights[index]]
 }
 
-/// Every pair of triangles p q a and q p b of the grid that face the eye, in all orders of their corners that the sorting
-/// tells apart, and rays aimed at p q that pass all other edges on the inside by a margin.
+/// Every pair of triangles p q a and q p b of the grid that face the eye, in all orders of their corners that the
+/// sorting tells apart, and rays aimed at p q that pass all other edges on the inside by a margin.
 fn pairs(margin: Margin) -> Vec<(Mesh, Vec<Ray>)> {
     let mut pairs = Vec::new();
     let eye = wide(EYE);

@@ -108,8 +108,8 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
     crossbar_in(folder, &words, input)
 }
 
-/// A message if the command does not end as its text says; `None` if it does. A program of `CROSSBAR_PROGRAM` without the
-/// feature `wgpu` may refuse what the text builds with it, but must name the feature.
+/// A message if the command does not end as its text says; `None` if it does. A program of `CROSSBAR_PROGRAM` without
+/// the feature `wgpu` may refuse what the text builds with it, but must name the feature.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();
     let (arguments, expected) = match exemption(&command.arguments) {

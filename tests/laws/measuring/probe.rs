@@ -34,7 +34,8 @@ pub(super) fn groups(text: &str, switch: &Switch) -> Option<Vec<Vec<String>>> {
     Some(groups.into_iter().map(|(_, values)| values).collect())
 }
 
-/// The open switches of a device: those whose default no document states, and no measurement of the chip or of a sibling.
+/// The open switches of a device: those whose default no document states, and no measurement of the chip or of a
+/// sibling.
 pub(super) fn open(profile: &Profile) -> impl Iterator<Item = &Switch> {
     profile.switches().iter().filter(|switch| switch.confidence.is_open())
 }

@@ -15,8 +15,8 @@ use refsim::machine::{Executor, ExecutorKind, Machine};
 use super::all_pictures::{FLOATS, all_pictures, colours, pixels, rooms_and_cameras};
 use super::white;
 
-/// NV35 cuts corners to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 16 = 0.0884 of one, and rounding adds
-/// a little.
+/// NV35 cuts corners to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 16 = 0.0884 of one, and rounding
+/// adds a little.
 const SNAPPED: f64 = 0.09;
 
 fn card(device: &str) -> Machine {

@@ -1,7 +1,7 @@
 //! The adder of graphics cards and matrix units: addends are aligned to the largest exponent, cut, and added exactly.
 
-/// An addend `(-1)^negative * magnitude * 2^(exponent - fraction)`. The exponent is the one that the hardware sees: that
-/// of an operand, or of a product the sum of two. Nothing is normalized: the magnitude may be below or above
+/// An addend `(-1)^negative * magnitude * 2^(exponent - fraction)`. The exponent is the one that the hardware sees:
+/// that of an operand, or of a product the sum of two. Nothing is normalized: the magnitude may be below or above
 /// `2^fraction`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Addend {

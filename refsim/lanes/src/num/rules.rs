@@ -101,7 +101,8 @@ pub enum Specials {
 }
 
 /// The arithmetic unit that computes: an ideal one, or one of a card as it was measured ([`super::unit`]). Units of
-/// cards are for `e8m23` alone; what they do about rounding, overflow, subnormal numbers and special values is their own.
+/// cards are for `e8m23` alone; what they do about rounding, overflow, subnormal numbers and special values is their
+/// own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// Every result is the exact one, rounded once by the rules of the format.

@@ -103,8 +103,8 @@ impl<'a> GraphBuilder<'a> {
             return a;
         }
         // Single precision represents every number of a format with up to 24 significant bits, so the round trip
-        // preserves the number, which also fits the format's wrapping variant. Of normalized numbers it has the nearest,
-        // from which only rounding to nearest leads back.
+        // preserves the number, which also fits the format's wrapping variant. Of normalized numbers it has the
+        // nearest, from which only rounding to nearest leads back.
         let returns = |format: Format| match format.kind {
             FormatKind::Float { .. } => true,
             FormatKind::Fixed { .. } => format.width() <= 24,

@@ -118,7 +118,8 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     ))
 }
 
-/// Sentence on the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the surface.
+/// Sentence on the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the
+/// surface.
 fn cured(rows: &[TeapotRow]) -> Option<String> {
     let shared = || rows.iter().filter(|row| row.edge_rule == EdgeRule::SharedEdges);
     let most = |which: usize| shared().map(|row| row.holes[which]).max_by_key(|holes| holes.leaks);

@@ -7,8 +7,8 @@ use crate::geom::classify::HitVerdict;
 use crate::geom::exact::NearestHit;
 use crate::geom::vector::wide;
 
-/// Least cosine between a triangle's normal and the way to the eye, for a triangle that faces it: nearer to edge-on, what a
-/// card rounds may face away.
+/// Least cosine between a triangle's normal and the way to the eye, for a triangle that faces it: nearer to edge-on,
+/// what a card rounds may face away.
 const FACING: f64 = 1.0 / 16.0;
 
 /// Rays whose exact first hit lies inside the surface, and how many of them a card misses.
@@ -20,8 +20,8 @@ pub struct Holes {
     pub leaks: u64,
 }
 
-/// The triangles of a mesh that have no outline near: at each of their corners all triangles face the eye and no edge has
-/// one triangle only. Triangles without area do not count.
+/// The triangles of a mesh that have no outline near: at each of their corners all triangles face the eye and no edge
+/// has one triangle only. Triangles without area do not count.
 pub(super) struct Inside(Vec<bool>);
 
 impl Inside {

@@ -66,8 +66,8 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
     [rows, edges]
 }
 
-/// Builds the table of the programs: leaks inside the surface, and what an intersection costs. Switches that are traced by
-/// the paper's program alone are left out.
+/// Builds the table of the programs: leaks inside the surface, and what an intersection costs. Switches that are traced
+/// by the paper's program alone are left out.
 fn programs(outcome: &TeapotOutcome) -> Table {
     let mut programs = Table::of(
         "Leaks inside the surface, away from outlines, and the cost of an intersection",
@@ -250,8 +250,8 @@ fn worst(groups: &[Group<'_>]) -> Option<usize> {
     groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(at, _)| at)
 }
 
-/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared edges as
-/// the paper has it, the same rounded to nearest, and the same with shared edges.
+/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared edges
+/// as the paper has it, the same rounded to nearest, and the same with shared edges.
 fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
     let find = |wanted: &dyn Fn(&TeapotRow) -> bool| {
         groups.iter().position(|group| std::iter::once(&group.row).chain(&group.same).any(|row| wanted(row)))

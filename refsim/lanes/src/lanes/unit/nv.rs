@@ -1,7 +1,7 @@
 //! The vertex unit of NV20 to NV35: products cut to 24 bits, sums of aligned addends.
 //!
-//! [`Nv::mul`] and [`Nv::sum`] are right for all words. The quick versions are for loops of vector code. They compute in
-//! host floats, and mark what these may get wrong: special values, and numbers near the ends of the range.
+//! [`Nv::mul`] and [`Nv::sum`] are right for all words. The quick versions are for loops of vector code. They compute
+//! in host floats, and mark what these may get wrong: special values, and numbers near the ends of the range.
 
 use super::word::{FIELD, MANTISSA, NAN, SIGN, field, is_nan, is_zero, mask, significand};
 use crate::num::Unit;

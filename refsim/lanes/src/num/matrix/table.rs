@@ -1,7 +1,8 @@
 //! The units as data.
 //!
-//! Names of sources: M is microsoft/MMA-Sim (`mmasim` 2.1.1, MIT; arXiv 2511.10909), K is Khattak and Mikaitis, "Accurate
-//! Models of NVIDIA Tensor Cores" (arXiv 2512.07004; north-numerical-computing/MATLAB-tensor-core b12b5a7, BSD-2).
+//! Names of sources: M is microsoft/MMA-Sim (`mmasim` 2.1.1, MIT; arXiv 2511.10909), K is Khattak and Mikaitis,
+//! "Accurate Models of NVIDIA Tensor Cores" (arXiv 2512.07004; north-numerical-computing/MATLAB-tensor-core b12b5a7,
+//! BSD-2).
 
 use super::Evidence::{Measured, OneModel, TwoModels};
 use super::ResultFormat::{Cut22, Cut32, Nearest16, Nearest32, Nearest64};
