@@ -75,8 +75,7 @@ pub(super) struct Args {
     /// The matrix unit of a GPU in which `dot` sums, as `crossbar units` lists them, in place of --format
     ///
     /// A line is `a b c`, each with its numbers one after the other; `ta tb a b c` where the unit takes several types,
-    /// and
-    /// `a b c sa sb` where it has scales.
+    /// and `a b c sa sb` where it has scales.
     #[arg(long, value_name = "UNIT", value_parser = MatrixUnit::find,
           conflicts_with_all = ["format", "device", "to", "block", "accumulator", "summation", "flags", "seed"])]
     unit: Option<MatrixUnit>,
