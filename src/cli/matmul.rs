@@ -11,12 +11,12 @@ use crate::study::precision::Goal;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar matmul A.npy B.npy --unit hopper-fp8,blackwell-f8f6f4 --promote 128,512
+  crossbar matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8,blackwell-f8f6f4 --promote 64
       how far FP8 sums drift on Hopper, with one accumulator and promoted, and on Blackwell
-  crossbar matmul A.npy B.npy --unit hopper-f16 --against ampere-f16 --blame 3,7
+  crossbar matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-f16 --against ampere-f16 --blame 2,4
       elements that differ between two generations; for one of them the block and the addend
-  crossbar matmul A.npy B.npy --unit hopper-fp8 --goal \"worst<=1e-3\"
-      the fewest bits, or the rarest promotion, that keep the error below a thousandth
+  crossbar matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8 --goal \"worst<=1e-2\"
+      the fewest bits, or the rarest promotion, that keep the error below a hundredth
 
 A is M x K, B is K x N, of f4 or f8, which are quantised to nearest even (types of up to 8 bits saturate; units with scales \
 take OCP's), or patterns of u1, u2 or u4. K need not be whole blocks: zeros are left out of sums, so padding is exact. \
