@@ -37,7 +37,7 @@ fn the_mesh_is_closed() {
     assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts()), (0, 0));
 }
 
-/// Sizes that are no powers of two of each other, so that corner coordinates are rounded differently.
+/// Sizes that are not powers of two of each other, so that corner coordinates are rounded differently.
 #[test]
 fn a_watertight_test_passes() {
     for size in [1.0, 77.7] {

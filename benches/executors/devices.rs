@@ -1,7 +1,7 @@
 //! Real cards, and formats with other rules than the ideal devices', beside the ideal device of their format.
 //!
-//! On a shared machine the quickest of many short runs says more than a median of long ones, so the devices draw by
-//! turns, on one thread, again and again; what is kept of each is its quickest draw. To beat: 1.5 times the time of the
+//! On a shared machine the quickest of many short runs is more reliable than a median of long ones. So the devices draw
+//! alternately, on one thread, many times; the result of each is its quickest draw. To beat: 1.5 times the time of the
 //! ideal device of the format.
 
 use std::fmt::Write as _;

@@ -28,7 +28,7 @@ use std::hint::black_box;
 const FORMATS: [&str; 4] = ["s3.12", "fp32", "fp16", "fp24"];
 /// Triangles in a draw of the crossbar.
 const TRIANGLES: usize = 256;
-/// What the names of draws on a resident card have besides.
+/// Suffix of the names of draws on a resident card.
 const RESIDENT: &str = ", resident";
 /// Threads of the figures.
 const THREADS: usize = 2;

@@ -165,7 +165,7 @@ fn corners(count: usize) -> Vec<[u32; 4]> {
     (0..count).map(corner).collect()
 }
 
-/// A machine with what a scene needs.
+/// A machine with the resources of a scene.
 pub(crate) struct Card {
     machine: Machine,
     target: TextureId,

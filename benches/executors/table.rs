@@ -23,7 +23,7 @@ const GOALS: [(&str, f64); 8] = [
     ("256 rays x 256 triangles fp24", 100.0),
 ];
 
-/// Elements a second by what was measured, and by whom.
+/// Elements per second by benchmark and implementation.
 type Figures = BTreeMap<String, BTreeMap<String, f64>>;
 
 /// Puts the figures into the document, between its two marks.

@@ -1,4 +1,4 @@
-//! What other people's ray-triangle tests do on one thread of the same machine: f32, scalar, every ray against every
+//! Ray-triangle tests of other people's crates on one thread of the same machine: f32, scalar, every ray against every
 //! triangle.
 
 use criterion::{BenchmarkId, Criterion, Throughput};

@@ -27,7 +27,7 @@ use std::time::Duration;
 const SIDE: u32 = 1024;
 /// 16 clusters.
 const LEVEL: u32 = SIDE.ilog2() - 2;
-/// Of a stand-in about 4 units long.
+/// For a stand-in about 4 units long.
 const MM_PER_UNIT: f64 = 20.0;
 /// Every texel of this many gathers alone, for comparison.
 const STEP: usize = 64;

@@ -1,7 +1,7 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
 //!
-//! Program text of the period goes in, with textures, constants and triangles; pictures come out with the bits that the
-//! card's arithmetic gives, and with counts from which a model says how long the card takes:
+//! Program text goes in, with textures, constants and triangles; pictures come out, with the bits of the card's
+//! arithmetic and with counts from which a model derives the card's time:
 //!
 //! ```text
 //!   program text                        vertices
@@ -17,7 +17,7 @@
 //! ```
 //!
 //! [`num`] defines number formats and their arithmetic; everything above computes with it. The crate is independent of
-//! what is drawn: ray casting, radiosity and transfer are implemented in the crate above.
+//! the application: ray casting, radiosity and transfer are implemented in the crate above.
 //!
 //! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. The
 //! executors compute them by different means: the scalar one in integers, one value at a time, following the

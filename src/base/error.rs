@@ -36,7 +36,7 @@ impl fmt::Display for FilePlace {
     }
 }
 
-/// Error: what the caller gave is not what a function takes. The message says what was expected and what was found.
+/// Error: an argument that the function does not accept. The message says what was expected and what was found.
 ///
 /// Two errors are equal if they are displayed alike under one code.
 #[derive(Clone)]
@@ -106,7 +106,7 @@ impl InputError {
         self.0.code
     }
 
-    /// What to do.
+    /// What the user can do.
     pub fn advice(&self) -> Option<&str> {
         self.0.help.as_deref()
     }

@@ -43,7 +43,7 @@ fn say_what_is_lost(json: bool) {
     }
 }
 
-/// Where there are no signals, there is nothing to heed.
+/// Without signals there is nothing to handle.
 #[cfg(not(unix))]
 pub(super) const fn clean_up_on_signals(_json: bool) {}
 

@@ -70,7 +70,7 @@ fn options() -> ModelOptions {
     OPTIONS.get().copied().unwrap_or_default()
 }
 
-/// Refuses the options for what is no file.
+/// Refuses the options for files that are not models.
 ///
 /// # Errors
 /// [`Problem`] if any was given.

@@ -32,7 +32,7 @@ impl Out {
         self.json
     }
 
-    /// Columns of text: what the variable `COLUMNS` says, else those of the terminal, else [`error::PLAIN_WIDTH`].
+    /// Columns of text: the variable `COLUMNS`, else the width of the terminal, else [`error::PLAIN_WIDTH`].
     fn width() -> usize {
         let said =
             std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok()).filter(|columns| *columns > 0);

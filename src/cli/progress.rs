@@ -29,9 +29,9 @@ pub(super) fn silence() {
 /// Shows how much of some work is done, until it is dropped.
 #[derive(Debug)]
 pub struct ProgressBar {
-    /// It draws to standard error and hides itself where that is no terminal.
+    /// It draws to standard error and hides itself if that is not a terminal.
     bar: indicatif::ProgressBar,
-    /// True where standard error is no terminal.
+    /// True if standard error is not a terminal.
     is_plain: bool,
     pace: Mutex<Pace>,
     /// Options that make the work quicker; empty if there are none.
@@ -77,7 +77,7 @@ impl ProgressBar {
         self.say();
     }
 
-    /// Writes what is due: that the work will take long, and where there is no bar, a plain line.
+    /// Writes the due messages: that the work will take long, and without a bar a plain line.
     fn say(&self) {
         let (now, done, total) = (Instant::now(), self.bar.position(), self.bar.length().unwrap_or(0));
         // A panic elsewhere leaves nothing here that is wrong.
@@ -94,7 +94,7 @@ impl ProgressBar {
         }
     }
 
-    /// Writes a line above the bar, or where there is none, a plain one.
+    /// Writes a line above the bar, or without a bar, a plain one.
     fn announce(&self, line: &str) {
         match self.is_plain {
             false => self.bar.println(line),

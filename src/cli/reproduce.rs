@@ -133,7 +133,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     study::show(&found, out)
 }
 
-/// Runs an entry at full size, and writes its record. What a run before it has finished is beside the record.
+/// Runs an entry at full size, and writes its record. Intermediate results of an earlier run are beside the record.
 fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
     let arguments = ["reproduce", entry.id, "--record"].map(str::to_owned).to_vec();
     let command = SplitCommand { program: version::program()?, arguments };

@@ -8,7 +8,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 
 use crate::split::PartSet;
 
-/// Options that change no result: where it goes, who computes the same bits and which of them, what is told on the way.
+/// Options that change no result: the output folder, the executor and its adapter, messages.
 const WITHOUT_EFFECT: [&str; 7] = ["out", "executor", "json", "threads", "help", "part", "resume"];
 
 /// A command line as it was obeyed.

@@ -60,7 +60,7 @@ impl ShownError {
         }
     }
 
-    /// An error that is no diagnostic.
+    /// An error that is not a diagnostic.
     fn plain(error: &dyn std::error::Error) -> Self {
         Self { cause: error.source().map(Self::plain).map(Box::new), ..Self::message(&error.to_string()) }
     }

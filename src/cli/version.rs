@@ -8,7 +8,7 @@ use crate::error::InputError;
 use crate::report::sha256;
 use crate::split::unreadable;
 
-/// Commit that the program was built from. `build.rs` sets it in optimised builds, whoever packages the program in any.
+/// Commit that the program was built from. `build.rs` sets it in optimised builds; packagers may set it in any build.
 pub(super) const COMMIT: &str = match option_env!("CROSSBAR_COMMIT") {
     Some(commit) => commit,
     None if cfg!(debug_assertions) => "development build",

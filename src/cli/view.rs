@@ -120,7 +120,7 @@ pub(super) fn exact_hits<T>(
 /// Reads a picture.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// The defect of the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
 }

@@ -4,7 +4,7 @@
 const LONGEST: usize = 80;
 
 /// Returns the name nearest to what was found, if it is near: at most one letter in three is wrong, missing,
-/// superfluous or swapped with the next. Case is ignored. Of equally near names the first.
+/// superfluous or swapped with the next. Case is ignored. Among equally near names the first.
 pub fn nearest<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters = found.chars().take(LONGEST + 1).count();
     if letters > LONGEST {

@@ -1,4 +1,4 @@
-//! The studies of Crossbar, one folder per question, the one writer of what they find, the values of their options, and
+//! The studies of Crossbar, one folder per question, the writer of their findings, the values of their options, and
 //! case files with the shaders that they name. `crossbar` re-exports these rooms.
 
 use crossbar_base::{compare, elementary, error, geom};

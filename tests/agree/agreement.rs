@@ -1,4 +1,4 @@
-//! The body of all agreement tests: draw a case with every executor, compare, shrink a difference, say how to repeat
+//! The body of all agreement tests: draw a case with every executor, compare, shrink a difference, print how to repeat
 //! it.
 
 use crate::blame::{Side, blame};

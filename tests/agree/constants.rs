@@ -1,5 +1,4 @@
-//! The same vertex program with one set of constants after the other: what was decoded for the first must not show in
-//! the rest.
+//! The same vertex program with one set of constants after the other: decoding for the first must not affect the rest.
 
 use crate::agreement::compare;
 use crate::random::Random;

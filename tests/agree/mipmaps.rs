@@ -29,7 +29,7 @@ struct Fixture {
     read: [Vertex; 4],
 }
 
-/// All levels of the target, what was read of them, and the log.
+/// All levels of the target, the data read from them, and the log.
 type Drawn = (Vec<u8>, Vec<u8>, Vec<Event>);
 
 impl Fixture {
@@ -65,7 +65,7 @@ impl Fixture {
         check(program, &self.profile).unwrap_or_else(|e| panic!("{e}"))
     }
 
-    /// All levels of the target, what was read of them, and the log.
+    /// All levels of the target, the data read from them, and the log.
     fn draw(&self, executor: &Executor) -> Result<Drawn, MachineError> {
         let mut machine = executor.machine(&self.profile)?;
         machine.record(true);

@@ -100,7 +100,7 @@ fn full_blocks_are_the_hosts() {
     passes_agree("scalar", &ExecutorKind::Scalar.into(), &[rgb]);
 }
 
-/// There are no loops for halves on the host: the scalar executor is what the others are held to.
+/// The host has no loops for halves: the scalar executor is the reference.
 #[test]
 fn every_pass_in_halves_is_the_scalar_executors() {
     for systems in [vec![CardSystem::rgb(&room(23, 7), 6, LIMIT).expect("it fits")], luminance(&room(26, 8), 4)] {

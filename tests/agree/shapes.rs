@@ -22,7 +22,7 @@ pub(crate) enum Shape {
     Huge,
     /// No area, next to none, or edges through pixel centres.
     Degenerate,
-    /// Positions and values that are no numbers.
+    /// Positions and values that are NaN or infinite.
     Special,
     /// Many triangles of a few pixels, beside and over one another.
     Fine,

@@ -35,7 +35,7 @@ fn factor(random: &mut Random) -> f32 {
     if random.below(16) == 0 { 0.0 } else { random.below(1 << 16) as f32 / (1 << 19) as f32 }
 }
 
-/// Links with random factors, and random places if `level` is none.
+/// Links with random factors, and random places if `level` is `None`.
 fn links(level: Option<u32>, rgb: bool, count: usize) -> LinkTextures {
     let mut random = Random::named("subsurface", count as u64);
     let four = |r: &mut Random| [factor(r), factor(r), factor(r), factor(r)];

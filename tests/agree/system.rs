@@ -33,7 +33,7 @@ pub(crate) fn bits(texels: &Texels) -> Vec<[u32; 4]> {
     texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
 }
 
-/// Panics where what executors find differs from what the scalar one finds.
+/// Panics if the results of executors differ from those of the scalar one.
 pub(crate) fn all_find<T: PartialEq>(what: &str, mut found: impl FnMut(&str, Executor) -> T) {
     let mut reference = None;
     for (name, executor) in executors() {

@@ -38,7 +38,7 @@ fn reachable<'a>(graph: &'a Graph, from: &'a Path) -> BTreeSet<&'a Path> {
     found
 }
 
-/// The circles of a crate: their files, each with what it needs of the others.
+/// The circles of a crate: their files, each with the names that it needs of the others.
 fn circles(source: &Crate) -> Vec<String> {
     let graph = graph(source);
     let reached: BTreeMap<&Path, BTreeSet<&Path>> =

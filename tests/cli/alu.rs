@@ -38,7 +38,7 @@ fn suffixes_choose_rounding_and_overflow() {
     assert_eq!(results("add --format s3.12 --flags", "7FFF 0001"), ["7FFF 05"]);
 }
 
-/// 448, 464 and the next single; what a format lacks.
+/// 448, 464 and the next single; special values that a format lacks.
 #[test]
 fn floats_without_infinity() {
     let numbers = "43E00000\n43E80000\n43E80001\n7F800000";

@@ -257,8 +257,8 @@ fn textures_that_do_not_fit_are_refused() {
     }
 }
 
-/// The card's picture is the host's but for the rounding of its target; what is coarser shows more, and does not go
-/// with other kinds of transfer.
+/// The card's picture is the host's except for the rounding of its target; coarser formats have a larger error, and do
+/// not combine with other kinds of transfer.
 #[test]
 fn the_card_draws_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");

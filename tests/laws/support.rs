@@ -1,4 +1,4 @@
-//! What laws of several rooms share: devices, files, threads, meshes, hits as bits, clusters.
+//! Helpers of several tests: devices, files, threads, meshes, hits as bits, clusters.
 
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub(crate) fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// What comes of work on so many threads.
+/// Result of work on so many threads.
 pub(crate) fn in_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }

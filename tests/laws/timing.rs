@@ -1,4 +1,4 @@
-//! Time and values are apart: no clock changes a pixel. (That the log depends on no executor is held by `tests/agree`.)
+//! Time and values are apart: no clock changes a pixel. (`tests/agree` checks that the log depends on no executor.)
 
 use crate::support::file;
 use crossbar::case::{self, Setup};

@@ -1,4 +1,4 @@
-//! The leaky teapot: what the paper's Figure 4 shows, asserted; the same bits on every executor and thread count.
+//! The leaky teapot: assertions about the paper's Figure 4; the same bits on every executor and thread count.
 
 use crate::environment::by_form;
 use crossbar::geom::exact::Sides;
@@ -106,8 +106,8 @@ fn digest(outcome: &TeapotOutcome) -> u64 {
     h
 }
 
-/// Golden: the same in debug and release, on every CPU. When a change of the arithmetic is meant, say why in the commit
-/// and replace the number by what the failing test prints.
+/// Golden: the same in debug and release, on every CPU. If a change of the arithmetic is meant, say why in the commit
+/// and replace the number by the one that the failing test prints.
 #[test]
 fn golden_bits_whatever_the_number_of_threads() {
     let mut configurations = Configuration::device_under_each_switch("r200").expect("a card");

@@ -106,8 +106,8 @@ fn cards_make_the_colours_of_the_table() {
     assert!(wrong.is_empty(), "{} colours are off:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// GL_NV_texture_shader gives 1.0 of a combiner register as code 255. Units of 1/256 are no units of 1/255: what that
-/// costs in the products of all pairs of 8-bit texels, against exact products of 255ths rounded once.
+/// GL_NV_texture_shader gives 1.0 of a combiner register as code 255. Units of 1/256 are not units of 1/255: the
+/// difference in the products of all pairs of 8-bit texels, against exact products of 255ths rounded once.
 #[test]
 fn units_of_256_cost_products_one_code_at_most() {
     use refsim::num::{Format, from_ratio, ops};

@@ -187,7 +187,7 @@ fn pictures(data: &mut Value, view: usize) -> &mut Vec<Value> {
     data["teapot"]["views"][view]["pictures"].as_array_mut().expect("pictures")
 }
 
-/// One picture, in fixed point. Of the first program one format, of the second all.
+/// One picture, in fixed point. For the first program one format, for the second all.
 fn shortened(file: &Path) -> PathBuf {
     changed(file, "short.html", |data| {
         let programs = data["programs"]["programs"].as_array_mut().expect("programs");

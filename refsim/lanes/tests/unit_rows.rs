@@ -147,7 +147,7 @@ impl Words {
 
 const KINDS: usize = 11;
 
-/// What the definition says of one lane.
+/// The definition's result for one lane.
 fn defined(f: Format, code: LaneCode, x: &[u32; OPERANDS]) -> u32 {
     let mask = |bits: u32| if bits == 0 { 0 } else { TRUE };
     match code {

@@ -16,7 +16,7 @@ pub struct Violation {
     pub rule: RuleId,
     /// Location in the program text.
     pub span: Span,
-    /// Message: what was found and what is allowed.
+    /// Message: the value found and the values allowed.
     pub message: String,
     /// Label at the location.
     pub label: String,
@@ -89,7 +89,7 @@ pub struct Warning {
     pub id: WarningId,
     /// Location in the program text.
     pub span: Span,
-    /// Message: what was found, and what happens instead.
+    /// Message: the instruction found, and its actual effect.
     pub message: String,
     /// Advice.
     pub help: &'static str,

@@ -92,7 +92,7 @@ pub struct MeasuredCounts {
     pub of: String,
     /// Number of values.
     pub all: u64,
-    /// Hypotheses with the number of values that each predicts, best first. Of a switch these are its values.
+    /// Hypotheses with the number of values that each predicts, best first. For a switch these are its values.
     pub right: Vec<(String, u64)>,
 }
 
@@ -215,7 +215,7 @@ impl Section<'_> {
         words.ok_or_else(|| self.problem(key, "expected a list of names"))
     }
 
-    /// Removes and returns a list of what has names; empty if the section lacks it.
+    /// Removes and returns a list of named things; empty if the section lacks it.
     pub(super) fn named<T: Copy>(
         &mut self,
         key: &str,

@@ -1,4 +1,4 @@
-//! What the rules of products and sums mean in a format.
+//! The rules of products and sums, applied to a format.
 
 use super::rules::{AddMode, MadMode, Rules};
 use crate::num::{DotOrder, Format};

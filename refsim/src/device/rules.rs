@@ -334,7 +334,7 @@ macro_rules! rules {
             /// Names of the rules, which every profile must state.
             pub(super) const NAMES: &[&'static str] = &[$($text),*];
 
-            /// Reads all rules; `text` returns the value of a name. What stands beside them is as by default.
+            /// Reads all rules; `text` returns the value of a name. Other settings keep their defaults.
             pub(super) fn read(text: impl Fn(&str) -> Option<String>) -> Result<Self, String> {
                 fn value<T: RuleValue>(name: &str, text: Option<String>) -> Result<T, String> {
                     let text = text.ok_or_else(|| format!("rules.{name} is missing"))?;

@@ -81,7 +81,7 @@ impl StorageFormats {
         Storage::ALL.into_iter().filter_map(move |storage| Some((storage, formats[storage as usize]?)))
     }
 
-    /// Format of what an instruction of a pixel program writes to a register file.
+    /// Format of the numbers that an instruction of a pixel program writes to a register file.
     pub(crate) fn written(&self, file: RegisterFile) -> Option<Format> {
         self.of(Storage::written(file)?)
     }

@@ -31,7 +31,7 @@ pub enum DestinationRule {
     Read,
 }
 
-/// What an operation writes to a register at once.
+/// Components that an operation writes to a register at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ResultKind {
     /// Nothing: flow control, kills, depth, and matrix rows for a later texture read.
@@ -71,7 +71,7 @@ pub struct OpInfo {
     pub class: OpcodeClass,
     /// The role of its first operand.
     pub destination: DestinationRule,
-    /// What it writes.
+    /// The written components.
     pub result: ResultKind,
     /// `true` if the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
     pub comparison: bool,

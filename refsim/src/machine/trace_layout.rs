@@ -1,4 +1,4 @@
-//! Placement of what the trace kernel works on: textures, copies of the pixels' targets, and records.
+//! Layout of the trace kernel's data: textures, copies of the pixels' targets, and records.
 
 use std::ops::Range;
 

@@ -94,7 +94,7 @@ pub(crate) enum SampledComponent {
         /// The channel is signed.
         signed: bool,
     },
-    /// A channel that is no byte.
+    /// A channel that is not a byte.
     Value(ChannelValue),
 }
 

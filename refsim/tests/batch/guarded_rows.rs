@@ -1,5 +1,5 @@
-//! Rows of lanes of which some leave the range of their format or come from its ends: the batch executor, which
-//! computes whole rows as if nothing happened there and then mends what came out infinite, against the scalar one.
+//! Rows of lanes some of which leave the range of their format or come from its ends: the batch executor, which
+//! computes whole rows without checks and then repairs infinite results, against the scalar one.
 
 use crate::random::Random;
 use refsim::asm::assemble;

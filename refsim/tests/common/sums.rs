@@ -62,7 +62,7 @@ fn numbers(random: &mut Random) -> Vec<[u32; 4]> {
     (0..SIDE * SIDE).map(|_| [0; 4].map(|_: u32| number())).collect()
 }
 
-/// What the programs compute of three vectors, all components of `r3`.
+/// The results of the programs for three vectors, all components of `r3`.
 const BODIES: [&str; 5] = [
     "mad r3, r0, r1, r2",
     "dp4 r3.x, r0, r1\ndp3 r3.y, r0, r2\ndp2add r3.z, r0, r1, r2.x\ndp4 r3.w, r0, -r1",

@@ -218,8 +218,7 @@ fn nv2x_clamps_results_and_not_sums() {
     }
 }
 
-/// What was measured on a sibling: the answers that hold, with their counts. Kin take some of them; other cards keep
-/// theirs.
+/// Measurements on a sibling: the answers that hold, with their counts. Kin take some of them; other cards keep theirs.
 #[test]
 fn nv2x_obeys_what_nv2a_drew() {
     for name in ["nv20", "nv25"] {

@@ -1,4 +1,4 @@
-//! Rules for products and sums: what they do, in which stage, where they agree with one another, and what is refused.
+//! Rules for products and sums: their effect, their stage, their equivalences, and refusals.
 
 use crate::running::{ideal, run, run_vertex};
 use crate::sums::{drawn, profile};

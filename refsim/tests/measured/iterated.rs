@@ -1,4 +1,4 @@
-//! Roundings of interpolated colors that no device has: what they make of the exact planes of the measured gradients.
+//! Roundings of interpolated colors that no device has, applied to the exact planes of the measured gradients.
 
 use super::colors::{GRADIENTS, gradient_quad, is_falling};
 use super::rule::Redraw;

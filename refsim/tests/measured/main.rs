@@ -1,6 +1,6 @@
-//! What silicon drew, drawn again: rows of `fixtures/measured` as draws on the cards' profiles, on every executor, bit
-//! by bit, under every hypothesis that a rule offers. `docs/measured.md` and the counts of the profiles are held here;
-//! `INSTA_UPDATE=always cargo test -p refsim --test measured` writes the page.
+//! Measured values of real chips, drawn again: rows of `fixtures/measured` as draws on the cards' profiles, on every
+//! executor, bit by bit, under every hypothesis that a rule offers. `docs/measured.md` and the counts of the profiles
+//! are held here; `INSTA_UPDATE=always cargo test -p refsim --test measured` writes the page.
 //!
 //! A topic is a file with a function `rules`, named in [`topics`].
 

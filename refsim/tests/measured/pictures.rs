@@ -23,7 +23,7 @@ const WHITE: [u8; 3] = [255; 3];
 const BLACK: [u8; 3] = [0; 3];
 const GROUND: [u8; 3] = [232; 3];
 const EDGE: [u8; 3] = [128; 3];
-/// What was drawn is above the measured code, below it, or different in what the strip does not show.
+/// The drawn code is above the measured one, below it, or different in a way that the strip does not show.
 const ABOVE: [u8; 3] = [0xd5, 0x5e, 0x00];
 const BELOW: [u8; 3] = [0x00, 0x72, 0xb2];
 const ELSEWHERE: [u8; 3] = [0x00, 0x00, 0x00];

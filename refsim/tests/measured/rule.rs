@@ -22,11 +22,11 @@ pub(crate) struct Rule {
     pub(crate) unexplained: usize,
     /// `true` if the cards' own answer is settled: it predicts all but the unexplained values, and more than any other.
     pub(crate) settled: bool,
-    /// What remains open; empty if nothing does.
+    /// The open points; empty if there are none.
     pub(crate) open: &'static str,
 }
 
-/// What a device makes of all measured values.
+/// A device's results for all measured values.
 pub(crate) type Redraw = fn(&Profile, &Executor) -> Values;
 
 /// An answer of a rule by its name, and what sets it.
@@ -39,8 +39,8 @@ pub(crate) enum Hypotheses {
     Switch(&'static str),
     /// Names of answers, the cards' own first, and what each one changes.
     Options(&'static [RuleOption]),
-    /// The name of the cards' own answer, and other answers, which no rule of a device can be set to, with what they
-    /// make of the values.
+    /// The name of the cards' own answer, and other answers, which no rule of a device can be set to, with their
+    /// results for the values.
     Computed(&'static str, &'static [(&'static str, Redraw)]),
 }
 

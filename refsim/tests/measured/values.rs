@@ -1,4 +1,4 @@
-//! Measured values beside what was drawn for them.
+//! Measured values beside drawn ones.
 
 /// A measured value and what was drawn for it, as colors: red, green and blue.
 #[derive(Clone, Copy, PartialEq, Eq)]

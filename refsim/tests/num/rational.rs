@@ -182,7 +182,7 @@ fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn
     Outcome::new(sign | rounded, flags)
 }
 
-/// What an infinity becomes in a float: itself, NaN, or the largest number.
+/// The conversion of an infinity to a float: itself, NaN, or the largest number.
 pub(crate) fn unbounded(f: &Format, negative: bool) -> u32 {
     let sign = if negative { f.sign_bit() } else { 0 };
     match f.encoding {

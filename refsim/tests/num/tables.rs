@@ -101,7 +101,7 @@ fn every_half_by_chance() {
     }
 }
 
-/// Of all words a 2^-k share rounds a fraction of 2^-k up: sums, products, quotients, roots, and fixed point.
+/// A share of 2^-k of all words rounds a fraction of 2^-k up: sums, products, quotients, roots, and fixed point.
 #[test]
 fn chance_is_the_fraction() {
     let ups = |format: Format, operation: &dyn Fn(Format) -> u32, exact: u32| {
@@ -161,7 +161,7 @@ fn blocks_with_a_scale() {
     }
 }
 
-/// What the tables leave out: the ends of scales, blocks without numbers, and names.
+/// Cases that the tables leave out: the ends of scales, blocks without numbers, and names.
 #[test]
 fn ends_of_scales_and_blocks() {
     use refsim::num::Flags;

@@ -1,4 +1,4 @@
-//! "Constants": what a pixel program reads, on both executors of the host.
+//! "Constants": the values that a pixel program reads, on both executors of the host.
 
 use super::running::{checked, constants};
 use super::{Random, probes};

@@ -170,7 +170,7 @@ impl Words {
         (sign | (field as u32) << b | mantissa as u32, flags)
     }
 
-    /// What numbers of the format are divided by.
+    /// The denominator of numbers of the format.
     fn divisor(&self) -> f64 {
         if self.normalized { power(self.layout.1) - 1.0 } else { 1.0 }
     }

@@ -1,4 +1,4 @@
-//! What is fixed beside the programs: texture reads, rasteriser, and output.
+//! Stages without programs: texture reads, rasteriser, and output.
 
 mod output;
 #[path = "../common/random.rs"]

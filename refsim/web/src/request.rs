@@ -1,4 +1,4 @@
-//! What the page asks, and the answer.
+//! The request of the page, and the answer.
 
 use crossbar_base::compare::{TargetFormats, TraceSide, first_difference};
 use refsim::asm::assemble;
@@ -56,7 +56,7 @@ struct Remark {
     end: usize,
 }
 
-/// What a device makes of the program.
+/// The device's verdict on the program.
 #[derive(Debug, Serialize)]
 struct Drawn {
     format: String,
@@ -266,8 +266,8 @@ mod tests {
         }
     }
 
-    /// Digests of the answers that `tests/page` expects of the module in a browser. If a change is meant, the list is
-    /// replaced by what this prints.
+    /// Digests of the answers that `tests/page` expects of the module in a browser. If a change is meant, replace the
+    /// list by this output.
     #[test]
     fn answers_are_those_of_the_list() {
         let line = |example: &Example| {

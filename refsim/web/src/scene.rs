@@ -1,4 +1,4 @@
-//! What programs get in the page: one quad over the picture, and textures by sampler.
+//! Inputs of programs in the page: one quad over the picture, and textures by sampler.
 //!
 //! | input | value at (s, t) of the picture, 0 to 1 from the upper left |
 //! |---|---|

@@ -17,7 +17,7 @@ pub struct Candidate {
 /// Verdict on a hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum HitVerdict {
-    /// Correct: the first triangle, or one that ties with it at exactly the same t; or no hit where there is none.
+    /// Correct: the first triangle, or one that ties with it at exactly the same t; or a correct miss.
     Right,
     /// No hit where there is a surface: a hole.
     Leak,

@@ -5,7 +5,7 @@ use super::{Adjacency, Mesh};
 
 impl Mesh {
     /// Returns the triangles to flip so that neighbours traverse their common edge in opposite directions, in ascending
-    /// order. Corners at the same position count as one vertex. Of each connected surface the smaller part is flipped,
+    /// order. Corners at the same position count as one vertex. In each connected surface the smaller part is flipped;
     /// of equal parts the one without its first triangle. Only edges of exactly two triangles connect, and a surface
     /// without a consistent orientation (a Moebius strip) is left unchanged. Triangles whose area is within the
     /// rounding of their corners take no part.

@@ -1,4 +1,4 @@
-//! What is uncertain of corners whose coordinates were rounded to f32.
+//! Uncertainty of corners whose coordinates were rounded to f32.
 
 use glam::DVec3;
 

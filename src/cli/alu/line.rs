@@ -13,7 +13,7 @@ pub(super) fn other_fields(line: u64, expected: &str, found: usize) -> InputErro
         help "write the fields of one operation on one line, parted by blanks or commas")
 }
 
-/// The fields of a line: what is parted by blanks or commas.
+/// The fields of a line, separated by blanks or commas.
 pub(super) fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|byte| byte.is_ascii_whitespace() || *byte == b',').filter(|field| !field.is_empty())
 }

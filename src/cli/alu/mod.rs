@@ -158,7 +158,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
 }
 
-/// What computes: a format, or a stage of a device.
+/// The arithmetic: a format, or a stage of a device.
 fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
     let arithmetic = match (&args.device, args.format) {
         (Some(device), _) => {

@@ -66,7 +66,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// L~, unless the matrix is none of transfer.
+/// L~, unless the matrix is not a matrix of transfer.
 fn multiply(path: &Path, file: &BiScaleFile, light: &CubeLight) -> Result<LocalLight, Problem> {
     let of_matrix = file.matrix.as_ref().map(SparseMatrix::columns);
     let columns = file.biclusters.as_ref().map(|biclusters| biclusters.matrix_size()[1]).or(of_matrix);

@@ -159,7 +159,7 @@ fn one(profile: &Profile) -> Findings {
     found
 }
 
-/// Confidence in a figure, with what was counted.
+/// Confidence in a figure, with the counts of its measurement.
 fn confidence(row: &FigureRow) -> String {
     let counts = row.counts.as_ref().map(|counts| format!(" ({counts})")).unwrap_or_default();
     format!("{}{counts}", row.confidence)

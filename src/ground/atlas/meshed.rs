@@ -53,8 +53,8 @@ impl Atlas {
     /// ```
     ///
     /// # Errors
-    /// [`InputError`] if the side is no power of two or above [`MAX_SIDE`], if there are more faces than texels, and if
-    /// the mesh has no face with an area.
+    /// [`InputError`] if the side is not a power of two or above [`MAX_SIDE`], if there are more faces than texels, and
+    /// if the mesh has no face with an area.
     pub fn new(mesh: &Mesh, side: u32) -> Result<Self, InputError> {
         check(mesh.len(), side)?;
         let welded = mesh.welded();

@@ -12,8 +12,8 @@ use super::KernelError;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CardError {
-    /// An input of a wrong size, out of its range, or beyond a limit of the device: what was expected and what was
-    /// found.
+    /// An input of a wrong size, out of its range, or beyond a limit of the device, with the expected and the found
+    /// value.
     #[error("{0}")]
     Input(String),
     /// The device does not run a language, or refuses a program.

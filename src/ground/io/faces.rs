@@ -8,7 +8,7 @@ use crate::geom::polygon::{PolygonFault, triangulate};
 #[derive(Debug)]
 pub(super) struct Faces<C> {
     corners: Vec<C>,
-    /// Of each face the index of its first corner, and its place in the file.
+    /// For each face the index of its first corner, and its place in the file.
     faces: Vec<(usize, usize)>,
 }
 

@@ -15,8 +15,8 @@ use crate::error::{FilePlace, InputError, input_error};
 
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
-/// Rows and columns that any file may have (2^24). A longer file may have as many as it has bytes, so that what a
-/// matrix takes is bounded by what its file takes.
+/// Rows and columns that any file may have (2^24). A longer file may have as many as it has bytes, so the size of a
+/// file bounds the size of its matrix.
 pub const ANY_SIZE: usize = 1 << 24;
 /// The shortest line of an entry, `1 1`, and its end.
 const SHORTEST: usize = 4;

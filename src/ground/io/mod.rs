@@ -65,7 +65,7 @@ pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bound
     Ok(opened)
 }
 
-/// [`open_limited`] of a file that is no input.
+/// [`open_limited`] of a file that is not an input.
 fn open_unnoted(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
     let file = File::open(path)?;
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
@@ -108,7 +108,8 @@ pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     contents(open_limited(path, limit)?, limit)
 }
 
-/// [`read_limited`] of what an earlier run has kept, which decides no result and is none of the [inputs](files_read).
+/// [`read_limited`] of a kept result of an earlier run, which decides no result and is not among the
+/// [inputs](files_read).
 pub fn read_kept(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     contents(open_unnoted(path, limit)?, limit)
 }

@@ -261,7 +261,7 @@ pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Res
 /// Writes a table as an array of little-endian f4, in version 1.
 ///
 /// # Panics
-/// If the number of values is no multiple of the columns.
+/// If the number of values is not a multiple of the columns.
 pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
     let NumberTable { columns, values } = table;
     assert!(*columns > 0 && values.len().is_multiple_of(*columns), "whole rows");
@@ -278,7 +278,7 @@ pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> 
     values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
 }
 
-/// What stands before the numbers of an array, in version 1.
+/// The header of an array, in version 1.
 pub(super) fn beginning(descr: &str, shape: &[usize]) -> Vec<u8> {
     let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
     // A Python tuple of one element has a trailing comma.

@@ -3,13 +3,13 @@
 use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
-/// Reasons for which a text is no number in single or double precision. The text itself is quoted by callers, who know
-/// its place.
+/// Reasons why a text is not a number in single or double precision. The text itself is quoted by callers, who know its
+/// place.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected {}", self.expected())]
 pub enum NumberError {
-    /// The text is no number.
+    /// The text is not a number.
     NoNumber,
     /// A NaN or an infinity, given by name.
     NotFinite,

@@ -57,7 +57,7 @@ impl Picture {
     /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
     /// linear): sRGB values, or linear ones where a gAMA or cICP chunk says how to decode them. Radiance HDR gives
     /// linear values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file the first layer is
-    /// read, as large as the display window, and 0 where the layer has no pixels.
+    /// read, as large as the display window, with 0 outside the layer's pixels.
     ///
     /// # Errors
     /// [`InputError`], those of [`PictureSize::of`] before any pixel is decoded.
@@ -162,8 +162,8 @@ fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, InputErr
 }
 
 /// Exponent by which samples of a PNG file become linear light; `None` for sRGB's curve, which also holds for files
-/// that do not say. Of the chunks that say it, cICP goes before sRGB, and that before gAMA. ICC profiles and
-/// chromaticities are not looked at.
+/// that do not say. Among the chunks that define it, cICP takes precedence over sRGB, and sRGB over gAMA. ICC profiles
+/// and chromaticities are not looked at.
 fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, InputError> {
     let refused = |reason: String| decode_error(PictureFormat::Png, reason);
     let reader = ::png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|error| refused(error.to_string()))?;

@@ -112,7 +112,7 @@ pub fn order_of(coefficients: &[f64]) -> usize {
     order_with(coefficients.len()).expect("n^2 coefficients")
 }
 
-/// Order with this number of functions; `None` if there is none from 1 to [`MAX_ORDER`].
+/// Order with this number of functions; `None` if no order from 1 to [`MAX_ORDER`] has it.
 pub fn order_with(functions: usize) -> Option<usize> {
     (1..=MAX_ORDER).find(|&order| function_count(order) == functions)
 }

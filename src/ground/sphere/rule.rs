@@ -49,8 +49,8 @@ impl DirectionRule {
     /// is the same all around is told to a fraction of a ring. Where there are too few rings, fewer than degree + 3, it
     /// is the other rule.
     ///
-    /// Each column integrates polynomials in z exactly. Of a polynomial in x, y and z, the part of azimuthal frequency
-    /// m is one in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.
+    /// Each column integrates polynomials in z exactly. The part of azimuthal frequency m of a polynomial in x, y and z
+    /// is a polynomial in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.
     ///
     /// # Panics
     /// If the size exceeds [`MAX_DEGREE`].

@@ -12,7 +12,7 @@ pub(super) const T_MARGIN: f64 = 1e-5;
 pub struct Best(Option<(f32, u32)>);
 
 impl Best {
-    /// Records a hit if it is nearer. An infinite t is no hit: it fails the depth test of a card.
+    /// Records a hit if it is nearer. An infinite t is not a hit: it fails the depth test of a card.
     pub fn offer(&mut self, t: f32, triangle: u32) {
         if t < f32::INFINITY && self.0.is_none_or(|(best, first)| t < best || (t == best && triangle < first)) {
             self.0 = Some((t, triangle));

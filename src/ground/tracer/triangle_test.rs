@@ -1,4 +1,4 @@
-//! The ray-triangle test in f32: what the Ray Engine's `float.psa` and `seven_vectors.vsa` compute, operation by
+//! The ray-triangle test in f32: the computation of the Ray Engine's `float.psa` and `seven_vectors.vsa`, operation by
 //! operation.
 //!
 //! Scheduling decides whether a ray is tested on the card or on the host, and must not affect the result; so the host

@@ -1,4 +1,4 @@
-//! Values of options: what the parsers of the program and of the studies' own options share.
+//! Values of options: code that the parsers of the program and of the studies' own options share.
 
 pub mod number;
 pub mod one_of;

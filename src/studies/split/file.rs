@@ -94,7 +94,7 @@ impl PartHeader {
     /// Reads a part, and checks that it is whole: its header, and its results as they are encoded.
     ///
     /// # Errors
-    /// If it cannot be read, is no part, or is not as it was written.
+    /// If it cannot be read, is not a part, or was changed.
     pub(super) fn read(path: &Path) -> Result<(Self, Vec<u8>), InputError> {
         let mut bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
         let wrong = |found: String, help| InputError::new("crossbar::part::file", found).at(path).with_help(help);

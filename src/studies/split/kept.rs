@@ -50,7 +50,7 @@ impl KeptResults {
     /// Refuses a folder with results of other work, which would be lost.
     ///
     /// # Errors
-    /// Names the first such result; and for what is no folder.
+    /// Names the first such result; also for a path that is not a folder.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {
@@ -108,8 +108,8 @@ impl KeptResults {
         }
     }
 
-    /// Takes a result from the folder; computes and keeps it where there is none, or one of another command, program or
-    /// input, or a damaged one. What is computed must depend on the command and the name, which is a file's, alone.
+    /// Takes a result from the folder; computes and keeps it if it is missing, damaged, or of another command, program
+    /// or input. The result must depend only on the command and the name, which is a file name.
     ///
     /// # Errors
     /// Those of `compute`, and if a result cannot be kept.

@@ -36,7 +36,7 @@ impl PartNumber {
     }
 
     /// The part's items among `count`: ranges of all parts follow each other, and their lengths differ by one at most.
-    /// Of more parts than items some have none.
+    /// With more parts than items, some parts have no items.
     pub fn range(self, count: usize) -> Range<usize> {
         // At most `count`, so it fits.
         let end = |number: u32| (count as u128 * u128::from(number) / u128::from(self.of)) as usize;

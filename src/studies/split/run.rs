@@ -14,7 +14,7 @@ use crate::io::FileSet;
 
 /// Results of consecutive items, which are stored with their bits and put together in order.
 pub trait Concatenate: Serialize + DeserializeOwned {
-    /// True if these are results of the items of a range, and complete. What is false here is refused, not merged.
+    /// True if these are results of the items of a range, and complete. A wrong part is refused, not merged.
     fn are_of(&self, range: &Range<usize>) -> bool;
 
     /// Appends the results of the items that follow.
@@ -70,9 +70,9 @@ pub struct WrittenPart {
 /// Results of all items; or only a part of them was computed, which is in its file.
 #[derive(Clone, Debug)]
 pub enum Computed<T> {
-    /// Of all items: the command goes on.
+    /// All items: the command continues.
     Whole(T),
-    /// Of a part: the command ends.
+    /// A part: the command ends.
     Part(WrittenPart),
 }
 
@@ -123,8 +123,7 @@ impl SplitRun {
     }
 
     /// Computes `count` items by `compute`, which takes a range of them; or those of a part, and writes them; or takes
-    /// all from parts. What is computed must depend on the item and on what was read and said before, and on nothing
-    /// else. A command calls this once.
+    /// all from parts. The result must depend only on the item and on earlier input. A command calls this once.
     ///
     /// # Errors
     /// Those of `compute`, and if a part cannot be written or parts do not fit.

@@ -40,7 +40,7 @@ impl Configuration {
         Ok(configuration)
     }
 
-    /// Creates the configuration of a device with its format replaced by `format`. What a device file sets stays
+    /// Creates the configuration of a device with its format replaced by `format`. Settings of a device file stay
     /// ([`Profile::replace_format`]).
     ///
     /// # Errors

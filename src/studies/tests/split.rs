@@ -43,7 +43,7 @@ fn clock() -> SpentTime {
     SpentTime { processor_s: Some(2.0 * NOW.get()), wall_s: NOW.get() }
 }
 
-/// Bits of what is taken are those of what was kept; each result is computed once.
+/// Bits of reused results equal those of kept ones; each result is computed once.
 #[test]
 fn work_that_was_stopped_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -43,7 +43,7 @@ pub struct Gather {
     /// The numbers of biclusters per row, increasing, each with the number of such rows.
     lengths: Vec<[usize; 2]>,
     /// I_j: the biclusters of rows by their place in the buffer, in the order in which they were found; eight rows of
-    /// one length interleaved, what is left over row by row.
+    /// one length interleaved, the rest row by row.
     biclusters_of: Vec<u32>,
 }
 

@@ -55,7 +55,7 @@ pub fn compress(
     compress_at(SimdLevel::widest(), signal, options, observe)
 }
 
-/// [`compress`] with given vector instructions: tests hold that bits do not depend on them.
+/// [`compress`] with given vector instructions: tests check that bits do not depend on them.
 #[doc(hidden)]
 pub fn compress_at(
     level: SimdLevel,

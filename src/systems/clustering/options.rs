@@ -97,7 +97,7 @@ pub enum CpcaError {
     /// A repeated start point.
     #[error("expected different start points, found {found} twice")]
     StartTwice { found: u32 },
-    /// A line of a list of start points that is no number. Lines count from 1.
+    /// A line of a list of start points that is not a number. Lines count from 1.
     #[error("expected the number of a point in line {line} of the start points, found another text")]
     StartText { line: usize },
     /// The principal components of a cluster cannot be computed.

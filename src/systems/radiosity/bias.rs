@@ -1,7 +1,7 @@
 //! First-order effect of a short accumulator on a solution: why half precision makes a room too dark, and more patches
 //! make it darker still.
 //!
-//! An accumulator S of p mantissa bits lies on its own grid, of step `q = 2^(floor(log2 |S|) - p)`. What is added to it
+//! An accumulator S of p mantissa bits lies on its own grid, of step `q = 2^(floor(log2 |S|) - p)`. A term added to it
 //! therefore changes it by a multiple of q: a term t counts as t rounded to a multiple of q, to the nearest one, or
 //! with truncation to the one below. A row of the iteration adds N terms of about a Nth of the radiosity to a sum as
 //! large as the radiosity itself, so t / q is about 2^p / N:

@@ -93,7 +93,7 @@ impl Projection {
     }
 }
 
-/// Encodes a patch's number as a color: from 1, negative for the back; 0 is no patch.
+/// Encodes a patch's number as a color: from 1, negative for the back; 0 is not a patch.
 pub(super) fn code(patch: usize, is_front: bool) -> f64 {
     let number = (patch + 1) as f64;
     if is_front { number } else { -number }

@@ -1,4 +1,4 @@
-//! Triangle ids as colors: 24 bits and a hit mask, 4 bytes a ray.
+//! Triangle ids as colors: 24 bits and a hit mask, 4 bytes per ray.
 
 /// Encodes an id as a color: the lowest byte in red, alpha 1.
 pub(super) fn color_of_id(id: u32) -> [u32; 4] {

@@ -19,7 +19,7 @@ const PANELS: u32 = 60;
 pub struct Dipole {
     coefficients: Coefficients,
     eta: f64,
-    /// A = (1 + F_dr) / (1 - F_dr): what the boundary sends back, relative to what it lets pass.
+    /// A = (1 + F_dr) / (1 - F_dr): the reflected share at the boundary, relative to the transmitted one.
     boundary: f64,
     sigma_tr: f64,
     z_r: f64,

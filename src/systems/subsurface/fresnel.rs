@@ -14,7 +14,7 @@ pub fn mean_transmittance(eta: f64) -> f64 {
 
 /// The diffuse reflectance F_dr of the boundary from inside, by the integral of Fresnel's formula.
 ///
-/// What passes from outside in is, per square of the index, what passes from inside out: 1 - T / eta^2.
+/// The transmittance from outside in is, per square of the index, the transmittance from inside out: 1 - T / eta^2.
 pub fn internal_reflectance(eta: f64) -> f64 {
     1.0 - mean_transmittance(eta) / (eta * eta)
 }

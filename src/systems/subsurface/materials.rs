@@ -1,5 +1,5 @@
-//! Published media: the twelve of Jensen, Marschner, Levoy and Hanrahan 2001, Figure 5, and that of Figure 7 of the
-//! paper reproduced here, which is none of them.
+//! Published media: the twelve of Jensen, Marschner, Levoy and Hanrahan 2001, Figure 5, and the medium of Figure 7 of
+//! the paper reproduced here, which is not among them.
 
 use super::material::{Coefficients, Material};
 
@@ -87,7 +87,7 @@ const fn figure<T: Copy>(value: T, source: &'static str, confidence: FigureConfi
     PublishedFigure { value, source, confidence }
 }
 
-/// A row of the table of 2001, with what is disputed among its absorption coefficients and reflectances.
+/// A row of the table of 2001, with the disputed values among its absorption coefficients and reflectances.
 const fn row(
     name: &'static str,
     sigma_s_prime: [f64; 3],

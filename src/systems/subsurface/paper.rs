@@ -27,7 +27,7 @@ const NEAR: f64 = 5.0;
 const CLOSE: f64 = 1.5;
 /// Triangles are divided into at most this many along a side: texels of up to this many mean free paths.
 const MAX_DIVISIONS: u32 = 4;
-/// Of texels longer than this many mean free paths all light stays in its texel, within 1e-5.
+/// For texels longer than this many mean free paths all light stays in its texel, within 1e-5.
 const MAX_LENGTH: f64 = 1e6;
 /// Texels that are handled together.
 const CHUNK: usize = 256;

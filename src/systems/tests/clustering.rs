@@ -1,4 +1,4 @@
-//! Compression: its bits, what it does not depend on, and what it refuses.
+//! Compression: its bits, its independence of threads and vector instructions, and refusals.
 
 use crossbar_systems::clustering::{
     AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress,

@@ -228,8 +228,8 @@ const HALF: Accumulator = Accumulator {
 };
 const TRUNCATED: Accumulator = Accumulator { rounding: Rounding::TowardZero, ..HALF };
 
-/// What the sum of the first patch's row loses that starts at 1 and adds these terms: the reflectance is 1/2, the other
-/// patches reflect nothing to each other and have the radiosity 1, the first has none.
+/// The loss of the first patch's row, which starts at 1 and adds these terms: the reflectance is 1/2, the other patches
+/// reflect nothing to each other and have the radiosity 1, the first has none.
 fn lost(how: Accumulator, terms: &[f64]) -> f64 {
     let size = terms.len() + 1;
     let mut factors = Matrix::zeros([size; 2]).expect("a matrix");

@@ -13,7 +13,7 @@ use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
-/// Distance of rays from what they are not aimed at, as the sine of an angle seen from the eye.
+/// Distance of rays from edges and vertices that they are not aimed at, as the sine of an angle seen from the eye.
 type Margin = f64;
 
 const FIXED: [&str; 5] = ["s3.12", "s3.12:rna", "s3.12:rtz", "s3.12:rdn", "s3.12:rup"];

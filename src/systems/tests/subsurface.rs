@@ -91,9 +91,9 @@ fn far_pairs_of_the_reference_have_the_dipole_s_r_d() {
     assert_relative_eq!(sum, direct, max_relative = 1e-15);
 }
 
-/// The rule of near pairs is exact for quadratic functions: what it leaves of R_d falls with the fourth power of the
-/// texels' size, and larger texels are divided until their parts are no longer than a mean free path. Against means over
-/// midpoints of 8 x 8 and 16 x 16 parts of both texels, without the term that falls with the square of the parts.
+/// The rule of near pairs is exact for quadratic functions: its error for R_d falls with the fourth power of the
+/// texels' size, and larger texels are divided until their parts are no longer than a mean free path. Against means
+/// over midpoints of 8 x 8 and 16 x 16 parts of both texels, without the term that falls with the square of the parts.
 #[test]
 fn near_pairs_of_the_reference_are_exact_to_second_order() {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
@@ -188,8 +188,9 @@ fn moments(triangles: &[[DVec3; 3]]) -> (f64, DVec3, [f64; 6]) {
     (all, mean, second)
 }
 
-/// Of every cluster of an atlas: those of the polygons under its texels, and a ball of 5 times its squared size holds all
-/// corners. Faces have rectangles of many shapes, whose diagonal texels have parts on both sides of a bend.
+/// For every cluster of an atlas: moments equal those of the polygons under its texels, and a ball of 5 times its
+/// squared size contains all corners. Faces have rectangles of many shapes, whose diagonal texels have parts on both
+/// sides of a bend.
 #[test]
 fn moments_of_clusters_are_those_of_the_triangles_under_them() {
     let corners = vec![[0.0, 0.0, 0.0], [4.0, 1.0, 0.0], [2.0, 5.0, 3.0], [-1.0, 2.0, 4.0], [0.5, -3.0, 0.25]];

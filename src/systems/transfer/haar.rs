@@ -28,7 +28,7 @@ impl Haar {
     /// The transform of squares with `side` numbers along an edge, a power of two.
     ///
     /// # Panics
-    /// If `side` is no power of two.
+    /// If `side` is not a power of two.
     pub fn new(side: usize) -> Self {
         assert!(side.is_power_of_two(), "a power of two along an edge, not {side}");
         Self { side, scratch: vec![0.0; side * side] }

@@ -1,4 +1,5 @@
-//! Rays against every triangle, for the plain loops of systems 4 and 5: no arithmetic of what they check.
+//! Rays against every triangle, for the plain loops of systems 4 and 5: they share no arithmetic with the code under
+//! test.
 
 use glam::DVec3;
 

@@ -41,7 +41,7 @@ impl From<Tangents> for String {
     }
 }
 
-/// Of what [`Display`](fmt::Display) writes.
+/// Length of the text that [`Display`](fmt::Display) writes.
 impl TryFrom<String> for Tangents {
     type Error = String;
 

@@ -80,8 +80,8 @@ fn what_is_no_transfer_is_refused() {
 }
 
 proptest! {
-    /// Lines of any bytes, and good tables with a byte changed: read or refused, never a panic; what is read is written
-    /// and read again.
+    /// Lines of any bytes, and good tables with a byte changed: read or refused, never a panic; accepted tables are
+    /// written and read again.
     #[test]
     fn tables_of_light_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200), at in 0_usize..200, byte: u8) {
         let name = Path::new("l.csv");

@@ -1,4 +1,4 @@
-//! Transfer through compression, coding and rendering: what each step keeps.
+//! Transfer through compression, coding and rendering: the accuracy of each step.
 
 use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::code::{CodeOptions, CodedTransfer};

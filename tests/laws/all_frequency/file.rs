@@ -1,4 +1,4 @@
-//! Files of all-frequency transfer: what is written is read, what is damaged is refused.
+//! Files of all-frequency transfer: written files read back, damaged ones are refused.
 
 use std::path::Path;
 

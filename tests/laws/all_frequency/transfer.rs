@@ -112,7 +112,7 @@ fn a_square_overhead_shadows_its_form_factor() {
 }
 
 /// M L is the reference's sum over directions, with its own directions, solid angles, frames and interpolation of the
-/// light. Both see the same bits; what is left is rounding: each number of M once to f32, 2^-24 of its term in the sum,
+/// light. Both see the same bits. Only rounding remains: each number of M once to f32, 2^-24 of its term in the sum,
 /// and some 1e5 roundings of f64 in sums whose order differs.
 #[test]
 fn transfer_times_light_is_the_reference() {

@@ -165,7 +165,7 @@ fn a_matrix_of_nothing_has_no_biclusters() {
     assert_eq!(found.sum(), Ok(matrix));
 }
 
-/// A residual of 2^31 units does not fit into 32 bits: the search goes on with a table, and the matrix comes back in
+/// A residual of 2^31 units does not fit into 32 bits: the search continues with a table, and the matrix comes back in
 /// its own unit.
 #[test]
 fn residuals_leave_32_bits() {
@@ -192,7 +192,7 @@ proptest! {
         prop_assert_eq!(paper::biclusters(&matrix, options), quietly(&matrix, options));
     }
 
-    /// Subnormal numbers, 1e-300 beside 1e300, numbers of 53 bits: what is read comes back but for rounding.
+    /// Subnormal numbers, 1e-300 beside 1e300, numbers of 53 bits: they read back except for rounding.
     #[test]
     fn any_numbers_come_back(rows in real_blocks(), seed: u64, deletion: bool) {
         let matrix = real_matrix(&rows);

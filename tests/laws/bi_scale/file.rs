@@ -1,4 +1,4 @@
-//! Files of bi-scale transfer, and matrices as text: what is written is read, what is damaged is refused.
+//! Files of bi-scale transfer, and matrices as text: written files read back, damaged ones are refused.
 
 use std::path::Path;
 
@@ -137,7 +137,7 @@ fn parts_that_do_not_go_together_are_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// With the checksums made right again, what is read is read, and the rest refused; nothing panics.
+    /// With corrected checksums, files are read or refused; nothing panics.
     #[test]
     fn damaged_contents_never_panic(which in 0..4_usize, member: prop::sample::Index, at: prop::sample::Index, byte: u8) {
         let file = if which == 0 { &all_widths()[0] } else { &tables()[which - 1] };

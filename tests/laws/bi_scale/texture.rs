@@ -85,8 +85,8 @@ proptest! {
         }
     }
 
-    /// Shadows against points of the light's ray: what is below the surface at one is dark, what is dark is below or
-    /// almost so at one.
+    /// Shadows against points of the light's ray: if a point is below the surface, the texel is dark; if the texel is
+    /// dark, a point is below or almost so.
     #[test]
     fn shadows_are_where_the_surface_is_in_the_way(
         heights in heights(), place in place(), view in direction(), light in direction(),

@@ -271,7 +271,7 @@ fn bi_scale_transfer_shows_front_faces() {
     }
 }
 
-/// What a study of the open box on a card says of the difference from the host.
+/// The text of a study of the open box on a card about the difference from the host.
 fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
     let scene = Scene::open_box();
     let basis = ExitBasis::Radiance;

@@ -92,7 +92,7 @@ fn superclusters_keep_within_registers_and_have_no_neighbours_left_to_merge() {
     assert_eq!(before, triangles.len() as u64, "all clusters fit: each triangle is drawn once");
 }
 
-/// Of a given size, superclusters hold no more clusters, and two neighbours hold more together.
+/// Superclusters of a given size contain no more clusters than that, and no two neighbors could be merged.
 #[test]
 fn superclusters_of_a_size_are_as_large_as_may_be() {
     let (signal, triangles) = (ragged(40, 0.02), grid(40));

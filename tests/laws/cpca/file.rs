@@ -1,4 +1,4 @@
-//! Files of low-frequency transfer: what is written is read, what is damaged is refused.
+//! Files of low-frequency transfer: written files read back, damaged ones are refused.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ fn parsed(bytes: &[u8]) -> Result<PrtFile, String> {
     parse_prt(bytes, name()).map_err(|error| error.to_string())
 }
 
-/// Of a fan of 12 vertices.
+/// For a fan of 12 vertices.
 fn digest(tangents: Tangents) -> MeshDigest {
     let corners = (0..12).map(|i| [i as f32, (i * i) as f32, 0.0]).collect();
     let mesh = Mesh::new(corners, (1..11).map(|i| [0, i, i + 1]).collect()).expect("a mesh");

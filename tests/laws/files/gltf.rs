@@ -1,4 +1,4 @@
-//! The glTF reader: what the format says of geometry and materials, messages, and no bytes make it panic.
+//! The glTF reader: geometry and materials by the format's definition, messages, and no panic for any bytes.
 
 use std::io;
 use std::path::Path;

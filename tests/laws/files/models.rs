@@ -1,4 +1,4 @@
-//! The model reader: what it writes it reads back, and no bytes make it panic.
+//! The model reader: written models read back, and no bytes cause a panic.
 
 use crate::environment::writes_files;
 use std::path::Path;

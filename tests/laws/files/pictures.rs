@@ -1,4 +1,4 @@
-//! Pictures: what is written reads back, to the bit or to the precision of the format, and no bytes cause a panic.
+//! Pictures: written pictures read back, to the bit or to the precision of the format, and no bytes cause a panic.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Polygons cut into triangles, held against the even-odd rule and against segments that meet, both in integers.
+//! Polygons cut into triangles, compared with the even-odd rule and with intersections of segments, both in integers.
 
 use std::cmp::Ordering;
 

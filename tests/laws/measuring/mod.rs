@@ -1,5 +1,5 @@
-//! fixtures/probes/open: for each open switch of a card a small case that tells its values apart, for whoever has
-//! the card. docs/measuring.md lists them.
+//! fixtures/probes/open: for each open switch of a card a small case that tells its values apart, for owners of the
+//! card. docs/measuring.md lists them.
 
 mod probe;
 

@@ -1,4 +1,4 @@
-//! What the values of a switch draw.
+//! Pixels drawn under the values of a switch.
 
 use std::path::Path;
 

@@ -11,8 +11,8 @@ use refsim::machine::ExecutorKind;
 
 use super::cornell;
 
-/// How much too dark the closed Cornell box is in half floats: the mean over patches that do not shine, of what each
-/// should be; measured and predicted.
+/// How much too dark the closed Cornell box is in half floats: the mean relative error over patches that do not emit
+/// light; measured and predicted.
 fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
     let system = cornell(patches);
     let truth = system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity();
@@ -35,8 +35,8 @@ fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
 
 const SIZES: [usize; 3] = [60, 120, 240];
 
-/// First order in the loss: what is lost makes the sums smaller that lose, so that the prediction is too large by about
-/// as much again.
+/// First order in the loss: losses also reduce the sums that lose, so the prediction is too large by about as much
+/// again.
 fn is_predicted([found, predicted]: [f64; 2]) -> bool {
     abs_diff_eq!(found, predicted, epsilon = 0.1 * predicted + 1.5 * predicted * predicted)
 }

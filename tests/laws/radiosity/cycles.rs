@@ -87,7 +87,7 @@ fn cycles_and_fixed_points_are_those_of_the_hosts_loop() {
     assert!(periods[&1] > 0 && periods.keys().any(|&period| period > 1), "both kinds occur: {periods:?}");
 }
 
-/// In half floats, where the host's loop is no reference, the card's own states are compared with each other.
+/// In half floats, where the host's loop is not a reference, the card's own states are compared with each other.
 #[test]
 fn half_floats_go_round_too() {
     let mut longest = 0;

@@ -1,4 +1,4 @@
-//! The card's picture: what a pixel shows is what exact arithmetic finds there.
+//! The card's picture: a pixel shows the patch that exact arithmetic finds there.
 
 use crate::support::profile;
 use approx::{abs_diff_eq, assert_abs_diff_eq};

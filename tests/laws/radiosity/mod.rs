@@ -1,4 +1,4 @@
-//! Matrix radiosity: what light must satisfy, whoever computes it.
+//! Matrix radiosity: properties of light in every solver.
 
 mod all_pictures;
 mod bias;

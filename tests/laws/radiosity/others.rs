@@ -48,7 +48,7 @@ fn form_factors_agree_with_an_estimate_by_rays_alone() {
     assert!(hidden > 5, "most of them see each other: {hidden}");
 }
 
-/// Irradiance at points of the walls: what a path tracer sees there, times pi over the reflectance.
+/// Irradiance at points of the walls equals the radiance of a path tracer there, times pi over the reflectance.
 #[test]
 fn the_cornell_box_is_as_bright_as_paths_say() {
     let scene = rooms::cornell(FULL);

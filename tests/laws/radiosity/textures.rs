@@ -1,4 +1,4 @@
-//! Layouts read back to what was laid out; the card's order of operations against plain loops.
+//! Layouts read back to their input; the card's order of operations against plain loops.
 
 use approx::abs_diff_eq;
 use crossbar::card::Texels;

@@ -1,5 +1,5 @@
-//! Culling in the vertex program loses no hit: a pass that culls finds, bit for bit, what a pass that draws everything
-//! finds.
+//! Culling in the vertex program loses no hit: a pass with culling finds, bit for bit, the hits of a pass that draws
+//! everything.
 
 use crate::environment::by_form;
 use crate::support::{bits, profile, soup};

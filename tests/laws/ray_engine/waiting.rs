@@ -1,4 +1,4 @@
-//! The ways to wait for the card: what the log says of each, and what follows for the time.
+//! The ways to wait for the card: the log of each, and the consequences for the time.
 
 use std::collections::BTreeSet;
 

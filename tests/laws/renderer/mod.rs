@@ -1,4 +1,4 @@
-//! The renderers, held against closed forms, against each other, and against themselves on other threads and casters.
+//! The renderers, compared with closed forms, with each other, and with themselves on other threads and casters.
 
 mod agreement;
 mod bits;

@@ -230,7 +230,8 @@ fn every_wrong_pixel_is_shown() {
     }
 }
 
-/// The conclusion of the `reproduce` page is counted from its rows, and its verdicts stand beside what they judge.
+/// The conclusion of the `reproduce` page is counted from its rows, and its verdicts are beside the figures that they
+/// judge.
 #[test]
 fn papers_rows_are_tallied() {
     let entries = reproduce::choose(&["ray-engine-equation-11".to_owned(), "ray-engine-radeon-8500".to_owned()])

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::links_models::{atlas, medium};
 
-/// Of a square of side 1, whose texels have sides of about 1/16.
+/// For a square of side 1, whose texels have sides of about 1/16.
 const SIDE: u32 = 16;
 
 fn media() -> [Dipole; 3] {

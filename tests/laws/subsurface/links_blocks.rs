@@ -41,7 +41,7 @@ fn links_keep_their_tolerance() {
     }
 }
 
-/// Of large clusters the errors of parts cancel: a quarter of the tolerance is enough. The short form has the smaller
+/// For large clusters the errors of parts cancel: a quarter of the tolerance is enough. The short form has the smaller
 /// scale.
 #[test]
 fn sixteen_links_are_far_within_it() {

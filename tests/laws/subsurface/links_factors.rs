@@ -30,8 +30,8 @@ fn factors_times_areas_are_symmetric_between_texels() {
     }
 }
 
-/// Factors of channels together are within the tolerance of finer factors of each alone; these are held against contour
-/// integrals below.
+/// Factors of channels together are within the tolerance of finer factors of each alone; these are compared with
+/// contour integrals below.
 fn keep_their_tolerance<const N: usize>(surface: &SurfaceMoments, dipoles: [Dipole; N]) {
     let coarse = Factors::new(surface, dipoles, 0.01).expect("a tolerance");
     let fine = dipoles.map(|dipole| Factors::new(surface, [dipole], fine_tolerance()).expect("a tolerance"));

@@ -40,7 +40,7 @@ fn corners(atlas: &Atlas, mm_per_unit: f64, texel: u32) -> Vec<Vec<DVec3>> {
     atlas.part(texel).polygons().map(in_mm).collect()
 }
 
-/// What the error of a factor may be.
+/// The allowed error of a factor.
 fn allowed(dipole: &Dipole, exact: f64) -> f64 {
     TOLERANCE * (exact + 1e-5 * dipole.total())
 }

@@ -79,7 +79,7 @@ pub(crate) fn texels(side: u32) -> impl Iterator<Item = [u32; 2]> {
     (0..side).flat_map(move |y| (0..side).map(move |x| [x, y]))
 }
 
-/// The tolerance of factors that others are held against: a tenth of theirs, in the full form a hundredth.
+/// The tolerance of the reference factors: a tenth of the tested ones, in the full form a hundredth.
 pub(crate) fn fine_tolerance() -> f64 {
     by_form(1e-3, 1e-4)
 }

@@ -115,7 +115,7 @@ fn difference(found: &[[f64; 3]], wanted: &[[f64; 3]]) -> f64 {
     largest(&differences) / largest(wanted)
 }
 
-/// Of some 30 roundings to fp32 per light.
+/// For some 30 roundings to fp32 per light.
 const ROUNDINGS: f64 = 64.0 / (1 << 24) as f64;
 
 fn options(light: LightStage) -> SubsurfaceCardOptions {

@@ -9,7 +9,7 @@ use crossbar::subsurface::{Coefficients, Dipole};
 
 use super::walk::{self, PhotonEntry, PhotonWalk, WalkTally};
 
-/// Fixed seeds give fixed verdicts; of what is true, one in 10^4 lies farther off than this many half widths.
+/// Fixed seeds give fixed verdicts; a correct result lies farther off than this many half widths in one of 10^4 cases.
 const FAR: f64 = 2.3;
 
 fn medium(sigma_s_prime: f64, sigma_a: f64, eta: f64, photons: u64) -> PhotonWalk {

@@ -6,7 +6,7 @@ use crossbar::study::reproduce::{Bound, Method, PaperRow, RowVerdict, printed};
 
 use super::{FOUND, findings, row};
 
-/// Section 6.1, by the paper's own equation: to the digits, in the table; rows of what is drawn have the pipeline's.
+/// Section 6.1, by the paper's own equation: to the digits, in the table; rows of drawn figures have the pipeline's.
 #[test]
 fn the_equation_gives_every_printed_digit() {
     let found = findings("ray-engine-equation-11");
@@ -88,7 +88,7 @@ fn the_card_is_linear_and_the_host_is_not() {
     assert!(all.windows(2).all(|two| two[1] >= two[0]) && all[6] > 5.0 * all[0], "{all:?}");
 }
 
-/// Where models and BRDFs are lost, an order is judged and nothing closer; what the appendix prints to its digits.
+/// Where models and BRDFs are lost, only an order is judged; the appendix is judged to its printed digits.
 #[test]
 fn lost_models_are_judged_by_order() {
     for id in ["cpca-figure-6", "cpca-figure-10", "cpca-figure-11", "cpca-table-1", "cpca-coherence"] {

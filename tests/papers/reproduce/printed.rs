@@ -6,8 +6,8 @@ use refsim::timing::host::CPU_ONLY_RAYS_PER_SECOND;
 
 use super::{findings, row};
 
-/// Print set against print is consistent; what it chose is calibrated; where it disagrees with itself, it is
-/// contradictory, with the computation.
+/// Printed values that follow from printed values are consistent; values that determined a constant are calibrated;
+/// values that contradict each other are contradictory, with the computation.
 #[test]
 fn print_is_set_against_print() {
     use RowVerdict::{Calibrated, Consistent, Contradictory};

@@ -48,7 +48,7 @@ fn entries_have_the_rows_and_tables_of_their_records() {
     }
 }
 
-/// In the full form the record that took least comes out again to the bit.
+/// In the full form the cheapest record is repeated to the bit.
 #[test]
 fn the_quickest_record_comes_out_again() {
     if !is_full() {

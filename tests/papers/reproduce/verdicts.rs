@@ -5,7 +5,7 @@ use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, Row
 
 use super::{FOUND, all, findings, row};
 
-/// A printed figure has one row, and a judged one has a row: what is not judged is listed with its reason.
+/// A printed figure has one row, and a judged one has a row: figures that are not judged are listed with their reason.
 #[test]
 fn every_judged_figure_has_one_row() {
     let figures = figures().expect("the data").iter();
@@ -110,7 +110,7 @@ fn origins_are_said() {
     }
 }
 
-/// A calibrated row is no success, and being calibrated does not save it.
+/// A calibrated row is not a success, and calibration does not exempt it from its bound.
 #[test]
 fn calibration_hides_no_miss() {
     let radeon: Vec<_> =

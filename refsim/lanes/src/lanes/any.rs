@@ -130,7 +130,7 @@ impl AnyLane {
         with_any_lane!(self, |lane| { decode(lane, bits) })
     }
 
-    /// The bit pattern of what a slot holds; NaN gives the canonical one.
+    /// The bit pattern of the number in a slot; NaN gives the canonical one.
     pub fn encode(&self, raw: u32) -> u32 {
         fn encode<L: Lane>(lane: &L, raw: u32) -> u32 {
             lane.encode(L::load(raw))
@@ -146,7 +146,7 @@ impl AnyLane {
         with_any_lane!(self, |lane| { round(lane, x) })
     }
 
-    /// What a slot holds, clamped to [0, 1].
+    /// The number in a slot, clamped to [0, 1].
     pub fn saturate(&self, raw: u32) -> u32 {
         fn saturate<L: Lane>(lane: &L, raw: u32) -> u32 {
             L::store(lane.saturate(L::load(raw)))

@@ -16,7 +16,7 @@ use crate::num::Format;
 #[derive(Clone, Copy, Debug)]
 struct Shift {
     count: u32,
-    /// Half a unit, and the mask of what is dropped; zero if nothing is.
+    /// Half a unit, and the mask of the dropped bits; zero if none are dropped.
     half: i64,
     dropped: i64,
     more: i64,
@@ -118,8 +118,8 @@ impl Beside {
 /// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
 /// ones use `i64`, where the same holds with 2^62.
 ///
-/// So no sum or product of numbers of the format leaves its type. The common operations are wrapping ones all the same:
-/// where a build checks each for overflow, its loops are no vector code.
+/// So no sum or product of numbers of the format leaves its type. The common operations are wrapping even so: if a
+/// build checks each for overflow, its loops are not vectorised.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     rounding: u8,
@@ -191,8 +191,8 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if WRAP { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
     }
 
-    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; what is out of range
-    /// stays so, since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which
+    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; results out of range stay
+    /// out of range, since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which
     /// wrap: still far from where the order of integers would break.
     #[inline(always)]
     pub(super) fn fused_sum_of<const N: usize>(&self, unit: f32, a: [i32; N], b: [i32; N]) -> i32 {
@@ -226,8 +226,8 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
     /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and fitted; anything if `d` is zero.
     ///
     /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and
-    /// the double errs by one in `2^22` at most: it rounds as the quotient does. What saturates is clamped first; what
-    /// wraps is an integer of at most 31 bits.
+    /// the double errs by one in `2^22` at most: it rounds as the quotient does. Saturating numbers are clamped first;
+    /// wrapping ones are integers of at most 31 bits.
     #[inline(always)]
     pub(super) fn quotient(&self, n: i32, d: i32) -> i32 {
         let exact = f64::from(n) / f64::from(d);

@@ -41,7 +41,7 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     short: ShortRounder,
     /// The magnitude of what `1/0` and `log2 0` give.
     pole: f32,
-    /// The result where there is no number: NaN, or 0 in formats without.
+    /// The result if an operand is NaN or infinite: NaN, or 0 in formats without.
     nan: f32,
     /// Turns -0 into +0, in encodings without it, when added.
     zero: f64,

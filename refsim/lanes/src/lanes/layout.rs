@@ -16,7 +16,7 @@ pub(crate) struct FloatLayout {
     bias: i32,
     /// `true` if the largest exponent field has infinity and NaN.
     ieee: bool,
-    /// Of other encodings, the bits that tell NaN, and what they are in it; and the pattern that NaN is written as.
+    /// For other encodings: the bits that identify NaN, their value in NaN, and the pattern with which NaN is written.
     nan_mask: u32,
     nan: u32,
     canonical_nan: u32,

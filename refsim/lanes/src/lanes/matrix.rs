@@ -71,7 +71,7 @@ pub struct MatrixColumns<'a> {
     tables: Vec<(Element, Vec<Option<Unpacked>>)>,
     /// By group of columns, then k.
     numbers: Vec<Lanes>,
-    /// By group: `true` if a number of it is none, which is left to the definition.
+    /// By group: `true` if one of its numbers is NaN or infinite, which is left to the definition.
     special: Vec<bool>,
 }
 
@@ -113,7 +113,7 @@ impl<'a> MatrixColumns<'a> {
         made
     }
 
-    /// The numbers of a row, their scales in the exponents; `None` if one is none.
+    /// The numbers of a row, their scales in the exponents; `None` if one is NaN or infinite.
     fn unpacked(&self, row: Operand<'_>) -> Option<Vec<Unpacked>> {
         let table = self.tables.iter().find(|(element, _)| *element == row.element);
         let numbers: Option<Vec<Unpacked>> = match table {

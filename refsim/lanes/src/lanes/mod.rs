@@ -1,6 +1,6 @@
 //! The arithmetic of number formats on single lanes, and the vector instructions that it is compiled for.
 //!
-//! - `row`: rows of lanes; `lane`: what an arithmetic has to offer; `layout`: fields of floats; `fixed`, `normalized`,
+//! - `row`: rows of lanes; `lane`: the interface of an arithmetic; `layout`: fields of floats; `fixed`, `normalized`,
 //!   `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's;
 //!   `toward`: in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
 //! - `unit`: units of cards, on words.

@@ -8,8 +8,8 @@ use super::reading::Reading;
 use super::round::{AWAY, EVEN, rounding_index};
 use crate::num::Format;
 
-/// The arithmetic of one normalized format: `WRAP` whether it wraps. What does not look at the unit is that of the
-/// codes as whole numbers.
+/// The arithmetic of one normalized format: `WRAP` whether it wraps. Operations that do not depend on the unit are
+/// those of the codes as integers.
 ///
 /// Codes have 16 bits and the denominator `D` 8 at most: products of two codes fit an `i32`, and sums of four a double.
 #[derive(Clone, Copy, Debug)]
@@ -92,11 +92,11 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
         Reading::Integer { one: self.one, units: self.denominator }
     }
 
-    /// Twice the number of units is exact for doubles of up to 44 bits. Of a longer one (a quotient, rounded to odd or
-    /// to nearest) it errs by less than one part in `2^51`, and what is that near to an integer is one. In 255ths,
+    /// Twice the number of units is exact for doubles of up to 44 bits. For a longer result (a quotient, rounded to odd
+    /// or to nearest) the error is less than one part in `2^51`; a result that near to an integer is one. In 255ths,
     /// fractions of texels lie at least one part in `2^49` from the next, whatever four weights of 8 bits they were
-    /// multiplied by; in other units that holds of channels of up to 8 bits, and 16-bit ones come nearer only if
-    /// chance is unkind by a factor of a billion.
+    /// multiplied by; in other units that holds of channels of up to 8 bits, and 16-bit ones come nearer only if chance
+    /// is unkind by a factor of a billion.
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
         const NEAR: f64 = 1.0 / (1u64 << 50) as f64;

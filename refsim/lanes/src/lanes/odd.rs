@@ -34,7 +34,7 @@ pub(crate) fn add_odd(a: f64, b: f64) -> f64 {
     odd(s, e)
 }
 
-/// The double nearest to `x` that has 26 significant bits (or 25): what can be squared exactly.
+/// The double nearest to `x` that has 26 significant bits (or 25), so that its square is exact.
 ///
 /// Veltkamp's split; `x` must be far from overflow.
 #[inline(always)]
@@ -48,8 +48,8 @@ pub(crate) fn head(x: f64) -> f64 {
 ///
 /// The quotient q, in [1, 2) units of 2^e, is split into 26 and 27 bits, whose products with `b` have 53 bits at most:
 /// they are exact. Let `b` be an integer of n bits, so that `a` is a multiple of 2^(e+n-54). `a` less the larger
-/// product is a multiple of that or of 2^(e-25), whichever is smaller, and less than 2^(e+n-25): 29 bits or n. What is
-/// left of it, at most `b` half units of q, is a multiple of 2^(e-53) and less than 2^(e+n-52). Both differences are
+/// product is a multiple of that or of 2^(e-25), whichever is smaller, and less than 2^(e+n-25): 29 bits or n. The
+/// remainder, at most `b` half units of q, is a multiple of 2^(e-53) and less than 2^(e+n-52). Both differences are
 /// exact.
 #[inline(always)]
 pub fn div_odd_long(a: f64, b: f64) -> f64 {

@@ -105,8 +105,8 @@ macro_rules! rounder {
 
             /// The magnitude rounded to the unit of the binade with these exponent bits.
             ///
-            /// Adding the pivot and taking it away rounds to nearest even; the other roundings compare what that gives
-            /// with what there was. The pivot of an infinity or a NaN is some finite number, so that they come through.
+            /// Adding and subtracting the pivot rounds to nearest even; the other roundings compare the result with the
+            /// operand. The pivot of an infinity or a NaN is some finite number, so that they come through.
             #[inline(always)]
             fn near(&self, rounding: u8, x: $float, exponent: $bits) -> $float {
                 let pivot = <$float>::from_bits(exponent.wrapping_add(self.pivot));
@@ -150,8 +150,8 @@ rounder!(SingleRounder, f32, u32, 23);
 rounder!(DoubleRounder, f64, u64, 52);
 
 impl SingleRounder {
-    /// As [`Self::round`], for the roundings other than nearest even: normal numbers by their bits, so that there is no
-    /// pivot that could be too large.
+    /// Like [`Self::round`], for the roundings other than nearest even: normal numbers by their bits, so no pivot can
+    /// be too large.
     #[inline(always)]
     pub(crate) fn cut(&self, rounding: u8, x: f32) -> f32 {
         let size = x.to_bits() & !Self::SIGN;

@@ -15,7 +15,7 @@ pub struct Addend {
     pub fraction: u32,
 }
 
-/// What happens to the bits of an addend below the last one that is kept.
+/// Treatment of the bits of an addend below the last one that is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Alignment {
     /// They are dropped from the magnitude.

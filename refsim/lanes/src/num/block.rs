@@ -90,7 +90,7 @@ impl BlockFormat {
     ///
     /// The scale is `2^(e - E)`, where `2^e` is the largest power of two that the largest magnitude reaches, and `2^E`
     /// that of the largest element; within the range of scales, and the smallest one if all numbers are zero. Each
-    /// number over the scale is rounded once, to nearest even; what is too large becomes the largest element
+    /// number over the scale is rounded once, to nearest even; a quotient that is too large becomes the largest element
     /// (specification 6.3). The specification leaves infinities and NaN open: a block with one has the scale NaN,
     /// elements of zero, and raises `INVALID`.
     pub fn quantize(self, from: &Format, numbers: &[u32]) -> Block {

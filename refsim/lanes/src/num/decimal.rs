@@ -157,7 +157,7 @@ fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
 }
 
 /// Formats the exact value of `bits` with all its digits and no exponent: `-0.333251953125`, `65504`, `-0`, `inf`,
-/// `nan`. A normalized number that is no integer is a fraction: `37/255`.
+/// `nan`. A normalized number that is not an integer is a fraction: `37/255`.
 pub fn to_decimal_exact(format: &Format, bits: u32) -> String {
     if let Unpacked::Finite { sign, sig, den, .. } = unpack(format, bits)
         && sig % u64::from(den) != 0
@@ -192,11 +192,11 @@ pub fn to_decimal(format: &Format, bits: u32) -> String {
     compact(sign, &digits, point)
 }
 
-/// Decimal places of a normalized number that is no integer: more than distinguish all of a format.
+/// Decimal places of a normalized number that is not an integer: more than distinguish all of a format.
 const PLACES: u32 = 20;
 
 /// Returns the sign, the digits without leading or trailing zeros, and the power of ten of the point as in [`Literal`].
-/// Those of a normalized number that is no integer are cut off after [`PLACES`] places.
+/// Normalized numbers that are not integers are cut off after [`PLACES`] places.
 fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static str> {
     let (sign, sig, exp, den) = match unpack(format, bits) {
         Unpacked::Nan { .. } => return Err("nan"),

@@ -24,7 +24,7 @@ pub struct Format {
     pub denormals: Denormals,
     /// Conventions for NaN, infinity and domain errors (floats).
     pub specials: Specials,
-    /// What computes: the rules above, or the unit of a card.
+    /// The arithmetic: the rules above, or the unit of a card.
     pub unit: Unit,
 }
 
@@ -223,8 +223,8 @@ impl Format {
     }
 
     /// Returns `true` if every number of another format, with its infinities, NaN and negative zero, is one of this
-    /// format too, so that conversion there and back changes nothing. What the other format only reads as zero,
-    /// subnormals under `:ftz`, is no number of it.
+    /// format too, so that conversion there and back changes nothing. Numbers that the other format only reads as zero,
+    /// subnormals under `:ftz`, are not numbers of it.
     pub fn holds(self, other: Self) -> bool {
         use FormatKind::{Fixed, Float, Normalized};
         let least = |exponent: i32, digits: u8, denormals: Denormals| match denormals {

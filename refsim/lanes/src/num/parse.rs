@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::format::{Format, FormatKind};
 use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 
-/// Aliases of layouts, and the one layout that is none of the patterns.
+/// Aliases of layouts, and the one layout that matches none of the patterns.
 const ALIASES: [(&str, Format); 7] = [
     ("ps14", Format::S3_12),
     ("fx12", Format::FX12),

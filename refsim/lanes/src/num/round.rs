@@ -95,7 +95,7 @@ pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> 
 
 /// Returns `true` if rounding increments the truncated magnitude.
 ///
-/// `fraction` computes the first 32 bits of what was cut off.
+/// `fraction` computes the first 32 bits of the discarded fraction.
 #[inline]
 fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool, fraction: impl Fn() -> u32) -> bool {
     match rounding {
@@ -176,7 +176,7 @@ fn round_float(env: &Env, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: 
 }
 
 /// Rounds a power of two times a number in [1, 2) to a scale: `sig` is that number with its leading bit at 2^63, or 0
-/// for something above zero. Halves go up: with one digit there is no even one (IEEE 754-2019, 4.3.1). Below the
+/// for something above zero. Ties go up: a one-digit significand is never even (IEEE 754-2019, 4.3.1). Below the
 /// smallest scale everything above zero is that one.
 fn round_scale(format: &Format, sign: bool, sig: u64, top: i32, sticky: bool) -> Outcome {
     let (least, most) = format.exponents();
@@ -249,7 +249,7 @@ fn round_fixed(
     Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// The pattern that stands for an infinity: itself; NaN where there is none; the end of the range where there is no
+/// The pattern that stands for an infinity: itself; NaN if there is no infinity; the end of the range if there is no
 /// NaN either.
 fn unbounded(format: &Format, sign: bool) -> u32 {
     format.infinity(sign).or(format.canonical_nan()).unwrap_or(format.extreme(sign))
@@ -262,8 +262,8 @@ pub(crate) fn divide_by_zero(format: &Format, sign: bool) -> Outcome {
     Outcome::new(if saturates { format.extreme(sign) } else { unbounded(format, sign) }, Flags::DIVIDE_BY_ZERO)
 }
 
-/// An infinite operand passed through: infinity; where there is none, with `OVERFLOW`, what stands for it, or the end
-/// of the range where the format saturates.
+/// The result of an infinite operand: infinity; without infinity, with `OVERFLOW`, its replacement, or the end of the
+/// range if the format saturates.
 pub(crate) fn infinite(format: &Format, sign: bool) -> Outcome {
     match format.infinity(sign) {
         Some(bits) => Outcome::exact(bits),

@@ -29,8 +29,8 @@ pub enum Rounding {
     Down,
     /// Toward plus infinity (`:rup`).
     Up,
-    /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. What was rounded so
-    /// can be rounded once more into a format of two bits less, in any direction, as if it had been exact.
+    /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. A result with this
+    /// rounding can be rounded once more into a format of two bits less, in any direction, as if it had been exact.
     Odd,
     /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the first 32 bits of the fraction that is
     /// cut off, as an integer, and this word together are `2^32` or more. Over all words that is as often as the
@@ -101,8 +101,7 @@ pub enum Specials {
 }
 
 /// The arithmetic unit that computes: an ideal one, or one of a card as it was measured ([`super::unit`]). Units of
-/// cards are for `e8m23` alone; what they do about rounding, overflow, subnormal numbers and special values is their
-/// own.
+/// cards are for `e8m23` alone; they have their own rounding, overflow, subnormal numbers and special values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// Every result is the exact one, rounded once by the rules of the format.

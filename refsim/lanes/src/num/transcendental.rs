@@ -2,9 +2,9 @@
 //!
 //! An irrational value is enclosed between two integers in units of `2^-places`. If both ends round to the same bits
 //! and flags, so does the value between them (rounding is monotone); if not, the enclosure is recomputed with twice the
-//! places (Ziv's strategy). What is rounded is the enclosure times the format's denominator, since rounding counts in
-//! units of the format. Exact results are handled separately, so the loop ends: `2^x` is irrational for every rational
-//! `x` that isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
+//! places (Ziv's strategy). The enclosure times the format's denominator is rounded, since rounding counts in units of
+//! the format. Exact results are handled separately, so the loop ends: `2^x` is irrational for every rational `x` that
+//! isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
 
 mod circle;
 mod enclose;

@@ -6,7 +6,7 @@ use super::pack;
 use crate::lanes::{LANES, Lane, LaneRow, SimdLevel, narrow};
 use crate::num::NumberOperation as Op;
 
-/// An operation whose results are no numbers of the format, or are never guarded. Only rounding, decoding and encoding
+/// An operation whose results are not numbers of the format, or are never guarded. Only rounding, decoding and encoding
 /// are compiled for each format.
 #[inline(always)]
 pub(super) fn apart<L: Lane>(

@@ -164,7 +164,7 @@ impl ArrayOperation {
     }
 }
 
-/// Fills a row with a part of an array; what is missing is 0.
+/// Fills a row with a part of an array; missing elements are 0.
 #[inline]
 fn fill<T: Copy, R: Copy + Default>(row: &mut [R; LANES], some: &[T], start: usize, f: impl Fn(T) -> R) {
     let rest = some.get(start..).unwrap_or_default();

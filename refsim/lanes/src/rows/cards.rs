@@ -1,7 +1,7 @@
 //! Rows of the units of cards.
 //!
-//! What matters for speed is computed in loops of vector code first. Where these mark a result that may be wrong (a
-//! special value, an end of the range), the row is computed once more, lane by lane.
+//! Operations that matter for speed are computed in loops of vector code first. Where these mark a result that may be
+//! wrong (a special value, an end of the range), the row is computed once more, lane by lane.
 
 use super::apart::apart;
 use super::code::{LaneCode, LaneOp};

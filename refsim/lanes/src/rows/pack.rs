@@ -26,8 +26,8 @@ pub(super) fn join_patterns(words: &LaneRow, shift: i8, patterns: &mut LaneRow) 
     }
 }
 
-/// What is to be rounded: the part of each lane's word, rounded to odd, or the integer nearest to its number. `None` for
-/// other operations.
+/// The number to be rounded: the part of each lane's word, rounded to odd, or the integer nearest to its number. `None`
+/// for other operations.
 pub(super) fn parts(reading: Reading, code: LaneCode, row: &LaneRow) -> Option<Box<[f64; LANES]>> {
     let (operation, shift) = match code {
         LaneCode::Immediate(operation, shift) => (operation, shift),

@@ -1,5 +1,5 @@
-//! Arithmetic units of cards against vectors of what the cards compute, every row and column, bit for bit; examples of
-//! their rules; and laws of the adder that aligns its addends.
+//! Arithmetic units of cards against vectors of real cards, every row and column, bit for bit; examples of their rules;
+//! and laws of the adder that aligns its addends.
 
 mod examples;
 mod gt200;

@@ -2,7 +2,7 @@
 
 use refsim_lanes::num::{Format, NumberOperation, Rounding, Unit};
 
-/// What is computed for a column: from the operands of a row, or from cells by name.
+/// The operation of a column: from the operands of a row, or from cells by name.
 pub(crate) type Check<'c> = (&'c str, &'c dyn Fn(&Row<'_>) -> String);
 
 /// A row of a table.
@@ -40,8 +40,8 @@ fn repeated(column: &str) -> String {
     found.unwrap_or_else(|| panic!("column {column} may not be empty"))
 }
 
-/// Compares every row of a table with what is computed. The checks are all columns but the first `operands`, in order.
-/// Returns the number of rows.
+/// Compares every row of a table with the computed values. The checks are all columns but the first `operands`, in
+/// order. Returns the number of rows.
 pub(crate) fn check(text: &str, operands: usize, checks: &[Check<'_>]) -> usize {
     let mut lines = text.lines();
     let columns: Vec<&str> = lines.next().expect("a header").split(',').collect();

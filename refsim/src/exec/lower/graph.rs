@@ -162,8 +162,8 @@ impl Graph {
     }
 
     /// The operation that converts single floats into the words of a card's unit, and its format; `None` for other
-    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. What a
-    /// vertex program reads are words.
+    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. Operands of
+    /// a vertex program are words.
     pub(crate) fn copies(&self, from: Arith, to: Arith, number: NodeId) -> Option<(Arith, Op)> {
         if !self.is_card(to) || !self.singles.get(from.index()).is_some_and(|&single| single) {
             return None;

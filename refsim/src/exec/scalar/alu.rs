@@ -212,8 +212,8 @@ impl<'r> Alu<'r> {
         })
     }
 
-    /// `_SAT` of OpenGL's programs (GL_NV_fragment_program 3.11.4.4, GL_ARB_fragment_program 3.11.4.3): what is below 0
-    /// becomes 0, what is above 1 becomes 1, and a NaN, which is neither, stays.
+    /// `_SAT` of OpenGL's programs (GL_NV_fragment_program 3.11.4.4, GL_ARB_fragment_program 3.11.4.3): numbers below 0
+    /// become 0, numbers above 1 become 1, and NaN, which is neither, stays.
     pub(crate) fn saturate_number(&mut self, x: u32) -> u32 {
         let stays = self.format.specials == Specials::Ieee && !(self.less(0, x) || self.less_or_equal(x, 0));
         if stays { x } else { self.saturate(x) }

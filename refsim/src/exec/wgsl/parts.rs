@@ -186,7 +186,7 @@ impl Parts {
         other.0.is_subset(&self.0)
     }
 
-    /// Reduces a complete text to these parts and to what is reachable from `entry`.
+    /// Reduces a complete text to these parts and to everything reachable from `entry`.
     pub fn of(&self, text: &str, entry: &str) -> String {
         let all = Self::all();
         constants() + &reachable(&self.arms(text, &all), entry)

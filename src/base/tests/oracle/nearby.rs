@@ -42,7 +42,7 @@ fn nearby_directions_are_tried_in_rings_up_to_the_limit() {
     }
 }
 
-/// Directions beyond f32 are left out; what is nearer is still found.
+/// Directions beyond f32 are left out; nearer ones are still found.
 #[test]
 fn the_largest_direction_has_nearby_ones() {
     let mesh = square();

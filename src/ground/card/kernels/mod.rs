@@ -1,4 +1,4 @@
-//! The programs that draw a mesh with what its vertices hold.
+//! The programs that draw a mesh with the data of its vertices.
 
 use super::kernels;
 

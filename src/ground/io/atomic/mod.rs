@@ -30,7 +30,7 @@ pub enum WriteError {
 /// Writes one file through `fill`, and creates missing folders of its path. On any error the file at `path` is as
 /// before, and no folder was created.
 ///
-/// A link is followed, and stays. An existing path that is no regular file, such as `/dev/stdout`, a pipe or a
+/// A link is followed, and stays. An existing path that is not a regular file, such as `/dev/stdout`, a pipe or a
 /// terminal, is written to and never replaced; it too gets everything or, when `fill` fails, nothing.
 pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     match fs::metadata(path) {

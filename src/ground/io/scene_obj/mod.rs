@@ -42,8 +42,7 @@ pub fn parse_scene(
     read_scene(bytes, name, library, true).map(|(scene, _)| scene)
 }
 
-/// [`parse_scene`]; unless `strict`, materials that are none of ours are changed into such, and what was changed is
-/// said.
+/// [`parse_scene`]; unless `strict`, unsupported materials are replaced by supported ones, with a note for each change.
 pub(super) fn read_scene(
     bytes: &[u8],
     name: &Path,

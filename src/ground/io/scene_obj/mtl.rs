@@ -12,7 +12,7 @@
 //!
 //! `Ke` is emission. A reflectance lies in [0, 1], and so does `Kd` + `Ks` of a glossy surface. Transparency (`d` below
 //! 1, `Tr` above 0) needs glass, and gloss needs an `Ns` above 0. Files of modelling tools often violate these rules:
-//! when a scene is read with notes, `Kd` and `Ks` are scaled together, materials that are no glass become opaque, and
+//! when a scene is read with notes, `Kd` and `Ks` are scaled together, materials other than glass become opaque, and
 //! both are noted.
 
 use std::collections::{BTreeMap, BTreeSet};

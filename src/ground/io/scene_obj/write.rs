@@ -83,7 +83,7 @@ fn color(out: &mut dyn Write, key: &str, [r, g, b]: Color) -> io::Result<()> {
     writeln!(out, "{key} {r} {g} {b}")
 }
 
-/// Names have to come back as they are, each once.
+/// Names have to read back unchanged, each once.
 fn check_names(materials: &[Material]) -> io::Result<()> {
     let mut seen = std::collections::BTreeSet::new();
     for Material { name, .. } in materials {

@@ -1,7 +1,6 @@
 //! Models of parts with the vertex counts of the models with several textures in the paper on bi-scale transfer (its
-//! Table I): a chair and a temple. The original models are not available. Of the temple, only what can be seen from
-//! outside is there, since the paper's has many non-zero values per vertex: ours, which follow from that, are no
-//! evidence.
+//! Table I): a chair and a temple. The original models are not available. The temple has only its outside, since the
+//! paper's has many non-zero values per vertex; our counts, which follow from that, are not evidence.
 //!
 //! Parts are flat or curved faces and tubes, of which every one is a grid of triangles with its own normals. Texture
 //! coordinates are lengths, 1 per unit, along the edges of a face. Where a tube closes, vertices are repeated, which

@@ -1,8 +1,8 @@
 //! One floor of an office building, in the manner of Soda Hall: 11,052 triangles, as many as the model of the Ray
 //! Engine (Table 1).
 //!
-//! Rooms along the outer walls, a corridor all around, rooms in the core. Walls have a thickness, doors stand open at
-//! all angles, and there is no ceiling, so that the view from above shows many small, disjoint objects.
+//! Rooms along the outer walls, a corridor all around, rooms in the core. Walls have a thickness, doors are open at all
+//! angles, and there is no ceiling, so that the view from above shows many small, disjoint objects.
 //!
 //! | what | triangles |
 //! |---|---|

@@ -24,7 +24,7 @@ impl CellId {
 /// number of distinct triangles lies in a range (`T` of Table 4). GPU cells are never nested.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GpuCells {
-    /// Range of each node's triangles in the list; empty for a node that is no GPU cell.
+    /// Range of each node's triangles in the list; empty for a node that is not a GPU cell.
     spans: Vec<(u32, u32)>,
     triangles: Vec<u32>,
     count: usize,

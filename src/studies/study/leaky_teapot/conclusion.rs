@@ -10,7 +10,7 @@ use crate::report::{Findings, Tone};
 
 /// Maximum number of names in a sentence; further ones are counted.
 pub(super) const MAX_NAMES: usize = 4;
-/// Maximum number of different warnings; of more, their range is said.
+/// Maximum number of different warnings; beyond that, their range is printed.
 const MAX_WARNINGS: usize = 2;
 
 impl Tally {

@@ -1,4 +1,4 @@
-//! What an intersection costs: slots of the pixel program, and clocks of a pipeline.
+//! Cost of an intersection: slots of the pixel program, and clocks of a pipeline.
 
 use refsim::device::Profile;
 use refsim::event::{FlowConstants, ProgramWork};

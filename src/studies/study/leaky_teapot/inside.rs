@@ -7,8 +7,8 @@ use crate::geom::classify::HitVerdict;
 use crate::geom::exact::NearestHit;
 use crate::geom::vector::wide;
 
-/// Least cosine between a triangle's normal and the way to the eye, for a triangle that faces it: nearer to edge-on,
-/// what a card rounds may face away.
+/// Least cosine between a triangle's normal and the direction to the eye, for a triangle that faces it: nearer to
+/// edge-on, a card's rounding may turn it away.
 const FACING: f64 = 1.0 / 16.0;
 
 /// Rays whose exact first hit lies inside the surface, and how many of them a card misses.

@@ -123,7 +123,7 @@ pub struct TeapotRow {
     pub configuration: Configuration,
     /// How the program evaluates edges.
     pub edge_rule: EdgeRule,
-    /// What an intersection costs.
+    /// Cost of an intersection.
     pub cost: IntersectionCost,
     /// Verdicts of the eye rays.
     pub tally: Tally,

@@ -5,7 +5,7 @@ use refsim::num::matrix::{Element, MatrixError};
 use super::multiply::{ExactSum, Operands};
 use super::operands::{number, power};
 
-/// What became of an addend.
+/// The fate of an addend.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct AddendFate {
     pub(super) unit: &'static str,

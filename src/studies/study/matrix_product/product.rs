@@ -98,7 +98,7 @@ pub(super) struct ProductRow {
     pub(super) product: Vec<f64>,
 }
 
-/// What the search for a goal found.
+/// Result of the search for a goal.
 #[derive(Debug)]
 pub(super) struct GoalOutcome {
     pub(super) fewest_bits: Option<u32>,

@@ -2,8 +2,8 @@
 //!
 //! The header names the columns, in any order: `case`, `column` and `row` are required, `red`, `green`, `blue`, `alpha`
 //! and `depth` can be left out, as can be single values. A case is a path relative to the folder of the table. Codes
-//! are the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's
-//! `raw`. A line that begins with `#` is a remark: what the card was, and what it could not draw.
+//! are the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's `raw`.
+//! A line that begins with `#` is a remark: the card, and probes that it could not draw.
 
 use std::path::{Path, PathBuf};
 
@@ -55,7 +55,7 @@ struct Row {
 /// Reads measured pixels from a file.
 ///
 /// # Errors
-/// If the file cannot be read, is too long or is no such table: the message has the path and the line.
+/// If the file cannot be read, is too long or is not such a table: the message has the path and the line.
 pub fn load_measurement(path: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
     let unreadable = |source| {
         StudyError::new("crossbar::measure::file", format!("cannot read the measured pixels {}", path.display()))
@@ -74,7 +74,7 @@ pub fn load_measurement(path: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
 /// Reads measured pixels from bytes; `name` is the path of the file, to which paths of cases are relative.
 ///
 /// # Errors
-/// If it is no such table, or has no pixels.
+/// If it is not such a table, or has no pixels.
 pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
     let wrong = |line: u64, found: String| {
         StudyError::new("crossbar::measure::table", format!("{}:{line}: {found}", name.display())).with_help(HELP)

@@ -7,7 +7,7 @@ use super::file::MeasuredCase;
 /// Columns of codes.
 pub(super) const CODES: [&str; 5] = ["red", "green", "blue", "alpha", "depth"];
 
-/// Measured pixels, held against a device.
+/// Measured pixels, compared with a device.
 #[derive(Clone, Debug)]
 pub struct Measure {
     /// Name of the table.

@@ -12,7 +12,7 @@ use super::operands::PatternBits;
 /// Operand sets per operation and format.
 const SETS: u32 = 2048;
 
-/// Entry points of `arithmetic.wgsl`, with what each compiles beside the cheap operations.
+/// Entry points of `arithmetic.wgsl`, with the operations that each compiles in addition to the cheap ones.
 const SHADERS: [(&str, &[Op]); 3] =
     [("alu_main", &[Op::Floor, Op::Sqrt]), ("power_main", &[Op::Exp2]), ("circle_main", &[Op::Sin])];
 

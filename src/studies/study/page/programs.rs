@@ -1,4 +1,4 @@
-//! Programs instruction by instruction: what the scalar executor wrote at every pixel, and the buffers of the same
+//! Programs instruction by instruction: the results of the scalar executor at every pixel, and the buffers of the same
 //! trace for the visitor's GPU, by the number library and in the adapter's own floats.
 
 use std::collections::BTreeMap;
@@ -226,7 +226,7 @@ struct TraceReader<'s> {
 }
 
 impl TraceReader<'_> {
-    /// The entries of a fragment, and the bytes of what they wrote.
+    /// The entries of a fragment, and the bytes of its results.
     fn read(&mut self, fragment: &FragmentTrace) -> (Vec<Entry>, Vec<u8>) {
         let program = &self.setup.pixel;
         let formats = FragmentFormats::new(&self.setup.profile.rules);

@@ -35,7 +35,7 @@ impl FormatCosts {
     /// Reads a table with the header `bits,cost`: a format costs as much as the narrowest width listed that holds it.
     ///
     /// # Errors
-    /// If the file cannot be read or is no such table: the message has the path and the line.
+    /// If the file cannot be read or is not such a table: the message has the path and the line.
     pub fn load(path: &Path) -> Result<Self, StudyError> {
         let name = path.display();
         let unreadable = |source| {

@@ -250,7 +250,7 @@ impl FamilyOutcome {
         Ok(())
     }
 
-    /// Finds what each instruction is to blame for; the least blamed come first in what is returned.
+    /// Computes the blame of each instruction; returns the least blamed first.
     fn share_blame(&mut self, minimum: FormatBits, runs: &mut Runs<'_>) -> Result<Vec<usize>, RunError> {
         let blamed = blamed_format(minimum, runs)?;
         self.blamed = Some(blamed);

@@ -35,7 +35,7 @@ pub(super) fn table(title: String, trace: &RefutationTrace, runs: &Runs<'_>) -> 
     table
 }
 
-/// Table of all traces, each row with what was refuted.
+/// Table of all traces, each row with the refuted format.
 pub(super) fn all(traces: &[RefutationTrace], runs: &Runs<'_>) -> Table {
     let mut table = Table::of("Traces of refutations", &format!("refuted_line format column row {COLUMNS}"));
     for trace in traces {

@@ -8,8 +8,8 @@ use super::curve::BitScan;
 use super::runs::{RunError, Runs};
 use super::subject::WorstPlace;
 
-/// Bits of precision beyond those of the smallest uniform format from which a search starts: what a few instructions
-/// then leave to spare, others can do without.
+/// Bits of precision beyond those of the smallest uniform format from which a search starts: bits saved by some
+/// instructions can be spent on others.
 pub(super) const STARTS: [u8; 3] = [0, 1, 2];
 
 /// Formats of all instructions that meet the goal.

@@ -51,10 +51,10 @@ pub struct Measured {
     pub errors: Option<ErrorMap>,
 }
 
-/// Place where a run differs most from what it should be.
+/// Place where a run differs most from the expected result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WorstPlace {
-    /// The place, with what is there and what should be.
+    /// The place, with the found and the expected value.
     pub text: String,
     /// Column and row of its pixel, if the place is one of [`PrecisionSubject::steps`].
     pub pixel: Option<[u32; 2]>,
@@ -142,9 +142,9 @@ pub struct RoundedInstruction {
 /// Results of instructions, of the same fragments in each of its fields.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SampledResults {
-    /// Of the exact run, by program.
+    /// For the exact run, by program.
     pub exact: Vec<InstructionResults>,
-    /// Of each rounded instruction, in draws whose input is that of the exact run.
+    /// For each rounded instruction, in draws with the input of the exact run.
     pub rounded: Vec<FragmentResults>,
 }
 

@@ -5,7 +5,7 @@ use super::curve::BitScan;
 use super::runs::{RunError, Runs};
 use crate::study::StudyError;
 
-/// Value of a switch with what it changes.
+/// Value of a switch with its effect.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SwitchRow {
     pub(super) switch: String,

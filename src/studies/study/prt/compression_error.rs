@@ -21,7 +21,7 @@ pub struct CompressionError {
 }
 
 impl CompressionError {
-    /// Of a signal in clusters of as many points and numbers each.
+    /// For a signal in clusters of as many points and numbers each.
     pub fn new(signal: &Signal, clustering: &Clustering) -> Self {
         let squared: Vec<f64> = (0..signal.points()).map(|point| clustering.squared_error_of(point, signal)).collect();
         let square = |&value: &f32| f64::from(value) * f64::from(value);

@@ -19,7 +19,7 @@ pub(in crate::study) struct Lit<'a> {
 }
 
 impl<'a> Lit<'a> {
-    /// `None` for numbers that are no transfer.
+    /// `None` if the numbers are not transfer.
     pub(in crate::study) fn new(meaning: &'a PrtMeaning, light: &'a HarmonicLight) -> Option<Self> {
         let PrtMeaning::Transfer { channels, exit_functions, light_order, .. } = meaning else { return None };
         let columns = (light_order * light_order) as usize;
@@ -92,7 +92,7 @@ impl<'a> Lit<'a> {
     }
 }
 
-/// Error of a signal that is no transfer.
+/// Error of a signal that is not transfer.
 pub(super) fn no_transfer() -> StudyError {
     let help = "compress a file that `crossbar cpca precompute` wrote";
     StudyError::new("crossbar::prt::meaning", "expected transfer, found numbers without a meaning").with_help(help)

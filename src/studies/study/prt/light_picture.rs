@@ -13,11 +13,11 @@ use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
 
 /// Width of the picture in pixels, twice its height.
 const WIDTH: u32 = 320;
-/// Linear light of the median of what is not black.
+/// Linear light of the median of the pixels that are not black.
 const MIDDLE_GREY: f64 = 0.18;
 
 /// Picture of the radiance from every direction, as a lat-long picture that `--light` reads: its middle is +y, its
-/// right +x, and up is +z. The median of what is not black is 18 % grey, whatever the sun does.
+/// right +x, and up is +z. The median of the pixels that are not black is 18 % grey, whatever the sun does.
 pub(in crate::study) fn light_picture(
     name: impl Into<String>,
     light: &str,

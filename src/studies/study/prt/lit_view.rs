@@ -11,7 +11,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, NamedPicture, false_color};
 use crate::scene::Camera;
 
-/// Mean of what is not black under auto-exposure.
+/// Mean of the pixels that are not black under auto-exposure.
 const MIDDLE_GREY: f64 = 0.18;
 
 /// A model under a light, seen by a camera.

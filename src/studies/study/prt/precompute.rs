@@ -98,7 +98,7 @@ impl Precomputation<'_> {
         self.whole(found, rule, &responses)
     }
 
-    /// The same, with the rays and matrices of direct light of all vertices, of those of a part, or of parts. What
+    /// The same, with the rays and matrices of direct light of all vertices, of those of a part, or of parts. Work that
     /// needs all vertices is not split: bounces, and light that scatters below the surface.
     ///
     /// # Errors
@@ -149,7 +149,7 @@ impl Precomputation<'_> {
         Ok(VertexTransfer { answers: if keep_hits { answers } else { answers.counts_only() }, channels })
     }
 
-    /// The transfer out of what was found at all vertices.
+    /// The transfer, from the results of all vertices.
     fn whole(
         &self,
         found: VertexTransfer,

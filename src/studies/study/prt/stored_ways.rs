@@ -37,7 +37,7 @@ pub struct StoredComparison<'a> {
     pub order: usize,
 }
 
-/// A way to store transfer, with what it takes and what it loses.
+/// A storage of transfer, with its size and error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredWay {
     /// The way, with its settings.
@@ -57,7 +57,7 @@ impl StoredComparison<'_> {
     /// All ways under some lights, biclusters first. `visit` sees each when it is made.
     ///
     /// # Errors
-    /// [`InputError`]; what a layout of narrow numbers has no room for is left out.
+    /// [`InputError`]; values that do not fit into a layout of narrow numbers are left out.
     pub fn ways(
         &self,
         lights: &[LightChannels],

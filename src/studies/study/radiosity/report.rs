@@ -184,8 +184,8 @@ fn channels(outcome: &RadiosityOutcome) -> impl Iterator<Item = String> + '_ {
     outcome.rows.iter().flat_map(|row| ["r", "g", "b"].map(|c| format!("{}_{c}", row.label)))
 }
 
-/// Chart of Figure 3: the residual of each method by iteration. `None` where nothing iterates, or where everything is
-/// exact after one iteration, so that there is no second point above 0.
+/// Chart of Figure 3: the residual of each method by iteration. `None` if nothing iterates, or if everything is exact
+/// after one iteration, so that there is no second point above 0.
 fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let line = |row: &MethodRow| Series {
         label: row.label.clone(),

@@ -165,7 +165,7 @@ fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
     all
 }
 
-/// Returns `true` if no value is another one than its record has. What is missed is a finding, and no failure.
+/// Returns `true` if no value is another one than its record has. A missed row is a finding, not a failure.
 fn as_recorded(found: &Reproduced) -> bool {
     !all_rows(found).any(PaperRow::differs)
 }

@@ -22,7 +22,7 @@ pub(super) struct GatherError {
 }
 
 impl GatherError {
-    /// Of `found` against `expected`, per texel.
+    /// For `found` against `expected`, per texel.
     pub(super) fn between(atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let [mut off, mut reference] = [ErrorSums::default(); 2];
         for ((texel, found), expected) in atlas.texels().iter().zip(found).zip(expected) {
@@ -43,7 +43,7 @@ impl GatherError {
 pub(super) struct AllPairSums<'a> {
     pub(super) atlas: &'a Atlas,
     pub(super) parameters: &'a Parameters,
-    /// Of red, green and blue.
+    /// For red, green and blue.
     pub(super) dipoles: &'a [Dipole; 3],
     pub(super) irradiance: &'a [[f64; 3]],
 }

@@ -16,7 +16,7 @@ pub(super) struct GatheredBands {
     bands: usize,
     /// Radiosities over all pairs, by channel; none without them.
     pub(super) all_pairs: [Vec<f64>; 3],
-    /// Of each way whose links are not those of an earlier one.
+    /// For each method whose links differ from those of earlier ones.
     links: Vec<LinkBands>,
 }
 

@@ -12,7 +12,7 @@ pub(super) struct SubsurfaceOutcome {
     pub(super) atlas: Atlas,
     /// Lengths of model and medium.
     pub(super) lengths: ModelLengths,
-    /// Of red, green and blue.
+    /// For red, green and blue.
     pub(super) dipoles: [Dipole; 3],
     /// E of equation 8 per texel, by the host.
     pub(super) irradiance: Vec<[f64; 3]>,

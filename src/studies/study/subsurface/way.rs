@@ -82,7 +82,7 @@ pub(super) struct WayRow {
     pub(super) times: Option<[PassTime; 4]>,
     /// B of every texel, by the card.
     pub(super) radiosity: Vec<[f64; 3]>,
-    /// Of the first way, E of every texel as the card's map has it.
+    /// For the first method: E of every texel as in the card's map.
     pub(super) irradiance: Vec<[f64; 3]>,
     /// Scattered and direct light.
     pub(super) picture: Picture,

@@ -16,7 +16,7 @@ fn page(mut found: Findings) -> String {
     String::from_utf8(bytes).expect("text")
 }
 
-/// What stands in a text behind `from` and before `to`, each time.
+/// All parts of a text between `from` and `before`.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> impl Iterator<Item = &'a str> {
     text.split(from).skip(1).filter_map(move |rest| rest.split_once(to).map(|(inside, _)| inside))
 }

@@ -30,7 +30,7 @@ fn the_worst_has_the_highest_rank() {
     assert!(ranks.is_sorted() && ranks == [0, 0, 1, 2, 3, 4]);
 }
 
-/// Rows of these formats, named by letters: limits of each, and what is said of them.
+/// Rows of these formats, named by letters: limits of each, and the sentences about them.
 fn limited(formats: &[&str]) -> (Vec<FormatLimits>, Vec<String>) {
     let side = 48;
     let rays = Camera::teapot(side, side).expect("a camera").rays();

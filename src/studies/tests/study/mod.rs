@@ -1,4 +1,4 @@
-//! Studies: what they find, as a document and in files.
+//! Studies: their findings, as a document and in files.
 
 mod error;
 mod framing;
@@ -24,7 +24,7 @@ fn findings(study: &dyn Study) -> Findings {
     study.findings(&mut |_, _, _| {}).expect("the study ends")
 }
 
-/// What a study writes, by the names of files.
+/// Output of a study, by file names.
 struct StudyFiles(BTreeMap<String, Vec<u8>>);
 
 impl StudyFiles {

@@ -91,7 +91,8 @@ fn every_format_is_one_and_every_operation_has_results() {
     }
 }
 
-/// A page that made other operands would call a right GPU wrong: results are those of what the page's script makes.
+/// A page with other operands would call a right GPU wrong: results must be those of the operands that the page's
+/// script makes.
 #[test]
 fn operands_are_those_of_the_script() {
     let script = [

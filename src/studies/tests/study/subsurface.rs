@@ -60,7 +60,7 @@ fn cube() -> Mesh {
     flat(halves.as_flattened())
 }
 
-/// What enters each face under an environment, beside the means over its texels under lights of the host.
+/// Light that enters each face under an environment, compared with the means over its texels under lights of the host.
 fn entering(light: CubeLight, lights: &[Light]) -> Vec<[f64; 2]> {
     let study = study(&cube(), Lighting::Environment(light), "--atlas 8 --links 4 --all-pairs no");
     let atlas = Atlas::new(&study.mesh, 8).expect("an atlas");

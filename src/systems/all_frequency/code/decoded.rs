@@ -1,4 +1,4 @@
-//! Decoding of a coded segment, and coding in fewer bits: what a precision study compares.
+//! Decoding of a coded segment, and coding in fewer bits, which a precision study compares.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 /// Rows of a block: as many as a byte can number.
 pub const BLOCK_ROWS: usize = 256;
 
-/// Rows of integers in blocks of [`BLOCK_ROWS`], the last one shorter. Of each column of a block, the numbers that are
-/// not 0 are kept, each with its row in the block, in increasing order.
+/// Rows of integers in blocks of [`BLOCK_ROWS`], the last one shorter. For each column of a block, the nonzero numbers
+/// are kept, each with its row in the block, in increasing order.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SparseRows {
     rows: usize,

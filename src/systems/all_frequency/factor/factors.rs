@@ -1,4 +1,4 @@
-//! Singular values of a table of f, what a number of terms keeps of it (equation 8), and G and F of equation 9.
+//! Singular values of a table of f, the part that a number of terms keeps (equation 8), and G and F of equation 9.
 
 use glam::DVec3;
 

@@ -96,7 +96,7 @@ pub(super) fn colors(
     Ok((stream, counts))
 }
 
-/// What attributes must be.
+/// Requirements of attributes.
 const HELD: &str = "radiance that its format holds";
 
 /// The coordinate sets of a pass of products per pixel: T_p times exposure, color and `scales`, which compensate the

@@ -1,4 +1,4 @@
-//! Step 4 of section 6 by plain loops in f64: of vertices, and of pixels from what is interpolated between vertices.
+//! Step 4 of section 6 by plain loops in f64: for vertices, and for pixels from interpolated values of vertices.
 
 use glam::DVec3;
 

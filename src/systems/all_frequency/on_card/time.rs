@@ -81,7 +81,7 @@ pub fn host_of_table_1() -> Result<HostModel, HostError> {
     HostModel::calibrate(&counts, (1000.0 * seconds).round() as u64, 1)
 }
 
-/// Vertex streams are no resource of the emulated card; this number stands for a frame's stream in logs.
+/// Vertex streams are not a resource of the emulated card; this number represents a frame's stream in logs.
 const VERTEX_STREAM: ResourceId = ResourceId::Texture(1 << 20);
 
 /// Bytes per vertex that a frame sends.

@@ -28,7 +28,7 @@ pub struct HarmonicRows {
     sides: HarmonicSides,
     /// Rows of a vertex's matrix: M, or n^2.
     height: usize,
-    /// Vertex by vertex, row by row, n^2 numbers a row.
+    /// Vertex by vertex, row by row, n^2 numbers per row.
     values: Vec<f32>,
     /// Per local direction what each local harmonic gives it; only where both sides are in harmonics.
     cells: Vec<Vec<f64>>,

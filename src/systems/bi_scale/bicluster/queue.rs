@@ -41,7 +41,8 @@ impl BucketQueue {
         found
     }
 
-    /// The first of some keys with a line that is current, and the lowest such line; what comes before them goes.
+    /// The first of some keys with a line that is current, and the lowest such line; outdated entries before it are
+    /// removed.
     fn first(
         &mut self,
         mut keys: impl Iterator<Item = usize>,

@@ -18,9 +18,9 @@ use crate::error::{InputError, ensure, input_error};
 /// Biclusters of a matrix, identical to those of [`paper::biclusters`](crate::bi_scale::paper::biclusters). `found` is
 /// called after each with the number of remaining non-zeros.
 ///
-/// Memory is 16 bytes per non-zero and some 80 per row and column, besides the biclusters. Where there is no unit in
-/// which 32 bits hold the values and all residuals, some 100 bytes per distinct number more. If a residual is the first
-/// that 32 bits do not hold, the search begins again, and `found` counts down from all non-zeros once more.
+/// Memory is 16 bytes per non-zero and some 80 per row and column, besides the biclusters. Without a unit in which 32
+/// bits hold the values and all residuals, some 100 bytes per distinct number more. If a residual is the first that 32
+/// bits do not hold, the search begins again, and `found` counts down from all non-zeros once more.
 pub fn bicluster(
     matrix: &SparseMatrix,
     options: BiclusterOptions,

@@ -8,7 +8,7 @@ use crate::card::{TO_CLIP, WrittenKernel, local_view};
 
 /// The last set holds texture coordinates u, v and the view along bitangent and tangent; the fourth component of the
 /// first set is the view along the normal. Every other set has a direction's red, green and blue in its first three
-/// components; what is left of three sets holds one direction more.
+/// components; the fourth components of three sets hold one more direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LocalLayout {
     /// Sets of four numbers: 3 or more.

@@ -1,4 +1,4 @@
-//! What a pass draws: textures with the triangles that show them, and local light of vertices.
+//! Data of a pass: textures with the triangles that show them, and local light of vertices.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,5 +1,5 @@
-//! The meso-scale half: bidirectional textures, what a small patch of a surface sends out by place, view and light
-//! (section III, equation 3).
+//! The meso-scale half: bidirectional textures, the outgoing light of a small patch of a surface by place, view and
+//! light (section III, equation 3).
 //!
 //! - [`BidirectionalTexture`]: samples of b(u, e, d); [`ViewSamples`]: the four views around a direction; `file`: NPY;
 //! - [`HeightField`], [`MesoMaterial`], [`MesoPatch`]: a repeated patch of heights and materials, seen and lit by rays;

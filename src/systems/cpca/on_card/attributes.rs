@@ -1,4 +1,4 @@
-//! What vertices hold: the mesh in chunks, one per supercluster with all triangles that have a vertex in it (section
+//! Data of vertices: the mesh in chunks, one per supercluster with all triangles that have a vertex in it (section
 //! 6.2).
 
 use std::mem::take;

@@ -45,7 +45,7 @@ impl Response {
         Ok(Self { basis: ExitBasis::Radiance, directions: rule.len(), columns })
     }
 
-    /// The irradiance that enters a medium: cosine times the transmittance at that cosine. Its one row is no radiance:
+    /// The irradiance that enters a medium: cosine times the transmittance at that cosine. Its one row is not radiance:
     /// it is the input of [`Transfer::scattered`](super::Transfer::scattered), and takes no part in interreflection.
     pub fn entering(transmittance: impl Fn(f64) -> f64, rule: &DirectionRule) -> Self {
         let columns = rule.directions().iter().map(|s| transmittance(s.z) * s.z).collect();

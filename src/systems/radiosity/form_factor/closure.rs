@@ -70,8 +70,8 @@ impl FormFactors {
     /// and Knopp's iteration (1967) in its symmetric form. Rows without any light stay as they are.
     ///
     /// # Errors
-    /// [`InputError`] if there is no such scaling, or none was found. The factors are then reciprocal,
-    /// but not closed.
+    /// [`InputError`] if such a scaling does not exist, or was not found. The factors are then reciprocal, but not
+    /// closed.
     pub fn enforce_closure(&mut self) -> Result<(), InputError> {
         self.enforce_reciprocity();
         let mut scale = vec![1.0; self.len()];

@@ -9,8 +9,7 @@ use crate::radiosity::Patch;
 use glam::DVec3;
 
 /// The form factor from a point with a normal (of length 1) to an unoccluded polygon, corners counter-clockwise from
-/// its front: between 0 and 1. What lies behind the point's horizon does not count, nor does a polygon seen from
-/// behind.
+/// its front: between 0 and 1. The part behind the point's horizon does not count, nor does a polygon seen from behind.
 pub fn point_to_polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     let above = clipped(corners, |corner| normal.dot(corner - point));
     let mut sum = 0.0;

@@ -11,7 +11,7 @@ use crate::tracer::Caster;
 
 /// Some rows of form factors, the others 0.
 ///
-/// Of two patches the exchange, area times form factor, is that of both: it stands in the row of the first, above the
+/// The exchange of two patches, area times form factor, is the same for both: it is in the row of the first, above the
 /// diagonal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormFactorRows {

@@ -1,7 +1,7 @@
 //! Cycle detection: an iteration in finite precision either reaches its tolerance or returns to an earlier state.
 //!
-//! The digest of every state that is read back is kept. Where a digest repeats, the iteration runs until the state
-//! itself repeats, and states are compared bit for bit: a collision of digests is no cycle.
+//! The digest of every state that is read back is kept. If a digest repeats, the iteration runs until the state itself
+//! repeats, and states are compared bit for bit: a collision of digests is not a cycle.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher as _};

@@ -61,7 +61,7 @@ impl CardSolver {
     ///
     /// # Errors
     /// [`CardError::Input`] if the system has another number of patches, or the iteration diverges;
-    /// [`CardError::Draw`]. Reaching the maximum of iterations is no error: see [`CardSolution::converged`].
+    /// [`CardError::Draw`]. Reaching the maximum of iterations is not an error: see [`CardSolution::converged`].
     pub fn solve(
         &mut self,
         system: &System,

@@ -30,7 +30,7 @@ pub enum Solver {
 /// Solves a system.
 ///
 /// # Errors
-/// [`InputError`]. Reaching the maximum of iterations is no error: see [`Solution::converged`].
+/// [`InputError`]. Reaching the maximum of iterations is not an error: see [`Solution::converged`].
 pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     check(problem)?;
     match solver {

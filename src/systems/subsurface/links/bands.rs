@@ -20,7 +20,7 @@ const BAND: usize = 1 << BLOCK_LEVEL;
 /// The links of the texels of consecutive bands: of rows of texels that are computed together.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LinkBands {
-    /// Of adaptive links, per texel, row by row, then per link; of fixed ones none.
+    /// For adaptive links per texel, row by row, then per link; for fixed ones empty.
     pub(super) clusters: Vec<PackedCluster>,
     /// Per texel, row by row, then per link, then per channel.
     pub(super) factors: Vec<f32>,

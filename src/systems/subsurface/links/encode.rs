@@ -45,7 +45,7 @@ impl LinkPlace {
 pub struct LostFactors {
     /// Factors of links that are used: above 0.
     pub factors: usize,
-    /// Of them, those that round to 0.
+    /// How many of them round to 0.
     pub flushed: usize,
     /// Those that are denormal, which a card may flush to 0.
     pub denormal: usize,

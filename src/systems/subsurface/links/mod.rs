@@ -30,7 +30,7 @@ pub struct Links {
     choice: LinkChoice,
     channels: usize,
     per_texel: usize,
-    /// Of fixed links one per link; of adaptive ones per texel, row by row, and link.
+    /// For fixed links one per link; for adaptive ones per texel, row by row, and link.
     clusters: Vec<PackedCluster>,
     /// Per texel, row by row, then per link, then per channel.
     factors: Vec<f32>,

@@ -1,8 +1,8 @@
 //! Factors of all texels of a square of an atlas together.
 //!
-//! What a far cluster sends to near texels varies smoothly among them. So a square of texels has one expansion to
-//! second order of the light of all clusters that are far from it; its four quarters do the same for those that were
-//! too near, and so on; each texel gathers by itself from what is left. The nodes of the tree of clusters keep these
+//! The light of a far cluster varies smoothly among near texels. So a square of texels has one expansion to second
+//! order of the light of all clusters that are far from it; its four quarters do the same for the clusters that were
+//! too near, and so on; each texel gathers the remaining ones by itself. The nodes of the tree of clusters keep these
 //! parts apart, so that a texel has the factor of any of them: sums of parts are sums over its children.
 
 use super::expansion::Expansion;
@@ -101,7 +101,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         self.enter(square.level, to_morton(square.x, square.y), &pending, each);
     }
 
-    /// Gathers from nodes without children: what is far from a square for all of it, the rest for its quarters.
+    /// Gathers from nodes without children: nodes far from a square for the whole square, the rest for its quarters.
     fn enter(
         &mut self,
         level: u32,

@@ -10,7 +10,7 @@ use crate::subsurface::Dipole;
 /// Factors of N channels between the texels and clusters of a surface.
 ///
 /// The error of a factor is at most the tolerance times the factor, plus the tolerance times 1e-5 of the plane's total
-/// ([`Dipole::total`]): what is farther away than light of that order comes from is not divided.
+/// ([`Dipole::total`]): clusters farther away than light of that order are not divided.
 #[derive(Clone, Debug)]
 pub struct Factors<'a, const N: usize> {
     surface: &'a SurfaceMoments,
@@ -47,7 +47,7 @@ impl<'a, const N: usize> Factors<'a, N> {
     }
 }
 
-/// Computes factors, and keeps pieces of near texels for the next ones. What is kept changes the time, never a factor.
+/// Computes factors, and keeps pieces of near texels for the next ones. Kept values change the time, never a factor.
 #[derive(Clone, Debug)]
 pub struct Receiver<'a, const N: usize> {
     factors: &'a Factors<'a, N>,

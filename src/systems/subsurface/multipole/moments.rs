@@ -1,4 +1,4 @@
-//! Area, mean point and second moments of a piece of surface: what a far receiver sees of it.
+//! Area, mean point and second moments of a piece of surface, the data for a far receiver.
 
 use glam::DVec3;
 
@@ -68,7 +68,7 @@ impl Covariance {
 }
 
 impl Moments {
-    /// Of four pieces together, but for the size, which is 0. Pieces count alike if none has an area.
+    /// For four pieces together, except the size, which is 0. Pieces count alike if none has an area.
     pub(super) fn together(parts: &[Self; 4]) -> Self {
         let area: f64 = parts.iter().map(|part| part.area).sum();
         let weight = |part: &Self| if area > 0.0 { part.area / area } else { 0.25 };

@@ -95,15 +95,16 @@ impl SurfaceMoments {
         self.level(cluster.level)[to_morton(cluster.x, cluster.y)].area
     }
 
-    /// Mean point, covariance (xx, yy, zz, xy, xz, yz) and squared size of a cluster: what tests hold against its polygons.
+    /// Mean point, covariance (xx, yy, zz, xy, xz, yz) and squared size of a cluster; tests compare them with its
+    /// polygons.
     #[doc(hidden)]
     pub fn moments(&self, cluster: ClusterId) -> (DVec3, [f64; 6], f64) {
         let found = &self.level(cluster.level)[to_morton(cluster.x, cluster.y)];
         (found.point, found.covariance.0, found.size_squared)
     }
 
-    /// The mean texel area of the atlas over that of a cluster: what a factor is multiplied by where plain means of
-    /// levels weigh texels by their number. 0 for a cluster without area.
+    /// The mean texel area of the atlas over that of a cluster: the multiplier of a factor if plain means of levels
+    /// weigh texels by their number. 0 for a cluster without area.
     pub(in crate::subsurface) fn area_ratio(&self, cluster: ClusterId) -> f64 {
         let texels = (1_u64 << (2 * cluster.level)) as f64;
         let all = f64::from(self.side) * f64::from(self.side);

@@ -32,8 +32,8 @@ impl LinkTextures {
         Self { side: links.side(), level, rgb: links.channels() == 3, count: links.per_texel(), textures }
     }
 
-    /// Of textures laid out as those of [`EncodedLinks`]: `count` links per texel, all to one level or (`None`) each to
-    /// its own.
+    /// For textures laid out like those of [`EncodedLinks`]: `count` links per texel, all to one level or (`None`) each
+    /// to its own.
     ///
     /// # Errors
     /// [`CardError::Input`] for another number of textures or texels.

@@ -5,7 +5,7 @@ use super::levels::LeveledMap;
 use super::link_textures::LinkTextures;
 use super::options::{LightStage, SubsurfaceCardOptions};
 
-/// Bytes of textures and targets by what they are for, without the picture.
+/// Bytes of textures and targets by use, without the picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CardMemory {
     /// Names, each with its number of bytes.

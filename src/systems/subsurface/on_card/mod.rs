@@ -126,8 +126,8 @@ impl SubsurfaceCard {
         self.scatter()
     }
 
-    /// Irradiances of a table (equation 8: what has entered the surface), one per texel, row by row, in place of pass 1;
-    /// then pass 2. There is no direct light then.
+    /// Irradiances of a table (equation 8: the light that entered the surface), one per texel, row by row, in place of
+    /// pass 1; then pass 2. Then there is no direct light.
     ///
     /// # Errors
     /// [`CardError::Input`], [`CardError::Draw`].

@@ -38,7 +38,7 @@ pub(super) struct CardVertex<P> {
 }
 
 impl CardModel {
-    /// Of a mesh's atlas.
+    /// For a mesh's atlas.
     pub fn new(atlas: &Atlas) -> Self {
         let drawn: Vec<DrawnFace> = (0..atlas.places().len() as u32).map(|face| atlas.drawn(face)).collect();
         let corners = drawn.iter().flat_map(|face| face.triangles.iter().flatten().map(|vertex| vertex.position));

@@ -162,7 +162,7 @@ impl LightPass {
         self.over_map(machine, &program, &constants, &textures, part.target)
     }
 
-    /// Draws a texel each of the map, or of what is written before it.
+    /// Draws each texel of the map, or of the data written before it.
     fn over_map(
         &self,
         machine: &mut Machine,

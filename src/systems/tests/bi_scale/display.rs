@@ -115,8 +115,8 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
     }
 }
 
-/// Triangles show their own textures, of any sizes and views; what is drawn twice are directions alone, and no pixel
-/// belongs to two textures. A texture that no triangle names takes nothing.
+/// Triangles show their own textures, of any sizes and views; only directions are drawn twice, and no pixel belongs to
+/// two textures. A texture that no triangle names takes nothing.
 #[test]
 fn triangles_show_their_own_textures() {
     let mut hills = Hills::new(flat(5, 4));

@@ -1,4 +1,4 @@
-//! What the card runs for each vertex against the host's sums, bit for bit, and what does not fit.
+//! The card's result for each vertex against the host's sums, bit for bit, and limits.
 
 use std::sync::{Arc, Mutex};
 

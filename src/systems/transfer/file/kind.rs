@@ -42,7 +42,7 @@ impl PrtKind {
     }
 }
 
-/// What all metadata begin with.
+/// The beginning of all metadata.
 #[derive(Serialize, Deserialize)]
 struct Head {
     kind: PrtKind,

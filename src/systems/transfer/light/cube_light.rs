@@ -70,7 +70,7 @@ impl CubeLight {
     /// direction v is rotated to `rotation` v.
     ///
     /// # Errors
-    /// [`InputError`] if the matrix is no rotation, or a radiance is negative or not finite.
+    /// [`InputError`] if the matrix is not a rotation, or a radiance is negative or not finite.
     pub fn sampled(
         radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
         rotation: &DMat3,
@@ -82,7 +82,7 @@ impl CubeLight {
     /// The rotated light: each fine direction has the radiance, perhaps negative, of the texel that contains it.
     ///
     /// # Errors
-    /// [`InputError`] if the matrix is no rotation.
+    /// [`InputError`] if the matrix is not a rotation.
     pub fn turned(&self, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         Self::decimated(&self.fine(rotation)?, decimation)
     }
@@ -110,7 +110,7 @@ impl CubeLight {
     /// flux, 2 pi (1 - cos radius) times its radiance, is exact.
     ///
     /// # Errors
-    /// [`InputError`] for a matrix that is no rotation, or a source without direction, radius or radiance.
+    /// [`InputError`] for a matrix that is not a rotation, or a source without direction, radius or radiance.
     pub fn from_disks(sources: &[DiskSource], rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         Self::decimated(&fine_disks(sources, rotation)?, decimation)
     }
@@ -128,7 +128,7 @@ impl CubeLight {
     /// [`HarmonicLight::red_and_blue`] without truncation to an order: two disks in a dim surrounding.
     ///
     /// # Errors
-    /// [`InputError`] if the matrix is no rotation.
+    /// [`InputError`] if the matrix is not a rotation.
     pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
         Ok(Self::from_disks(&red_and_blue_disks(), rotation, decimation)?.plus(&surrounding))

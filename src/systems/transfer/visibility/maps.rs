@@ -68,7 +68,7 @@ pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 pub struct VisibilityCounts {
     /// Directions above the horizon of their vertex's normal.
     pub above: u64,
-    /// Of these, directions behind all triangles on which the vertex lies.
+    /// How many of these directions are behind all triangles on which the vertex lies.
     pub below_triangles: u64,
     /// Directions in which a ray was cast; for all others the result is certain.
     pub traced: u64,
@@ -107,7 +107,7 @@ impl VisibilityMaps {
         Self { sampling, vertices: vertices.to_vec(), words: vec![0; vertices.len() * sampling.words()], counts }
     }
 
-    /// The maps of vertices 0, 1, 2 and so on in the default sampling, from all words, map by map. Of the counts only
+    /// The maps of vertices 0, 1, 2 and so on in the default sampling, from all words, map by map. Of the counts, only
     /// the number of visible directions is known. `None` if the last map is incomplete.
     pub fn from_words(words: Vec<u64>) -> Option<Self> {
         let sampling = VisibilitySampling::default();

@@ -1,5 +1,5 @@
-//! Clusters of rows: no round adds error, rows are where they are met best, sizes and products are those of what is
-//! stored.
+//! Clusters of rows: no round adds error, rows are in their best cluster, sizes and products are those of the stored
+//! form.
 
 use approx::assert_relative_eq;
 use crossbar::bi_scale::baselines::{RowClusterOptions, RowClusters, StoredTransfer};

@@ -1,4 +1,4 @@
-//! Other ways to store transfer: what they hold, against plain loops, and how far they are off.
+//! Other ways to store transfer: their contents, against plain loops, and their errors.
 
 mod clusters;
 mod rotated;

@@ -73,7 +73,8 @@ fn harmonics_are_those_of_plain_loops() {
     }
 }
 
-/// Of smooth light higher orders miss less; of hard light low orders miss much, and both sides more than one.
+/// For smooth light the error falls with the order; for hard light low orders have a large error, and harmonics on both
+/// sides a larger one than on one.
 #[test]
 fn higher_orders_are_nearer() {
     let (vertices, matrix, directions) = transfer();

@@ -1,7 +1,7 @@
 //! A second opinion: path tracing under the same light, which knows triangles and materials, but no rule of directions,
 //! no matrix and no interpolation between vertices.
 //!
-//! Per vertex the difference is held against the standard error of the paths. Interpolation between vertices is off by
+//! Per vertex the difference is compared with the standard error of the paths. Interpolation between vertices is off by
 //! less, since the surfaces are divided finely enough; with `CROSSBAR_FULL` both are finer.
 
 use crate::environment::by_form;
@@ -107,8 +107,8 @@ fn spread(all: &[f64]) -> [f64; 2] {
     [(squares / all.len() as f64).sqrt(), all.iter().fold(0.0, |most, z| most.max(z.abs()))]
 }
 
-/// Vertices that are held against paths: each a few, off the edge where a lifted place would still lie on the other
-/// surface.
+/// Vertices that are compared with paths: a few of each kind, off the edge where a lifted place would still lie on the
+/// other surface.
 fn chosen(vertices: &Vertices, every: usize) -> impl Iterator<Item = usize> + '_ {
     (0..vertices.len()).step_by(every).filter(|&vertex| vertices.positions()[vertex][1] != 1.0)
 }

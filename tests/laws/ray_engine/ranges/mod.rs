@@ -118,7 +118,7 @@ fn no_hit_in_no_doubt_is_lost_to_the_range_of_a_format() {
     }
 }
 
-/// Directions in 16 bits are no bound for single rays, but range that is lost takes most hits with it.
+/// Directions in 16 bits do not bound single rays, but lost range loses most hits.
 #[test]
 fn floats_keep_their_range_in_the_programs_for_fixed_point() {
     for format in ["e5m10", "e7m16", "e8m16", "e8m23"] {

@@ -19,12 +19,12 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// Of a size from 2^-20 to 2^20.
+    /// For a size from 2^-20 to 2^20.
     pub(crate) fn new(number: u64) -> Self {
         Self::of_size(number, (CounterRng::new(number).bits(0, 0, 0) % 41) as i32 - 20)
     }
 
-    /// Of size 2^`power`.
+    /// For size 2^`power`.
     pub(crate) fn of_size(number: u64, power: i32) -> Self {
         let random = CounterRng::new(number);
         let size = power_of_two(power);

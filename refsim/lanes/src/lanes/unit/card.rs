@@ -13,8 +13,8 @@ use crate::num::{Format, FormatKind, NumberOperation as Op, Unit as Name};
 /// 0.5.
 const HALF: u32 = 0x3f00_0000;
 
-/// What differs from unit to unit. The quick versions are for loops of vector code: with their result they hand back
-/// all ones if it may be wrong, else zero.
+/// The differences between units. The quick versions are for loops of vector code: with their result they hand back all
+/// ones if it may be wrong, else zero.
 pub(crate) trait CardUnit: Copy + Send + Sync + Debug {
     /// True if comparisons set NaN where words have no order.
     const SETS_NAN: bool;
@@ -233,7 +233,7 @@ impl CardUnit for Gt200 {
     }
 }
 
-/// The arithmetic of a unit. What the unit does not have is that of the ideal format, with the unit's NaN.
+/// The arithmetic of a unit. Operations that the unit lacks are those of the ideal format, with the unit's NaN.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CardLane<U> {
     pub(crate) unit: U,
@@ -306,7 +306,7 @@ impl<U: CardUnit> CardLane<U> {
         Some(Self::of_ideal(value))
     }
 
-    /// What a comparison sets: 1 or +0, and without an order the NaN of a unit that has one there.
+    /// The condition that a comparison sets: 1 or +0, and without an order the NaN of a unit that has one there.
     #[inline(always)]
     pub(crate) fn flag(&self, a: u32, b: u32, holds: bool) -> u32 {
         let word = if holds { ONE } else { 0 };

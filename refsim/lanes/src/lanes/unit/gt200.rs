@@ -7,7 +7,7 @@ use crate::num::{Format, Rounding, Unit};
 
 /// Bits of a double that a float of 24 bits does not have.
 const SURPLUS: u64 = (1 << 29) - 1;
-/// `2^-126 (1 - 2^-25)`: what is below, rounded to 24 bits, is below the least normal number.
+/// `2^-126 (1 - 2^-25)`: smaller numbers, rounded to 24 bits, are below the least normal number.
 const LEAST: f64 = f64::from_bits((1023 - 126) << 52) * (1.0 - f64::from_bits((1023 - 25) << 52));
 
 /// The state of the unit.

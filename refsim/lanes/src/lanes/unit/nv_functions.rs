@@ -130,7 +130,7 @@ impl Nv {
         if is_nan(x) { NAN } else { power(in_8192ths(x)) }
     }
 
-    /// What LOG gives where its operand is no number.
+    /// The result of LOG if its operand is NaN, infinite or zero.
     fn log_of_none(self, x: u32) -> Option<u32> {
         match (self.modern && x & SIGN != 0, is_nan(x)) {
             (true, _) => Some(NAN),

@@ -144,7 +144,8 @@ impl Value {
     }
 }
 
-/// The sum where an addend is no number: NaN, also of infinities of both signs, or an infinity. `None` where all are.
+/// The sum if an addend is NaN or infinite: NaN, also of infinities of both signs, or an infinity. `None` where all
+/// are.
 pub(super) fn special(addends: impl IntoIterator<Item = Value>) -> Option<Value> {
     addends.into_iter().fold(None, |sum, addend| match (sum, addend) {
         (_, Value::Finite(_)) => sum,

@@ -139,7 +139,7 @@ pub struct MatrixUnit {
     pub result: ResultFormat,
     /// How the rule is known.
     pub evidence: Evidence,
-    /// What was measured, on what, and which models agree.
+    /// The measurements, their chip, and the models that agree.
     pub source: &'static str,
 }
 
@@ -261,7 +261,7 @@ impl MatrixUnit {
     }
 
     /// The addends of a block of an aligned adder, `c` last: exact, and as they are kept, in units of the last bit
-    /// kept; with the exponent of that unit. `None` of other rules, and where an addend is no number.
+    /// kept; with the exponent of that unit. `None` for other rules, and if an addend is NaN or infinite.
     pub fn kept(
         &self,
         a: Operand<'_>,

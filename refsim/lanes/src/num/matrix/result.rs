@@ -15,7 +15,7 @@ pub enum ResultFormat {
     Cut22,
     /// Half precision, to nearest even; never -0. 65520 and more is infinity.
     Nearest16,
-    /// Single precision, to nearest even. What rounds to zero keeps its sign.
+    /// Single precision, to nearest even. A result that rounds to zero keeps its sign.
     Nearest32,
     /// Double precision, to nearest even. What rounds to zero keeps its sign.
     Nearest64,

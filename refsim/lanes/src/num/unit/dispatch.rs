@@ -30,7 +30,7 @@ pub(in crate::num) fn evaluate(format: &Format, operation: UnitOperation, operan
     bits.map(|bits| outcome(bits, operands))
 }
 
-/// What all units do in the same way.
+/// Operations that all units share.
 fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u32> {
     use UnitOperation::{Abs, Neg, SetEqual, SetLess, SetLessEqual, SetNotEqual};
     let holds: fn(Ordering) -> bool = match operation {

@@ -14,7 +14,7 @@ struct Exact {
 }
 
 impl Exact {
-    /// A finite word that is no zero.
+    /// A finite nonzero word.
     fn of(word: Word) -> Self {
         Self { negative: word.negative, magnitude: word.significand().into(), exponent: word.field - 150 }
     }
@@ -28,8 +28,8 @@ impl Exact {
         }
     }
 
-    /// The sum of numbers of at most 24 bits, `None` if it is zero. What lies more than 80 bits below the larger one
-    /// counts as one bit there, which no rounding to 24 bits tells from the exact sum.
+    /// The sum of numbers of at most 24 bits, `None` if it is zero. Bits more than 80 below the larger one count as one
+    /// bit there, which no rounding to 24 bits distinguishes from the exact sum.
     fn plus(self, other: Self) -> Option<Self> {
         const FAR: i32 = 80;
         let (high, low) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
@@ -49,7 +49,7 @@ impl Exact {
         Self { magnitude: self.magnitude >> drop, exponent: self.exponent + drop.cast_signed(), ..self }
     }
 
-    /// Rounds to 24 bits as if there were no least exponent; what then is below `2^-126` is a zero of its sign.
+    /// Rounds to 24 bits with an unlimited exponent; a result below `2^-126` is a zero of its sign.
     fn round(self, rounding: Rounding) -> u32 {
         let drop = self.magnitude.ilog2().saturating_sub(23);
         let rounded = nearest_even(self.magnitude, drop);
@@ -93,7 +93,7 @@ pub(super) const fn flushed(x: u32) -> u32 {
     if Word::of(x).is_zero() { x & SIGN } else { x }
 }
 
-/// What NaN and infinities give in a sum, if an addend is one.
+/// The result of NaN and infinities in a sum, if an addend is one.
 fn special_sum(x: Word, y: Word) -> Option<u32> {
     match (x.is_infinite(), y.is_infinite()) {
         _ if x.is_nan() || y.is_nan() => Some(NAN),
@@ -118,7 +118,7 @@ pub fn add(rounding: Rounding, a: u32, b: u32) -> u32 {
     }
 }
 
-/// What zeros, NaN and infinities give in a product, if a factor is one.
+/// The result of zeros, NaN and infinities in a product, if a factor is one.
 fn special_product(unit: Unit, x: Word, y: Word) -> Option<u32> {
     let negative = x.negative != y.negative;
     let zero = x.is_zero() || y.is_zero();

@@ -23,7 +23,7 @@ fn is_inward(rounding: Rounding, negative: bool) -> bool {
         || matches!(rounding, Rounding::Down | Rounding::Up) && !rounding.is_outward(negative)
 }
 
-/// To a half float of four hexadecimal digits. What is below `2^-33` is a zero, whatever the rounding; NaN is 7fff.
+/// To a half float of four hexadecimal digits. Numbers below `2^-33` become zero, whatever the rounding; NaN is 7fff.
 pub fn to_half(rounding: Rounding, x: u32) -> u32 {
     let word = Word::of(x);
     let half = match word.field {
@@ -66,7 +66,7 @@ pub fn round_to_int(rounding: Rounding, x: u32) -> u32 {
     }
 }
 
-/// The nearest integer by a rounding, `None` for NaN; held to 40 bits.
+/// The nearest integer by a rounding, `None` for NaN; clamped to 40 bits.
 fn integer(rounding: Rounding, x: u32) -> Option<i64> {
     let word = Word::of(x);
     let magnitude = match word.field {
@@ -79,13 +79,13 @@ fn integer(rounding: Rounding, x: u32) -> Option<i64> {
     Some(if word.negative { -magnitude } else { magnitude })
 }
 
-/// To a signed integer, held to its range; NaN is 0.
+/// To a signed integer, clamped to its range; NaN is 0.
 pub fn to_signed(rounding: Rounding, x: u32) -> i32 {
     let value = integer(rounding, x).unwrap_or(0);
     value.clamp(i32::MIN.into(), i32::MAX.into()) as i32
 }
 
-/// To an unsigned integer, held to its range; NaN is 0.
+/// To an unsigned integer, clamped to its range; NaN is 0.
 pub fn to_unsigned(rounding: Rounding, x: u32) -> u32 {
     integer(rounding, x).unwrap_or(0).clamp(0, u32::MAX.into()) as u32
 }

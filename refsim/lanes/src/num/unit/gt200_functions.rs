@@ -3,7 +3,7 @@
 use super::tables::{GT200_EX2, GT200_LG2, GT200_RCP, GT200_RSQRT, GT200_SIN};
 use super::word::{INFINITY, NAN, SIGN, Word, assemble, cut, cut_signed, signed};
 
-/// Bit 30 of a prepared word: what was no number, or infinite.
+/// Bit 30 of a prepared word: set for NaN and infinity.
 const PREPARED_SPECIAL: u32 = 0x4000_0000;
 
 /// The square of 17 bits `y`, in units of `2^17`, from partial products that are cut one by one.

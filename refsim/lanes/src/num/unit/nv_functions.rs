@@ -142,7 +142,7 @@ pub fn exp_power(x: u32) -> u32 {
     if word.is_nan() { NAN } else { power13(fixed13(word)) }
 }
 
-/// What NaN and, in modern programs, negative operands give in all components of LOG.
+/// All components of LOG for NaN and, in modern programs, negative operands.
 fn log_special(unit: Unit, x: u32) -> Option<u32> {
     let word = Word::of(x);
     match unit {

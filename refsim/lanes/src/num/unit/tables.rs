@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 /// A table of `N` columns.
 pub type Table<const N: usize> = LazyLock<Vec<[i64; N]>>;
 
-/// Parses a table. The files are part of the program, and their tests read every row: a cell that is no number would
+/// Parses a table. The files are part of the program, and their tests read every row: a cell that is not a number would
 /// read as 0.
 fn parse<const N: usize>(text: &str) -> Vec<[i64; N]> {
     let row = |line: &str| {
@@ -41,7 +41,7 @@ tables! {
     NV3X_EX2: 3 = "nv3x_ex2";
     /// Coefficients of SIN and COS.
     NV3X_SINCOS: 3 = "nv3x_sincos";
-    /// What each bit of the mantissa adds to an angle in turns.
+    /// The contribution of each bit of the mantissa to an angle in turns.
     NV3X_SINCOS_MULTIPLIER: 1 = "nv3x_sincos_multiplier";
     /// Coefficients of RCP.
     GT200_RCP: 3 = "gt200_rcp";

@@ -153,8 +153,8 @@ impl PrecisionSubject for SystemSubject {
         Ok(sampler.results())
     }
 
-    /// Follows the worst pixel or patch through the passes into it. Where the refuted instruction's program is none of
-    /// theirs, the texel of that program's targets which one bit less changes most.
+    /// Follows the worst pixel or patch through the passes into it. If the refuted instruction's program is not one of
+    /// them, the texel of that program's targets which one bit less changes most.
     fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
         let followed = self.followed(devices, worst, FollowedDraws::IntoTargets(self.target_size()))?;
         let Some(program) = self.programs.get(devices.program).map(Program::digest) else { return Ok(None) };

@@ -18,8 +18,8 @@ pub struct CodedErrors {
     pub squares: Vec<f64>,
 }
 
-/// Computes the raw matrices again, one segment after the other. What is coded as empty has the matrix's squares as its
-/// error.
+/// Computes the raw matrices again, one segment after the other. A segment coded as empty has the matrix's squares as
+/// its error.
 ///
 /// # Errors
 /// [`InputError`].

@@ -1,5 +1,5 @@
-//! A picture held against one by rays, and its error told apart by causes: the pictures between, each with one thing
-//! more done as transfer does it.
+//! A picture compared with one by rays, and its error divided among causes: each picture in between adds one
+//! approximation of transfer.
 
 use glam::DMat3;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! A rendering in the making: what its pixels show, and its textures laid out.
+//! A rendering in progress: what its pixels show, and its textures laid out.
 
 use glam::DMat3;
 use rayon::prelude::*;

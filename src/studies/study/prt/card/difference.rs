@@ -28,7 +28,7 @@ pub struct PixelErrors {
 }
 
 impl PixelErrors {
-    /// Of pixels, row by row, against others; those that show nothing do not count.
+    /// For pixels, row by row, against others; pixels that show nothing do not count.
     pub(super) fn of(seen: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let shown = seen.iter().zip(found.iter().zip(expected)).filter(|(seen, _)| seen.is_some());
         let off: Vec<[f64; 3]> =

@@ -91,7 +91,7 @@ impl PictureStudy<'_> {
     }
 }
 
-/// Adds sizes and counts, by what they are of.
+/// Adds sizes and counts, by kind.
 pub(super) fn report_sizes(sizes: impl IntoIterator<Item = (&'static str, Cell)>, found: &mut Findings) {
     let mut table = Table::new("Sizes and counts", &["what", "number"]);
     sizes.into_iter().for_each(|(what, number)| table.push([what.into(), number]));

@@ -4,7 +4,7 @@ use super::difference::PixelErrors;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, Table};
 
-/// Axes whose rows are no single change: the picture that nothing is varied of, and whole cards.
+/// Axes whose rows are not single changes: the unchanged picture, and whole cards.
 const NOT_ALONE: [&str; 2] = ["none", "card"];
 
 /// A variant of a picture, and how far it is off.

@@ -8,7 +8,7 @@ use crate::picture::metrics::{ScreenPicture, flip};
 use crate::report::{Cell, Table};
 use crate::study::StudyError;
 
-/// Pixels per degree of whoever looks: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
+/// Pixels per degree of the observer: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 
 /// One roughness.

@@ -12,7 +12,7 @@ pub(super) struct TermErrors {
     pub(super) errors: ProductErrors,
 }
 
-/// Of each number of terms up to 20, and of all that there are vectors for.
+/// For each number of terms up to 20, and for all available vectors.
 pub(super) fn by_terms(disc: &DiscSamples, found: &Factorization) -> Vec<TermErrors> {
     let terms = found.terms();
     let each = (1..=terms.min(EACH)).chain((terms > EACH).then_some(terms));

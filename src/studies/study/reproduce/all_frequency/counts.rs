@@ -1,5 +1,5 @@
-//! Segments below the horizon by the geometry of the cube, and frame rates of Table 1 by its sizes. What follows from
-//! printed values alone is expressions in `src/studies/papers`.
+//! Segments below the horizon by the geometry of the cube, and frame rates of Table 1 by its sizes. Consequences of
+//! printed values alone are expressions in `src/studies/papers`.
 
 use refsim::timing::host::HostOperation;
 

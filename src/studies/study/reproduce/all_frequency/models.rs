@@ -224,12 +224,12 @@ impl SeenModel {
         Self { model, size, alone: OnceCell::new(), on_ground: OnceCell::new() }
     }
 
-    /// Of the model by itself.
+    /// For the model by itself.
     pub(super) fn alone(&self) -> Result<&ModelVisibility, StudyError> {
         on_first_use(&self.alone, || ModelVisibility::alone(self.model, self.size))
     }
 
-    /// Of the model on a ground.
+    /// For the model on a ground.
     pub(super) fn on_ground(&self) -> Result<&ModelVisibility, StudyError> {
         on_first_use(&self.on_ground, || ModelVisibility::on_ground(self.model, false, self.size))
     }

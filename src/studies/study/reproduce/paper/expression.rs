@@ -6,7 +6,7 @@ use std::iter::Peekable;
 /// from left to right, each rounded to f64.
 ///
 /// # Errors
-/// If the text is no expression, in a sentence, or those of `figure`.
+/// If the text is not an expression, in a sentence, or the errors of `figure`.
 pub(super) fn evaluate(text: &str, figure: &dyn Fn(&str) -> Result<f64, String>) -> Result<f64, String> {
     // Names have hyphens, so that an operator is a word of its own.
     let spaced = text.replace('(', " ( ").replace(')', " ) ");

@@ -14,7 +14,7 @@ use crate::study::reproduce::row::{Bound, Judgement, MissClass, Origin, PaperEqu
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PaperFile {
-    /// Dates on which bounds were stated, with a digest of what was stated.
+    /// Dates on which bounds were stated, with a digest of the statements.
     pub(super) stated: Vec<Stated>,
     pub(super) group: Vec<FigureGroup>,
 }
@@ -28,7 +28,7 @@ pub(super) struct Stated {
     pub(super) digest: String,
 }
 
-/// Figures of one place, with what they share.
+/// Figures of one place, with their common data.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FigureGroup {
@@ -37,7 +37,7 @@ pub(super) struct FigureGroup {
     pub(super) shared: FigureTerms,
     #[serde(flatten)]
     equation: EquationTerms,
-    /// Changes of what was stated of all its figures, the oldest first.
+    /// Changes of the statements of all its figures, the oldest first.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
     pub(super) figures: Vec<FileFigure>,
@@ -54,7 +54,7 @@ pub(super) struct FigureTerms {
     pub(super) reading: Option<String>,
 }
 
-/// What the rows of expressions say beside their values, of the group or of the figure itself.
+/// Text of the rows of expressions beside their values, of the group or of the figure itself.
 #[derive(Clone, Debug, Default, Deserialize)]
 struct EquationTerms {
     /// Entry that the row belongs to.
@@ -86,11 +86,11 @@ pub(super) struct FileFigure {
     pub(super) implied: Option<String>,
     /// Reason for a value that the paper does not have.
     pub(super) inferred: Option<String>,
-    /// Class of the miss of its row. No part of what is stated: it is said after the result.
+    /// Class of the miss of its row. Not a part of the statement: it is given after the result.
     pub(super) missed: Option<MissClass>,
     /// Date of the statement of its bound; the file's first if not given.
     pub(super) stated: Option<String>,
-    /// Changes of what was stated, the oldest first; those of its group come before them.
+    /// Changes of the statement, the oldest first; those of its group come before them.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
     /// Expression of printed values that the row has as ours.
@@ -104,7 +104,7 @@ pub(super) struct FileFigure {
     equation: EquationTerms,
 }
 
-/// Change of a figure after its statement, with what it had before; an empty reading where it had none.
+/// Change of a figure after its statement, with the earlier value; an empty reading if there was none.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Change {

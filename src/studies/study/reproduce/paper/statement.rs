@@ -1,4 +1,4 @@
-//! Statements of bounds: a digest per date of what was stated, and the changes since.
+//! Statements of bounds: a digest per date, and the changes since.
 //!
 //! A figure's value, unit, place, bound and reading are stated once. A later change stands in the figure's `changed`,
 //! with its date, its reason and what it replaced; undone, the figures have the digest of their date again. So a bound

@@ -1,7 +1,7 @@
 //! Recorded runs at full size, which judge the rows of entries that take minutes to hours of processor time.
 //!
-//! A record is a file of `src/studies/records`, which the program contains: what a run on models of the printed size
-//! found, with its command, version, commit and times. It has no verdicts: rows are judged by the bounds of the data.
+//! A record is a file of `src/studies/records`, part of the program: the result of a run on models of the printed size,
+//! with its command, version, commit and times. It has no verdicts: rows are judged by the bounds of the data.
 //!
 //! docs/decisions/0026-recorded-rows.md says why.
 
@@ -31,7 +31,7 @@ pub fn recorded(entry: &ReproduceEntry) -> Result<Option<&'static EntryRecord>, 
     Ok(records.iter().find(|record| record.entry() == entry.id))
 }
 
-/// Returns the findings of an entry's record; computes them where there is none, and at full size.
+/// Returns the findings of an entry's record; computes them if there is none, and at full size.
 pub(super) fn findings(entry: &ReproduceEntry, full_size: bool, shared: &Shared) -> Result<EntryFindings, StudyError> {
     match recorded(entry)? {
         Some(record) if full_size => Ok(compared(record, entry.run(shared)?)),

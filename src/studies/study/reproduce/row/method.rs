@@ -40,8 +40,8 @@ pub enum Dependence {
         /// Printed values that were used; empty for none.
         from: &'static str,
     },
-    /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so that
-    /// agreement is no evidence.
+    /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so agreement is
+    /// not evidence.
     Calibrated {
         /// Printed values that determined it.
         on: &'static str,

@@ -178,7 +178,7 @@ impl PaperRow {
         found.is_some_and(|found| agrees(self.target.value) || found.value().is_some_and(agrees))
     }
 
-    /// Returns `true` if the printed value determined a constant of the model: agreement is no evidence.
+    /// Returns `true` if the printed value determined a constant of the model: agreement is not evidence.
     pub const fn is_calibrated(&self) -> bool {
         matches!(self.dependence, Dependence::Calibrated { .. })
     }

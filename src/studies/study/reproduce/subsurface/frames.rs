@@ -98,8 +98,8 @@ fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Res
     paper_row(&format!("subsurface/rate-{}-{}", printed.model, printed.side), (CARD, Method::Pipeline), ours)
 }
 
-/// Row on Figure 7: 40 frames per second are no integer fraction of the display's rate, so that the frame counts
-/// without synchronisation, for the bunny at the smaller size.
+/// Row on Figure 7: 40 frames per second are not an integer fraction of the display's rate, so the frame without
+/// synchronisation counts, for the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, StudyError> {
     let gather = gather::cost(OTHER_CARD, VARIANTS[OURS])?;
     let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;

@@ -1,4 +1,4 @@
-//! What a format and an instruction need, of a subject whose values and results are chosen.
+//! Bits that a format and an instruction need, for a subject whose values and results are chosen.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;

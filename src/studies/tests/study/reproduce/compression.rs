@@ -1,4 +1,4 @@
-//! What entries on compression rely on: interpolations of their curves, and errors by the number of vectors.
+//! Tools of entries on compression: interpolations of their curves, and errors by the number of vectors.
 
 use crossbar_studies::study::reproduce::tested::{crossings, reaching};
 use crossbar_systems::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};

@@ -44,7 +44,7 @@ fn an_unknown_name_is_an_error() {
     assert!(error.contains("no figure is named `ray-engine/host-alon`"), "{error}");
 }
 
-/// A file of one group of figures; its digest is of what was `stated`.
+/// A file of one group of figures; its digest is of the field `stated`.
 fn file(figures: &str, stated: &str) -> String {
     let text = |figures: &str, digest: &str| {
         format!(

@@ -1,4 +1,4 @@
-//! Records of runs: they are read as they were written, and runs are held against them.
+//! Records of runs: they read back unchanged, and runs are compared with them.
 
 use crossbar_studies::report::{Cell, Table};
 use crossbar_studies::study::reproduce::tested::compared;

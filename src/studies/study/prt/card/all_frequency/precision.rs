@@ -48,7 +48,7 @@ fn fine(terms: usize) -> ProductOptions {
     }
 }
 
-/// Of a reflectance of several terms.
+/// For a reflectance of several terms.
 fn choices_of_products(terms: usize) -> Vec<Choice> {
     let fine = fine(terms);
     let mut all = vec![Choice::pixels("none", "fp32 throughout", "ideal-fp32", fine)];

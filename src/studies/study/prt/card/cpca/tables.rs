@@ -30,7 +30,7 @@ pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> impl Iterator<I
     rows.into_iter().map(|(what, number)| (what, number.into())).chain([("overdraw", Cell::ratio(overdraw))])
 }
 
-/// The rate, what it waits for, and what is drawn.
+/// The rate, its bottleneck, and the drawn data.
 pub(super) fn time_sentence(time: &FrameTime, card: &str) -> String {
     let rate = frame::rate(time, card);
     format!(
