@@ -1,4 +1,4 @@
-//! docs/examples/foreign_intersector.md says what other people's intersectors get wrong: its numbers, asked again.
+//! docs/examples/foreign_intersector.md states what other people's intersectors get wrong: its numbers, computed again.
 
 #[expect(dead_code, reason = "as an example it prints what the test compares")]
 #[path = "../docs/examples/foreign_intersector.rs"]

@@ -205,7 +205,7 @@ fn the_readme_says_what_is_measured() {
     assert!(readme.contains(&sentence), "README.md does not say: {sentence}");
 }
 
-/// Dot product n . d of a triangle's normal and the ray's direction; its sign tells which side faces the ray.
+/// Dot product n . d of a triangle's normal and the ray's direction; its sign shows which side faces the ray.
 fn facing(mesh: &Mesh, triangle: u32, wrong: &Disagreement) -> f64 {
     let [a, b, c] = mesh.corners(triangle).expect("a triangle of the mesh").map(wide);
     (b - a).cross(c - a).dot(wide(wrong.direction))

@@ -1,5 +1,5 @@
 //! Draws every row of `fixtures/special_cases/rules.csv`, the special-case rules of the specifications, with the scalar
-//! executor, in batches, and on an adapter. The table's README says how to read it.
+//! executor, in batches, and on an adapter. The table's README explains it.
 
 #[path = "common/adapter.rs"]
 mod adapter;
@@ -68,7 +68,7 @@ fn vector(text: &str) -> V {
     }
 }
 
-/// Returns `true` if a number is what a word asks for.
+/// Returns `true` if a number satisfies a word.
 fn agrees(found: u32, word: &str) -> bool {
     let value = f32::from_bits(found);
     match word {

@@ -36,7 +36,7 @@ impl fmt::Display for FilePlace {
     }
 }
 
-/// Error: an argument that the function does not accept. The message says what was expected and what was found.
+/// Error: an argument that the function does not accept. The message has the expected and the found value.
 ///
 /// Two errors are equal if they are displayed alike under one code.
 #[derive(Clone)]
@@ -53,7 +53,7 @@ struct ErrorParts {
 
 #[derive(Clone, Debug)]
 enum Cause {
-    /// The message tells what this led to.
+    /// The message names the consequence.
     Source(Arc<dyn Error + Send + Sync>),
     /// The message is this error's own, so that the chain of sources starts behind it.
     Shown(Arc<dyn Error + Send + Sync>),
@@ -66,7 +66,7 @@ impl InputError {
         Self(Box::new(ErrorParts { code, message: message.into(), help: None, place: None, cause: None }))
     }
 
-    /// Another error, shown as it is.
+    /// Another error, shown unchanged.
     pub fn of(code: &'static str, error: impl Error + Send + Sync + 'static) -> Self {
         let mut shown = Self::new(code, error.to_string());
         shown.0.cause = Some(Cause::Shown(Arc::new(error)));

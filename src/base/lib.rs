@@ -1,5 +1,5 @@
-//! The lowest rooms of Crossbar: meshes and rays, exact hits, elementary functions with the same bits everywhere, the
-//! one place that says equal, the error of every room, and the oracle for other people's hits. `crossbar` re-exports
+//! The lowest modules of Crossbar: meshes and rays, exact hits, elementary functions with the same bits everywhere, the
+//! definition of equality, the error of every module, and the oracle for other people's hits. `crossbar` re-exports
 //! them.
 
 pub mod compare;

@@ -26,7 +26,7 @@ pub(super) const PLAIN_WIDTH: usize = 100;
 #[diagnostic(code(crossbar::output))]
 pub struct OutputError(#[from] io::Error);
 
-/// Bad input that a command found itself, or its end by a signal; the rooms bring errors of their own.
+/// Bad input that a command found itself, or its end by a signal; modules bring their own errors.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum Problem {
@@ -160,8 +160,8 @@ pub(super) fn usage_problem(error: &clap::Error) -> Problem {
     Problem::usage(joined(what.trim_start_matches("error: ")), joined(help))
 }
 
-/// Writes what is wrong with the arguments, or the help that was asked for; as JSON if `--json` is among them. `parse`
-/// parses other arguments: a message that quotes what is not safe to show is made again.
+/// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. `parse` parses other
+/// arguments: a message that quotes what is not safe to show is made again.
 pub(super) fn print_usage(
     error: &clap::Error,
     arguments: &[OsString],

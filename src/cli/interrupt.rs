@@ -1,4 +1,4 @@
-//! Termination by a signal: it leaves nothing behind but a sentence that says so.
+//! Termination by a signal: only a message remains.
 
 #[cfg(unix)]
 use super::{Problem, error};
@@ -7,7 +7,7 @@ use super::{Problem, error};
 #[cfg(unix)]
 const LAST_WORDS: std::time::Duration = std::time::Duration::from_millis(500);
 
-/// On SIGINT, SIGTERM and SIGHUP from here on: removes what is half-written, says that the work is lost, then ends as
+/// On SIGINT, SIGTERM and SIGHUP from here on: removes half-written files, reports that the work is lost, then ends as
 /// the signal would have ended the program, which shells report as 130, 143 and 129. A signal that the caller ignores,
 /// as `nohup` does SIGHUP, stays ignored.
 #[cfg(unix)]
@@ -47,7 +47,7 @@ fn say_what_is_lost(json: bool) {
 #[cfg(not(unix))]
 pub(super) const fn clean_up_on_signals(_json: bool) {}
 
-/// The signals that the process was started to ignore, signal n as bit n - 1; none where the system does not say.
+/// The signals that the process was started to ignore, signal n as bit n - 1; none if the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `crossbar merge`: the parts of a run, put together.
+//! `crossbar merge`: joins the parts of a run.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

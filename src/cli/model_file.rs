@@ -1,4 +1,4 @@
-//! Model files, for all commands that read them: the options that say how, the reading, and what is told of a model.
+//! Model files, for all commands that read them: the options, the reading, and the notes on a model.
 
 use std::collections::BTreeSet;
 use std::io::Write as _;

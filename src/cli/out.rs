@@ -15,13 +15,13 @@ use crate::report::visible::{visible, visible_json, visible_line};
 pub struct Out {
     stdout: BufWriter<Stdout>,
     json: bool,
-    /// The reader is gone, but the command goes on for its exit code.
+    /// The reader is gone, but the command continues for its exit code.
     deaf: bool,
     outlive_reader: bool,
 }
 
 impl Out {
-    /// Standard output; `json` is what `--json` said.
+    /// Standard output; `json` is the value of `--json`.
     pub(super) fn new(json: bool) -> Self {
         let stdout = BufWriter::with_capacity(1 << 16, io::stdout());
         Self { stdout, json, deaf: false, outlive_reader: false }

@@ -35,7 +35,7 @@ pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Resu
     Ok(())
 }
 
-/// The command that a line asks for, below the program and its verbs, and what was matched for it.
+/// The requested command of a line, below the program and its subcommands, with its matches.
 pub(super) fn obeyed<'a>(program: &'a Command, matches: &'a ArgMatches) -> (&'a Command, &'a ArgMatches) {
     let inner = matches.subcommand().and_then(|(name, inner)| Some((program.find_subcommand(name)?, inner)));
     inner.map_or((program, matches), |(command, inner)| obeyed(command, inner))
@@ -54,8 +54,8 @@ fn place(path: &Path) -> Option<PathBuf> {
 /// Short names of options that many commands have.
 const SHORT: [(&str, char); 3] = [("out", 'o'), ("device", 'd'), ("format", 'f')];
 
-/// Gives common options their short names, and lets every option take `-1` as its value, which then says itself what
-/// is wrong with it.
+/// Gives common options their short names, and lets every option take `-1` as its value, which then gets its own error
+/// message.
 pub(super) fn with_common_settings(program: Command) -> Command {
     let commands: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
     let program = program.mut_args(|arg| {

@@ -1,5 +1,5 @@
-//! Progress of long work, on standard error: a bar on a terminal, a plain line now and then anywhere else. Work that
-//! will take long says so once, with what makes it quicker.
+//! Progress of long work, on standard error: a bar on a terminal, a plain line now and then anywhere else. Long work
+//! announces itself once, with the options that make it quicker.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,11 +11,11 @@ use indicatif::{ProgressDrawTarget, ProgressStyle};
 use crate::report::digits::count;
 use crate::report::visible::visible_line;
 
-/// Work that is done earlier says nothing in plain lines.
+/// Work that ends earlier writes no plain lines.
 const FIRST: Duration = Duration::from_secs(2);
 /// From one plain line to the next.
 const EVERY: Duration = Duration::from_secs(10);
-/// Work that will take longer than this from now says so.
+/// Work that will take longer than this from now announces itself.
 const LONG: Duration = Duration::from_secs(45);
 
 /// True with `--quiet`, and where errors are JSON for machines, which other lines would disturb.

@@ -164,7 +164,7 @@ fn clock() -> SpentTime {
     SpentTime { processor_s: processor_time(), wall_s: START.elapsed().as_secs_f64() }
 }
 
-/// Processor time of all threads so far, in seconds; `None` where the system does not say it.
+/// Processor time of all threads so far, in seconds; `None` if the system does not report it.
 fn processor_time() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
     // Behind the name, which may have blanks: state, ten numbers, then ticks in the program and in the system.

@@ -1,4 +1,4 @@
-//! The command line as it was obeyed: every option that decides what is found, defaults filled in.
+//! The command line as resolved: every option that decides the result, with defaults.
 
 use std::ffi::{OsStr, OsString};
 use std::fmt::Write as _;
@@ -11,12 +11,12 @@ use crate::split::PartSet;
 /// Options that change no result: the output folder, the executor and its adapter, messages.
 const WITHOUT_EFFECT: [&str; 7] = ["out", "executor", "json", "threads", "help", "part", "resume"];
 
-/// A command line as it was obeyed.
+/// A command line as resolved.
 #[derive(Debug)]
 pub(super) struct CommandLine {
     /// For a reader.
     pub(super) text: String,
-    /// Arguments that say the same to the parser.
+    /// Arguments with the same meaning for the parser.
     pub(super) arguments: Vec<OsString>,
     /// Parts that were computed before, if the command is obeyed by `crossbar merge`.
     pub(super) parts: Option<PartSet>,

@@ -71,7 +71,7 @@ impl EyeArgs {
         view::framing(mesh, size, self.tan_half_height.unwrap_or(0.375), (self.eye, self.target, up))
     }
 
-    /// Refuses what a view of the scene says.
+    /// Refuses options that a view of the scene sets.
     fn require_no_lens(&self, view: &str) -> Result<(), Problem> {
         if self.tan_half_height.is_none() {
             return Ok(());
@@ -81,7 +81,7 @@ impl EyeArgs {
     }
 }
 
-/// The camera that the command line asks for.
+/// The requested camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Viewpoint<'a> {
     pub(super) size: Size,
@@ -90,7 +90,7 @@ pub(super) struct Viewpoint<'a> {
 }
 
 impl Viewpoint<'_> {
-    /// The view asked for, else the eye asked for, else the scene's first view, else so that all is seen.
+    /// The requested view, else the requested eye, else the scene's first view, else one that shows everything.
     pub(super) fn camera(&self, scene: &Scene) -> miette::Result<Camera> {
         let aimed = self.eye.eye.is_some() || self.eye.target.is_some();
         let view = match self.view {

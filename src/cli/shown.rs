@@ -10,7 +10,7 @@ use crate::report::visible::visible;
 /// Most errors of one list that are shown.
 pub(super) const MAX_SHOWN: usize = 20;
 
-/// A copy of a diagnostic that any renderer may write to a terminal as it is.
+/// A copy of a diagnostic that any renderer may write to a terminal unchanged.
 #[derive(Debug, Default)]
 pub(super) struct ShownError {
     message: String,
@@ -34,7 +34,7 @@ impl ShownError {
         Self::within(diagnostic, None, most)
     }
 
-    /// Text that `outer` brings holds for what it brings along, unless that has text of its own.
+    /// Text of `outer` applies to its causes, unless these have their own text.
     fn within(diagnostic: &dyn Diagnostic, outer: Option<&dyn SourceCode>, most: usize) -> Self {
         let source = diagnostic.source_code().or(outer);
         let labels: Vec<LabeledSpan> = diagnostic.labels().map(Iterator::collect).unwrap_or_default();

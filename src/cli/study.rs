@@ -1,7 +1,7 @@
 //! The one runner of studies: progress, an output folder that appears at once, tables on standard output, the
 //! exit code. Commands that write no page [`show`] what they found in the same form.
 //!
-//! A study's command says what its options are and what they ask for; [`run`] does the rest.
+//! A study's command declares its options and converts them to parameters; [`run`] does the rest.
 
 use std::fs::File;
 use std::path::Path;
@@ -17,10 +17,10 @@ use crate::study::Study;
 
 /// The options of a study's command.
 pub(super) trait StudyArgs {
-    /// The study that they ask for.
+    /// The study with these options.
     type Study: Study;
 
-    /// Options that make it quicker, said if it will take long; empty if there are none.
+    /// Options that make it quicker, shown for long work; empty if there are none.
     const QUICKER: &'static str = "";
 
     /// The files that it writes and reads.
@@ -88,7 +88,7 @@ pub(super) fn show(found: &Findings, out: &mut Out) -> miette::Result<Verdict> {
     Ok(found.verdict())
 }
 
-/// Adds the files that a command wrote: a field for each that it has an option for, a line for each that was asked for.
+/// Adds the files that a command wrote: a field for each possible file, a line for each requested one.
 pub(super) fn written<'a>(found: &mut Findings, files: impl IntoIterator<Item = (&'a str, Option<&'a Path>)>) {
     for (name, path) in files {
         found.field(name, json!(path));

@@ -21,8 +21,8 @@ pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
     format!("{} ({COMMIT}, features {features})", env!("CARGO_PKG_VERSION"))
 });
 
-/// The program that computes a part: version and commit, or where that does not say what it was built from (a
-/// development build, modified sources) the SHA-256 of its file.
+/// The program that computes a part: version and commit; or, if these do not identify its sources (a development build,
+/// modified sources), the SHA-256 of its file.
 ///
 /// # Errors
 /// If the program's own file cannot be read.

@@ -125,7 +125,7 @@ pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
 }
 
-/// Writes all files of a result together, and says where they are.
+/// Writes all files of a result together, and prints their places.
 pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, Problem> {
     for (name, bytes) in files {
         set.write(Path::new(name), |out| out.write_all(bytes))?;

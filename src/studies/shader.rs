@@ -104,7 +104,7 @@ fn count(number: usize, noun: &str) -> String {
 }
 
 impl ShaderText {
-    /// Creates a shader text from a source other than a file of its own.
+    /// Creates a shader text from a source other than a separate file.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }
@@ -202,7 +202,7 @@ impl ShaderText {
     }
 }
 
-/// Counts the instruction slots of a program; a co-issued instruction takes none of its own.
+/// Counts the instruction slots of a program; a co-issued instruction takes none.
 pub fn slots(program: &Program) -> SlotCount {
     let alone = program.instructions.iter().filter(|instruction| !instruction.coissue);
     alone.fold(SlotCount::default(), |sum, instruction| {

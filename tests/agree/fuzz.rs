@@ -1,5 +1,5 @@
-//! The long form: `CROSSBAR_FUZZ=1h` (or `30m`, or seconds) goes through all suites in turn, with seeds of its own,
-//! until the time is up, and reports how much it has compared.
+//! The long form: `CROSSBAR_FUZZ=1h` (or `30m`, or seconds) runs all suites in turn, with its own seeds, until the time
+//! is up, and reports how much it has compared.
 
 use crate::agreement::{compare, report};
 use crate::executors::EXECUTORS;

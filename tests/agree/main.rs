@@ -3,8 +3,7 @@
 //! A suite draws cases from a seed: a program, a device, a scene. Each case is drawn by the scalar executor and by
 //! every other one at every SIMD level and thread count, and all targets, the depth buffer and every counter are
 //! compared. A failing case is cut down and printed with the command that shows it again: the suite's name and
-//! `CROSSBAR_SEED`. `CROSSBAR_FULL=1` goes through 105 times as many, `CROSSBAR_FUZZ=10m` goes on for ten
-//! minutes.
+//! `CROSSBAR_SEED`. `CROSSBAR_FULL=1` runs 105 times as many, `CROSSBAR_FUZZ=10m` continues for ten minutes.
 
 mod agreement;
 mod all_frequency;

@@ -89,8 +89,8 @@ pub(crate) fn geometry(shape: Shape, size: [u32; 2], r: &mut Random) -> Geometry
     Geometry { vertices, indices, primitive }
 }
 
-/// Vertices of 10 to 120 primitives of a few pixels each, some of them far larger. Some share all that they do not
-/// vary with the ones before, some vary nothing but their position.
+/// Vertices of 10 to 120 primitives of a few pixels each, some of them far larger. Some share everything that they do
+/// not vary with the previous ones, some vary nothing but their position.
 fn fine(size: [u32; 2], each: usize, r: &mut Random) -> Vec<Vertex> {
     let (flat, plane) = (r.one_in(2), r.one_in(2));
     let mut shared = Vertex::default();

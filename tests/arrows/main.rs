@@ -1,5 +1,5 @@
 //! Laws of the source: rooms use only those that docs/architecture.md allows them; the files of a room have no circular
-//! needs; no type name is defined in more than two rooms.
+//! dependencies; no type name is defined in more than two rooms.
 
 mod circles;
 mod names;
@@ -94,7 +94,7 @@ const CROSSBAR: Law = (
     ],
 );
 
-/// The executors: `scalar` stands alone; the others share a middle. Files of `exec` itself stand to the left of all.
+/// The executors: `scalar` shares nothing; the others share a middle. Files of `exec` itself stand to the left of all.
 const EXEC: Law =
     ("refsim/src", &["exec"], &[("scalar", ""), ("lower", ""), ("batch", "lower"), ("wgsl", "lower"), ("gpu", "wgsl")]);
 

@@ -76,7 +76,7 @@ fn cards_draw_what_the_host_draws() {
     assert!(steps.into_iter().all(|step| !step.contains("not products")), "one term has no other way");
 }
 
-/// More bits give smaller errors for each quantity; files and pages are where the command says.
+/// More bits give smaller errors for each quantity; files and pages are in the folder of the command.
 #[test]
 fn a_sweep_says_what_shows() {
     let folder = tempfile::tempdir().expect("a folder for the test");

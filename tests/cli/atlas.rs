@@ -1,4 +1,4 @@
-//! `crossbar atlas`: what it says and writes, and what it refuses.
+//! `crossbar atlas`: its output, its files, and refusals.
 
 use std::path::Path;
 

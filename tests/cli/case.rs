@@ -1,4 +1,4 @@
-//! `crossbar run`: the example cases, and what is said about bad ones.
+//! `crossbar run`: the example cases, and messages about bad ones.
 
 use std::{fs, path::Path};
 
@@ -82,7 +82,7 @@ fn bad_state() {
     insta::assert_snapshot!([changed.join("----\n"), unread].join("----\n"));
 }
 
-/// Registers are called as the program calls them, and the executors say the same.
+/// Registers have the names of the program, and the executors agree.
 #[test]
 fn opengl_programs_are_followed() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -268,8 +268,8 @@ fn bad_cases() {
     insta::assert_snapshot!(said);
 }
 
-/// A program that reads what the case never set runs on Direct3D's default, zeros, and says so; so does one whose
-/// constants are clamped. The warnings come once, and change no exit code.
+/// A program that reads a value that the case never set runs on Direct3D's default, zeros, with a warning; so does one
+/// whose constants are clamped. The warnings come once, and change no exit code.
 #[test]
 fn warnings() {
     let folder = tempfile::tempdir().expect("a folder for the test");

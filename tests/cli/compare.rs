@@ -68,7 +68,7 @@ format = "rgba32f"
 
 const TWO_ROUNDINGS: &str = include_str!("two_roundings.toml");
 
-/// Half of three units in the last place of s3.12 lies between two and one: ties go to the even one, or toward zero.
+/// Half of three units in the last place of s3.12 lies between two and one: ties round to the even one, or toward zero.
 #[test]
 fn two_roundings() {
     let first = difference(TWO_ROUNDINGS, &["--right-format", "s3.12:rtz"]);
@@ -183,8 +183,8 @@ fn the_output_merge() {
     assert_eq!(found["values"][0]["right_bits"], "0x3fffff");
 }
 
-/// An edge at column 3.02: on a grid of sixteenths that is 3, and the centre of column 3 lies on it, to the right of
-/// the quad; on one of 256ths it lies inside.
+/// An edge at column 3.02: on a grid of sixteenths it is rounded to 3, and the centre of column 3 lies on it, to the
+/// right of the quad; on a grid of 256ths the centre lies inside.
 #[test]
 fn the_coverage() {
     let text = r#"device = "r300"

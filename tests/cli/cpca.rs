@@ -182,8 +182,8 @@ fn arrays_of_numpy_are_compressed() {
     assert!(said.to_lowercase().contains("fortran"), "{said}");
 }
 
-/// Reclassification draws fewer triangles within its budget; superclusters cost no error; the file says both, and the
-/// card draws what it says.
+/// Reclassification draws fewer triangles within its budget; superclusters cost no error; the file records both, and
+/// the card draws by the file.
 #[test]
 fn clusters_are_made_coherent_on_their_mesh() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -220,7 +220,7 @@ fn clusters_are_made_coherent_on_their_mesh() {
     assert_eq!(card(&[]).to_string().trim_matches('"'), grouped["coherence"]["superclusters"].to_string());
 }
 
-/// Options that say nothing beside others are refused by name.
+/// Options without effect beside others are refused by name.
 #[test]
 fn idle_options_of_compression_are_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

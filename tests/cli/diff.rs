@@ -1,4 +1,4 @@
-//! `crossbar diff`: what it says, which files it writes, and what it refuses.
+//! `crossbar diff`: its output, its files, and refusals.
 
 use std::path::Path;
 

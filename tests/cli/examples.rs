@@ -96,7 +96,8 @@ fn examples_are_what_the_library_makes() {
     }
 }
 
-/// The pictures that `diff` is shown with are what `render` makes of the examples, but for what they say of themselves.
+/// The pictures of the examples of `diff` equal those that `render` makes of the example scenes, except for their
+/// metadata.
 #[test]
 fn example_pictures_are_what_the_program_draws() {
     let teapot = "docs/examples/teapot.obj --eye 0,-10,4 --target 0,0,1 --size 96x96";

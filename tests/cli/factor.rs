@@ -1,4 +1,4 @@
-//! `crossbar all-frequency factor`: what it says, what it writes, and what it refuses.
+//! `crossbar all-frequency factor`: its output, its files, and refusals.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,7 @@ fn document(arguments: &[&str]) -> Value {
     crate::answers::document(&[&["all-frequency", "factor"], arguments].concat())
 }
 
-/// All files are there, and say the same on any number of threads.
+/// All files exist, with the same contents on any number of threads.
 #[test]
 fn a_table_is_factored_into_files() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -51,7 +51,7 @@ fn the_tables_are_these() {
     insta::assert_snapshot!("factor_tables", ran.stdout);
 }
 
-/// Bad input: what is said, word for word, and nothing is written.
+/// Bad input: the messages, word for word, and nothing is written.
 #[test]
 fn bad_input_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -28,7 +28,7 @@ fn every_command_is_listed_here() {
     assert_eq!(listed.join(" "), COMMANDS);
 }
 
-/// `-o`, `-d` and `-f` stand for the options that most commands have.
+/// `-o`, `-d` and `-f` are short for the options that most commands have.
 #[test]
 fn short_options() {
     let long = crossbar(&["alu", "add", "--format", "fp16"], "3C00 4000\n");

@@ -85,8 +85,8 @@ fn what_is_lost_is_said() {
     }
 }
 
-/// Long work says once how long it will take and what makes it quicker, and where standard error is no terminal, in
-/// plain lines how much of it is done; with `--quiet` it says nothing.
+/// Long work announces once how long it will take and which options make it quicker, and if standard error is not a
+/// terminal, its progress in plain lines; with `--quiet` it writes nothing.
 #[test]
 fn long_work_is_announced() {
     let [loud, quiet] = [None, Some("--quiet")].map(|more| {

@@ -1,4 +1,4 @@
-//! `crossbar materials`: published media with sources, media of one's own, errors that say what was meant.
+//! `crossbar materials`: published media with sources, custom media, errors that suggest a name.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! Model files of all kinds, for every command that reads them: repairs are reported, and options say how to read them.
+//! Model files of all kinds, for every command that reads them: repairs are reported, and options change the reading.
 
 use std::fs;
 use std::path::Path;
@@ -67,7 +67,7 @@ fn a_model_with_y_up_stands_up() {
     }
 }
 
-/// Faces that are not flat are said by every command.
+/// Every command reports faces that are not flat.
 #[test]
 fn faces_with_a_fault_are_said() {
     let folder = folder();
@@ -131,7 +131,7 @@ fn leaks_of_any_model() {
     }
 }
 
-/// Rays of any origin at small triangles leave no significant bits of t on a 16-bit card, and the program says so.
+/// Rays of any origin at small triangles leave no significant bits of t on a 16-bit card, and the program reports that.
 #[test]
 fn a_format_without_bits_is_said() {
     let folder = folder();

@@ -1,4 +1,4 @@
-//! `crossbar page`: the file stands alone. `tests/page` opens it in Chromium.
+//! `crossbar page`: the file is self-contained. `tests/page` opens it in Chromium.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;

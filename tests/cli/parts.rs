@@ -10,7 +10,7 @@ use crate::commands::copy_of_the_repository;
 use crate::random::Random;
 use crate::{crossbar_in, start};
 
-/// Commands that split, on small input. The result goes to `out`, an ending behind it where it is a file.
+/// Commands that split, on small input. The result is written to `out`, with an extension if it is a file.
 const COMMANDS: &[&str] = &[
     "cpca precompute docs/examples/court.obj --order 3 --out out.npz",
     "cpca precompute docs/examples/step.obj --kind glossy --rows 9 --order 2 --degree 18 --brdf phong:0.2,0.6,9 \

@@ -207,7 +207,7 @@ fn bad_input() {
     insta::assert_snapshot!(said);
 }
 
-/// Every command takes a model with a triangle without area, and says how many it has.
+/// Every command takes a model with a triangle without area, and reports their number.
 #[test]
 fn a_triangle_without_area_is_no_patch() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -58,7 +58,7 @@ fn the_text_is_this() {
     insta::assert_snapshot!(ran.stdout);
 }
 
-/// Recording goes on where it was broken off: a file that is there stays as it is.
+/// Recording continues where it was interrupted: an existing file stays unchanged.
 #[test]
 fn what_is_recorded_stays() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -76,7 +76,7 @@ fn what_is_recorded_stays() {
     assert!(new.contains("command = \"crossbar reproduce cpca-section-6 --full-size\""), "{new}");
 }
 
-/// Each row says which run it is from: recorded ones in the table, in CSV and in JSON, and the page how they were made.
+/// Each row names its run: recorded ones in the table, in CSV and in JSON, and the page how they were made.
 #[test]
 fn recorded_rows_say_so() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -97,8 +97,8 @@ fn angles() -> &'static str {
      --links 64 --link-format fp32 --map fp32 --light directional:0,0,1:1,1,1 --all-pairs yes"
 }
 
-/// docs/studies/subsurface.md says of each choice of links at which angles from the light it is nearer: its table and
-/// its sentence are the study's, and the command that it names is the one that is run here.
+/// docs/studies/subsurface.md states for each choice of links at which angles from the light it is nearer: its table
+/// and its sentence are the study's, and this test runs the command that it names.
 #[test]
 fn the_page_says_where_each_choice_of_links_is_nearer() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -216,7 +216,7 @@ fn wrapped(text: &str) -> String {
     lines.join("\n")
 }
 
-/// A tetrahedron with flat sides: normals of their own at every corner.
+/// A tetrahedron with flat sides: separate normals at every corner.
 fn flat_tetrahedron() -> String {
     let s = 1.0 / 3.0_f64.sqrt();
     let normals = format!("vn 0 0 -1\nvn 0 -1 0\nvn -1 0 0\nvn {s} {s} {s}\n");

@@ -1,6 +1,6 @@
 //! A strict reader of the trace event format in its JSON object form, as far as Crossbar writes it: complete events,
-//! metadata and flows. Anything unknown to the format, or dropped by viewers, is an error. As Perfetto does, it rounds
-//! starts and durations to nanoseconds, each for itself, and wants slices that still do not overlap.
+//! metadata and flows. Anything unknown to the format, or dropped by viewers, is an error. Like Perfetto, it rounds
+//! starts and durations to nanoseconds separately, and requires slices that still do not overlap.
 
 use std::collections::{BTreeMap, BTreeSet};
 

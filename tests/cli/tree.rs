@@ -19,7 +19,7 @@ pub(crate) fn commands() -> Vec<(String, clap::Command)> {
     found
 }
 
-/// The options of a command, but for those that every command has, with whether they take a value.
+/// The options of a command, except those that every command has, and whether they take a value.
 pub(crate) fn options(command: &clap::Command) -> Vec<(String, bool)> {
     let takes = |arg: &Arg| matches!(arg.get_action(), ArgAction::Set | ArgAction::Append);
     let own = command.get_arguments().filter_map(|arg| Some((format!("--{}", arg.get_long()?), takes(arg))));

@@ -1,4 +1,4 @@
-//! Values of options that are parsed from texts of their own: good ones are taken, bad ones refused.
+//! Values of options with their own syntax: good ones are accepted, bad ones refused.
 
 use clap::error::ErrorKind;
 

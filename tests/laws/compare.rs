@@ -53,7 +53,7 @@ proptest! {
         prop_assert_eq!(ulps(&a, &b).0, Some(1.0));
     }
 
-    /// Rounding to nearest is off by half a unit of the coarser format at most.
+    /// The error of rounding to nearest is at most half a unit of the coarser format.
     #[test]
     fn a_rounded_number_is_half_an_ulp_away(bits in any::<u32>(), to in prop::sample::select(&["fp16", "fp24", "s3.12"][..])) {
         let (single, to): (Number, Format) = (Number { format: Format::FP32, bits }, to.parse().expect("a format"));

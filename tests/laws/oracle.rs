@@ -1,4 +1,4 @@
-//! Tests of the oracle for other people's tests: every planted error is found, and nothing else is reported.
+//! Tests of the oracle: every planted error is found, and nothing else is reported.
 
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Hit, Mesh, Ray, Sides, exact};

@@ -23,7 +23,7 @@ struct Probe {
     case: String,
     /// Colours `rrggbb`, row by row.
     expected: Vec<Vec<String>>,
-    /// How far a channel may be off.
+    /// Allowed error of a channel.
     slop: u8,
     /// Pixels to a colour, each way.
     #[serde(default = "one")]
@@ -57,7 +57,7 @@ impl Probe {
             .unwrap_or_else(|error| panic!("{} on {device}: {:?}", self.name, miette::Report::from(error)))
     }
 
-    /// Every colour that is off.
+    /// Every wrong color.
     fn wrong(&self, device: &str, found: &[Vec<[u8; 3]>]) -> Vec<String> {
         let mut wrong = Vec::new();
         for (y, (expected, found)) in self.expected.iter().zip(found).enumerate() {

@@ -95,7 +95,7 @@ impl Browser {
         result["result"]["value"].take()
     }
 
-    /// Waits until an expression holds, as long as the page goes on to say something new.
+    /// Waits until an expression holds, as long as the page continues to report something new.
     pub(crate) fn wait(&mut self, expression: &str) {
         let mut start = Instant::now();
         let mut last = Value::Null;
@@ -136,7 +136,7 @@ impl Browser {
         self.events.iter().filter(is_error).collect()
     }
 
-    /// Addresses that the page has asked for.
+    /// Addresses that the page has requested.
     pub(crate) fn requests(&self) -> Vec<&str> {
         let sent = self.events.iter().filter(|event| event["method"] == "Network.requestWillBeSent");
         sent.filter_map(|event| event["params"]["request"]["url"].as_str()).collect()

@@ -28,7 +28,7 @@ pub(crate) fn hold_bytes(path: &Path, expected: &[u8]) {
     assert!(same, "{path} is out of date, INSTA_UPDATE=always cargo test writes it; expected, found: {other:?}");
 }
 
-/// The text with what stands between `<!-- KIND: NAME -->` and `<!-- /KIND -->` replaced by what `said` says of the
+/// The text with what stands between `<!-- KIND: NAME -->` and `<!-- /KIND -->` replaced by the text of `said` for the
 /// name.
 pub(crate) fn filled(text: &str, kind: &str, said: impl Fn(&str) -> String) -> String {
     let (begin, end) = (format!("<!-- {kind}: "), format!("<!-- /{kind} -->"));

@@ -1,8 +1,8 @@
 //! Number formats and the arithmetic in them: exact by definition ([`num`]), and in vector code of the host.
 //!
 //! The lower part of the emulator `refsim`, which re-exports what its users need as `refsim::num` and
-//! `refsim::exec::batch`. It is a package of its own because it is most of the emulator's machine code: a change of the
-//! assembler, the checker or the machine compiles none of it again. Use `refsim` instead.
+//! `refsim::exec::batch`. It is a separate package because it is most of the emulator's machine code: a change of the
+//! assembler, the checker or the machine recompiles none of it. Use `refsim` instead.
 //!
 //! - [`num`]: the definition, by integer operations alone.
 //! - `lanes`: the same arithmetic on single lanes, written apart from `num`, for each format the fastest way that gives

@@ -31,7 +31,7 @@ const FORMATS: [(&str, usize); 23] = [
     ("s3.12:wrap", 397),
 ];
 
-/// Operands of a format: both ends, zero, what lies beside them, and a spread between.
+/// Operands of a format: both ends, zero, their neighbors, and a spread between.
 fn operands(f: &Format, step: usize) -> Vec<i32> {
     let end = 1i32 << (f.width() - 1);
     let near = [-end, 0, end - 1].into_iter().flat_map(|x| x - 3..=x + 3);

@@ -224,7 +224,7 @@ fn rows_are_as_defined() {
     }
 }
 
-/// Rows of which every second pair cancels but for what the alignment cuts.
+/// Rows in which every second pair cancels except for the bits that the alignment cuts.
 #[test]
 fn sums_that_cancel_are_as_defined() {
     let mut words = Words(2);
@@ -241,7 +241,7 @@ fn sums_that_cancel_are_as_defined() {
     }
 }
 
-/// Operands of the vectors, in rows: the results stand in the tests of the definition.
+/// Operands of the vectors, in rows; the tests of the definition have the results.
 #[test]
 fn rows_of_the_vectors_are_as_defined() {
     use Op::{Abs, Add, Equal, Exp2, Floor, Frc, Less, LessEqual, Log2, Mad, Max, Min, Mul, Rcp, Rsq, Sub};

@@ -82,7 +82,7 @@ impl Diagnostic for Violation {
     }
 }
 
-/// Legal code that does not do what its text says. The program runs as the card would run it.
+/// Legal code without the effect that its text suggests. The program runs as the card would run it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// Kind of warning.

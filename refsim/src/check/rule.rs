@@ -111,7 +111,7 @@ rules! {
 }
 
 rules! {
-    /// A warning: something legal that does not do what its text says.
+    /// A warning: something legal without the effect that its text suggests.
     WarningId:
     ClampedConstant W01 "constants of ps_1_x are clamped to -1 to 1";
     FogIsNotBlended W02 "oFog blends no fog: fixed-function fog is not emulated";

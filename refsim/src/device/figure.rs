@@ -55,8 +55,8 @@ impl Confidence {
         }
     }
 
-    /// `true` if a drawing of the card would still settle the figure: no document says it, and nothing was measured on
-    /// the chip or one with the same unit.
+    /// `true` if a drawing of the card would still settle the figure: no document states it, and nothing was measured
+    /// on the chip or one with the same unit.
     pub fn is_open(self) -> bool {
         self >= Self::Kin
     }

@@ -291,8 +291,8 @@ impl Profile {
         }
     }
 
-    /// Withholds the values that need floats from registers in fixed point, but for defaults, which act there as the
-    /// plain rule; gives them back to floats. A switch that is at such a value goes to its default.
+    /// Removes the values that need floats if registers are in fixed point, except defaults, which act there as the
+    /// plain rule; restores them for floats. A switch with such a value is reset to its default.
     fn offer_values(&mut self) {
         let mut rules = self.rules.clone();
         for switch in &mut self.switches {

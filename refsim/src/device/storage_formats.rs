@@ -4,8 +4,8 @@ use super::instruction_formats::MAX_INSTRUCTION_FORMATS;
 use crate::isa::{Instruction, Program, RegisterFile, ResultKind};
 use crate::num::Format;
 
-/// A storage of numbers that can have a format of its own. Numbers stay in the register format; what enters the storage
-/// is rounded to its format. docs/devices.md has the table.
+/// A storage of numbers that can have its own format. Numbers stay in the register format; what enters the storage is
+/// rounded to its format. docs/devices.md has the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Storage {
     /// Temporaries `r#`, `R#`, `H#`, and `t#` where instructions write it (ps_1_1 to 1_3). Packed words are not

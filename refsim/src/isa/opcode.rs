@@ -131,7 +131,7 @@ const fn split(cells: [(Option<u8>, u16); VERSIONS]) -> ([Option<u8>; VERSIONS],
 
 macro_rules! opcodes {
     ($($variant:ident $mnemonic:literal $class:ident $dest:ident $result:ident $comparison:literal [$($cell:expr),* $(,)?])*) => {
-        /// An operation. The table in this file says everything else about it.
+        /// An operation. The table in this file has everything else about it.
         #[non_exhaustive]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[expect(missing_docs, reason = "the variants are the mnemonics")]

@@ -47,7 +47,7 @@ impl Version {
         Self::Vs2_0,
     ];
 
-    /// OpenGL's fragment programs, in the order of the enumeration, which goes on after [`Self::ALL`].
+    /// OpenGL's fragment programs, in the order of the enumeration, which continues after [`Self::ALL`].
     pub const FRAGMENT: [Self; 2] = [Self::Fp1_0, Self::ArbFp1_0];
 
     /// The version token as it is written in a program, `ps_1_4` for example.

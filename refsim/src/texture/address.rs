@@ -54,7 +54,7 @@ pub(crate) fn resolve(mode: AddressMode, position: i64, size: u32) -> Option<u32
 /// Replaces a coordinate by an equivalent one that is small enough for exact arithmetic.
 ///
 /// NaN and infinities become 0. From 2^24 on every FP32 number is an even integer, so all of one sign address alike in
-/// every mode, and 2^24 stands for them.
+/// every mode, and 2^24 represents them.
 fn bounded(bits: u32) -> u32 {
     const LARGEST: u32 = 0x4b80_0000; // 2^24
     let finite = value::finite_or_zero(bits);

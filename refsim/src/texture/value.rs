@@ -96,7 +96,7 @@ pub(crate) enum Exact {
         significand: u64,
         /// Power of two.
         exponent: i32,
-        /// 1, but for numbers of normalized formats.
+        /// 1, except for numbers of normalized formats.
         denominator: u32,
     },
 }

@@ -1,4 +1,4 @@
-//! Environment variables by which tests are asked for more than their short form.
+//! Environment variables that select longer forms of tests.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use std::env;

@@ -84,7 +84,7 @@ proptest! {
         }
     }
 
-    /// A device file says everything.
+    /// A device file records all settings.
     #[test]
     fn device_files_read_back(
         name in select(vec!["ideal-fp32", "ideal-s3.12:rtz", "r200", "nv30", "nv35", "nv25"]),

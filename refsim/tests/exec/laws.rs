@@ -67,8 +67,7 @@ fn inputs(data: &[[u32; 4]]) -> [FragmentInput; 4] {
     out
 }
 
-/// Checks a result: no bits above the width, and no NaN but the canonical one. Units of cards hand words on as they
-/// are.
+/// Checks a result: no bits above the width, and no NaN but the canonical one. Units of cards pass words on unchanged.
 fn well_formed(format: Format, value: [u32; 4]) -> bool {
     let any_nan = format.unit.is_card();
     value

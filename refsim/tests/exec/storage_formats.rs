@@ -1,4 +1,4 @@
-//! Formats of storages and of sums: laws over random programs, which say what they mean by formats of instructions and
+//! Formats of storages and of sums: laws over random programs, which express them by formats of instructions and
 //! rounded inputs; dot products of the executors against the arithmetic itself; refusals.
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
@@ -312,7 +312,7 @@ fn a_format_holds_what_conversion_there_and_back_keeps() {
     }
 }
 
-/// A device file says everything, and registers that are replaced take the formats that were chosen for them along.
+/// A device file records all settings, and replaced registers keep the formats that were chosen for them.
 #[test]
 fn device_files_have_formats_of_storages_and_sums() {
     let text = "device = \"ideal-fp32\"\naccumulator = \"e8m13\"\n\n[storage]\ntemporaries = \"e5m10\"\n\
@@ -346,7 +346,7 @@ fn storages_that_a_program_does_not_use_are_found() {
     assert_eq!(unused("!!FP1.0\nTEX o[COLR], f[TEX0], TEX0, 2D;\nEND"), ["temporaries", "constants", "colors"]);
 }
 
-/// Registers refuse what executors cannot compute with, and stay as they are.
+/// Registers refuse formats that executors cannot compute with, and stay unchanged.
 #[test]
 fn registers_refuse_scales_and_stochastic_rounding() {
     let mut profile = running::ideal("fp32");

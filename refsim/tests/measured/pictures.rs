@@ -1,4 +1,4 @@
-//! Strips of the page: measured colors above what each answer draws, and by how many codes that is off.
+//! Strips of the page: measured colors above the colors of each answer, with the difference in codes.
 
 use super::rule::Measured;
 use super::values::{Value, Values};

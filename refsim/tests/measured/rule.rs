@@ -18,7 +18,7 @@ pub(crate) struct Rule {
     pub(crate) hypotheses: Hypotheses,
     /// Draws all rows on a device.
     pub(crate) redraw: Redraw,
-    /// Number of values that the cards' own answer does not predict; the page says why.
+    /// Number of values that the cards' own answer does not predict; the page gives the reason.
     pub(crate) unexplained: usize,
     /// `true` if the cards' own answer is settled: it predicts all but the unexplained values, and more than any other.
     pub(crate) settled: bool,
@@ -32,7 +32,7 @@ pub(crate) type Redraw = fn(&Profile, &Executor) -> Values;
 /// An answer of a rule by its name, and what sets it.
 pub(crate) type RuleOption = (&'static str, fn(&mut Rules));
 
-/// The answers to a rule. The cards' own answer is what their profile says.
+/// The answers to a rule. The cards' own answer is that of their profile.
 #[derive(Clone, Copy)]
 pub(crate) enum Hypotheses {
     /// The values of a switch of the cards.

@@ -30,8 +30,8 @@ fn enclosures_nest() {
     }
 }
 
-/// Returns `true` if the finer enclosure lies within the coarser one. A wrong constant or error bound fails here,
-/// while rounded results would hide it but for one operand in a billion.
+/// Returns `true` if the finer enclosure lies within the coarser one. A wrong constant or error bound fails here, while
+/// rounded results would hide it except for one operand in a billion.
 fn nested<T: Into<BigInt>>(coarse: Enclosure<T>, fine: Enclosure<BigInt>) -> bool {
     let shift = (coarse.exp - fine.exp).unsigned_abs();
     let (low, high): (BigInt, BigInt) = (coarse.low.into(), coarse.high.into());

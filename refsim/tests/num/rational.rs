@@ -56,7 +56,7 @@ impl Q {
     }
 }
 
-/// Magnitude of the `i`th non-negative number of a format; the ones after the last finite float go on as if they were.
+/// Magnitude of the `i`th non-negative number of a format; numbers after the last finite float continue its sequence.
 pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     match f.kind {
         FormatKind::Fixed { frac_bits, .. } => Q::scaled(i.into(), -i32::from(frac_bits)),

@@ -1,5 +1,5 @@
-//! Short formats compared with ml_dtypes and gfloat, by the tables of `fixtures/formats` (its README says what the
-//! lines mean): every value, every pair of operands, every fp16 number converted with every rounding, MX blocks.
+//! Short formats compared with ml_dtypes and gfloat, by the tables of `fixtures/formats` (its README explains the
+//! lines): every value, every pair of operands, every fp16 number converted with every rounding, MX blocks.
 
 use refsim::num::{Format, Outcome, Rounding, block::BlockFormat, ops, random_word, to_f64};
 

@@ -1,7 +1,7 @@
 //! Rays aimed at shared edges and at vertices.
 //!
 //! The target is a point of the edge (in f64), the direction `target - eye` rounded to f32: so a ray passes an edge
-//! within the rounding of f32, on one side or the other, and only exact arithmetic can say which.
+//! within the rounding of f32, on one side or the other, and only exact arithmetic can decide which.
 
 use glam::DVec3;
 

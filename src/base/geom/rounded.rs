@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::vector::{area_vector, wide};
 
-/// Largest distance of a corner from its place before it was rounded: each coordinate is off by at most 2^-24 of the
+/// Largest distance of a corner from its place before rounding: the error of each coordinate is at most 2^-24 of the
 /// largest one.
 fn reach(corners: &[DVec3]) -> f64 {
     let largest = corners.iter().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);

@@ -1,7 +1,7 @@
 //! The Utah teapot as published: 306 control points and 32 bicubic patches of 16 points.
 //!
 //! Martin Newell's data of 1975 (University of Utah) as it has been passed on since the 1980s, with the four bottom
-//! patches that were added later. `fixtures/README.md` says how these figures were checked. The coordinates are
+//! patches that were added later. `fixtures/README.md` describes how these figures were checked. The coordinates are
 //! decimals of at most five places; they stand here as whole numbers of 1/100000, so that the surface can be evaluated
 //! exactly.
 

@@ -30,7 +30,7 @@ impl Oracle<'static> {
 }
 
 /// Default of [`Oracle::with_nearby_ulps`]. A single-precision test that subtracts the origin from a vertex, shears and
-/// scales it is off by at most five roundings.
+/// scales it has an error of at most five roundings.
 const NEARBY_ULPS: u32 = 8;
 
 impl<'a> Oracle<'a> {

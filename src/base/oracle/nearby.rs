@@ -2,9 +2,9 @@
 //!
 //! Intersectors round. The test of Woop, Benthin and Wald, for one, is exact for a scene whose vertices, relative to
 //! the ray's origin, are each off by at most five roundings of f32. So its result beside a silhouette is correct for a
-//! ray close to the given one, and not an error. **Nearby** is a ray from the same origin whose direction is off in
-//! each of its two smaller components, by some ULPs of the largest; or, for a hit where the ray starts, one of the same
-//! direction whose origin is off along it, by some ULPs of the largest coordinate. Such rays are tried one by one, in
+//! ray close to the given one, and not an error. **Nearby** is a ray from the same origin whose direction differs in
+//! each of its two smaller components by some ULPs of the largest; or, for a hit where the ray starts, one of the same
+//! direction whose origin is moved along it by some ULPs of the largest coordinate. Such rays are tried one by one, in
 //! exact arithmetic, so the ray that is found proves the verdict.
 
 use glam::{DVec2, DVec3};

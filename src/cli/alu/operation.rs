@@ -42,7 +42,7 @@ pub(super) enum VectorOperation {
     Lit,
 }
 
-/// The operations under TestFloat's names, where it has one, and what the help says of them.
+/// The operations under TestFloat's names, if it has them, and their help.
 const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Add), "add", "two operands, rounded once"),
     (AluOperation::Table(Op::Sub), "sub", "two operands, rounded once"),
@@ -117,7 +117,7 @@ impl AluOperation {
     }
 }
 
-/// How operations of several steps are done. Units of cards have rules of their own.
+/// How operations of several steps are done. Units of cards have their own rules.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Steps {
     pub(super) mad: MadMode,
@@ -142,7 +142,7 @@ pub(super) struct AluUnit {
     pub(super) op: AluOperation,
     /// The format of the operands.
     pub(super) env: Env,
-    /// The format of the result (that of the operands, but for `convert`).
+    /// The format of the result (that of the operands, except for `convert`).
     pub(super) to: Format,
     /// The seed of stochastic rounding.
     pub(super) seed: u64,
@@ -194,7 +194,7 @@ impl AluUnit {
     }
 }
 
-/// Factors of a product: both +0 where a zero wins against infinity or NaN. Units of cards have a rule of their own.
+/// Factors of a product: both +0 where a zero wins against infinity or NaN. Units of cards have their own rule.
 pub(super) fn factors(format: &Format, steps: Steps, a: u32, b: u32) -> (u32, u32) {
     let zero = format.is_zero(a) || format.is_zero(b);
     let wins = steps.zero_wins && !format.unit.is_card() && zero;
@@ -207,7 +207,7 @@ pub(super) fn mul(env: Env, steps: Steps, a: u32, b: u32) -> Outcome {
     ops::mul(products(env, steps), a, b)
 }
 
-/// Where products are rounded. Units of cards have a rule of their own.
+/// Where products are rounded. Units of cards have their own rule.
 pub(super) fn products(env: Env, steps: Steps) -> Env {
     let rounding = steps.products.filter(|_| !env.format.unit.is_card());
     Env { format: rounding.map_or(env.format, |rounding| env.format.with_rounding(rounding)), ..env }

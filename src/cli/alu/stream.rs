@@ -16,7 +16,7 @@ use super::{
 use crate::cli::{Out, OutputError, Verdict};
 use crate::error::{InputError, input_error};
 
-/// Bytes asked for at a time.
+/// Number of bytes per read.
 const READ: usize = 1 << 20;
 /// Lines of one task.
 const TASK_LINES: usize = 4096;

@@ -5,7 +5,7 @@ use refsim::num::{Env, NumberOperation as Op, Outcome, ops};
 use super::operation::{Steps, VectorOperation, add, factors, mul, products};
 
 impl VectorOperation {
-    /// The number of words of a line, and what to say where there are others.
+    /// The number of words of a line, and the message if it has another number.
     pub(super) const fn words(self) -> (usize, &'static str) {
         match self {
             Self::Dp3 => (6, "6 numbers (a.x a.y a.z b.x b.y b.z)"),
@@ -15,7 +15,7 @@ impl VectorOperation {
         }
     }
 
-    /// The result: one number, or four components. `words` has as many as [`Self::words`] says.
+    /// The result: one number, or four components. `words` must have the length [`Self::words`].
     pub(super) fn evaluate(self, env: Env, steps: Steps, words: &[u32]) -> Vec<Outcome> {
         let one = Outcome::exact(env.format.one());
         // The caller refuses formats whose unit has no such instruction.

@@ -100,7 +100,7 @@ pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) ->
     .map_err(Problem::from)
 }
 
-/// How often each value stands in a matrix.
+/// Frequency of each value in a matrix.
 pub(super) fn value_counts(matrix: &SparseMatrix) -> Vec<(f64, u64)> {
     let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
     for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {

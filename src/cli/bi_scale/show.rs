@@ -72,7 +72,7 @@ fn rows(file: &BiScaleFile) -> usize {
     file.matrix.as_ref().map_or_else(of_biclusters, SparseMatrix::rows)
 }
 
-/// How often each value stands in a matrix, or in the columns of biclusters times their rows.
+/// Frequency of each value in a matrix, or in the columns of biclusters times their rows.
 fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
     match (&file.matrix, &file.biclusters) {
         (Some(matrix), _) => value_counts(matrix),

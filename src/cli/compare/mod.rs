@@ -106,7 +106,7 @@ impl Args {
     }
 }
 
-/// Device, format and switches as asked for.
+/// Requested device, format and switches.
 type SideSettings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
 
 fn request(name: &'static str, settings: SideSettings<'_>, executor: Executor) -> miette::Result<SideRequest> {

@@ -36,7 +36,7 @@ pub(super) struct CoherenceArgs {
 /// Clusters on their mesh.
 pub(super) struct Coherence {
     pub(super) clustering: Clustering,
-    /// Per cluster its supercluster, if they were asked for.
+    /// The supercluster of each cluster, if requested.
     pub(super) superclusters: Option<Vec<u32>>,
     triangles: usize,
     /// Vertices moved, and the squared error that moves added.
@@ -55,7 +55,7 @@ impl CoherenceArgs {
         Ok(Some(model_of(signal, mesh, model)?.1))
     }
 
-    /// Tells reclassification and superclusters apart by whether they are asked for.
+    /// Distinguishes reclassification and superclusters by whether they are requested.
     pub(super) const fn given(&self) -> [bool; 2] {
         [self.reclassify.is_some(), self.supercluster_size.is_some()]
     }
@@ -67,7 +67,7 @@ impl CoherenceArgs {
         [reclassify, size].into_iter().flatten().collect()
     }
 
-    /// Reclassifies vertices and groups clusters, as far as asked.
+    /// Reclassifies vertices and groups clusters, if requested.
     pub(super) fn apply(
         &self,
         signal: &Signal,

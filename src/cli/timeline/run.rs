@@ -123,7 +123,7 @@ fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, Strin
 pub(super) struct TimedLog {
     pub(super) model: Model,
     pub(super) replay: Replay,
-    /// Empty unless it was asked for.
+    /// Empty unless requested.
     pub(super) sensitivity: Vec<Sensitivity>,
 }
 

@@ -1,4 +1,4 @@
-//! The error of everything that a card of any system is asked for.
+//! The error of every use of a card by a system.
 
 use std::fmt::Display;
 
@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::KernelError;
 
-/// Why a card does not compute or draw what it is asked for.
+/// Reason why a card cannot compute or draw.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CardError {

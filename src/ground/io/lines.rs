@@ -6,12 +6,12 @@ use super::error::syntax_error;
 use super::{NumberError, parse_f32, parse_f64};
 use crate::error::InputError;
 
-/// Text without the byte order mark that some editors put before UTF-8.
+/// Text without the byte order mark that some editors write before UTF-8.
 pub(super) fn unmarked(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
-/// Text of a file that does not say its encoding: UTF-8, or else Latin-1, in which each byte is a character.
+/// Text of a file without a declared encoding: UTF-8, or else Latin-1, in which each byte is a character.
 pub(super) fn decoded(text: &[u8]) -> String {
     std::str::from_utf8(text).map_or_else(|_| text.iter().copied().map(char::from).collect(), str::to_owned)
 }
@@ -34,7 +34,7 @@ pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     (1..).zip(bytes.split(|&byte| byte == b'\n').flat_map(by_cr))
 }
 
-/// Lines with their numbers, without white space around them; a line that ends in `\` outside of a comment goes on in
+/// Lines with their numbers, without white space around them; a line that ends in `\` outside of a comment continues in
 /// the next.
 pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> + '_ {
     let mut lines = lines(unmarked(bytes));

@@ -57,7 +57,7 @@ pub(super) struct NpyView<'a> {
     /// Bytes of a number.
     pub(super) size: usize,
     pub(super) shape: Vec<usize>,
-    /// As many bytes as shape and type say.
+    /// As many bytes as shape and type require.
     pub(super) data: &'a [u8],
 }
 

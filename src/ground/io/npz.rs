@@ -1,6 +1,6 @@
 //! NumPy's archives of arrays (`.npz`): a ZIP archive whose members are `.npy` files, stored without compression, as
-//! `numpy.savez` writes them. Equal contents have equal bytes: members have no time, and stand in the order in which
-//! they were written.
+//! `numpy.savez` writes them. Equal contents have equal bytes: members have no time, and are in the order in which they
+//! were written.
 //!
 //! Reading allocates nothing that the bytes at hand do not fill: arrays are slices of the file until they are taken.
 

@@ -13,7 +13,7 @@ use crate::error::{FilePlace, InputError, input_error};
 /// Longest file that is read, in bytes (2 GiB).
 pub const MAX_BYTES: u64 = 1 << 31;
 
-/// Rows of as many numbers each, row by row. They may be infinite or NaN where the file can say so.
+/// Rows of as many numbers each, row by row. They may be infinite or NaN if the file format allows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberTable<T = f32> {
     /// Numbers per row.

@@ -22,7 +22,7 @@ pub struct PictureFile {
 }
 
 impl PictureFile {
-    /// Reads a file; its first bytes say in which format, whatever its name.
+    /// Reads a file; its first bytes determine the format, whatever its name.
     ///
     /// # Errors
     /// [`InputError`], with the path, for what [`PictureSize::of`] refuses too.

@@ -95,9 +95,9 @@ pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, InputError> {
     Ok(largest)
 }
 
-/// The first layer of an EXR file whose [`size`] is right, in its largest resolution: the reader takes memory for what
-/// the header says. Halves become singles. The picture is the display window: where the data window has no pixels,
-/// samples are 0, and pixels outside the display window are left out.
+/// The first layer of an EXR file whose [`size`] is right, in its largest resolution: the reader allocates by the
+/// header. Halves become singles. The picture is the display window: where the data window has no pixels, samples are
+/// 0, and pixels outside the display window are left out.
 pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
     let image = exr::prelude::read()
         .no_deep_data()

@@ -81,7 +81,7 @@ impl Picture {
     }
 }
 
-/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, whatever light they stand for.
+/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, without decoding to light.
 ///
 /// # Errors
 /// [`InputError`], those of [`PictureSize::of`] before any pixel is decoded.
@@ -91,8 +91,8 @@ pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, Input
 }
 
 /// A Radiance HDR file as the decoder reads it: with the first line of two that it accepts, and without header lines
-/// that have white space around the name of their variable. Radiance compares from the first column up to `=`, so that
-/// these lines say nothing; the decoder would obey them.
+/// that have white space around the name of their variable. Radiance compares from the first column up to `=`, so these
+/// lines have no meaning; the decoder would obey them.
 fn with_known_header(bytes: &[u8]) -> Cow<'_, [u8]> {
     let spaced = |line: &[u8]| {
         let name = line.iter().position(|&byte| byte == b'=').map_or(&b""[..], |end| &line[..end]);
@@ -161,9 +161,9 @@ fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, InputErr
     reader.decode().map_err(refused(format))
 }
 
-/// Exponent by which samples of a PNG file become linear light; `None` for sRGB's curve, which also holds for files
-/// that do not say. Among the chunks that define it, cICP takes precedence over sRGB, and sRGB over gAMA. ICC profiles
-/// and chromaticities are not looked at.
+/// Exponent by which samples of a PNG file become linear light; `None` for sRGB's curve, which is also the default.
+/// Among the chunks that define it, cICP takes precedence over sRGB, and sRGB over gAMA. ICC profiles and
+/// chromaticities are not looked at.
 fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, InputError> {
     let refused = |reason: String| decode_error(PictureFormat::Png, reason);
     let reader = ::png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|error| refused(error.to_string()))?;

@@ -73,7 +73,7 @@ pub enum CaseError {
     Shader(#[from] ShaderError),
 }
 
-/// Warning: something runs, or may run, differently than the case says.
+/// Warning: something runs, or may run, differently from the case's text.
 #[non_exhaustive]
 #[derive(Clone, Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]

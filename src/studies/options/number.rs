@@ -36,7 +36,7 @@ pub fn single(text: &str) -> Result<f32, String> {
     parse_f32(text.trim()).map_err(|error| wrong(error, text))
 }
 
-/// `1,2.5,-3` as three numbers of single precision; `form` says how they are written.
+/// `1,2.5,-3` as three numbers of single precision; `form` describes how they are written.
 pub fn three(text: &str, form: &str) -> Result<[f32; 3], String> {
     let parts: Vec<&str> = text.split(',').collect();
     let [x, y, z] = parts[..] else { return Err(format!("expected three numbers {form}, found `{text}`")) };

@@ -1,7 +1,7 @@
 //! Sanitising of external text for display: nothing in it moves a cursor, changes a color or reorders letters.
 //!
-//! Every renderer goes through here: messages, tables, pages, and what commands print. A message that arrives escaped
-//! stays as it is.
+//! Every renderer uses this: messages, tables, pages, and printed output. A message that arrives escaped stays
+//! unchanged.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! Results that are kept in a folder while long work runs, so that work that was stopped goes on from them.
+//! Results that are kept in a folder during long work, so that interrupted work continues from them.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ pub struct KeptResults {
 /// Time in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SpentTime {
-    /// Processor time of all threads; none where the system does not say it.
+    /// Processor time of all threads; none if the system does not report it.
     pub processor_s: Option<f64>,
     /// Time on the wall clock.
     pub wall_s: f64,
@@ -38,7 +38,7 @@ pub struct SpentTime {
 
 impl KeptResults {
     /// Results of a command in a folder, which is made when the first of them is kept. They depend on the files that
-    /// were read until now. `clock` says the time since a fixed moment.
+    /// were read until now. `clock` returns the time since a fixed moment.
     ///
     /// # Errors
     /// For files that cannot be read a second time.

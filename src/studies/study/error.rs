@@ -9,10 +9,10 @@ use refsim::device::DeviceError;
 use crate::error::InputError;
 use crate::shader::ShaderError;
 
-/// Error of a study: a sentence of its own or a library's error, with a code for programs and what to do.
+/// Error of a study: its own sentence or a library's error, with a code for programs and what to do.
 ///
-/// A library's error that is a diagnostic is shown as it is. Others have a code that says which step of the study
-/// failed. [`Self::downcast_ref`] returns the library's error.
+/// A library's error that is a diagnostic is shown unchanged. Others have a code that names the failed step of the
+/// study. [`Self::downcast_ref`] returns the library's error.
 pub struct StudyError(Box<ErrorParts>);
 
 #[derive(Debug, Default)]
@@ -56,7 +56,7 @@ impl StudyError {
         Self(Box::new(ErrorParts { code: Some(code), cause, ..ErrorParts::default() }))
     }
 
-    /// A library's error, shown as it is.
+    /// A library's error, shown unchanged.
     pub fn diagnostic(error: impl Diagnostic + Send + Sync + 'static) -> Self {
         Self(Box::new(ErrorParts { cause: Some(Cause::Diagnostic(Box::new(error))), ..ErrorParts::default() }))
     }

@@ -10,7 +10,7 @@ const MARGIN: f64 = 1.06;
 /// Steps by which the middle of the view moves to the middle of the model as seen from the eye.
 const STEPS: usize = 4;
 
-/// View from an eye in which points just fill a picture of `aspect`, width over height, but for a margin of 3 % at each
+/// View from an eye in which points just fill a picture of `aspect`, width over height, with a margin of 3 % at each
 /// edge. Up is +z. Points behind the eye are ignored.
 pub fn framed(eye: DVec3, points: &[DVec3], aspect: f64) -> View {
     let (low, high) =

@@ -1,7 +1,7 @@
 //! Shading of first hits: smooth normals, two lights, a plain background.
 //!
-//! A study's picture must show where hits are wrong and nothing else, so shading depends on the ray and the triangle
-//! reported for it, never on the reported t.
+//! A study's picture must show where hits are wrong and nothing else, so shading depends on the ray and the reported
+//! triangle, never on the reported t.
 
 use glam::DVec3;
 

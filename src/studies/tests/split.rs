@@ -82,7 +82,7 @@ fn work_that_was_stopped_goes_on() {
     kept("1", "a").remove().expect("nothing to remove");
 }
 
-/// The time of a run that goes on has that of the runs before it until their last results, each once.
+/// The time of a continued run includes that of the runs before it until their last results, each once.
 #[test]
 fn time_is_that_of_all_runs() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -134,7 +134,7 @@ fn a_folder_that_cannot_be_made_is_said() {
     assert!(error.starts_with("cannot write into the folder "), "{error}");
 }
 
-/// A run that goes on from another's segments, or takes its model, finds what a run without pieces finds.
+/// A run that continues from another's segments, or takes its model, finds the same as a run without pieces.
 #[test]
 fn pieces_make_the_same_model() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -9,8 +9,8 @@ use crate::error::{InputError, ensure, input_error};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SegmentOptions {
     /// Vertices per cluster on average; the paper has 200. Each segment gets as many clusters as that goes into its
-    /// vertices, rounded down, and one at least: of the numbers that Table 1 prints, rounding up or to the nearest
-    /// meets none better (docs/papers/all_frequency.md).
+    /// vertices, rounded down, and one at least: rounding up or to nearest meets none of Table 1's numbers better
+    /// (docs/papers/all_frequency.md).
     pub points_per_cluster: usize,
     /// Representatives per cluster n; the paper has 16. Segments of fewer numbers have as many.
     pub vectors: usize,

@@ -1,4 +1,4 @@
-//! Files of all-frequency transfer. docs/npz.md says what is inside.
+//! Files of all-frequency transfer. docs/npz.md describes their contents.
 //!
 //! A file never stores raw transfer, which takes gigabytes. It stores visibility and reflectance, from which each
 //! segment is computed when it is needed, and coded transfer.

@@ -1,5 +1,5 @@
-//! Files of bi-scale transfer: a sparse matrix as SciPy's `csr_array` takes it, its biclusters, or both. docs/npz.md
-//! says what is inside.
+//! Files of bi-scale transfer: a sparse matrix in the form of SciPy's `csr_array`, its biclusters, or both. docs/npz.md
+//! describes their contents.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -60,7 +60,7 @@ pub fn load_bi_scale(path: &Path) -> Result<BiScaleFile, InputError> {
     parse_bi_scale(&bytes_of(path)?, path)
 }
 
-/// Reads a file from bytes; `name` stands for it in messages.
+/// Reads a file from bytes; `name` identifies it in messages.
 pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputError> {
     let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::BiScale)?;
     let MatrixMetadata { meaning, shape, entries, biclusters } = metadata;

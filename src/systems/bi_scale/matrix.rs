@@ -145,7 +145,7 @@ impl SparseMatrix {
         self.columns
     }
 
-    /// The numbers that entries stand for.
+    /// The numbers that entries represent.
     pub fn values(&self) -> &EntryValues {
         &self.values
     }
@@ -220,8 +220,8 @@ impl EntryValues {
         Self { fraction_bits: Some(fraction_bits), unit: 1.0 / f64::from(1_u32 << fraction_bits), table: None }
     }
 
-    /// A table of finite numbers, in any order, repeated or not; zeros are left out. The values of the matrix may have
-    /// a unit all the same, where those of its biclusters leave 32 bits.
+    /// A table of finite numbers, in any order, repeated or not; zeros are left out. The values of the matrix may still
+    /// have a common unit if its biclusters overflow 32 bits.
     pub(super) fn table(fraction_bits: Option<u32>, numbers: impl Iterator<Item = f64>) -> Self {
         let mut numbers: Vec<f64> = numbers.filter(|&value| value != 0.0).collect();
         numbers.sort_unstable_by(f64::total_cmp);

@@ -4,7 +4,7 @@
 //! Row M p + j is local direction j of vertex p, column k a light texel: face 1024 + row 32 + column of a cube with
 //! Direct3D's faces. Each texel that a vertex sees goes to one local direction, the nearest to the texel's center, so a
 //! column has at most one entry per vertex. The entry is the visible share of the texel's 2^m x 2^m directions, a
-//! multiple of 2^-2m. It holds neither solid angle nor cosine, which would tell entries apart that are equal: the solid
+//! multiple of 2^-2m. It holds neither solid angle nor cosine, which would make equal entries different: the solid
 //! angle is in the light ([`light_vector`]), the cosine in the bidirectional texture.
 
 use rayon::prelude::*;

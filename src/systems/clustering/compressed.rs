@@ -179,7 +179,7 @@ impl Clustering {
         if linear { CpcaForm::Linear } else { CpcaForm::Affine }
     }
 
-    /// Numbers that are stored but for the clusters of points: weights, means unless all are 0, and vectors. With n'
+    /// Number of stored numbers, without the clusters of points: weights, means unless all are 0, and vectors. With n'
     /// vectors in each cluster this is m_p n' + m_c (n' + 1) n (section 4.1), and m_c n' n in the linear form.
     pub fn stored_numbers(&self) -> usize {
         let means = if self.form() == CpcaForm::Linear { 0 } else { self.subspaces.len() * self.dimension };

@@ -37,7 +37,7 @@ impl<const N: usize> Packed<N> {
     }
 
     /// The other way round: `count` vectors of which component j is number `at` of vector j of others. `part` writes
-    /// numbers of vector j from `at` on, as many as it is given.
+    /// the numbers of vector j from `at` on that fit into its slice.
     pub(super) fn across(count: usize, length: usize, mut part: impl FnMut(usize, usize, &mut [f64])) -> Self {
         let mut components = vec![[0.0; N]; count.div_ceil(N) * length];
         for j in 0..length {
@@ -83,8 +83,8 @@ const SIDE: usize = 4;
 /// Partial sums of an inner product: those of [`dot`].
 const PARTIAL: usize = 8;
 
-/// Calls `into` with the inner products of a vector with others, as long as it each and one after another. They have
-/// the bits of [`dot`].
+/// Calls `into` with the inner products of a vector with others, each of its length, one after another. They have the
+/// bits of [`dot`].
 #[inline(always)]
 pub(super) fn dots(others: &[f64], vector: &[f64], mut into: impl FnMut(f64)) {
     let length = vector.len().max(1);
@@ -120,7 +120,7 @@ fn add_terms(sums: [f64; PARTIAL], a: &[f64; PARTIAL], b: &[f64; PARTIAL]) -> [f
 }
 
 /// Appends a vector to orthonormal ones after orthogonalising it, twice against rounding, and scaling it to length 1.
-/// Returns false, without appending, if no more than the length `nothing` remains of it.
+/// Returns false, without appending, if its remainder is no longer than `nothing`.
 #[inline(always)]
 pub(super) fn add_orthonormal(vectors: &mut Vec<f64>, mut vector: Vec<f64>, nothing: f64) -> bool {
     for _ in 0..2 {
@@ -209,7 +209,7 @@ impl KeptProducts {
     }
 }
 
-/// Adds the products of all pairs of vectors, which are both `rows` and `columns`, to the lower triangle; what stands
+/// Adds the products of all pairs of vectors, which are both `rows` and `columns`, to the lower triangle; the part
 /// above it is not used.
 pub(super) fn add_products(products: &mut Matrix, rows: &Packed<ROWS>, columns: &Packed<COLUMNS>, level: SimdLevel) {
     let size = products.row_count();

@@ -2,7 +2,7 @@
 //!
 //! - [`paper`]: section 3.1 by plain loops, without compression. Read it first.
 //! - [`transfer`]: section 3, a matrix per vertex from light to exit radiance;
-//! - [`crate::clustering`]: section 4, the compression, with a `paper.rs` of its own;
+//! - [`crate::clustering`]: section 4, the compression, with its own `paper.rs`;
 //! - [`coherence`]: section 5, clusters that are cheaper to draw;
 //! - [`kernels`], [`on_card`]: section 6, compressed transfer drawn by vertex and pixel programs.
 

@@ -1,18 +1,18 @@
 //! First-order effect of a short accumulator on a solution: why half precision makes a room too dark, and more patches
 //! make it darker still.
 //!
-//! An accumulator S of p mantissa bits lies on its own grid, of step `q = 2^(floor(log2 |S|) - p)`. A term added to it
-//! therefore changes it by a multiple of q: a term t counts as t rounded to a multiple of q, to the nearest one, or
-//! with truncation to the one below. A row of the iteration adds N terms of about a Nth of the radiosity to a sum as
-//! large as the radiosity itself, so t / q is about 2^p / N:
+//! An accumulator S of p mantissa bits is a multiple of `q = 2^(floor(log2 |S|) - p)`. A term added to it therefore
+//! changes it by a multiple of q: a term t counts as t rounded to a multiple of q, to the nearest one, or with
+//! truncation to the one below. A row of the iteration adds N terms of about a Nth of the radiosity to a sum as large
+//! as the radiosity itself, so t / q is about 2^p / N:
 //!
 //! - with truncation every term loses q / 2 on average, a row about `N 2^-(p+1)` of its radiosity: linear in N;
 //! - to nearest, terms below q / 2 are lost altogether and the others lose nothing on average: the loss is the share of
 //!   light that comes in terms below q / 2, next to nothing for few patches and nearly all of it for many.
 //!
-//! The loss d of an iteration is the error of the sum of equation 4, so the solution is off by `M^-1 d`. [`predicted`]
-//! takes sums and terms from the exact solution; the card's own sums are smaller where much is lost, so it is good to
-//! first order in the loss.
+//! The loss d of an iteration is the error of the sum of equation 4, so the error of the solution is `M^-1 d`.
+//! [`predicted`] takes sums and terms from the exact solution; the card's own sums are smaller where much is lost, so
+//! it is good to first order in the loss.
 
 use refsim::num::{Format, FormatKind, Rounding, power_of_two};
 

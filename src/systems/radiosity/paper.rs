@@ -130,8 +130,8 @@ impl System {
         )
     }
 
-    /// Solves all three channels, those that are alike once. `start` is the initial guess: the radiosities of an
-    /// earlier solution.
+    /// Solves all three channels; equal channels only once. `start` is the initial guess: the radiosities of an earlier
+    /// solution.
     ///
     /// # Errors
     /// [`InputError`].

@@ -7,8 +7,8 @@
 //! `e . (ao x d) = dc . (e x ao)  +  y . (e x ao)  +  x . (dc x e)  +  e . (x x y)`
 //!
 //! The first term belongs to the middle ray. The others are at most |e x ao| . dh, |dc x e| . oh and |e| . q, where |x|
-//! <= oh, |y| <= dh and q is the vector of oh_j dh_k + oh_k dh_j; n.ao and n.d likewise. A triangle is culled if one of
-//! the numbers has the wrong sign for every ray of the bucket.
+//! <= oh, |y| <= dh and q is the vector of oh_j dh_k + oh_k dh_j; the same holds for n.ao and n.d. A triangle is culled
+//! if one of the numbers has the wrong sign for every ray of the bucket.
 //!
 //! **No hit is lost to rounding.** The card and its vertex program make rounding errors. Each is bounded by a fraction
 //! of the product of magnitudes, plus a constant for underflow or for the steps of fixed point; both bounds are

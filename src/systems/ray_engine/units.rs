@@ -1,7 +1,7 @@
 //! Scale of a scene in card units, by powers of two, and upload of rays as textures.
 //!
-//! Registers, ray textures and depth buffer of a card each have a range of their own. Powers of two bring rays and
-//! scene into them without losing a bit of the input before the card rounds it.
+//! Registers, ray textures and depth buffer of a card each have their own range. Powers of two bring rays and scene
+//! into them without losing a bit of the input before the card rounds it.
 
 use glam::DVec3;
 use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
@@ -13,7 +13,7 @@ use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::scale::{ceil_power_of_two, in_single_precision, normalize_range, scale_into};
 
-/// Scale of positions on the card, and the t that depth 1 stands for.
+/// Scale of positions on the card, and the t of depth 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Units {
     form: Form,
@@ -137,7 +137,7 @@ impl Units {
         }
     }
 
-    /// Scale of a normal that serves n.d and n.ao alone, where edges have scales of their own.
+    /// Scale of a normal that serves n.d and n.ao alone, if edges have their own scales.
     pub(super) fn normal_scale(&self, corners: [[f32; 3]; 3]) -> f64 {
         if !self.range.has_edge_scale() {
             return 1.0;

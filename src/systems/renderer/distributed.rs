@@ -82,8 +82,8 @@ pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter
 }
 
 /// Continues at a mirror with one ray; at glass with both rays at the first hit of an eye ray, since a random choice
-/// there is visible as noise, afterwards with one. The two rays have random numbers of their own: with the same ones
-/// the noise of both would add up.
+/// there is visible as noise, afterwards with one. The two rays have separate random numbers: with the same ones the
+/// noise of both would add up.
 pub(super) fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     let chosen = if flight.depth == 0 {
         specular_rays(surfel)

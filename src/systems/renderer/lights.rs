@@ -33,7 +33,7 @@ pub(super) struct EmissionSample {
 }
 
 /// Lights of a scene: its emitters, or its point lights. Scenes contain the point lights of Whitted's model in addition
-/// to the emitters that they stand for; a renderer that used both would count all light twice.
+/// to the emitters that they represent; a renderer that used both would count all light twice.
 pub(super) struct Lights<'a> {
     scene: &'a Scene,
     rounding: f64,

@@ -90,7 +90,7 @@ impl PathRay {
 /// Result of shading a hit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scatter {
-    /// Light that goes to the eye at once, weighted.
+    /// Light that reaches the eye directly, weighted.
     pub(super) light: DVec3,
     /// Shadow rays, with the light that arrives if nothing is hit before t = 1.
     pub(super) shadows: Vec<(Ray, DVec3)>,

@@ -32,7 +32,7 @@ impl Coefficients {
     /// Checks that the coefficients make a medium: both finite, absorption at least 0, scattering above 0.
     ///
     /// # Errors
-    /// [`InputError`] says which figure is wrong.
+    /// [`InputError`] names the wrong figure.
     pub fn check(self) -> Result<(), InputError> {
         let scattering = ("reduced scattering coefficient", self.sigma_s_prime);
         for (what, found) in [scattering, ("absorption coefficient", self.sigma_a)] {
@@ -95,7 +95,7 @@ impl Material {
     /// A material out of checked figures.
     ///
     /// # Errors
-    /// [`InputError`] says which figure of which channel is wrong.
+    /// [`InputError`] names the wrong figure and its channel.
     pub fn new(name: impl Into<String>, channels: [Coefficients; 3], eta: f64) -> Result<Self, InputError> {
         check_eta(eta)?;
         for (channel, coefficients) in Self::CHANNELS.into_iter().zip(channels) {

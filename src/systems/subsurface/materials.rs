@@ -10,7 +10,7 @@ pub enum FigureConfidence {
     Printed,
     /// Several independent public copies of the table have it.
     Confirmed,
-    /// Public copies differ; the source says which was taken, and why.
+    /// Public copies differ; the source names the copy that was taken, and the reason.
     Disputed,
     /// No public copy was found; from memory of the table.
     Unconfirmed,
@@ -42,7 +42,7 @@ pub struct PublishedFigure<T> {
     pub confidence: FigureConfidence,
 }
 
-/// A medium as it was published.
+/// A medium as published.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PublishedMaterial {
     /// Its name there.

@@ -31,7 +31,7 @@ const MAX_DIVISIONS: u32 = 4;
 const MAX_LENGTH: f64 = 1e6;
 /// Texels that are handled together.
 const CHUNK: usize = 256;
-/// Rows of texels after which progress is told: so many times in all.
+/// Rows of texels after which progress is reported: so many times in all.
 const REPORTS: usize = 32;
 
 /// Equation 9 over the texels of an atlas, for one channel. Lengths in mm.
@@ -54,7 +54,7 @@ struct PartColumns {
     radius: Vec<f64>,
 }
 
-/// A point of a texel's part and the fraction of the area that it stands for.
+/// A point of a texel's part and the fraction of the area that it represents.
 type WeightedPoint = (DVec3, f64);
 
 impl<'a> Reference<'a> {

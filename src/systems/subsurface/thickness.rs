@@ -1,4 +1,4 @@
-//! Thickness of a model, to tell where it is far from a half space.
+//! Thickness of a model, to show where it differs most from a half space.
 
 use glam::DVec3;
 

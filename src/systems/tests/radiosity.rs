@@ -46,7 +46,7 @@ fn what_has_no_area_is_no_patch() {
 
 const SQUARE: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
 
-/// A scene of polygons, each a fan of triangles of a material of its own.
+/// A scene of polygons, each a fan of triangles with its own material.
 fn scene(polygons: &[&[DVec3]]) -> Scene {
     let (mut positions, mut triangles, mut material_of) = (Vec::new(), Vec::new(), Vec::new());
     for (material, polygon) in (0..).zip(polygons) {

@@ -37,7 +37,7 @@ impl Caster for WithoutDistance {
     }
 }
 
-/// A caster's t does not show: a point of the triangle has the light that arrives there, and none from its other side.
+/// A caster's t has no effect: a point of the triangle has the light that arrives there, and none from its other side.
 #[test]
 fn places_lie_on_their_triangle_whatever_t_says() {
     let corners = [[10.0, 0.0, 3.0], [11.0, 0.5, 3.25], [10.0, 2.0, 4.0]];

@@ -43,7 +43,7 @@ fn corner(index: usize) -> [f32; 3] {
 }
 
 /// Every pair of triangles p q a and q p b of the grid that face the eye, in all orders of their corners that the
-/// sorting tells apart, and rays aimed at p q that pass all other edges on the inside by a margin.
+/// sorting distinguishes, and rays aimed at p q that pass all other edges on the inside by a margin.
 fn pairs(margin: Margin) -> Vec<(Mesh, Vec<Ray>)> {
     let mut pairs = Vec::new();
     let eye = wide(EYE);

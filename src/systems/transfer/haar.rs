@@ -1,10 +1,9 @@
 //! The normalised, non-standard Haar transform of a square of 2^k x 2^k numbers (section 4; \[NRH03\]).
 //!
-//! A level takes four neighbors a b / c d to (a + b + c + d) / 2, to the differences across columns
-//! (a - b + c - d) / 2, across rows (a + b - c - d) / 2, and of both (a - b - c + d) / 2, and goes on with the
-//! averages. That is orthonormal. Coefficients lie in the usual pyramid: the averages of a level in the upper left
-//! quarter of its square, differences across columns in the upper right, across rows in the lower left, of both in the
-//! lower right.
+//! A level maps four neighbors a b / c d to (a + b + c + d) / 2, to the differences across columns (a - b + c - d) / 2,
+//! across rows (a + b - c - d) / 2, and of both (a - b - c + d) / 2, and continues with the averages. That is
+//! orthonormal. Coefficients have the usual pyramid layout: the averages of a level in the upper left quarter of its
+//! square, differences across columns in the upper right, across rows in the lower left, of both in the lower right.
 
 /// The transform of squares of one size.
 #[derive(Clone, Debug)]

@@ -6,15 +6,15 @@
 //!
 //! - *Across an edge of the cube* the texel beyond is the one of the next face that shares the edge: along an edge the
 //!   texels of both faces meet one to one.
-//! - *At the eight corners* only three texels meet. The weight a b of the missing fourth goes to the three in equal
-//!   parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hat functions are continuous over all
-//!   three edges and have the symmetry of the cube.
+//! - *At the eight corners* only three texels meet. The weight a b of the missing fourth is divided among the three in
+//!   equal parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hat functions are continuous over
+//!   all three edges and have the symmetry of the cube.
 //!
 //! For every fine direction the weights sum to 1 (up to the rounding of thirds): light with radiance 1 in every texel
 //! is 1 in every direction. The hat functions interpolate the texels' light.
 //!
 //! `DIFFERENCE`: the text has the hat "centered at the sample" over "the cone of directions within one cube map texel",
-//! and says nothing of edges, corners or solid angles. Read as a bilinear hat, it reaches one texel from its center:
+//! and does not mention edges, corners or solid angles. Read as a bilinear hat, it reaches one texel from its center:
 //! two texels wide. The other reading, one texel wide, can only sum to 1 as a box.
 
 use serde::{Deserialize, Serialize};

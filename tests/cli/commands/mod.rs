@@ -2,8 +2,8 @@
 //!
 //! Commands of the program run on copies of `fixtures` and `docs/examples`, and must end with 0 or with the exit code
 //! that `# exit code N` behind them states. [`CUT`] shortens long work: it changes sizes and counts, never the set of
-//! options. Commands that cannot run here are listed in [`NOT_RUN`] with the reason, and their options are parsed all
-//! the same. Commands of cargo must name packages, targets, features and tests that exist.
+//! options. Commands that cannot run here are listed in [`NOT_RUN`] with the reason, and their options are still
+//! parsed. Commands of cargo must name packages, targets, features and tests that exist.
 
 mod cargo;
 mod prose;
@@ -108,7 +108,7 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
     crossbar_in(folder, &words, input)
 }
 
-/// A message if the command does not end as its text says; `None` if it does. A program of `CROSSBAR_PROGRAM` without
+/// A message if the command does not end as its text states; `None` if it does. A program of `CROSSBAR_PROGRAM` without
 /// the feature `wgpu` may refuse what the text builds with it, but must name the feature.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();

@@ -12,7 +12,7 @@ fn quoted(text: &str) -> Vec<String> {
     sentences.split('`').skip(1).step_by(2).map(words).collect()
 }
 
-/// A message if a command line has a command or an option that does not exist. Words in capitals stand for any.
+/// A message if a command line has a command or an option that does not exist. Words in capitals are placeholders.
 fn fault(program: &clap::Command, line: &str) -> Option<String> {
     let mut command = program;
     for word in line.split(' ').skip(1).take_while(|word| !word.starts_with(['#', '>', '|', '('])) {

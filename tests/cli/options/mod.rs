@@ -218,7 +218,7 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
     }
 }
 
-/// A file of transfer without how it was made; other files as they are.
+/// A file of transfer without its history; other files unchanged.
 fn without_provenance(bytes: Vec<u8>) -> Vec<u8> {
     match parse_prt(&bytes, Path::new("a.npz")) {
         Ok(file) => {

@@ -1,4 +1,4 @@
-//! Lights and transfer that cannot be: errors that say what and where.
+//! Impossible lights and transfer: errors with the place and the cause.
 
 use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::error::InputError;

@@ -54,7 +54,7 @@ impl Hills {
     }
 }
 
-/// The point that a pixel's weights give lies on the pixel's ray, to the subpixel precision of vertices.
+/// The point of a pixel's weights lies on the pixel's ray, to the subpixel precision of vertices.
 #[test]
 fn pixels_show_what_their_rays_meet() {
     let hills = Hills::new();

@@ -1,5 +1,5 @@
 //! "At any vertex, at least 4 out of 24 segments are below the normal's hemisphere; on average, about 8 out of 24 are"
-//! (section 5): what geometry says, for every normal.
+//! (section 5): the exact geometry, for every normal.
 
 use std::f64::consts::PI;
 
@@ -49,7 +49,8 @@ fn with_hats_that_reach_over_fewer_are() {
     close(mean, 6.44, 0.02, "the mean");
 }
 
-/// Along an axis: the four segments of the face behind, and of the sides those that touch the horizon from below.
+/// Along an axis: the four segments of the face behind, and the segments of the sides that touch the horizon from
+/// below.
 #[test]
 fn along_an_axis_twelve_are_below_without_reach() {
     let [one, two] = [BasisWidth::OneTexel, BasisWidth::TwoTexels].map(LinearBasis::new);

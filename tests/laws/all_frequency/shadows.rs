@@ -9,8 +9,8 @@ use glam::DVec3;
 
 use super::trace;
 
-/// The ground's vertices near the teapot are shadowed, those far off see all but the rim of the sky; a vertex below the
-/// teapot sees next to nothing.
+/// The ground's vertices near the teapot are shadowed, far ones see all except the rim of the sky; a vertex below the
+/// teapot sees almost nothing.
 #[test]
 fn the_ground_receives_the_shadow_of_its_model() {
     let model = teapot(3).expect("a teapot");

@@ -110,10 +110,10 @@ proptest! {
     }
 }
 
-/// How far rounding may take the sum of biclusters from each number. An element v of n values t has residuals
-/// r_k = r_(k-1) - t_k from r_0 = v, each rounded by at most u |r_k| with u = EPSILON / 2, the last of them 0; their
-/// exact sum is off by these. Sums of the t add as many roundings, and no term exceeds S = |v| + sum |t| but for these:
-/// 2 n u S, and n + 2 in place of n for terms of second order.
+/// How far rounding may take the sum of biclusters from each number. An element v of n values t has residuals r_k =
+/// r_(k-1) - t_k from r_0 = v, each rounded by at most u |r_k| with u = EPSILON / 2, the last of them 0; the error of
+/// their exact sum is the sum of these. Sums of the t add as many roundings, and no term exceeds S = |v| + sum |t| but
+/// for these: 2 n u S, and n + 2 in place of n for terms of second order.
 fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut sizes: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(|value| value.abs()).collect()).collect();
     let mut counts: Vec<Vec<f64>> = rows.iter().map(|row| vec![2.0; row.len()]).collect();

@@ -87,7 +87,7 @@ fn what_is_written_is_read() {
     }
 }
 
-/// Integers stand in the least type that holds all of them, numbers of a table as floats.
+/// Integers have the least type that holds all of them, numbers of a table are floats.
 #[test]
 fn values_have_types() {
     let type_of = |file: &BiScaleFile| {

@@ -128,8 +128,8 @@ fn sampled(patch: &MesoPatch, size: usize, side: usize) -> BidirectionalTexture 
 
 /// A Lambert square under light 1 from everywhere sends out its albedo: by rays up to what 49,152 directions of the
 /// hemisphere get wrong of the cosine, by transfer up to what M directions do. Their centers have a mean cosine that is
-/// too large by the factor 1 + 2 / M; texels that are routed to the nearest of them give each a share that is off by
-/// less than as much.
+/// too large by the factor 1 + 2 / M; texels routed to the nearest center give each a share with an error of less than
+/// as much.
 #[test]
 fn white_furnace_of_pixels() {
     let albedo = [0.25, 0.5, 1.0];
@@ -181,8 +181,8 @@ fn rungs_come_together() {
     assert!(of_texture < 0.5, "{of_texture}");
 }
 
-/// Where a texture has a sample, at the middle of a texel towards one of its views, it costs nothing but single
-/// precision; at the middle of a texel its texels alone cost nothing, whatever the view.
+/// At a sample of a texture, the middle of a texel towards one of its views, the only error is single precision; at the
+/// middle of a texel its texels alone cause no error, whatever the view.
 #[test]
 fn samples_cost_nothing() {
     let patch = PatchKind::Bricks.patch(1.0);

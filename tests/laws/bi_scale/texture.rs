@@ -68,7 +68,7 @@ proptest! {
         prop_assert!(response.iter().all(|value| value.is_finite() && *value >= 0.0), "{response:?}");
     }
 
-    /// The point that is seen lies on the view's line and on the surface, and nothing of the surface is in front of it.
+    /// The visible point lies on the view's line and on the surface, and no part of the surface is in front of it.
     #[test]
     fn what_is_seen_lies_behind_its_place(heights in heights(), place in place(), view in direction()) {
         prop_assume!(view.z > 0.02);
@@ -206,8 +206,8 @@ fn relief_makes_no_light() {
     }
 }
 
-/// Samples are the patch's response at the middles of texels, in the directions that their numbers say, in any number
-/// of threads; several per texel are averaged.
+/// Samples are the patch's response at the middles of texels, in the directions of their numbers, in any number of
+/// threads; several per texel are averaged.
 #[test]
 fn textures_hold_the_response() {
     let patch = PatchKind::Mail.patch(1.0);

@@ -91,7 +91,7 @@ proptest! {
     }
 }
 
-/// Radiance's tools multiply pixels, and say by what in the header; several lines multiply.
+/// Radiance's tools multiply pixels, and record the factor in the header; several lines multiply.
 #[test]
 fn exposures_of_hdr_files_are_undone() {
     let picture = Picture::rgb(2, 1, &[[1.0, 2.0, 4.0], [0.5, 0.25, 8.0]]);

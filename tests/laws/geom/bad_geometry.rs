@@ -165,7 +165,7 @@ fn the_farthest_corner_is_hit() {
     }
 }
 
-/// From 2^80 sizes of the mesh away, f64 tells no cells apart.
+/// From 2^80 sizes of the mesh away, f64 cannot distinguish cells.
 #[test]
 fn a_ray_from_far_away_finds_the_first_of_many() {
     let unit = 1.0 / (1u64 << 42) as f32;

@@ -11,7 +11,7 @@ use crossbar::case::Setup;
 use refsim::device::{Profile, Switch};
 use refsim::machine::ExecutorKind;
 
-/// The cards, without those that are one of these at another clock.
+/// The cards, without variants that differ in clocks alone.
 const CARDS: [&str; 6] = ["nv20", "nv25", "r200", "r300", "nv30", "nv35"];
 const PRODUCTS: &str = "the only product out of range is -3 times -3, and with any third operand both results exceed 1, \
                         where registers end; else rounding commutes with the addition of multiples of the unit";

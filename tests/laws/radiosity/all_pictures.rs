@@ -20,7 +20,7 @@ pub(crate) fn rooms_and_cameras() -> Vec<(Patches, Camera)> {
     vec![room(true, true, 48), room(true, false, 48), room(false, false, 40)]
 }
 
-/// Numbers that tell patches apart.
+/// Numbers that identify patches.
 pub(crate) fn colours(patches: &Patches) -> Vec<[f64; 3]> {
     (0..patches.list().len()).map(|i| [0.25 + i as f64, 3.0 / (1.0 + i as f64), 0.1]).collect()
 }

@@ -7,8 +7,9 @@
 //!
 //! `|r| <= g^k |r at the start| + max |d| / (1 - g)`.
 //!
-//! A rounded operation is off by at most `2^-24` of its result (or 2^-150 near zero), so |d| follows from the results
-//! of a step: [`bounded_step`]. Before any step it is bounded by the number of roundings per element: [`before`].
+//! The error of a rounded operation is at most `2^-24` of its result (or 2^-150 near zero), so |d| follows from the
+//! results of a step: [`bounded_step`]. Before any step it is bounded by the number of roundings per element:
+//! [`before`].
 
 use crossbar::card::Texels;
 use crossbar::linalg::Matrix;

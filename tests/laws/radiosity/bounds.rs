@@ -12,7 +12,7 @@ fn truth(matrix: &Matrix, right: &[f64]) -> Vec<f64> {
     solve(Solver::Direct, &problem, &Options::default()).expect("a solution").radiosity
 }
 
-/// Error, running bound, bound before any step; the second no less than the first and no more than the third.
+/// Error, running bound, a-priori bound; the second no less than the first and no more than the third.
 fn check(name: &str, card: &CardSystem, systems: &[(Matrix, Vec<f64>)], steps: u32) {
     let value = |b: &crossbar::card::Texels, i: usize, c: usize| {
         f64::from(if systems.len() == 3 { b.texels[i][c] } else { b.texels[i / 4][i % 4] })

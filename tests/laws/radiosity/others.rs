@@ -1,5 +1,4 @@
-//! Radiosity against those who do not know of it: form factors by rays alone, light by path tracing, scenes of other
-//! makers.
+//! Radiosity against independent methods: form factors by rays alone, light by path tracing, scenes of other authors.
 
 use std::f64::consts::PI;
 

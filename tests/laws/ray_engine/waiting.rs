@@ -48,7 +48,7 @@ fn host_work(log: &[Event]) -> HostCounts {
     out
 }
 
-/// The run on the time axis: the log says what was asked, a card's figures how long it takes.
+/// The run on the time axis: the log has the commands, the card's figures their durations.
 fn timed(run: &Run, host: &HostModel) -> Replay {
     let model = Model::new(Level::Pipeline, &profile("nv35")).expect("a model");
     replay(&run.log, &model, &Options { host: Some(host), ..Options::of(Level::Pipeline) }).expect("a good log")

@@ -10,7 +10,7 @@ use crossbar::scene::Scene;
 use super::{Builder, FAR, host, white};
 
 /// Two unit squares: the first in z = 0, the second parallel at height 1, fronts to each other. With a third between
-/// them if asked.
+/// them if requested.
 fn parallel(between: bool) -> Scene {
     let mut builder = Builder::default();
     builder.quad([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], white(0.5));

@@ -1,4 +1,4 @@
-//! The scenes that the project builds: exact counts, sound triangles, and nothing but fronts to be seen.
+//! The scenes that the project builds: exact counts, sound triangles, and only fronts are visible.
 
 use approx::abs_diff_eq;
 use crossbar::geom::Contact;

@@ -150,7 +150,7 @@ fn pixels_that_show_nothing_are_not_read() {
 }
 
 proptest! {
-    /// Any picture is a light of finite coefficients, or an error that says why not.
+    /// Any picture is a light of finite coefficients, or an error with the reason.
     #[test]
     fn any_picture_is_a_light_or_refused(
         width in 0..17u32,

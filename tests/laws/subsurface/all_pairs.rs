@@ -16,9 +16,8 @@ fn media() -> [Dipole; 3] {
     [marble, medium(1.0, 0.0), medium(0.68, 0.9)]
 }
 
-/// A point of a plate gets what a half space returns, [`Dipole::total`], but for what lies beyond the plate: that
-/// outside of a disc about the point, `Dipole::beyond`, of the nearest edge at most, and of the farthest corner at
-/// least.
+/// A point of a plate gets what a half space returns, [`Dipole::total`], minus the part beyond the plate: at most
+/// `Dipole::beyond` of the nearest edge, and at least that of the farthest corner.
 #[test]
 fn a_plate_of_any_size_returns_the_half_space_s_total() {
     let atlas = atlas(&plate(1.0, 1.0), SIDE);

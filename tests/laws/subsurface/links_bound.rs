@@ -12,8 +12,8 @@
 //! - A far pair counts with R_d between mean points. First-order terms cancel in the mean, and what is left is at most
 //!   half the largest second derivative times `p^2 + q^2`.
 //! - A near pair is summed by positive weights that are exact to second order in both points, so that both sum and
-//!   integral keep the second-order polynomial, and each is off by at most a sixth of the largest third derivative
-//!   times `(p + q)^3`.
+//!   integral keep the second-order polynomial, and the error of each is at most a sixth of the largest third
+//!   derivative times `(p + q)^3`.
 
 use crossbar::atlas::Atlas;
 use crossbar::subsurface::links::{IrradianceMeans, LinkChoice, Links, MeanWeighting};
@@ -57,7 +57,7 @@ fn parts(atlas: &Atlas, mm_per_unit: f64) -> Vec<(DVec3, f64, f64)> {
     (0..).zip(atlas.texels()).map(part).collect()
 }
 
-/// How far a factor of the reference may be off.
+/// Error bound of a factor of the reference.
 fn reference_error(dipole: &Dipole, from: (DVec3, f64, f64), to: (DVec3, f64, f64)) -> f64 {
     let (distance, reach) = (from.0.distance(to.0), from.2 + to.2);
     let [second, third] = derivatives(dipole, [(distance - reach).max(0.0), distance + reach]);

@@ -1,5 +1,4 @@
-//! Laws of links: they tile the atlas once, gather what their factors say, and have the same bits on any number of
-//! threads.
+//! Laws of links: they tile the atlas once, gather by their factors, and have the same bits on any number of threads.
 
 use crate::support::in_threads;
 use approx::assert_relative_eq;

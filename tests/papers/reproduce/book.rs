@@ -74,7 +74,7 @@ fn the_book_says_what_the_program_says() {
     }
 }
 
-/// No row is left out of the book: predicted ones and calibrated ones have tables of their own.
+/// Every row is in the pages: predicted ones and calibrated ones have separate tables.
 #[test]
 fn every_row_stands_in_the_book() {
     let texts = pages().iter().map(|path| std::fs::read_to_string(file(path)).expect("a page")).collect::<String>();

@@ -103,7 +103,7 @@ fn lost_models_are_judged_by_order() {
     assert_eq!(appendix.len(), 17);
 }
 
-/// Reflectance factors: the textbooks' forms judge the rows, and every other form stands in a table beside them.
+/// Reflectance factors: the textbooks' forms judge the rows, and every other form is in a table beside them.
 #[test]
 fn reflectance_factors_have_the_printed_rows() {
     let found = findings("all-frequency-factors");
@@ -133,8 +133,8 @@ fn smooth_transfer_compresses_better() {
     assert!(falls("bird") > falls("Buddha"), "{} and {}", falls("bird"), falls("Buddha"));
 }
 
-/// Omega and clusters do not depend on coding, each further representative lowers the error, and what stands for a
-/// model is among what its segments are by themselves.
+/// Omega and clusters do not depend on coding, each further representative lowers the error, and the value for a model
+/// is within the range of its segments.
 #[test]
 fn clusters_and_codes_of_models_keep_their_laws() {
     let found = findings("all-frequency-table-1");

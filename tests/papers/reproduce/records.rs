@@ -62,7 +62,7 @@ fn the_quickest_record_comes_out_again() {
     assert!(drawn.map(|row| row.source).all(|source| source == RowSource::Confirmed), "{}", entry.id);
 }
 
-/// Every file of the folder is the record of an entry, and its findings and rows say so.
+/// Every file of the folder is the record of an entry, and its findings and rows name it.
 #[test]
 fn every_file_is_the_record_of_an_entry() {
     let files = std::fs::read_dir(file("src/studies/records")).expect("the records");

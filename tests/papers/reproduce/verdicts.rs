@@ -17,9 +17,9 @@ fn every_judged_figure_has_one_row() {
     assert_eq!(rows, judged);
 }
 
-/// A contradiction is computed from print, and stands in the notes. A contradictory row of ours lies within the bound
-/// of the printed value or of the one that contradicts it, by every reading; any other one that lies outside is missed
-/// and has its class.
+/// A contradiction is computed from print, and is in the notes. A contradictory row of ours lies within the bound of
+/// the printed value or of the one that contradicts it, by every reading; any other one that lies outside is missed and
+/// has its class.
 #[test]
 fn contradictions_come_with_their_computations() {
     let notes = notes(&FOUND);
@@ -122,7 +122,7 @@ fn calibration_hides_no_miss() {
     assert!(calibrated.all(|row| verdicts.contains(&row.verdict())));
 }
 
-/// A bound that a card worth nothing would meet says nothing.
+/// A bound that even a worthless card would meet has no value.
 #[test]
 fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
     let alone = &findings("ray-engine-table-3").rows[0];

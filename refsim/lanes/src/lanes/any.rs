@@ -16,8 +16,8 @@ use crate::num::{Format, FormatKind, Overflow, Rounding, Unit};
 /// `$d` is a dollar sign, for the parameters of the inner macro.
 macro_rules! arithmetics {
     ($d:tt, $($format:ident($lane:ty),)+) => {
-        /// A closed list, so that each member is compiled to vector code of its own. Roundings of floats are compiled
-        /// in; those of fixed point, and all other rules, are constants in registers.
+        /// A closed list, so that each member is compiled to its own vector code. Roundings of floats are compiled in;
+        /// those of fixed point, and all other rules, are constants in registers.
         #[derive(Clone, Copy, Debug)]
         pub(crate) enum Arithmetic {
             $($format($lane),)+

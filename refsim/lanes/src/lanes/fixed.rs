@@ -225,9 +225,9 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
 
     /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and fitted; anything if `d` is zero.
     ///
-    /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and
-    /// the double errs by one in `2^22` at most: it rounds as the quotient does. Saturating numbers are clamped first;
-    /// wrapping ones are integers of at most 31 bits.
+    /// A quotient that lies between two numbers with a tie lies at least one part in `2^16` away from all of them, and
+    /// the error of the double is at most one in `2^22`: it rounds as the quotient does. Saturating numbers are clamped
+    /// first; wrapping ones are integers of at most 31 bits.
     #[inline(always)]
     pub(super) fn quotient(&self, n: i32, d: i32) -> i32 {
         let exact = f64::from(n) / f64::from(d);

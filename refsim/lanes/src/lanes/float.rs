@@ -112,7 +112,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         }
     }
 
-    /// The result, or what stands for NaN.
+    /// The result, or the pattern of NaN.
     #[inline(always)]
     fn number(&self, x: f32) -> f32 {
         if x.is_nan() { self.nan } else { x }

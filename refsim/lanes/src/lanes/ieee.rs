@@ -1,4 +1,4 @@
-//! Lane arithmetic of the floats that behave as IEEE 754 says: nearest even, gradual underflow, infinities. One host
+//! Lane arithmetic of the floats with IEEE 754's rules: nearest even, gradual underflow, infinities. One host
 //! operation, then one rounding without branches or comparisons.
 
 use super::float::{FloatLane, GeneralLane};

@@ -80,13 +80,13 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// How a slot's number is read.
     fn reading(&self) -> Reading;
 
-    /// True for the unit of a card, whose rows have loops of their own.
+    /// True for the unit of a card, whose rows have separate loops.
     const CARD: bool = false;
 
     /// False for an arithmetic that vector instructions make no faster.
     const VECTORS: bool = true;
 
-    /// True if [`Lane::is_guarded`] can say yes.
+    /// True if [`Lane::is_guarded`] can return true.
     const GUARDED: bool = false;
     /// Returns `true` if results of this arithmetic are right only where they are finite; [`Lane::general`] computes
     /// the rest.
@@ -117,7 +117,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
         }
         sum
     }
-    /// True if [`Lane::is_fused`] can say yes.
+    /// True if [`Lane::is_fused`] can return true.
     const FUSED: bool = false;
     /// Returns `true` if [`Lane::fused_sum`] and [`Lane::fused_div`] are [`Lane::sum`] and [`Lane::div`] in fewer
     /// instructions on a host with fused multiply-add.

@@ -48,7 +48,7 @@ impl<const WRAP: bool> NormalizedLane<WRAP> {
     /// `v / D`, rounded and fitted, for integers of at most 33 bits.
     ///
     /// The nearest integer: quotients lie at least `1 / 2D` from the middle between two, and the double errs by less
-    /// than `2^-20`. The remainder is exact and says on which side of the quotient it lies.
+    /// than `2^-20`. The remainder is exact and shows on which side of the quotient it lies.
     #[inline(always)]
     fn over(&self, v: f64) -> i32 {
         let value = self.product.magnitude(v);
@@ -82,7 +82,7 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// The nearest double. It rounds into every other format as the number does: a number that isn't an integer lies at
-    /// least one part in `2^42` from what any of them has, and from the middle between two.
+    /// least one part in `2^42` from every number of another format, and from the middle between two.
     #[inline(always)]
     fn to_f64(&self, x: i32) -> f64 {
         f64::from(x) / self.denominator

@@ -63,7 +63,7 @@ pub fn div_odd_long(a: f64, b: f64) -> f64 {
 ///
 /// The candidate is within two units of a double; its head `y` of 26 bits is therefore within `2^-26 y` of the truth.
 /// With `y^2 = h + l` split so that both parts times `a` are exact, `1 - h a` is exact (it cancels), and comparing it
-/// with `l a` tells on which side of `y` the truth lies.
+/// with `l a` shows on which side of `y` the exact value lies.
 #[inline(always)]
 pub(crate) fn rsq_odd(a: f64) -> f64 {
     let y = head(1.0 / a.sqrt());

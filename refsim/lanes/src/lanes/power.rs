@@ -21,8 +21,8 @@ fn mul_high(a: u128, b: u128) -> u128 {
     a1 * b1 + ((a1 * b0) >> 64) + ((a0 * b1) >> 64) + (middle >> 64)
 }
 
-/// `2^x` rounded to odd; `x` has at most 32 significant bits. Infinities and NaN as IEEE would have it. Beyond
-/// `|x| = 900` a double of the right side and size stands in, far outside every format.
+/// `2^x` rounded to odd; `x` has at most 32 significant bits. Infinities and NaN as IEEE would have it. Beyond `|x| =
+/// 900` a double of the right side and size replaces it, far outside every format.
 pub(crate) fn exp2(x: f64) -> f64 {
     const ONE: u64 = 1023 << 52;
     if x.is_nan() || x == f64::INFINITY {

@@ -31,14 +31,14 @@ pub(crate) fn sum<const R: u8>(a: f32, b: f32) -> f32 {
 /// Tells if `s`, the single nearest to `a + b`, is larger than the sum, as infinity is where the operands are finite.
 ///
 /// Let `|a| >= |b|`. Then `s - a` is a single, and compares with `b` as `s` does with `a + b`. The other difference may
-/// be rounded, but not past `a`, which is a single: it never says that `s` is larger where it isn't.
+/// be rounded, but not past `a`, which is a single: it never makes `s` appear larger than it is.
 #[inline(always)]
 fn is_above(s: f32, a: f32, b: f32) -> bool {
     (s - a > b) | (s - b > a)
 }
 
-/// Singles from which rounding as `R` says to at most eleven bits gives what `a + b` itself gives, for numbers of at
-/// most eleven bits and exponents of at most six.
+/// Singles whose rounding by `R` to at most eleven bits equals that of `a + b` itself, for numbers of at most eleven
+/// bits and exponents of at most six.
 ///
 /// If the sum `s` of the host is not exact, the smaller operand is less than an eighth of a unit of `s` in the format.
 /// Then `s` and the sum round to the larger operand when rounding to nearest. When cutting off, it matters on which
@@ -74,9 +74,9 @@ pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
 
 /// `1 / x` cut off or, for [`DOWN`], rounded down; of zero an infinity of its sign.
 ///
-/// The host's reciprocal times `x`, less 1, is a number of single precision: its sign says on which side of the truth
-/// the reciprocal lies. No reciprocal but those of powers of two, which are exact, is half way between two singles, so
-/// that rounding to nearest away is what the host does.
+/// The host's reciprocal times `x`, less 1, is a number of single precision: its sign shows on which side of the exact
+/// value the reciprocal lies. No reciprocal but those of powers of two, which are exact, is half way between two
+/// singles, so that rounding to nearest away is what the host does.
 #[inline(always)]
 pub(crate) fn reciprocal<const R: u8>(x: f32) -> f32 {
     let q = 1.0 / x;
@@ -95,10 +95,10 @@ pub(crate) fn nearest_sum(a: f32, b: f32) -> f32 {
     tie_away(s, e)
 }
 
-/// `a b` rounded likewise; NaN where the product is too small to be moved.
+/// `a b`, rounded in the same way; NaN where the product is too small to be moved.
 ///
-/// The product has 48 bits at most. Moved outward by less than the last of them, and by something, ties round away and
-/// nothing else changes: what it is moved by, rounded where it is subnormal, is at most half of its last bit.
+/// The product has 48 bits at most. If a number is moved outward by a nonzero amount less than its last bit, ties round
+/// away and nothing else changes: the amount, rounded if subnormal, is at most half of its last bit.
 #[inline(always)]
 pub(crate) fn nearest_product(a: f32, b: f32) -> f32 {
     let outward = a * b * HAIR;
@@ -138,7 +138,7 @@ fn sum_and_error(a: f32, b: f32) -> (f32, f32) {
     (s, (a - (s - part)) + (b - part))
 }
 
-/// The next number toward -infinity, where told.
+/// The next number toward -infinity, if requested.
 #[inline(always)]
 fn one_lower(x: f32, lower: bool) -> f32 {
     let outward = (x.to_bits().cast_signed() >> 31 | 1).cast_unsigned();

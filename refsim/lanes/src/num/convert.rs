@@ -13,8 +13,8 @@ use super::unpack::{Unpacked, nan_bits, unpack, zero};
 /// in fixed point it saturates with `OVERFLOW`, also where finite numbers wrap, and in floats without infinity it
 /// overflows as numbers do.
 ///
-/// Into the unit of a card single floats go as they are; out of it subnormals are zeros. A NaN of GT200 becomes the one
-/// of the other format ([`super::unit::gt200_conversions::to_half`] has that of the card).
+/// Into the unit of a card single floats pass unchanged; out of it subnormals become zeros. A NaN of GT200 becomes the
+/// one of the other format ([`super::unit::gt200_conversions::to_half`] has that of the card).
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
     // Units of cards pass single floats on as they are, NaN and subnormals too.
@@ -56,8 +56,8 @@ pub fn from_f64(to: impl Into<Env>, x: f64) -> Outcome {
 /// The stored significand of a double.
 const FRACTION: u64 = (1 << 52) - 1;
 
-/// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits, but for
-/// normalized ones, which are rounded to the nearest; NaN and infinities are preserved.
+/// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits, except
+/// for normalized ones, which are rounded to nearest; NaN and infinities are preserved.
 pub fn to_f64(format: &Format, bits: u32) -> f64 {
     // Subnormals keep their value even in flushing formats: this shows the stored number, not the operand.
     match unpack(&format.with_denormals(Denormals::Keep), bits) {

@@ -49,8 +49,8 @@ pub enum FormatKind {
     /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits. With
     /// [`Encoding::Scale`] the exponent alone: `e8m0`, 8 bits.
     Float {
-        /// Exponent bits, 2 to 8 (7 in encodings without infinity); [`Encoding`] says what the bias is, and what the
-        /// largest field means.
+        /// Exponent bits, 2 to 8 (7 in encodings without infinity); [`Encoding`] determines the bias, and the meaning
+        /// of the largest field.
         exp_bits: u8,
         /// Stored mantissa bits, 1 to 23; the leading one is not stored.
         man_bits: u8,

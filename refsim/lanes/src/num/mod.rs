@@ -24,8 +24,8 @@
 //! an operation computes the exact magnitude (or enough leading bits and a sticky bit), and one function rounds and
 //! encodes it ([`from_parts`] is its public face). Numbers of a normalized format are integers over
 //! [`Format::denominator`]: that function counts in units of the format, operations give it what they find in those
-//! units, and only `round_quotient` divides. Operations with intermediate roundings have names of their own:
-//! [`ops::mad`] has two roundings, [`ops::fused_mad`] has one, and [`ops::dot`] takes the order of summation.
+//! units, and only `round_quotient` divides. Operations with intermediate roundings have separate names: [`ops::mad`]
+//! has two roundings, [`ops::fused_mad`] has one, and [`ops::dot`] takes the order of summation.
 //!
 //! [`NumberOperation`] enumerates the operations.
 //!

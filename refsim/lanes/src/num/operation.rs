@@ -153,7 +153,7 @@ operations! {
     LitSpecular(a, b, c) => UnitOperation::LitSpecular;
     /// 1 if `a < b`, else 0, by the unit of a card; modern NV3x gives NaN for NaN.
     SetLess(a, b) => UnitOperation::SetLess;
-    /// 1 if `a <= b`, else 0, likewise.
+    /// 1 if `a <= b`, else 0; NaN as above.
     SetLessEqual(a, b) => UnitOperation::SetLessEqual;
     /// 1 if `a == b`, else 0, likewise.
     SetEqual(a, b) => UnitOperation::SetEqual;

@@ -2,7 +2,7 @@
 
 /// The word of the operation with a number: the upper half of output `index` (from 0) of SplitMix64 (Steele, Lea and
 /// Flood 2014, "Fast splittable pseudorandom number generators") from the state `seed`. A function of both alone,
-/// whatever was asked before.
+/// independent of earlier calls.
 ///
 /// ```
 /// // The first two outputs from 1234567 are 6457827717110365317 and 3203168211198807973.

@@ -249,8 +249,8 @@ fn round_fixed(
     Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// The pattern that stands for an infinity: itself; NaN if there is no infinity; the end of the range if there is no
-/// NaN either.
+/// The pattern that replaces an infinity: itself; NaN if there is no infinity; the end of the range if there is no NaN
+/// either.
 fn unbounded(format: &Format, sign: bool) -> u32 {
     format.infinity(sign).or(format.canonical_nan()).unwrap_or(format.extreme(sign))
 }

@@ -10,7 +10,7 @@ use crate::num::{self, Format, NumberOperation};
 /// multiple of the range in which fixed point wraps.
 const FAR: f64 = f64::from_bits((1023 + 200) << 52);
 
-/// Slot of the result; the operands have those before it.
+/// Slot of the result; the operands have the slots before it.
 const RESULT: u16 = 3;
 
 /// An operation of a number format on arrays, 256 elements at a time: the arithmetic of the batch executor, equal to

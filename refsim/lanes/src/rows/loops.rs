@@ -1,16 +1,16 @@
 //! Loops over rows: apply a function of lane values to all lanes.
 //!
-//! Each row is a separate argument, so that the compiler knows that the result does not alias the operands. Behind a
-//! box or in a slice of rows it can't tell, and doesn't vectorise.
+//! Each row is a separate argument, so that the compiler knows that the result does not alias the operands. For boxed
+//! rows or slices it cannot know the length, and does not vectorise.
 //!
-//! Loops that write rows also return the largest magnitude of their results, which arithmetics with a guard need: it
-//! costs next to nothing in the same loop, and nothing where it is not read.
+//! Loops that write rows also return the largest magnitude of their results, which arithmetics with a guard need: in
+//! the same loop it costs next to nothing, and nothing if it is not read.
 
 use super::code::LaneOp;
 use super::slots::Slots;
 use crate::lanes::{LANES, Lane, LaneRow};
 
-/// Largest host bits, without the sign bit, of the results of a loop. For floats it tells whether all are finite.
+/// Largest host bits, without the sign bit, of the results of a loop. For floats it shows whether all are finite.
 pub(crate) type Largest = u32;
 
 /// Stores a result and updates the largest magnitude.

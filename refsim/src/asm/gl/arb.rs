@@ -136,7 +136,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Notes that the text from `start` on binds what a name stands for.
+    /// Notes that the text from `start` on binds the object of a name.
     pub(super) fn bind(&mut self, name: &Name, start: u32) {
         let resource = match name {
             Name::Register(register) => ProgramResource::Register(*register),

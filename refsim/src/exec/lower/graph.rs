@@ -142,7 +142,7 @@ pub(crate) struct Graph {
     cards: Vec<bool>,
     /// By [`Arith::index`], `true` for single floats.
     singles: Vec<bool>,
-    /// `true` if inputs are words as they are, rather than results of arithmetic.
+    /// `true` if inputs are words to keep unchanged, rather than results of arithmetic.
     reads_words: bool,
     kinds: Vec<NodeKind>,
     known: BTreeMap<NodeKind, NodeId>,
@@ -162,8 +162,8 @@ impl Graph {
     }
 
     /// The operation that converts single floats into the words of a card's unit, and its format; `None` for other
-    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. Operands of
-    /// a vertex program are words.
+    /// conversions. Words stay unchanged; numbers of an ideal format become their patterns, with one NaN. Operands of a
+    /// vertex program are words.
     pub(crate) fn copies(&self, from: Arith, to: Arith, number: NodeId) -> Option<(Arith, Op)> {
         if !self.is_card(to) || !self.singles.get(from.index()).is_some_and(|&single| single) {
             return None;

@@ -11,7 +11,7 @@ use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overf
 /// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
 /// rounding, overflow, denormals, special values, and the denominator of a normalized format, else 0. Shaders take a
 /// normalized format for one of fixed point without fraction bits, whose numbers are divided by the denominator. Units
-/// of cards stand in the place of the special values, from 2 on.
+/// of cards take the place of the special values, from 2 on.
 ///
 /// Rules that do not apply to the kind are replaced by its default, as in [`Format`].
 pub fn format_words(format: &Format) -> [u32; 8] {
@@ -76,7 +76,7 @@ pub fn source_word(format: &Format) -> u32 {
 
 /// The text of the number library: `struct Format`, functions `n_...` for any format and `s_...` for single precision.
 ///
-/// The text of units of cards stands in sections of its own ([`super::parts`]).
+/// The text of units of cards is in separate sections ([`super::parts`]).
 pub fn library() -> String {
     let constants = |of_units: bool| -> String {
         let operations = NumberOperation::ALL.into_iter().filter(|operation| operation.is_of_units() == of_units);

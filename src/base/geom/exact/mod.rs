@@ -5,7 +5,7 @@
 //! is never hit. n = (b - a) x (c - a); from the front means n.d < 0. Hits are ordered by exact t; of several at the
 //! same t the smallest id comes first, and the whole set of ties is reported.
 //!
-//! **Method.** With A = a - o and so on, the signs of d.(BxC), d.(CxA), d.(AxB) (whose sum is n.d) tell on which side
+//! **Method.** With A = a - o and so on, the signs of d.(BxC), d.(CxA), d.(AxB) (whose sum is n.d) show on which side
 //! of each edge the ray passes, and t = (n.A) / (n.d). [`integer`] evaluates these as integers of any size, since an
 //! f32 is an integer times a power of two. [`filter`] runs first: it evaluates them in f64 with a proved error bound
 //! and decides only certain cases; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests compare all

@@ -90,13 +90,13 @@ fn fill_file(
 /// Several files that appear together in one folder, when [`FileSet::commit`] is called. Dropped without it, it leaves
 /// nothing behind.
 ///
-/// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed
-/// one after another, because the folder itself stays: programs may be at work in it, and it may hold other files. A
-/// lock on the folder keeps the renames of two processes apart. A process that is killed in the midst of them leaves
-/// old files beside new ones, and `.crossbar-XXXXXX` with the rest.
+/// A folder that was missing appears by one rename, with all its files. In an existing folder the files are renamed one
+/// after another, because the folder itself stays: programs may use it, and it may hold other files. A lock on the
+/// folder keeps the renames of two processes apart. A process that is killed in the midst of them leaves old files
+/// beside new ones, and `.crossbar-XXXXXX` with the rest.
 #[derive(Debug)]
 pub struct FileSet {
-    /// The folder as it was named.
+    /// The folder as given.
     folder: PathBuf,
     /// The innermost folder on the way that exists.
     base: PathBuf,

@@ -1,4 +1,4 @@
-//! Bodies put together from rounded pieces that flow into each other, and their surfaces.
+//! Bodies composed of rounded pieces that flow into each other, and their surfaces.
 //!
 //! A body is the set of points where a function is negative. Its surface is found by tetrahedra (six to a cell of a
 //! grid: Doi, Koide 1991), which is closed whatever the function, coarsened to the number of vertices that is wanted,
@@ -86,7 +86,7 @@ impl Folds {
 enum BodyStep {
     /// Adds a piece, with the width in which it flows into what is there.
     Add(RoundedPiece, f64),
-    /// Takes a piece away, likewise.
+    /// Removes a piece in the same way.
     Carve(RoundedPiece, f64),
     Fold(Folds),
 }

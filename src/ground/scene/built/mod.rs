@@ -4,7 +4,7 @@
 //! products, square roots and [`crate::elementary`], and rounded to f32 once. Random numbers move and rotate
 //! objects; they never change a count.
 //!
-//! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
+//! - `parts`, `solids`: quads, blocks, surfaces of revolution, combined with their materials;
 //! - one file a scene;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
 //! - [`transfer_models`]: meshes with the vertex counts of those of others, with normals and texture coordinates;

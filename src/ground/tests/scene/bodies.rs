@@ -1,4 +1,4 @@
-//! Surfaces put together from rounded pieces, and the scanned bunny, at any number of vertices.
+//! Surfaces composed of rounded pieces, and the scanned bunny, at any number of vertices.
 
 use crossbar_base::geom::Mesh;
 use crossbar_base::geom::vector::wide;
@@ -6,8 +6,8 @@ use crossbar_ground::scene::built::stand_ins;
 use crossbar_ground::scene::built::transfer_models::TransferModel;
 use glam::DVec3;
 
-/// Refined and coarsened surfaces are closed, of one part without a handle, around the origin, and of exactly as many
-/// vertices as asked for, whose edges are alike: a body with its volume.
+/// Refined and coarsened surfaces are closed, of one part without a handle, around the origin, of exactly the requested
+/// number of vertices, with edges of similar length: a body with its volume.
 #[test]
 fn bodies_are_closed_at_every_size_and_keep_their_volume() {
     use TransferModel::{BiScaleArmor, BiScaleBunny, BiScaleBunnyMiddle, Bird, Buddha, Bunny, Head};

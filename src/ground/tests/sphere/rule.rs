@@ -14,7 +14,8 @@ fn rules_have_the_size_of_their_degree_and_the_solid_angle_as_their_sum() {
     assert!(hemisphere.directions().iter().all(|v| v.z > 0.0 && (v.length() - 1.0).abs() < 4e-16));
 }
 
-/// A bowl, a horizon of the same height all around, lets in light that the rule of rings tells in steps of a ring.
+/// A bowl, a horizon of the same height all around, lets in light; the rule of rings resolves it only in steps of a
+/// ring.
 #[test]
 fn horizons_of_any_height_are_told_to_a_fraction_of_a_ring() {
     let worst = |rule: &DirectionRule| {

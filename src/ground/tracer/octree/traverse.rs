@@ -9,7 +9,7 @@ use super::{Octree, OctreeNode};
 use crate::geom::Ray;
 
 /// Substitute for a zero component of a direction: a plane one scene away is met at a parameter that f64 can represent,
-/// and the middle between two such parameters still tells which half of a cell the ray is in.
+/// and the middle between two such parameters still shows which half of a cell the ray is in.
 const TINY_COMPONENT: f64 = 1e-200;
 
 /// Maximum distance of a ray's origin, in margins: the parameter of a plane is a difference and a quotient, each

@@ -15,7 +15,7 @@ pub(super) struct AddendFate {
     pub(super) kept: f64,
 }
 
-/// Where an element parts from its reference; with one accumulator.
+/// The place where an element first differs from its reference; with one accumulator.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Blame {
     pub(super) place: [usize; 2],
@@ -27,7 +27,7 @@ pub(super) struct Blame {
     pub(super) addends: Vec<AddendFate>,
 }
 
-/// The sum at a k, as the word that goes into the block there.
+/// The sum at a k, as the word that enters the block there.
 type Sums = Vec<(usize, (u64, Element))>;
 
 /// Sums before each block and behind the last.

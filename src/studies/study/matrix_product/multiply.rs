@@ -91,8 +91,8 @@ impl Operands {
         self.b.count()
     }
 
-    /// D over the first `depth` products: each number exactly. With `promote`, every so many products go to a sum in
-    /// single precision, rounded to nearest even, and the unit begins again from zero.
+    /// D over the first `depth` products: each number exactly. With `promote`, every so many products are added to a
+    /// sum in single precision, rounded to nearest even, and the unit begins again from zero.
     pub(super) fn product(
         &self,
         unit: &MatrixUnit,
@@ -137,7 +137,7 @@ impl Operands {
     }
 
     /// The exact D over each of some depths. Products of up to 26 bits are exact in a double, and their sums in two
-    /// doubles, which is everything but for types whose exponents are those of single precision.
+    /// doubles, except for types with the exponents of single precision.
     pub(super) fn exact(&self, depths: &[usize]) -> Vec<Vec<ExactSum>> {
         let [a, b] = [&self.a, &self.b].map(|rows| self.numbers(rows));
         let (depth, count) = (self.a.length, self.columns());

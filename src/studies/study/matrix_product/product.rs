@@ -24,7 +24,7 @@ pub struct MatrixProduct {
     pub units: Vec<MatrixUnit>,
     /// Types of A and B; by default the first that a unit has.
     pub elements: [Option<Element>; 2],
-    /// Products after which a partial sum goes to single precision; `None` for one accumulator.
+    /// Products after which a partial sum is added to single precision; `None` for one accumulator.
     pub promotions: Vec<Option<usize>>,
     /// The unit that errors are against; `None` for the exact product of the quantised operands.
     pub against: Option<MatrixUnit>,

@@ -9,7 +9,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
 
-/// Addends that are printed, at most; those that lose most.
+/// Maximum number of addends that are printed; those that lose most.
 const MOST_ADDENDS: usize = 10;
 /// Lines of the chart, at most.
 const MOST_LINES: usize = 12;

@@ -208,7 +208,7 @@ fn fixed_views(views: &[FixedView]) -> Markup {
     }
 }
 
-/// A program of the visitor's own; without the emulator a paragraph that says how to get it.
+/// A program of the visitor's own; without the emulator a paragraph that explains how to get it.
 fn playground(has_emulator: bool) -> Markup {
     html! {
         section aria-labelledby="playground" {

@@ -19,7 +19,7 @@ pub(super) struct ProgramCase {
     /// Name of its files.
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// A sentence that says what a pixel is.
+    /// A sentence that describes a pixel.
     pub(super) about: &'static str,
     pub(super) device: &'static str,
     /// Register formats other than the device's own.

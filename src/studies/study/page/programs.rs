@@ -35,7 +35,7 @@ pub(super) struct PagePrograms {
     /// Words of a record before its steps, words of a step, first word of a record with a fragment, and of one to be
     /// continued.
     record: [u32; 4],
-    /// Word of a draw that says that it continues.
+    /// Word of a draw that marks a continuation.
     resumes: usize,
     /// Contents of buffers; each once.
     buffers: Vec<String>,

@@ -17,7 +17,7 @@ const FIRST: [u8; 9] = [2, 3, 5, 7, 10, 12, 15, 16, 20];
 pub(super) struct BitScan {
     /// Values of the goal's measure, by bits.
     pub(super) points: BTreeMap<u8, f64>,
-    /// Fewest bits from which on every number of bits meets the goal, as far as it was computed.
+    /// Fewest bits from which on every computed number of bits meets the goal.
     pub(super) smallest: Option<u8>,
     /// Bits, and more bits that are worse; all numbers of bits were computed then.
     pub(super) counterexample: Option<[u8; 2]>,

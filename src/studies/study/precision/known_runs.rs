@@ -1,4 +1,4 @@
-//! Runs of an earlier study of the same subject: a longer search goes on where the last ended.
+//! Runs of an earlier study of the same subject: a longer search continues where the last ended.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
@@ -68,7 +68,7 @@ impl KnownRuns {
         }
     }
 
-    /// Value and place of the largest error of a run; `None` if it is not known or is to be made all the same.
+    /// Value and place of the largest error of a run; `None` if it is not known or must be repeated.
     pub(super) fn get(&mut self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
         let key = digest(assignment);
         let run = self.runs.get(&key).or_else(|| self.of_parts.get(&key))?.clone();

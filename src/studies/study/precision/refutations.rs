@@ -6,7 +6,7 @@ use super::search::{MixedFormats, RefutedFormat};
 use super::subject::{PixelSteps, RefutingDevices, WorstPlace};
 use crate::study::StudyError;
 
-/// Results of the instructions at the pixel that tells of a refutation.
+/// Results of the instructions at the pixel of a refutation.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RefutationTrace {
     pub(super) refuted: RefutedFormat,

@@ -107,8 +107,8 @@ fn narrow(
     found
 }
 
-/// Removes single bits, one instruction after the other and from the last to the first again, until none of them can
-/// do with a bit less while the others stay as they are.
+/// Removes single bits, one instruction after the other and from the last to the first again, until every further bit
+/// misses the goal.
 fn remove_bits(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> Result<(), RunError> {
     let mut refuted = 0;
     for &place in order.iter().cycle() {

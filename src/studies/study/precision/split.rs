@@ -36,7 +36,7 @@ impl Precision {
         self.families.len() * STARTS.len()
     }
 
-    /// Makes the runs of a range of searches. Where the budget ends, the merge goes on.
+    /// Makes the runs of a range of searches. If the budget ends, the merge continues.
     pub(super) fn runs_of(&self, range: Range<usize>, runs: &mut Runs<'_>) -> Result<RunsOfSearches, StudyError> {
         match range.clone().try_for_each(|number| self.search_of(number, runs)) {
             Ok(()) | Err(RunError::Budget) => Ok(RunsOfSearches { searches: range.len(), known: runs.known.clone() }),

@@ -207,7 +207,7 @@ pub trait PrecisionSubject {
     }
 
     /// Follows a pixel on three devices: `worst`, that of the largest error of the last of them, or a pixel of an
-    /// earlier pass or another ray if that one tells nothing of the program; `None` if the subject has no traces.
+    /// earlier pass or another ray if `worst` does not run the program; `None` if the subject has no traces.
     ///
     /// # Errors
     /// If a device cannot run the programs.

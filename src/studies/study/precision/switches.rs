@@ -19,7 +19,7 @@ pub(super) struct SwitchRow {
 /// Findings under a value of a switch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SwitchFindings {
-    /// Value of the goal's measure on the device as given but for the switch.
+    /// Value of the goal's measure on the device as given, except for the switch.
     pub(super) given: f64,
     /// Value of the exact run.
     pub(super) exact: f64,

@@ -4,7 +4,7 @@ use crate::clustering::{Clustering, Signal};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
 
-/// Powers of ten that the histogram tells apart, as shares of a point's mean square.
+/// Powers of ten that the histogram distinguishes, as shares of a point's mean square.
 const DECADES: std::ops::RangeInclusive<i32> = -10..=-1;
 
 /// The squared error of every point.

@@ -1,8 +1,8 @@
-//! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
-//! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and
-//! factors of a reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`],
-//! [`SegmentedCompression`], [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. Bi-scale transfer: pictures
-//! ([`BiScaleRendering`], [`BiScaleOnCard`]), and ways to store it side by side ([`StoredComparison`]).
+//! Precomputed radiance transfer from a model to a file ([`Precomputation`]), errors of compression
+//! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and factors of a
+//! reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`], [`SegmentedCompression`],
+//! [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. Bi-scale transfer: pictures ([`BiScaleRendering`],
+//! [`BiScaleOnCard`]), and ways to store it side by side ([`StoredComparison`]).
 
 mod all_frequency;
 mod bi_scale;

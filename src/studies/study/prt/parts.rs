@@ -1,4 +1,4 @@
-//! Results at ranges of vertices, which are put together.
+//! Results at ranges of vertices, which are joined.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Biclusters beside other ways to store transfer: bytes, and how far the light that arrives is off.
+//! Biclusters compared with other ways to store transfer: bytes, and errors of the arriving light.
 
 use std::time::Instant;
 
@@ -115,7 +115,7 @@ impl StoredComparison<'_> {
         Ok(ways.found)
     }
 
-    /// Clusters as asked for, and with as many vectors as go into some bytes where these are others.
+    /// Clusters as requested, and with as many vectors as fit into some bytes if these differ.
     fn cluster_settings(&self, budget: u64) -> Vec<(RowClusterOptions, &'static str)> {
         let equal = self.clusters.within(budget, [self.matrix.rows(), self.matrix.columns()]);
         let mut settings = vec![(self.clusters, "")];

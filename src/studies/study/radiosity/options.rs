@@ -182,7 +182,7 @@ impl RadiosityOptions {
     /// Every solver, those on the card in every packing and storage; nothing twice.
     ///
     /// # Errors
-    /// If something is asked of the card, and no method runs on it.
+    /// If an option for cards is given, and no method runs on a card.
     pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
         let solvers = if self.solvers.is_empty() { &usual[..] } else { &self.solvers };

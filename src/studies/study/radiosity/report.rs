@@ -205,8 +205,8 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
 /// Ratio of mean errors above which a setting of a switch gets a line of its own; the table has all settings.
 const APART: f64 = 1.5;
 
-/// Chart of the mean error by number of patches: a line per method on the card as it is, and one per setting that makes
-/// a difference. `None` without a sweep.
+/// Chart of the mean error by number of patches: a line per method on the card with its defaults, and one per setting
+/// that makes a difference. `None` without a sweep.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.error.bias.abs();
     let apart = |row: &SweepRow| {

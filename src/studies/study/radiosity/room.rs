@@ -30,7 +30,7 @@ pub(super) fn rows(
     })
 }
 
-/// Completes the rows of all patches, and enforces what is asked for.
+/// Completes the rows of all patches, and applies the requested corrections.
 pub(super) fn complete(rows: FormFactorRows, patches: &Patches, parameters: &Parameters) -> Result<Room, StudyError> {
     let mut factors = rows.complete(patches);
     let found_sums = factors.summary();

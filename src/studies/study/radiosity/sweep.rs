@@ -43,7 +43,7 @@ impl SweepRow {
     }
 }
 
-/// Run of the sweep, with what tells whether others have the same bits.
+/// Run of the sweep, with the data that shows whether others have the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SweepRun {
     row: SweepRow,

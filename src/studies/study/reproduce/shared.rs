@@ -24,7 +24,7 @@ pub(super) trait SharedResult: Sized + 'static {
 pub(super) struct Shared {
     pub(super) models: ModelSize,
     results: Link,
-    /// Where long work keeps its pieces, so that it goes on from them after a stop.
+    /// Folder in which long work keeps its pieces, so that it can continue after a stop.
     kept: Option<Rc<KeptResults>>,
 }
 
@@ -42,7 +42,7 @@ impl Shared {
         Self { models, ..Self::default() }
     }
 
-    /// For a run that keeps its pieces in a folder, and takes those that are there.
+    /// For a run that keeps its pieces in a folder, and reuses those that exist.
     pub(super) fn keeping(self, kept: Option<Rc<KeptResults>>) -> Self {
         Self { kept, ..self }
     }

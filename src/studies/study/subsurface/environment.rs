@@ -11,7 +11,7 @@ use crate::tracer::HostTracer;
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
 use crate::transfer::light::CubeLight;
 
-/// Texels of the light along a side of the square that one shadow ray stands for.
+/// Texels of the light along a side of the square that one shadow ray represents.
 const GROUP: usize = 2;
 
 /// E of equation 8 per texel of the atlas, with the model's own shadows.

@@ -9,7 +9,7 @@ use crate::subsurface::kernels::LinkLayout;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::FloatTexels;
 
-/// Side of an atlas, in texels, up to which `crossbar subsurface` gathers over all pairs unless told otherwise.
+/// Side of an atlas, in texels, up to which `crossbar subsurface` gathers over all pairs by default.
 pub(super) const ALL_PAIRS_SIDE: u32 = 32;
 /// Largest side of an atlas for all pairs, which take time by the square of its texels.
 const MAX_ALL_PAIRS_SIDE: u32 = 512;
@@ -101,7 +101,7 @@ impl SubsurfaceOptions {
     /// Every combination of what may be repeated: a row of the table for each.
     ///
     /// # Errors
-    /// If no level of the atlas has as many clusters as fixed links are asked for.
+    /// If no level of the atlas has the requested number of fixed links.
     pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
         let [r, g, b] = material.channels;
         let choices = or(&self.choices, LinkLayout::Fixed);
@@ -122,7 +122,7 @@ impl SubsurfaceOptions {
     }
 }
 
-/// Those that were asked for, each once, or the usual one.
+/// The requested ones, each once, or the usual one.
 fn or<T: Copy + PartialEq>(asked: &[T], usual: T) -> Vec<T> {
     let mut all: Vec<T> = Vec::new();
     for &one in asked {

@@ -16,7 +16,7 @@ pub(super) struct SubsurfaceOutcome {
     pub(super) dipoles: [Dipole; 3],
     /// E of equation 8 per texel, by the host.
     pub(super) irradiance: Vec<[f64; 3]>,
-    /// Radiosities over all pairs, in f64, per texel, row by row, if asked for.
+    /// Radiosities over all pairs, in f64, per texel, row by row, if requested.
     pub(super) truth: Option<Vec<[f64; 3]>>,
     /// A row per way.
     pub(super) rows: Vec<WayRow>,

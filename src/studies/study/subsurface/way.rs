@@ -40,7 +40,7 @@ pub(super) struct Scene<'a> {
     pub(super) dipoles: &'a [Dipole; 3],
     /// Per texel, by the host.
     pub(super) irradiance: &'a [[f64; 3]],
-    /// Radiosities over all pairs, if asked for.
+    /// Radiosities over all pairs, if requested.
     pub(super) truth: Option<&'a [[f64; 3]]>,
 }
 
@@ -180,7 +180,7 @@ fn angles(scene: &Scene<'_>, found: [&[[f64; 3]]; 2]) -> Vec<AngleBin> {
     judged.map_or_else(Vec::new, |(towards, truth)| angles::by_angle(scene.atlas, towards, truth, found))
 }
 
-/// A card with the links of a way, its maps lit and gathered; its events recorded if asked for.
+/// A card with the links of a method, its maps lit and gathered; its events recorded if requested.
 pub(super) fn lit_card(
     scene: &Scene<'_>,
     way: GatherWay,

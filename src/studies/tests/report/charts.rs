@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::between;
 use super::colors::{Color, color, contrast, least_distance};
 
-/// Number of series that have styles of their own: 6 colors, 5 dashes and 7 markers.
+/// Number of series with separate styles: 6 colors, 5 dashes and 7 markers.
 const MAX_SERIES: usize = 6 * 5 * 7;
 /// Distance of the centers of neighboring labels, in pixels.
 const PITCH: f64 = 19.0;
@@ -212,7 +212,7 @@ proptest! {
     }
 }
 
-/// The look of each series by what stands beside its label: color, dashes, marker; rows are relative to the label's.
+/// The look of each series by the marks beside its label: color, dashes, marker; rows are relative to the label's.
 fn looks(svg: &str, labels: &[String]) -> Vec<[String; 3]> {
     let relative = |points: &str, row: f64| -> String {
         let point = |point: &str| {

@@ -155,9 +155,9 @@ fn microcode(format: &str) -> Vec<u32> {
     PixelShader::new(&kernel.pixel, &profile.rules, &bindings, false).microcode(None).expect("it fits").words
 }
 
-/// The page changes these words alone when the visitor chooses another format: the code of all fixed-point formats
-/// of at most 24 bits is the same but for them, and so is that of all floats. The code of single precision leaves
-/// out conversions from single precision to itself, which change nothing.
+/// The page changes these words alone when the visitor chooses another format: apart from them, the code of all
+/// fixed-point formats of at most 24 bits is the same, and so is that of all floats. The code of single precision
+/// leaves out conversions from single precision to itself, which change nothing.
 #[test]
 fn one_program_serves_all_formats_of_its_kind() {
     let [fixed, float] = ["fixed", "float"].map(|kind| &DATA["teapot"][kind]);

@@ -93,7 +93,7 @@ fn picture_of(light: DistantLight) -> Picture {
     StudyFiles::of(&AllFrequencyRendering { lit, ground: None }).picture("light.png")
 }
 
-/// A disk lies where the picture, read as a light, has it.
+/// A disk is at its place in the picture, read as a light.
 #[test]
 fn the_picture_read_as_a_light_comes_from_the_same_direction() {
     let towards = DVec3::new(0.6, -0.5, 0.4).normalize();

@@ -1,7 +1,7 @@
 //! Microfacet lobes in the forms that the paper leaves open.
 //!
 //! The paper names Cook and Torrance 1982 and Schlick 1994 with two or three parameters each, and prints errors; it
-//! does not say which factors of these models it used. [`Lobe`] has each factor as an option.
+//! does not name the factors of these models that it used. [`Lobe`] has each factor as an option.
 
 use std::f64::consts::PI;
 

@@ -81,7 +81,7 @@ pub struct HaarRows {
     begins: Vec<usize>,
     /// Coefficient numbers: 1024 x face + index in the face's pyramid.
     coefficients: Vec<u16>,
-    /// Values, rounded as they are stored.
+    /// Values, rounded as in storage.
     values: Vec<f32>,
 }
 

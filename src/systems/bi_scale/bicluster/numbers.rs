@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
-/// Numbers behind the integers of a search; 0 stands for 0.
+/// Numbers behind the integers of a search; 0 represents 0.
 pub(super) trait SearchNumbers {
     /// The integer for the difference of two numbers; `None` if there is no integer left for it.
     fn difference(&mut self, value: i32, t: i32) -> Option<i32>;
@@ -71,7 +71,7 @@ impl KnownNumbers {
         Some((known, rows))
     }
 
-    /// The number that an integer stands for.
+    /// The number that an integer represents.
     pub(super) fn number(&self, integer: i32) -> f64 {
         self.numbers[integer as usize]
     }

@@ -33,7 +33,7 @@ impl BucketQueue {
         found
     }
 
-    /// The line of the lowest key, likewise.
+    /// The line of the lowest key.
     pub(super) fn lowest(&mut self, is_current: impl Fn(u32, u32) -> bool) -> Option<(u32, u32)> {
         let found = self.first(self.lowest..self.end, is_current);
         self.lowest = found.map_or(0, |(key, _)| key as usize);

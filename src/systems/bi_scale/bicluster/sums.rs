@@ -25,7 +25,7 @@ impl BiclusterResidual {
 }
 
 impl Biclustering {
-    /// The sum of the biclusters: in units of the matrix exactly the original matrix, else the same but for the
+    /// The sum of the biclusters: in units of the matrix exactly the original matrix, else the same except for the
     /// rounding of residuals and of the sum.
     ///
     /// # Errors

@@ -79,12 +79,12 @@ impl Biclustering {
         self
     }
 
-    /// The numbers that the values of columns stand for.
+    /// The numbers that the values of columns represent.
     pub fn values(&self) -> &EntryValues {
         &self.values
     }
 
-    /// The number that a value of a column stands for.
+    /// The number that a value of a column represents.
     ///
     /// # Panics
     /// If there can be no such value.

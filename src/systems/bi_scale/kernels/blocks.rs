@@ -1,5 +1,5 @@
 //! A bidirectional texture as a volume (Figure 4): one layer per view, which holds one block of texels per direction of
-//! light, in rows as the directions lie in their square.
+//! light, in rows like the directions in their square.
 
 /// Borders between the blocks of a layer.
 #[non_exhaustive]

@@ -19,7 +19,7 @@ pub struct LocalLayout {
 const BESIDE: usize = 5;
 
 impl LocalLayout {
-    /// Number of directions per pass: three numbers each of those that u, v and the view leave free.
+    /// Number of directions per pass: three numbers each of those left by u, v and the view.
     pub const fn directions(self) -> usize {
         (4 * self.sets).saturating_sub(BESIDE) / 3
     }

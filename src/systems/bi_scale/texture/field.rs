@@ -5,8 +5,8 @@
 //! x = n u - 1/2, y = n v - 1/2, so that heights are at integers and cell (i, j) extends from (i, j) to
 //! (i + 1, j + 1).
 //!
-//! Heights are at most 0, and the highest is 0: the patch lies below the mesh's own surface, and light and view of a
-//! mesh's point are those at the top of the patch. (The paper does not say where its patches lie.)
+//! Heights are at most 0, and the highest is 0: the patch lies below the mesh's own surface, and light and view at a
+//! point of the mesh are those at the top of the patch. (The paper does not say where its patches lie.)
 
 use glam::DVec3;
 

@@ -2,7 +2,7 @@
 //! drawn once for each.
 //!
 //! - [`overdraw`]: how many triangles are drawn;
-//! - [`reclassify`]: vertices go to clusters of their neighbours, within a budget of error;
+//! - [`reclassify`]: vertices move to clusters of their neighbours, within a budget of error;
 //! - [`Superclusters`]: clusters that are drawn as one, as many as the constant registers hold, or a given number. They
 //!   change no error.
 

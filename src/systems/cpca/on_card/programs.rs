@@ -54,7 +54,7 @@ pub(super) fn kernel(profile: &Profile, transfer: &CompressedTransfer<'_>) -> Re
 }
 
 impl ShadingPrograms {
-    /// The vertex program with those that go with it, accepted by a device.
+    /// The vertex program with its pixel programs, accepted by a device.
     pub(super) fn new(profile: &Profile, kernel: VertexKernel) -> Result<Self, KernelError> {
         let pixel = match kernel.shading {
             VertexShading::Diffuse => SHADE.checked(profile)?,

@@ -1,5 +1,5 @@
-//! Options of drawing compressed transfer, and weights as a vertex holds them. The paper does not say how; fewer bits make
-//! vertices smaller.
+//! Options of drawing compressed transfer, and weights as a vertex holds them. The paper does not describe the format;
+//! fewer bits make vertices smaller.
 
 use refsim::texture::TexelFormat;
 

@@ -83,8 +83,8 @@ impl<'a> TransferGather<'a> {
         })
     }
 
-    /// The matrix of direct light with the light in local coordinates: the sum over directions that see light, or that
-    /// over all directions less those that do not, whichever is shorter.
+    /// The matrix of direct light with the light in local coordinates: the sum over directions that see light, or the
+    /// sum over all directions minus those that do not, whichever is shorter.
     fn local_direct(&self, vertex: usize) -> Vec<f64> {
         let material = self.material(vertex);
         let directions = self.rays.rule().len();

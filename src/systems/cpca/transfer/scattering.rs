@@ -24,7 +24,7 @@ pub struct ScatteringOptions {
     /// Millimetres per unit of the mesh; above 0.
     pub mm_per_unit: f64,
     /// The solid angle, in steradians, below which a cluster is one point: its area over the square of its distance. 0
-    /// takes every vertex by itself.
+    /// takes every vertex separately.
     pub solid_angle: f64,
 }
 

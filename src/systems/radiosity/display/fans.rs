@@ -43,7 +43,7 @@ fn key(side: [DVec3; 2]) -> [SnappedCorner; 2] {
     ends
 }
 
-/// Returns the fan of each patch on whose sides others have corners; `None` for a patch that is drawn as it is.
+/// Returns the fan of each patch on whose sides others have corners; `None` for a patch that is drawn unchanged.
 pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     let loose = loose_sides(patches);
     let ends: BTreeSet<SnappedCorner> = loose.iter().flatten().copied().collect();

@@ -46,7 +46,7 @@ pub(super) struct Programs {
 }
 
 impl Programs {
-    /// Unrolls the programs for `width` texels in blocks of `block`; the first pass has a program of its own.
+    /// Unrolls the programs for `width` texels in blocks of `block`; the first pass has a separate program.
     pub(super) fn new(
         profile: &Profile,
         [first, next]: [KernelText; 2],

@@ -2,8 +2,8 @@
 //!
 //! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host takes each
 //! ray through the octree and tests triangles on the way; at a *GPU cell* the ray stops and waits in the cell's cache.
-//! A cache of `R_min` rays goes to the card with all triangles of its cell, and its rays then go on behind the cell.
-//! Rays left in caches at the end are forced to the host.
+//! A cache of `R_min` rays is sent to the card with all triangles of its cell, and its rays then continue behind the
+//! cell. Rays left in caches at the end are forced to the host.
 //!
 //! **The result does not depend on where a ray is tested.** A ray meets all triangles of each GPU cell on its way, on
 //! the card or on the host, which computes what a card with fp32 pipelines computes; at equal t the lowest triangle

@@ -30,7 +30,8 @@ pub struct EngineParameters {
     pub octree: OctreeParameters,
     /// Triangles of a GPU cell, from `T_min` to the maximum of one pass (Table 4: 5 to 15).
     pub triangles: RangeInclusive<usize>,
-    /// Number of rays at which a cell's cache goes to the card (`R_min`), also the maximum of one pass (Table 5: 64).
+    /// Number of rays at which a cell's cache is sent to the card (`R_min`), also the maximum of one pass (Table 5:
+    /// 64).
     pub rays: usize,
     /// Ray tree.
     pub tree: RayTreeParameters,

@@ -3,7 +3,7 @@
 //!
 //! A ray is a point of five dimensions: its origin, and where its direction meets a face of the unit cube. The six
 //! faces have a tree each. A bucket that overflows is cut in four: in two at the mean of the origins along the axis on
-//! which they vary most, and in two at the mean of the directions likewise.
+//! which they vary most, and in two at the mean of the directions in the same way.
 
 mod key;
 mod split;

@@ -3,8 +3,8 @@
 use super::{RayTree, RayTreeContent, RayTreeEntry, RayTreeNode, key};
 
 impl RayTree {
-    /// Takes a batch of rays out, which go to the card together: at most one bucket full, empty if the tree is empty.
-    /// The search descends to the child with the most rays below it, so that it need not find the fullest bucket of all.
+    /// Takes a batch of rays out for the card: at most one bucket full, empty if the tree is empty. The search descends
+    /// to the child with the most rays below it, so that it need not find the fullest bucket of all.
     pub fn take(&mut self) -> Vec<u32> {
         let root = self.fullest(0..key::FACES as u32);
         if self.nodes[root as usize].count == 0 {

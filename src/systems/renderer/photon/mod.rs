@@ -1,11 +1,11 @@
 //! Photon mapping with final gather (Jensen, Global Illumination using Photon Maps, 1996).
 //!
 //! Two maps are filled from the lights. The *global* map holds every landing on a diffuse or glossy surface; the
-//! *caustic* map those of light that met nothing but mirrors and glass before. The radiance of a diffuse part is the
+//! *caustic* map the landings of light that met only mirrors and glass before. The radiance of a diffuse part is the
 //! sum of three terms that share no path: direct light (a shadow ray), caustics (the caustic map's density), and
 //! indirect light (gather rays, which end at the next diffuse or glossy surface in the global map's density, and see no
 //! light themselves). Glossy lobes, mirrors and glass send further rays as in [`super::distributed`]; a glossy lobe
-//! asks point lights by shadow rays and the caustic map too, since no ray hits a point.
+//! also samples point lights by shadow rays and the caustic map, since no ray hits a point.
 //!
 //! Densities are estimated over disks of finite size, so this is the one biased renderer: it blurs within
 //! [`Photons::radius`], and darkens where a disk extends over an edge.

@@ -3,7 +3,7 @@
 //! Sampler 0 is the radiosity map. TEX0 is the texel; `p[0]` is what the sum is multiplied by at the end. The sum
 //! starts at 0, or at what the pass before wrote (sampler 1), and takes link after link: a product, then a sum.
 //!
-//! - *Fixed*: `p[1 + n]` is the place of link n in its level. Factors of four links lie in one texel, or with three
+//! - *Fixed*: `p[1 + n]` is the place of link n in its level. Factors of four links are in one texel, or with three
 //!   channels in three: the first three links' in their xyz, the fourth's in the three w.
 //! - *Adaptive*: a texel of link n has u, v, factor (with three channels: nothing, and a second texel has the factors),
 //!   and in w the level. For a map with levels, w is 2^level / side, given as both components of a derivative to
@@ -48,7 +48,7 @@ impl MapTexture {
     }
 }
 
-/// A program of pass 2, but for the number of links.
+/// A program of pass 2, for any number of links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GatherKernel {
     /// How links are chosen.
@@ -111,7 +111,7 @@ impl GatherKernel {
         instructions(&self.text(links))
     }
 
-    /// Textures of so many links, each a tile of one or a texture of its own.
+    /// Textures of so many links, each a tile of a larger texture or a separate one.
     pub const fn link_textures(&self, links: usize) -> usize {
         match (self.layout, self.rgb) {
             (LinkLayout::Fixed, false) => links.div_ceil(4),

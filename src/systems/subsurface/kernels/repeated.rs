@@ -1,4 +1,4 @@
-//! Programs with a part for each light: these languages have no loops, and each copy reads constants of its own.
+//! Programs with a part for each light: these languages have no loops, and each copy reads separate constants.
 
 use std::fmt::Write as _;
 

@@ -39,7 +39,7 @@ pub enum DirectLight {
     ByFragment,
 }
 
-/// A fragment program of pass 3, but for the number of lights.
+/// A fragment program of pass 3, for any number of lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ViewKernel {
     /// Transmittance towards the eye.

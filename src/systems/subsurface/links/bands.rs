@@ -201,7 +201,7 @@ fn squares(side: u32, band: usize) -> impl Iterator<Item = ClusterId> {
     (0..side >> level).map(move |x| ClusterId { level, y: band as u32, x })
 }
 
-/// Where a texel stands in its band.
+/// Place of a texel in its band.
 fn place_in_band(side: u32, (x, y): (u32, u32)) -> usize {
     ((y % BAND as u32) * side + x) as usize
 }

@@ -62,7 +62,7 @@ pub struct EncodedLinks<'a> {
 }
 
 impl<'a> EncodedLinks<'a> {
-    /// For a map whose plain means weigh texels as `weighting` says.
+    /// For a map whose plain means weigh texels by `weighting`.
     pub fn new(links: &'a Links, surface: &'a SurfaceMoments, weighting: MeanWeighting) -> Self {
         Self { links, surface, weighting }
     }

@@ -26,7 +26,7 @@ pub(in crate::subsurface) struct BlockReceiver<'a, const N: usize> {
     divided: Vec<u32>,
 }
 
-/// A cluster in the tree of those that were visited.
+/// A cluster in the tree of visited clusters.
 #[derive(Clone, Copy, Debug)]
 struct Node<const N: usize> {
     level: u32,

@@ -18,7 +18,7 @@ use crate::subsurface::Dipole;
 
 /// The largest relative error of the table where light still matters.
 const MAX_INTERPOLATION_ERROR: f64 = 1e-6;
-/// Beyond this many diffusion lengths the relative error is not asked for: e^-25 is 1e-11.
+/// Beyond this many diffusion lengths the relative error does not matter: e^-25 is 1e-11.
 const MATTERS: f64 = 25.0;
 /// Intervals per octave of 1 + (r / z)^2: 2^5 to 2^9.
 const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
@@ -49,7 +49,8 @@ pub(super) struct DistanceTable<const N: usize> {
     /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
     pub(super) tolerance: f64,
-    /// The radius around an entering photon that all light leaves within, but for the tolerance and in any channel, in mm.
+    /// The radius around an entering photon within which all light leaves, except for the tolerance, in any channel, in
+    /// mm.
     pub(super) layer: f64,
 }
 

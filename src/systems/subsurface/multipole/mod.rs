@@ -1,12 +1,12 @@
-//! A multipole method for the throughput factors of equation 10 (section 4.1): F_iC is 1 / A_i times the integral of R_d
-//! over a texel i and a cluster C. The paper does not say how it integrates; the method is ours.
+//! A multipole method for the throughput factors of equation 10 (section 4.1): F_iC is 1 / A_i times the integral of
+//! R_d over a texel i and a cluster C. The paper does not describe its integration; the method is ours.
 //!
 //! - Moments: [`SurfaceMoments`] has area, mean point and covariance of every cluster of an atlas. For a far cluster
 //!   the mean of R_d is taken to second order (`kernel`), with the moments of both.
 //! - Descent: [`Factors`] goes from a cluster to its children until they are far from a texel (`integrate`).
 //! - Local expansions: squares of texels gather from far clusters together (`block`, `expansion`).
-//! - Near texels are divided into quarters (`near`); those that are long against the mean free path are integrated by
-//!   contours (`long`).
+//! - Near texels are divided into quarters (`near`); texels long against the mean free path are integrated by contours
+//!   (`long`).
 //!
 //! A factor is an area times a mean of R_d that is symmetric in texel and cluster, so A_i F_ij = A_j F_ji.
 

@@ -19,7 +19,7 @@ const SLOTS: usize = 4096;
 /// Means of pairs that are kept.
 const PAIRS: usize = 1 << 16;
 
-/// Pieces of texels that were near lately, and means of pairs of many pieces, which both texels ask for.
+/// Pieces of recently near texels, and means of pairs of many pieces, which both texels need.
 #[derive(Clone, Debug)]
 pub(super) struct PieceCache<const N: usize> {
     slots: Vec<TexelPieces>,

@@ -27,7 +27,7 @@ impl ClusterId {
     }
 }
 
-/// The moments (area, mean point, covariance) of every cluster of an atlas, in mm. Clusters of a level stand in Morton
+/// The moments (area, mean point, covariance) of every cluster of an atlas, in mm. Clusters of a level are in Morton
 /// order, so that the children of cluster k of a level are the clusters 4 k to 4 k + 3 of the level below.
 #[derive(Clone, Debug)]
 pub struct SurfaceMoments {

@@ -90,7 +90,7 @@ impl LinkTextures {
         texels * count as u64 * format.format().bytes() as u64
     }
 
-    /// Textures from `first` on as tiles of one, row by row, `tiles` along an edge; 0 where there are no more than
+    /// Textures from `first` on as tiles of one, row by row, `tiles` along an edge; 0 if there are no more than
     /// `count`.
     pub(super) fn tiled(&self, first: usize, count: usize, tiles: usize, map: MapTexture) -> Texels {
         if tiles == 1 {

@@ -1,4 +1,5 @@
-//! A model with its atlas as the card gets it: in units of its own size, so that the unit of length does not matter.
+//! A model with its atlas in the form for the card: in units of its own size, so that the unit of length does not
+//! matter.
 
 use glam::DVec3;
 

@@ -67,7 +67,7 @@ impl MapFormat {
         }
     }
 
-    /// Number of the map that stands for 1.
+    /// Number of the map that represents 1.
     pub fn scale(self) -> f64 {
         match self {
             Self::Unorm8 { scale } => scale,
@@ -104,7 +104,7 @@ pub struct SubsurfaceCardOptions {
     pub links: FloatTexels,
     /// The scattered irradiance, which pass 2 writes.
     pub scattered: FloatTexels,
-    /// True if pass 2 computes in half precision, but for places in a rectangle.
+    /// True if pass 2 computes in half precision, except places in a rectangle.
     pub half: bool,
     /// How many textures of links lie along an edge of one texture that holds them as tiles; `None` for a texture each.
     pub tiles: Option<u32>,

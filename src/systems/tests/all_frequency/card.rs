@@ -115,7 +115,7 @@ fn products_per_pixel_are_step_4_of_what_is_interpolated() {
     }
 }
 
-/// The error on each card lies in a range that follows from its number formats.
+/// The error on each card is within a range that follows from its number formats.
 #[test]
 fn cards_come_as_near_as_their_bits() {
     let hills = FactoredHills::glossy(10);

@@ -35,7 +35,7 @@ fn mean_weights(part: &CompressedSegment) -> Vec<f64> {
     clusters.flat_map(|(k, subspace)| (0..subspace.len()).map(move |vector| mean(k, vector))).collect()
 }
 
-/// Coded again as it is, nothing changes but by the rounding of steps; in fewer bits a number moves by half a step.
+/// Coded again unchanged, a segment changes only by the rounding of steps; in fewer bits a number moves by half a step.
 #[test]
 fn numbers_stay_within_half_a_step() {
     for scale in [ScaleOf::Representative, ScaleOf::Segment] {

@@ -74,7 +74,8 @@ fn a_map_of_32_has_812_texels_in_its_disc() {
     assert!(mean.x.abs() < 1e-2 && mean.y.abs() < 1e-2 && (mean.z - 0.5).abs() < 1e-12, "{mean}");
 }
 
-/// As many terms as the rank leave nothing, fewer what the singular values say; all directions have the same angle.
+/// As many terms as the rank leave no error, fewer terms the error of the singular values; all directions have the same
+/// angle.
 #[test]
 fn terms_of_equal_angles_are_those_of_their_singular_values() {
     let samples = HemisphereSamples::of_equal_angles(&Brdf::Lambert { albedo: 0.6 }, 3.0);

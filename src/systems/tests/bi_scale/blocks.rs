@@ -32,7 +32,7 @@ fn edges_of(size: usize) -> Vec<f32> {
     ends.into_iter().flat_map(|at: f32| [at.next_down(), at, at.next_up()]).collect()
 }
 
-/// Every texel that has a part in a read, named exactly, is one of its own block and layer.
+/// Every texel that contributes to a read, named exactly, is one of its own block and layer.
 #[test]
 fn no_read_reaches_another_block_or_layer() {
     let rules = SampleRules::from(&device("gt200").rules);

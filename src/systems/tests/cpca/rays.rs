@@ -12,7 +12,7 @@ use crate::scene::built::stand_ins;
 use crate::sphere::DirectionRule;
 use crate::tracer::{CastError, Caster, HostTracer};
 
-/// A caster that keeps the origins of the rays it was asked for.
+/// A caster that records the origins of its rays.
 struct Asked {
     tracer: HostTracer,
     origins: Vec<[f32; 3]>,

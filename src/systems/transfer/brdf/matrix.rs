@@ -41,7 +41,7 @@ impl ExitBasis {
         Hemisphere::without(order, &[function_index(1, 0)]).map(Self::Harmonics)
     }
 
-    /// The basis with the given functions, l (l + 1) + m, increasing; function 0 alone stands for radiance, as in
+    /// The basis with the given functions, l (l + 1) + m, increasing; function 0 alone represents radiance, as in
     /// `.npz` files.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! The metadata of a file: the system that it belongs to, and what its arrays do not say themselves.
+//! The metadata of a file: its system, and information that its arrays do not contain.
 
 use std::io;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Files of transfer: NumPy's archives of arrays (`.npz`), with metadata as JSON. docs/npz.md says what is inside.
+//! Files of transfer: NumPy's archives of arrays (`.npz`), with metadata as JSON. docs/npz.md describes the contents.
 //!
 //! [`PrtFile`] is the low-frequency kind: transfer of a mesh, its clusters, or both.
 
@@ -18,7 +18,7 @@ use crate::clustering::Signal;
 /// Largest size of a file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
 
-/// Longest line that says how a file was made, in bytes.
+/// Longest line about how a file was made, in bytes.
 const MAX_PROVENANCE: usize = 4096;
 
 /// The contents of a file of low-frequency transfer.

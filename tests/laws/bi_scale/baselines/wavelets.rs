@@ -12,7 +12,7 @@ use super::{any_rows, dense_row, light, transfer};
 
 const PRIORITIES: [CoefficientPriority; 2] = [CoefficientPriority::Area, CoefficientPriority::Magnitude];
 
-/// The row that stored coefficients stand for.
+/// The row that stored coefficients represent.
 fn approximation(rows: &HaarRows, row: usize) -> Vec<f64> {
     let mut values = vec![0.0; 6144];
     rows.row(row).for_each(|(at, value)| values[at] = value);
@@ -70,7 +70,7 @@ fn the_largest_coefficients_are_those_of_plain_loops() {
 }
 
 /// Orthonormal wavelets: with all coefficients the product is that of the matrix; with fewer, that of the rows that
-/// they stand for, and magnitude leaves the least squared error.
+/// they represent, and magnitude gives the least squared error.
 #[test]
 fn products_are_those_of_the_approximated_rows() {
     let (matrix, light) = (transfer().1, light(7));
@@ -92,7 +92,7 @@ fn products_are_those_of_the_approximated_rows() {
     assert!(squares[1] > 0.0 && 1.2 * squares[1] < squares[0], "{squares:?}");
 }
 
-/// A byte is off by half a step at most; sizes count what is stored.
+/// The error of a byte is at most half a step; sizes count the stored data.
 #[test]
 fn bytes_are_steps_of_the_largest() {
     let matrix = any_rows(5, 40);

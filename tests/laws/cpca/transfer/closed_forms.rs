@@ -101,7 +101,7 @@ fn at_the_foot_of_a_wall_half_of_the_sky_is_seen() {
     assert!(rays.counts().unclear.is_empty() && rays.counts().below_horizon == 0);
 }
 
-/// A wall all around, inside of radius 1, as high as `sine` of its elevation above the horizon says.
+/// A wall all around, inside of radius 1, whose elevation above the horizon has the sine `sine`.
 fn bowl(sine: f64) -> Mesh {
     let mut soup = observer();
     let corners = 128;

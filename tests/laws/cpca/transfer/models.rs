@@ -51,7 +51,7 @@ fn they_have_as_many_vertices_as_table_1_prints() {
     assert!(models::build("transfer-dodo").is_none());
 }
 
-/// The bunny as it was scanned, moved and scaled, is in the refined ones: all its vertices, but for the rounding.
+/// The scanned bunny, moved and scaled, is contained in the refined ones: all its vertices, up to rounding.
 #[test]
 fn refined_bunnies_have_all_vertices_of_the_scanned_one() {
     let scanned = load_mesh(Path::new("src/ground/scene/built/bunny.ply")).expect("a model");

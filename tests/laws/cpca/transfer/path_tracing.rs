@@ -1,8 +1,8 @@
 //! A second opinion: path tracing under the same light, which knows triangles and materials, but no rule of directions,
 //! no matrix and no interpolation between vertices.
 //!
-//! Per vertex the difference is compared with the standard error of the paths. Interpolation between vertices is off by
-//! less, since the surfaces are divided finely enough; with `CROSSBAR_FULL` both are finer.
+//! Per vertex the difference is compared with the standard error of the paths. The error of interpolation between
+//! vertices is smaller, since the surfaces are divided finely enough; with `CROSSBAR_FULL` both are finer.
 
 use crate::environment::by_form;
 use crossbar::cpca::transfer::{Bounces, Incident, Response, Transfer};

@@ -3,9 +3,9 @@
 //! bits.
 //!
 //! **What is tested.** The baseline is the card's f32 test over all pairs. Where its answer is right in exact
-//! arithmetic, every path gives its bits. Where it is wrong, or t is off by a hundredth or more, a path may differ, but
-//! only by skipping triangles: every hit that a path reports passes the f32 test. How often fp32 is wrong, and by which
-//! rounding, is the table of docs/papers/ray_engine.md.
+//! arithmetic, every path gives its bits. Where it is wrong, or the error of t is a hundredth or more, a path may
+//! differ, but only by skipping triangles: every hit that a path reports passes the f32 test. How often fp32 is wrong,
+//! and by which rounding, is the table of docs/papers/ray_engine.md.
 
 mod cause;
 mod scene;
@@ -29,10 +29,10 @@ use refsim::machine::ExecutorKind;
 use scene::Scene;
 
 const SCENES: u64 = 10_000;
-/// One scene in this many goes to the card, and one in so many into octrees; all with `CROSSBAR_FULL=1`.
+/// One scene in this many is drawn on the card, and one in so many in octrees; all with `CROSSBAR_FULL=1`.
 const ON_CARD: usize = 8;
 const IN_OCTREES: usize = 4;
-/// ULPs by which a t is off by a hundredth or more.
+/// ULPs of a t error of a hundredth or more.
 const ASTRAY: u64 = 1 << 17;
 const TOLERANCE: Tolerance = Tolerance::ulps(4);
 

@@ -12,7 +12,7 @@ trait Body: Copy + Sync {
     /// How far a ray from inside goes before it leaves, and the unit normal that points outwards there.
     fn boundary(self, from: DVec3, direction: DVec3) -> (f64, DVec3);
 
-    /// A point that rounding has put on the wrong side of the boundary, back on it.
+    /// Moves a point back that rounding has put on the wrong side of the boundary.
     fn kept(self, at: DVec3) -> DVec3;
 }
 

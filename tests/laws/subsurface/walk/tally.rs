@@ -33,7 +33,7 @@ pub(crate) struct BatchCounts {
     pub(crate) entered: u64,
     pub(crate) absorbed: u64,
     pub(crate) cut: u64,
-    /// By bin; the last is for those that left beyond all bins.
+    /// By bin; the last is for photons that left beyond all bins.
     pub(crate) left: Vec<u64>,
     /// Length of all paths in mean free paths.
     pub(crate) path: f64,

@@ -2,8 +2,7 @@
 //!
 //! A [`MatrixUnit`] is a rule with its numbers. A dot product of any length goes through it in blocks, in order of k;
 //! the result of a block is the addend of the next. [`UNITS`] is the table of units with sources; docs/matrix_units.md
-//! says what the rules are, and how sure each is. Zeros are left out of sums, so padding to whole blocks changes
-//! nothing.
+//! has the rules and their confidence. Zeros are left out of sums, so padding to whole blocks changes nothing.
 //!
 //! ```
 //! use refsim_lanes::num::matrix::{Element, MatrixUnit, Operand};

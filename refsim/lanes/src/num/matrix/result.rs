@@ -89,8 +89,8 @@ impl ResultFormat {
     }
 }
 
-/// An exact sum of terms `(-1)^negative * magnitude * 2^exponent`: sign, magnitude below `2^121` whose last bit stands
-/// for all below it too, exponent.
+/// An exact sum of terms `(-1)^negative * magnitude * 2^exponent`: sign, magnitude below `2^121` whose last bit
+/// includes all bits below it, exponent.
 pub(super) fn exact_sum(terms: &[(bool, u128, i32)]) -> (bool, u128, i32) {
     let least = terms.iter().map(|term| term.2).min().unwrap_or(0);
     let shifted = |&(negative, magnitude, exponent): &(bool, u128, i32)| {

@@ -18,8 +18,8 @@ pub const MAX_ALIGNED_BITS: u8 = 28;
 /// count as that many.
 ///
 /// Infinities and NaN come first: infinities of both signs are `INVALID`. Zeros are left out; the sum of zeros alone is
-/// theirs if they have one sign, and otherwise, as after cancellation, +0, or -0 when rounding down. `INEXACT` tells of
-/// dropped bits too.
+/// theirs if they have one sign, and otherwise, as after cancellation, +0, or -0 when rounding down. `INEXACT` includes
+/// dropped bits.
 pub fn sum_aligned(env: impl Into<Env>, bits: u8, addends: &[u32]) -> Outcome {
     let env = env.into();
     let format = &env.format;

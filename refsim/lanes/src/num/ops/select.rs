@@ -1,7 +1,7 @@
 //! Minimum, maximum, and the two conditional selects of the shading languages.
 //!
 //! Selected values are normalised: NaNs become canonical, and subnormals are flushed where the format flushes. Units of
-//! cards compare by their own order, and the conditional selects pass words on as they are.
+//! cards compare by their own order, and the conditional selects pass words on unchanged.
 
 use std::cmp::Ordering;
 

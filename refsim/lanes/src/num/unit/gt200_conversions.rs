@@ -1,5 +1,5 @@
-//! Conversions of GT200. Subnormal single floats are zeros; those of half floats count. Four roundings: to the nearest
-//! even, down, up and toward zero, for which others stand as the first.
+//! Conversions of GT200. Subnormal single floats are zeros; those of half floats count. Four roundings: to nearest
+//! even, down, up and toward zero; other roundings count as the first.
 
 use super::gt200::nearest_even;
 use super::word::{NAN, SIGN, Word, assemble, top24};

@@ -1,4 +1,4 @@
-//! Arithmetic units of cards, bit for bit as they were measured.
+//! Arithmetic units of cards, bit for bit as measured.
 //!
 //! The rules and the tables restate the integer models of envytools (MIT, M. Koscielnicka; `hwtest` and `nvhw` at
 //! commit f102b823), whose tests compare every bit with real chips: the vertex units of NV20, NV25 and an NV34 (a

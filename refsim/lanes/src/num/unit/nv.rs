@@ -91,7 +91,7 @@ pub fn dot(unit: Unit, terms: &[(u32, u32)]) -> u32 {
     sum(unit, &products)
 }
 
-/// DST: `(1, a.y b.y, a.z, b.w)`, the last two as they are.
+/// DST: `(1, a.y b.y, a.z, b.w)`, the last two unchanged.
 pub fn dst(unit: Unit, a: [u32; 4], b: [u32; 4]) -> [u32; 4] {
     [ONE, mul(unit, a[1], b[1]), a[2], b[3]]
 }

@@ -116,7 +116,7 @@ pub fn exp_floor(x: u32) -> u32 {
     power13(fixed13(Word::of(x)) & !0x1fff)
 }
 
-/// y of EXP: `x - floor(x)`, exact but for small negative numbers; the word itself for NaN.
+/// y of EXP: `x - floor(x)`, exact except for small negative numbers; the word itself for NaN.
 pub fn exp_fraction(x: u32) -> u32 {
     let word = Word::of(x);
     match word.field {

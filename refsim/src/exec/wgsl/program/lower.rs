@@ -22,7 +22,7 @@ pub(super) enum SinkKind {
     Killed,
     /// Output of depth and of the mask of lanes that have it.
     Depth(Arith),
-    /// Trace record of an instruction: up to four values and as many masks; the mask tells the components.
+    /// Trace record of an instruction: up to four values and as many masks; the mask selects the components.
     Trace(usize, Mask),
     /// Merge into the slot of a register under a mask: value, mask.
     Merge(Slot),

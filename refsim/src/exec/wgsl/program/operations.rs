@@ -20,7 +20,7 @@ operations! {
 
 /// Operations below this are always included: they are cheap to compile.
 const FIRST_COSTLY: u32 = DOT;
-/// Operations from here on, but for [`SUM`], are included together.
+/// Operations from here on, except [`SUM`], are included together.
 const FIRST_FLOW: u32 = STEP;
 
 /// Names of the constants of operations that are always included.

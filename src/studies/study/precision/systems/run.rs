@@ -46,7 +46,7 @@ pub(super) trait SystemRun: fmt::Debug {
         Some([PICTURE; 2])
     }
 
-    /// Goal if none is given: codes of 8 bits are off by one at most.
+    /// Goal if none is given: the error of 8-bit codes is at most one.
     fn default_goal(&self) -> Goal {
         at_most("largest_255ths", 1.0)
     }

@@ -19,7 +19,7 @@ pub struct LitModel {
     pub colors: Vec<[f64; 3]>,
     /// Visibility, coded transfer or both: coded transfer is drawn.
     pub file: AllFrequencyFile,
-    /// A file with visibility, to say what compression costs.
+    /// A file with visibility, to measure the loss of compression.
     pub original: Option<AllFrequencyFile>,
     /// The light.
     pub light: DistantLight,

@@ -1,5 +1,5 @@
 //! All-frequency transfer: visibility of a model ([`SightOfModel`]), its transfer segment by segment through
-//! compression and coding ([`SegmentedCompression`]), how far that is off ([`coded_errors`]), and pictures of it
+//! compression and coding ([`SegmentedCompression`]), its errors ([`coded_errors`]), and pictures of it
 //! ([`AllFrequencyRendering`]).
 
 mod compress;

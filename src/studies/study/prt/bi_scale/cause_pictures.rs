@@ -8,7 +8,7 @@ use crate::report::{Cell, Table};
 /// The pictures.
 #[derive(Clone, Debug)]
 pub(in crate::study) struct CausePictures {
-    /// Change of each picture against the one before, but for the first: in a word, and in full.
+    /// Change of each picture against the previous one, except for the first: in a word, and in full.
     pub(in crate::study) causes: Vec<(&'static str, String)>,
     /// One by rays, ..., that of transfer.
     pub(in crate::study) pictures: Vec<Vec<[f64; 3]>>,

@@ -14,12 +14,12 @@ use crate::study::prt::interpolate::linear_picture;
 /// Steps of a picture of 8 bits.
 const STEPS: f64 = 255.0;
 
-/// How far pixels that show the mesh are off.
+/// Errors of the pixels that show the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelErrors {
     /// Root mean square and largest difference of a channel, in 255ths of white; infinite if a pixel is not finite.
     pub off_255ths: [f64; 2],
-    /// Share of the pixels of which a channel is off by more than one 255th, or not finite.
+    /// Share of the pixels with a channel that is not finite or has an error of more than one 255th.
     pub visible: f64,
     /// Number of pixels that are not finite where the others are, or the reverse.
     pub not_finite: u64,
@@ -79,7 +79,7 @@ impl<'a> ComparedPicture<'a> {
         Self { drawn, host, is_clamped, errors: PixelErrors::of(seen, drawn, &held(host, is_clamped)) }
     }
 
-    /// How far the card is off what the host computes `from` the same numbers.
+    /// Errors of the card against the host's computation `from` the same numbers.
     pub(super) fn sentence(&self, card: &str, from: &str) -> String {
         let [rms, largest] = self.errors.off_255ths.map(|steps| shown(steps, Quantity::Measured));
         let not_finite = match self.errors.not_finite {

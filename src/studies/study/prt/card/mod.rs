@@ -1,4 +1,4 @@
-//! Radiance transfer drawn by an emulated card: how far its pictures are off, by what, and how long a frame takes.
+//! Radiance transfer drawn by an emulated card: errors of its pictures, their causes, and the time of a frame.
 //! [`OnCard`] is about clustered principal components, [`AllFrequencyOnCard`] about all-frequency and [`BiScaleOnCard`]
 //! about bi-scale transfer. A study is a subject of its system and a [`CardSetting`]; what all of them report is here.
 

@@ -7,7 +7,7 @@ use crate::report::{Cell, Findings, FoundTable, Table};
 /// Axes whose rows are not single changes: the unchanged picture, and whole cards.
 const NOT_ALONE: [&str; 2] = ["none", "card"];
 
-/// A variant of a picture, and how far it is off.
+/// A variant of a picture, with its errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureVariant {
     /// The varied setting.
@@ -33,7 +33,7 @@ pub fn variants_table(variants: &[PictureVariant]) -> Table {
     table
 }
 
-/// Adds the table, the variant that shows most, and those that do not show.
+/// Adds the table, the variant with the largest error, and those without visible errors.
 pub(super) fn report_sweep(variants: &[PictureVariant], explained: &'static str, found: &mut Findings) {
     let alone = || variants.iter().filter(|variant| !NOT_ALONE.contains(&variant.axis));
     let name = |variant: &PictureVariant| format!("{} {}", variant.axis, variant.choice);

@@ -7,7 +7,7 @@ use crate::transfer::brdf::Brdf;
 /// A reflectance to be factored.
 #[derive(Clone, Debug)]
 pub enum FactorSubject {
-    /// Microfacets in a form of their own.
+    /// Microfacets in a custom form.
     Lobe(Lobe),
     /// A model of `transfer::brdf`.
     Brdf(Brdf),
@@ -22,7 +22,7 @@ pub struct BrdfFactors {
     pub name: String,
     /// The reflectance.
     pub subject: FactorSubject,
-    /// How f is sampled; a table is as it is.
+    /// How f is sampled; a table is used unchanged.
     pub sampling: FactorSampling,
     /// m; `None` for ten, or the rank of the table where that is less.
     pub terms: Option<usize>,

@@ -72,7 +72,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
 }
 
 impl PrintedReflectance {
-    /// Rows for the values of [`FormErrors::values`], but for the last.
+    /// Rows for the values of [`FormErrors::values`], except the last.
     fn rows(&self, values: &[f64]) -> Result<Vec<PaperRow>, StudyError> {
         let bases = std::iter::once("terms".to_owned()).chain(ORDERS.map(|order| format!("order-{order}")));
         let errors = bases.flat_map(|basis| ["rms", "largest"].map(|kind| format!("{basis}-{kind}")));

@@ -106,7 +106,7 @@ pub(super) struct ModelVisibility {
 pub(super) struct CompressedModel {
     pub(super) vertices: usize,
     pub(super) omega: f64,
-    /// Number of clusters, rounded where some segments stand for all.
+    /// Number of clusters, rounded if some segments represent all.
     pub(super) clusters: usize,
     /// Bytes of raw transfer in single precision.
     pub(super) raw: f64,
@@ -211,7 +211,7 @@ impl ModelVisibility {
     }
 }
 
-/// Visibility of a model by itself and on a ground, computed on first use: work whose pieces are kept needs none.
+/// Visibility of a model by itself and on a ground, computed on first use: work with kept pieces needs none.
 pub(super) struct SeenModel {
     pub(super) model: TableModel,
     size: ModelSize,
@@ -243,8 +243,8 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
     Ok(cell.get_or_init(|| found))
 }
 
-/// Compresses the diffuse bunny of Table 1, reduced, in pieces that are kept if asked for. Returns the model as text, and
-/// whether its visibility was computed.
+/// Compresses the diffuse bunny of Table 1, reduced, in pieces that are kept if requested. Returns the model as text,
+/// and whether its visibility was computed.
 ///
 /// # Errors
 /// If the model cannot be compressed, or its pieces cannot be kept.

@@ -1,4 +1,4 @@
-//! Pictures of transfer, interpolated between vertices on the host, as they are compared.
+//! Pictures of transfer for comparison, interpolated between vertices on the host.
 
 use glam::DVec3;
 

@@ -1,8 +1,8 @@
 //! Files of printed figures: their format, and figures from it.
 //!
-//! A file has groups of figures that share a place, and often a unit and a bound. A figure's value is text, whose
-//! digits after the point are those of the print, or the ratio of two figures that stand above it. The README of
-//! `src/studies/papers` describes all keys.
+//! A file has groups of figures that share a place, and often a unit and a bound. A figure's value is text with the
+//! printed number of digits after the point, or the ratio of two figures above it. The README of `src/studies/papers`
+//! describes all keys.
 
 use serde::Deserialize;
 
@@ -24,7 +24,7 @@ pub(super) struct PaperFile {
 #[serde(deny_unknown_fields)]
 pub(super) struct Stated {
     pub(super) date: String,
-    /// Digest of all figures of that date as they were stated.
+    /// Digest of all figures of that date in their original form.
     pub(super) digest: String,
 }
 

@@ -1,14 +1,14 @@
 //! Statements of bounds: a digest per date, and the changes since.
 //!
-//! A figure's value, unit, place, bound and reading are stated once. A later change stands in the figure's `changed`,
-//! with its date, its reason and what it replaced; undone, the figures have the digest of their date again. So a bound
-//! or a reading cannot be moved after a result exists without saying so.
+//! A figure's value, unit, place, bound and reading are stated once. A later change is in the figure's `changed`, with
+//! its date, its reason and the old value; undone, the figures have the digest of their date again. So a bound or a
+//! reading cannot be moved after a result exists without saying so.
 
 use sha2::{Digest, Sha256};
 
 use super::file::{FigureGroup, FileFigure, PaperFile};
 
-/// Holds a file against its digests; the error says what to do.
+/// Compares a file with its digests; the error explains what to do.
 pub(super) fn verify(text: &str) -> Result<(), String> {
     let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
     let first = file.stated.first().ok_or("expected at least one date in `stated`")?.date.as_str();
@@ -39,7 +39,7 @@ pub(super) fn verify(text: &str) -> Result<(), String> {
     }
 }
 
-/// Digest of the figures stated on a date, as they were: 16 hexadecimal digits.
+/// Digest of the figures stated on a date, in their original form: 16 hexadecimal digits.
 fn digest(file: &PaperFile, first: &str, date: &str) -> String {
     let mut hash = Sha256::new();
     for group in &file.group {

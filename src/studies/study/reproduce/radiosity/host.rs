@@ -1,4 +1,4 @@
-//! The paper's host: Gauss-Seidel on an Athlon, limited by its memory as the text says.
+//! The paper's host: Gauss-Seidel on an Athlon, limited by its memory, as in the text.
 //!
 //! An element costs an addition that depends on the previous one, and, where the matrix does not fit the cache, its
 //! part of a cache line from memory. The matrix is read sequentially again and again, so that of W bytes a cache of C

@@ -11,7 +11,7 @@ use crate::study::reproduce::{
 
 const HEAD: &str = "# A run at full size, written by `crossbar reproduce --record`.\n";
 
-/// Recorded run of an entry at full size: its findings, but for charts and rows that are expressions of printed values.
+/// Recorded run of an entry at full size: its findings, except charts and rows that are expressions of printed values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EntryRecord {

@@ -20,7 +20,7 @@ pub struct RecordMade {
     pub version: String,
     /// Commit of its sources.
     pub commit: String,
-    /// Processor time of all threads, in seconds; none where the system does not say it.
+    /// Processor time of all threads, in seconds; none if the system does not report it.
     pub processor_s: Option<f64>,
     /// Time on the wall clock, in seconds.
     pub wall_s: f64,

@@ -3,7 +3,7 @@
 //! A record is a file of `src/studies/records`, part of the program: the result of a run on models of the printed size,
 //! with its command, version, commit and times. It has no verdicts: rows are judged by the bounds of the data.
 //!
-//! docs/decisions/0026-recorded-rows.md says why.
+//! docs/decisions/0026-recorded-rows.md explains this.
 
 mod cells;
 mod file;

@@ -29,8 +29,8 @@ impl Bound {
     /// Fraction by which a prediction may differ, unless a narrower one can be stated.
     pub const SHARE: f64 = 0.15;
 
-    /// Smallest and largest value within the bound around a printed value, which may be off by `rounding`; `None` if
-    /// all values are.
+    /// Smallest and largest value within the bound around a printed value, which may have an error of `rounding`;
+    /// `None` if all values are.
     pub fn interval(&self, printed: f64, rounding: f64) -> Option<[f64; 2]> {
         let around = |by: f64| Some([printed - by, printed + by]);
         match *self {

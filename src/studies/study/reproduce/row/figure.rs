@@ -35,7 +35,7 @@ pub enum Judgement {
     Not(String),
 }
 
-/// Reason why a row is missed, as far as it is known. It is given for a missed row alone and changes no verdict.
+/// Reason why a row is missed, if known. It is given for a missed row alone and changes no verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, strum::Display, strum::VariantArray)]
 pub enum MissClass {
     /// The text allows several readings, or leaves a choice of the method open.

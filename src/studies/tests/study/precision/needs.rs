@@ -19,7 +19,7 @@ const MEASURE: &str = "largest_absolute";
 /// Values of the measure by the formats of the two instructions; `None` is exact.
 type Values = Box<dyn Fn([Option<Layout>; 2]) -> f64>;
 
-/// Case of two moves whose values and results are those that are told.
+/// Case of two moves with given values and results.
 pub(super) struct Told {
     case: CaseSubject,
     goal: String,

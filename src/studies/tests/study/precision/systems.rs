@@ -20,7 +20,7 @@ struct Place {
     at: usize,
 }
 
-/// Instructions that can have a format of their own.
+/// Instructions that can have their own format.
 fn places(subject: &dyn PrecisionSubject) -> Vec<Place> {
     let of = |(program, studied): (usize, &Program)| {
         let takes = |at: &usize| takes_format(&studied.instructions[*at]);

@@ -83,7 +83,7 @@ fn within(share: f64) -> Judgement {
     Judgement::Within(Bound::Relative(share))
 }
 
-/// An expression may use figures below it, and says which entry has its row.
+/// An expression may use figures below it, and names the entry with its row.
 #[test]
 fn expressions_are_of_printed_values() {
     let found = parsed(
@@ -114,7 +114,7 @@ fn malformed_figures_are_refused() {
     }
 }
 
-/// A figure that was stated with a value of 5 and a bound of 15 %, as it stands now.
+/// A figure that was stated with a value of 5 and a bound of 15 %, in its present form.
 fn restated(now: &str) -> Result<Vec<PaperFigure>, String> {
     let figure = |terms: &str| format!("{{ id = \"a\", what = \"a\", {terms} }}");
     parse_figures(Paper::Cpca, &file(&figure(now), &figure(r#"value = "5", bound = "15 %""#)))

@@ -24,7 +24,7 @@ fn target(value: f64, decimals: u8) -> PaperFigure {
     }
 }
 
-/// A value of ours beside 15.6, which may be off by 10 % and by the rounding of the print.
+/// A value of ours beside 15.6, which may have an error of 10 % and of the rounding of the print.
 pub(super) fn row(ours: f64) -> PaperRow {
     let dependence = Dependence::Predicted { from: "" };
     PaperRow::new(("nv20", Method::Pipeline), &target(15.6, 1), (ours, dependence)).expect("a judged figure")
@@ -48,7 +48,7 @@ fn a_value_outside_its_bound_is_missed_and_no_word_changes_that() {
     assert_eq!([15.0, 18.0].map(|ours| row(ours).missed()), [None, Some(MissClass::ModelLost)]);
 }
 
-/// Print set against print, and an order, are told from predictions.
+/// Consistency of print, and an order, are distinguished from predictions.
 #[test]
 fn classes_of_success_are_told_apart() {
     let equation = with(row(15.6), |row| row.method = Method::Equation);
@@ -85,8 +85,8 @@ fn a_figure_that_its_paper_contradicts_is_missed_by_a_value_that_agrees_with_nei
     assert_eq!(verdicts, [RowVerdict::Contradictory, RowVerdict::Missed]);
 }
 
-/// A bound that admits every possible value judges nothing; one that a possible value misses does. Equal values
-/// have no order, and do not save one that cannot be the other way round.
+/// A bound that admits every possible value judges nothing; one that a possible value misses does. Equal values have no
+/// order, and do not save a row whose order is impossible to reverse.
 #[test]
 fn what_cannot_fail_is_met_by_construction() {
     let confined = |range, bound| bounded(row(15.6), bound).confined(range, "a tree").verdict();

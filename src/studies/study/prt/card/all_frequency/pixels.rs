@@ -7,7 +7,7 @@ use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_product
 use crate::all_frequency::on_card::{ProductPlace, TransferredMesh};
 use crate::card::SeenPixel;
 
-/// The view that a way interpolates; vertex colors: that of products, which they stand for.
+/// The view that a method interpolates; for vertex colors that of products, which they represent.
 fn view_of(place: &ProductPlace) -> ViewNumbers {
     if let ProductPlace::Pixels(options) = place { options.view } else { ViewNumbers::default() }
 }

@@ -11,7 +11,7 @@ use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, Gathe
 use crate::card::{MeshView, SeenPixel};
 use crate::study::StudyError;
 
-/// L~ by the card, and what it asked of it.
+/// L~ by the card, and its counts.
 pub(super) struct CardLight {
     pub(super) local: Vec<[f32; 3]>,
     pub(super) counts: GatherCounts,

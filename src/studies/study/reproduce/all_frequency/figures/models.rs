@@ -45,7 +45,7 @@ pub(super) fn schlick() -> [NamedLobe; 2] {
     [("textbook", lobe), ("quarter of half vector", quarter_of_half_vector(lobe))]
 }
 
-/// Reflectance of Figure 2 and of the glossy Buddha, likewise.
+/// Reflectance of Figure 2 and of the glossy Buddha in the same form.
 pub(super) fn cook_torrance() -> [NamedLobe; 2] {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     [("textbook", lobe), ("distribution alone", bare(lobe))]

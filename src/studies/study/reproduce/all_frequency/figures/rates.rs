@@ -74,8 +74,8 @@ pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, StudyError> {
     Ok(host.time_of(HostOperation::MultiplyAdd, steps.per_cluster + steps.per_vertex).seconds())
 }
 
-/// Time of a frame including drawing, on a ground with a fraction `omega` of non-empty segments; or without one, as
-/// section 7 says of Table 1.
+/// Time of a frame including drawing, on a ground with a fraction `omega` of non-empty segments; or without one, as in
+/// section 7 for Table 1.
 fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, StudyError> {
     let place = ProductPlace::Vertices(VertexColors::Bytes);
     let vertices = 100 * model.vertex_hundreds;
