@@ -30,7 +30,7 @@ const ROUNDS: usize = 25;
 /// Times of the ideal format that a card or a rule may take.
 const MOST: f64 = 1.5;
 
-/// The cards and formats, each with the format of the ideal device beside it, and those ideal devices.
+/// The cards and formats, each with the format of its ideal device; and these ideal devices.
 fn all() -> Vec<(String, &'static str)> {
     let ideal = |format: &str| format!("ideal-{format}");
     let of_rules = RULES.iter().flat_map(|&(format, rules)| {

@@ -83,7 +83,8 @@ fn the_gpu_trace_is_the_scalar_trace() {
     }
 }
 
-/// Checks that the last fragment of every pixel leaves the same as the draw, and that the numbers of fragments agree.
+/// Checks that the last fragment of every pixel leaves the targets as the draw does, and that the numbers of fragments
+/// agree.
 fn follows_the_draw(case: &Case, executor: &Executor, programs: &Programs, traces: &[Vec<FragmentTrace>], seed: u64) {
     let drawn = case.scene.draw(executor, programs).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(traces.iter().flatten().count() as u64, drawn.fragments(), "seed {seed}");

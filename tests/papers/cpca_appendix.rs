@@ -95,7 +95,7 @@ fn reflections_have_the_printed_errors() {
     }
 }
 
-/// The paper's sentences on which is better; taken with the words as printed, odd for even, they would be wrong.
+/// The paper's ranking of the projections. With "odd" and "even" as printed, which are exchanged, it would be wrong.
 #[test]
 fn even_reflection_is_best_and_odd_reflection_worst() {
     let [zero, odd] = [error(Projection::ZeroHemisphere, 5), error(Projection::OddReflection, 8)];

@@ -43,11 +43,11 @@ impl DirectionRule {
         Self::between(0.0, degree)
     }
 
-    /// Over the hemisphere z >= 0, with about the directions of [`Self::hemisphere`] of degree `size`, but of many
-    /// different heights, and exact for polynomials of degree `degree` alone: floor(size / 2) + 1 rings of as many
-    /// pairs of opposite directions; of two pairs of columns no heights are the same. So the height of an occluder that
-    /// is the same all around is resolved to a fraction of a ring. Where there are too few rings, fewer than degree +
-    /// 3, it is the other rule.
+    /// Over the hemisphere z >= 0: about as many directions as [`Self::hemisphere`] of degree `size`, with many
+    /// different heights, and exact only up to degree `degree`. There are floor(size / 2) + 1 rings of as many pairs of
+    /// opposite directions; no two pairs of columns have a height in common. So the height of an occluder that is the
+    /// same all around is resolved to a fraction of a ring. With fewer than degree + 3 rings it is the rule of
+    /// [`Self::hemisphere`].
     ///
     /// Each column integrates polynomials in z exactly. The part of azimuthal frequency m of a polynomial in x, y and z
     /// is a polynomial in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.

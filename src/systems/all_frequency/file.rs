@@ -56,7 +56,7 @@ struct Code {
     options: CodeOptions,
 }
 
-/// Reads a file; of `mesh`, if one is given.
+/// Reads a file; if `mesh` is given, it must be the file's mesh.
 pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllFrequencyFile, InputError> {
     let file = parse_all_frequency(&bytes_of(path)?, path)?;
     mesh.map_or(Ok(()), |expected| require_mesh(path, expected, Some(file.mesh)))?;

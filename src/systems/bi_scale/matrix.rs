@@ -259,8 +259,8 @@ impl EntryValues {
         }
     }
 
-    /// The integer of an entry for a number; `None` if it is neither a multiple of the unit that 32 bits hold nor in
-    /// the table.
+    /// The integer of an entry for a number; `None` if it is not in the table, and not a multiple of the unit within 32
+    /// bits.
     pub(super) fn entry(&self, value: f64) -> Option<i32> {
         match &self.table {
             None => {

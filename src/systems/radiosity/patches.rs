@@ -113,8 +113,8 @@ impl Patches {
         [self.open.len() - altogether, altogether]
     }
 
-    /// A parametrisation of the open parts of a patch over the unit square, whose first side they divide in their
-    /// order, in proportion to their areas.
+    /// A parametrisation of the open parts of a patch over the unit square. In their order, the parts divide its first
+    /// side in proportion to their areas.
     pub(super) fn open_point(&self, patch: usize, [u, v]: [f64; 2]) -> PatchPoint {
         let parts = self.open_parts(patch);
         if let [one] = parts {

@@ -29,8 +29,8 @@ const LONG: &[&str] = &[
     "\u{1b}[2J",
 ];
 
-/// Each command with arguments with which it fails before any work, whatever its options are: messages and files left
-/// behind are tested.
+/// Each command with arguments that fail before any work, with any options: the messages and remaining files are
+/// tested.
 const COMMANDS: &[&str] = &[
     "all-frequency card nowhere.npz --model nowhere.obj",
     "all-frequency compress nowhere.npz --model nowhere.obj --out y.npz",

@@ -25,8 +25,8 @@ fn below(width: BasisWidth, side: usize) -> (u32, f64, u32) {
     (least, sum / whole, most)
 }
 
-/// A segment lies below the horizon of a normal if its four corners do: normals of a convex polygon, whose area is
-/// 2 pi less the segment's perimeter. On average that is 6.649 of 24 segments, not 8: omega is 0.723, not 2/3. The
+/// A segment lies below the horizon of a normal if its four corners do. Such normals form a convex polygon, whose area
+/// is 2 pi minus the segment's perimeter. On average that is 6.649 of 24 segments, not 8: omega is 0.723, not 2/3. The
 /// least is 6.
 #[test]
 fn on_average_6_65_segments_are_below_the_horizon() {

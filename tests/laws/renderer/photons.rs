@@ -23,8 +23,8 @@ fn mean(picture: &RenderedPicture, scene: &Scene) -> [[f64; 2]; 3] {
     sums.map(|[sum, variance]| [sum / count, variance / (count * count)])
 }
 
-/// Both renderers' means of a room differ by at most this share: what chance may do (3 standard deviations) is left out
-/// of it. The photons themselves are chance too, and the same for all pixels; they are part of the share.
+/// Both renderers' means of a room differ by at most this share, after 3 standard deviations are subtracted. The
+/// photons are random, too, and the same for all pixels; their error is part of the share.
 fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     let scene = room(1.0, block);
     let camera = room_camera(12, 12);

@@ -39,7 +39,7 @@ fn texels_of_a_cube_cover_the_sphere() {
     assert_abs_diff_eq!(map.solid_angle(1000, 1000) / map.solid_angle(0, 0), 27f64.sqrt(), epsilon = 0.01);
 }
 
-/// The square is the hemisphere and what lies between the horizon and the square's sides.
+/// The texels cover the hemisphere, and the directions between the horizon and the square's sides.
 #[test]
 fn texels_of_a_parabolic_map_cover_the_square() {
     let map = ParabolicMap::new(32);

@@ -5,7 +5,7 @@ use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, Row
 
 use super::{FOUND, all, findings, row};
 
-/// A printed figure has one row, and a judged one has a row: figures that are not judged are listed with their reason.
+/// Every judged figure has exactly one row. Figures that are not judged are listed with the reason.
 #[test]
 fn every_judged_figure_has_one_row() {
     let figures = figures().expect("the data").iter();
@@ -17,9 +17,9 @@ fn every_judged_figure_has_one_row() {
     assert_eq!(rows, judged);
 }
 
-/// A contradiction is computed from print, and is in the notes. A contradictory row of ours lies within the bound of
-/// the printed value or of the one that contradicts it, by every reading; any other one that lies outside is missed and
-/// has its class.
+/// A contradiction is computed from printed values, and is in the notes. A contradictory row of ours lies within the
+/// bound of the printed value or of the one that contradicts it, by every reading; any other row outside its bound is
+/// missed, with a class.
 #[test]
 fn contradictions_come_with_their_computations() {
     let notes = notes(&FOUND);

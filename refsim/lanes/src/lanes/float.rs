@@ -13,11 +13,11 @@ pub(crate) const HOST: u8 = 0;
 /// In `f32`, and rounded once more.
 ///
 /// Rounding to nearest even twice is innocuous for `+ - * / sqrt` if the wider format has at least `2p + 2` bits
-/// (Figueroa 1995, "When is double rounding innocuous?"): 24 >= 2 * 11 + 2. It stays so where the narrow result is
-/// subnormal, because the argument is about the distance between a result and a midpoint of at most `p + 1` bits, and
-/// subnormal midpoints have fewer. The wide result must not be subnormal itself: with six exponent bits and ten
-/// mantissa bits the smallest product is 2^-80. Products are exact. The other roundings are [`ShortRounder`]'s, for
-/// formats that keep subnormal numbers.
+/// (Figueroa 1995, "When is double rounding innocuous?"): 24 >= 2 * 11 + 2. That also holds for a subnormal narrow
+/// result: the proof needs the distance between a result and a midpoint of at most `p + 1` bits, and subnormal
+/// midpoints have fewer bits. The wide result must not be subnormal itself: with six exponent bits and ten mantissa
+/// bits the smallest product is 2^-80. Products are exact. The other roundings are [`ShortRounder`]'s, for formats that
+/// keep subnormal numbers.
 pub(crate) const SINGLE: u8 = 1;
 /// Nearest even in `f64` by the same argument, `53 >= 2 * 24 + 2`; the other roundings in `f32` (see [`toward`]).
 pub(crate) const DOUBLE: u8 = 2;

@@ -119,8 +119,8 @@ pub(crate) trait Lane: Copy + Send + Sync {
     }
     /// True if [`Lane::is_fused`] can return true.
     const FUSED: bool = false;
-    /// Returns `true` if [`Lane::fused_sum`] and [`Lane::fused_div`] are [`Lane::sum`] and [`Lane::div`] in fewer
-    /// instructions on a host with fused multiply-add.
+    /// Returns `true` if [`Lane::fused_sum`] and [`Lane::fused_div`] compute the same as [`Lane::sum`] and
+    /// [`Lane::div`], in fewer instructions on a host with fused multiply-add.
     #[inline(always)]
     fn is_fused(&self) -> bool {
         false

@@ -129,7 +129,7 @@ impl<'a> MatrixColumns<'a> {
         Some(numbers)
     }
 
-    /// The unit's adder, if it is one that is computed here.
+    /// The unit's adder; `None` if this module does not implement it.
     fn adder(&self, a: Element) -> Option<Adder> {
         let Rule::Aligned { block, bits, least } = self.unit.rule else { return None };
         let fits = bits <= MAX_BITS && self.unit.addend == self.unit.result.element();

@@ -207,7 +207,7 @@ pub(crate) struct ShortRounder {
 }
 
 impl ShortRounder {
-    /// For a format with these bits.
+    /// Creates the rounder of a format with these bits.
     pub(crate) fn new(exp_bits: u8, man_bits: u8) -> Self {
         const BIAS: u32 = 127;
         let (m, emax) = (u32::from(man_bits), (1 << (exp_bits - 1)) - 1);

@@ -137,7 +137,7 @@ impl BlockFormat {
         elements.iter().map(number).collect()
     }
 
-    /// The exponent of the largest element: 8 of `mxfp8-e4m3`, 0 of `mxint8`.
+    /// The exponent of the largest element: 8 for `mxfp8-e4m3`, 0 for `mxint8`.
     const fn largest_exponent(self) -> i32 {
         self.element.exponents().1
     }

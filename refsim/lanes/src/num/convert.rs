@@ -14,7 +14,7 @@ use super::unpack::{Unpacked, nan_bits, unpack, zero};
 /// overflows as numbers do.
 ///
 /// Into the unit of a card single floats pass unchanged; out of it subnormals become zeros. A NaN of GT200 becomes the
-/// one of the other format ([`super::unit::gt200_conversions::to_half`] has that of the card).
+/// canonical NaN of the other format ([`super::unit::gt200_conversions::to_half`] gives the card's NaN).
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
     // Units of cards pass single floats on as they are, NaN and subnormals too.

@@ -127,7 +127,8 @@ fn sum_by<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &m
     )
 }
 
-/// An operation of the table, or of neighbours. An operation that is never guarded gives 0.
+/// Executes an operation of the table, or one that reads neighbouring lanes. An operation that is never guarded gives
+/// 0.
 #[inline(always)]
 fn step<L: Lane>(l: &L, (simd, fused): (SimdLevel, bool), op: &LaneOp, slots: &mut Slots) -> Largest {
     let Slots { rows, scratch, values, wide, .. } = slots;

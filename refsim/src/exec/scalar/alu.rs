@@ -60,7 +60,7 @@ impl<'r> Alu<'r> {
         self.format.unit.is_card()
     }
 
-    /// The result of an operation that units of cards alone have; `None` if this format's has it not.
+    /// The result of an operation that only units of cards have; `None` if this format's unit lacks it.
     pub(crate) fn card(&mut self, operation: NumberOperation, operands: [u32; 3]) -> Option<u32> {
         let outcome = operation.evaluate(self.format, operands)?;
         Some(self.keep(outcome))

@@ -7,8 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::TempDir;
 
-/// The staging folders of this process. Locked while one is created, and while files are renamed out of one: the end of
-/// the process by a signal waits for that.
+/// The staging folders of this process. The lock is held while a folder is created and while files are renamed out of
+/// it, so that a signal ends the process only before or after.
 static IN_USE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {

@@ -77,7 +77,7 @@ pub(super) struct FixedView {
     target: [f32; 3],
     /// Exact first triangle per pixel, as words; `u32::MAX` where there is none.
     exact: String,
-    /// Pixels with several exact first triangles, and these.
+    /// Pixels with several exact first triangles, and their triangles.
     ties: Vec<(usize, Vec<u32>)>,
     pub(super) pictures: Vec<FixedPicture>,
 }

@@ -37,7 +37,7 @@ struct ByColumn {
     begins: Vec<usize>,
     stride: usize,
     values: Vec<f64>,
-    /// Per index the inner product with the cluster's mean.
+    /// The inner product of each index with the cluster's mean.
     with_mean: Vec<f64>,
 }
 

@@ -101,7 +101,7 @@ impl LocalStream<'_> {
     }
 }
 
-/// The largest number of local light times a factor.
+/// The largest value of local light times a factor.
 ///
 /// # Errors
 /// [`CardError::Input`] if single precision does not hold it.

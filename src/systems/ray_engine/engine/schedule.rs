@@ -174,7 +174,7 @@ impl RayEngine<'_> {
         self.resume(waiting);
     }
 
-    /// Continues rays behind a cell: each is answered if nothing nearer can follow.
+    /// Continues rays behind a cell; a ray is answered if no later cell can contain a nearer hit.
     fn resume(&mut self, rays: &[Waiting]) {
         for &Waiting { flight, leave } in rays {
             let here = self.flights.at(flight);

@@ -60,7 +60,7 @@ impl LinkTextures {
         Ok(Self { side, level, rgb, count, textures })
     }
 
-    /// How links are chosen, as programs see it.
+    /// The layout of links in the textures, which selects the program.
     pub(super) fn layout(&self) -> LinkLayout {
         if self.level.is_some() { LinkLayout::Fixed } else { LinkLayout::Adaptive }
     }

@@ -16,7 +16,7 @@ pub struct SegmentCensus {
     pub segments: u64,
     /// All of the segment's fine directions lie below the horizon of the vertex's normal.
     pub below_horizon: u64,
-    /// Some lie above, but all of these are shadowed.
+    /// Some fine directions lie above, but all of these are shadowed.
     pub shadowed: u64,
     /// The others: segments with transfer.
     pub nonempty: u64,

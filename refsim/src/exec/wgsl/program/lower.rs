@@ -51,7 +51,7 @@ pub(super) struct MaskedStep {
     pub(super) opcode: Opcode,
     /// Jump target, as in [`FlowMap::target`].
     pub(super) target: usize,
-    /// Uses of its results; a condition is the only one.
+    /// Uses of its results. A condition has only one use.
     pub(super) sinks: Vec<Sink>,
     /// The sampler read.
     pub(super) sampler: Option<usize>,

@@ -1,4 +1,4 @@
-//! Factors of a reflectance: how many terms are how far off, beside spherical harmonics; pictures; tables of G and F.
+//! Factors of a reflectance: error by number of terms, compared with spherical harmonics; pictures; tables of G and F.
 
 mod files;
 mod harmonics;

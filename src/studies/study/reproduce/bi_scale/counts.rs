@@ -1,4 +1,4 @@
-//! Values of both tables that follow from sizes. The rows are expressions in `src/studies/papers`.
+//! Values of both tables that follow from the sizes alone. The rows are expressions in `src/studies/papers`.
 
 use super::scenes::{PrintedScene, SCENES};
 use super::{EntryFindings, Shared, StudyError, number, paragraph};

@@ -93,7 +93,7 @@ pub(super) struct FileFigure {
     /// Changes of the statement, the oldest first; those of its group come before them.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
-    /// Expression of printed values that the row has as ours.
+    /// Expression of printed values for the row's own value.
     expression: Option<String>,
     /// Expressions of other readings.
     #[serde(default)]

@@ -1,8 +1,8 @@
 //! The paper's host: Gauss-Seidel on an Athlon, limited by its memory, as in the text.
 //!
 //! An element costs an addition that depends on the previous one, and, where the matrix does not fit the cache, its
-//! part of a cache line from memory. The matrix is read sequentially again and again, so that of W bytes a cache of C
-//! bytes still holds at most a fraction C / W at the next read.
+//! part of a cache line from memory. The matrix is read sequentially again and again. At the next read, a cache of C
+//! bytes still holds at most a fraction C / W of a matrix of W bytes.
 
 use super::{PATCHES, PrintedRates, StudyError};
 

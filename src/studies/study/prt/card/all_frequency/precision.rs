@@ -85,7 +85,7 @@ fn choices_of_products(terms: usize) -> Vec<Choice> {
     all
 }
 
-/// Colors of vertices. The one term of a diffuse surface has no other way.
+/// Colors of vertices. For a diffuse surface, which has one term, these are the only choices.
 fn choices_of_colors() -> Vec<Choice> {
     let floats = ProductPlace::Vertices(VertexColors::Floats);
     let mut all = vec![Choice::new("vertex colors", "floats, fp32", "ideal-fp32", floats)];
