@@ -50,7 +50,8 @@ fn named_by(command: &Command) -> Option<&'static str> {
 /// Takes the options from a command line.
 ///
 /// # Errors
-/// [`Problem::Usage`] if no model is named. The parser does not see that where a model excludes what was named instead.
+/// [`Problem::Usage`] if no model is named. The parser does not report that if a model excludes the option given
+/// instead.
 pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     // Matches cannot be asked which arguments exist: clap keeps the list with debug assertions only.

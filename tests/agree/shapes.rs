@@ -12,7 +12,7 @@ use strum::{IntoStaticStr, VariantArray};
 pub(crate) enum Shape {
     /// A few triangles in view.
     Ordinary,
-    /// Quads over the whole target, everything but the position constant.
+    /// Quads over the whole target, with everything constant except the position.
     Flat,
     /// Many quads over one another, most of them over the whole target.
     Layers,

@@ -107,7 +107,7 @@ fn an_operand_that_differs_already() {
     assert_eq!((&constant["ulps"], &constant["unit"]), (&json!(0.5), &json!("s3.12")));
 }
 
-/// The coordinate is the number that fp16 takes 0.1 for: there it is not below the constant, in fp32 it is.
+/// The coordinate is 0.1 rounded to fp16. In fp16 it is not below the constant 0.1, in fp32 it is.
 #[test]
 fn a_branch() {
     let text = PLAIN

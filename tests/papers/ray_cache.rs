@@ -43,7 +43,7 @@ fn engine<'a>(mesh: &'a Mesh, device: &str, parameters: EngineParameters) -> Ray
 
 /// Size of a tree, at its fullest and over time.
 struct Cache {
-    /// The mean share of full of its buckets, when all rays were in it.
+    /// The mean fill of its buckets, in [0, 1], with all rays in it.
     full: f64,
     /// The same of the batches that left it.
     batches: f64,

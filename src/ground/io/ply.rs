@@ -38,8 +38,7 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_ply(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
-/// [`parse_ply`]; unless `strict`, faces with a fault are accepted and data after the last element passed over, and
-/// noted.
+/// [`parse_ply`]; unless `strict`, faulty faces are accepted and data after the last element are ignored, with notes.
 pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;

@@ -72,7 +72,7 @@ impl fmt::Debug for FactoredTransfer<'_> {
     }
 }
 
-/// The transfer of a reflectance, whose light's side is F.
+/// The transfer of a reflectance; F is its factor of light.
 pub const fn transfer_of<'a>(
     vertices: &'a Vertices,
     maps: &'a VisibilityMaps,

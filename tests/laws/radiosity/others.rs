@@ -18,7 +18,7 @@ use super::tracer;
 
 const FULL: CornellBox = CornellBox { blocks: true, open: false };
 
-/// Whole faces, so that both know the same patches. Ours is a closed form times visibility by rays, theirs is rays
+/// Whole faces, so that both have the same patches. Ours is a closed form times visibility by rays, theirs is rays
 /// alone.
 #[test]
 fn form_factors_agree_with_an_estimate_by_rays_alone() {

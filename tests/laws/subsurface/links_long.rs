@@ -141,8 +141,8 @@ fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
     }
 }
 
-/// Both sides of a thin sheet: far from its rim a texel gets what the plane returns from its own side, and from the
-/// other one what lies beyond a disc whose radius is the sheet's thickness.
+/// Both sides of a thin sheet, far from its rim: a texel gets the plane's total from its own side, and from the other
+/// side the part beyond a disc whose radius is the sheet's thickness.
 #[test]
 fn a_thin_sheet_has_light_from_both_sides() {
     for ([length, width], media) in [([1e5, 8e4], &media()[..]), ([300.0, 240.0], &media()[..1])] {

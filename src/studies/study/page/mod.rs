@@ -1,5 +1,5 @@
 //! The page that compares a visitor's GPU with the emulator: one HTML file that runs the number library's shaders in
-//! WebGPU and holds their results against those of [`refsim::num`] and of the batch executor, which it carries.
+//! WebGPU, and compares their results with stored ones of [`refsim::num`] and the batch executor.
 //!
 //! docs/page.md describes what it shows. The script of the page is in `assets`.
 

@@ -26,7 +26,7 @@ pub struct KnownRuns {
     subject: String,
     /// By the digest of the formats.
     runs: BTreeMap<String, KnownRun>,
-    /// Number of runs that were made in spite of being known.
+    /// Number of known runs that were repeated.
     #[serde(skip)]
     checked: u32,
     /// Runs of parts of this study. The study's own are those that it asks for.

@@ -108,7 +108,7 @@ impl<'a> Sweep<'a> {
         Ok((system, reference))
     }
 
-    /// Rows by number of patches, method and value, out of the runs of all settings. Those of one number of patches and
+    /// Rows by number of patches, method and value, out of the runs of all settings. Rows of one number of patches and
     /// one method may have the same bits.
     pub(super) fn rows(&self, runs: &[Vec<SweepRun>]) -> Vec<SweepRow> {
         let mut rows = Vec::new();

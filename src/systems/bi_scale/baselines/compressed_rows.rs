@@ -18,7 +18,7 @@ pub struct CompressedRows {
 }
 
 impl CompressedRows {
-    /// Three bytes an entry: a column of two, and a value of one in units of the matrix.
+    /// Three bytes per entry: two for the column, and one for the value in units of the matrix.
     ///
     /// # Errors
     /// [`InputError`] if this has no room for a column or value.

@@ -30,7 +30,7 @@ pub(super) fn size_error(found: usize) -> InputError {
 /// The four samples of the view around a direction, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewSamples {
-    /// Numbers of the view's directions; equal ones at the square's rim.
+    /// Indices of the view's directions; equal ones at the square's rim.
     pub numbers: [usize; 4],
     /// Bilinear weights in the square.
     pub weights: [f64; 4],

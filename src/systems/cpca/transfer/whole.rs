@@ -264,7 +264,7 @@ fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: Bounces) -> Re
     }
 }
 
-/// The first triangle whose material has no response, and that material.
+/// The first triangle whose material has no response, with that material.
 fn unknown_material(vertices: &Vertices, responses: &[Response]) -> Option<(usize, u32)> {
     let material = |corners: &[u32; 3]| vertices.materials()[corners[0] as usize];
     let mut materials = vertices.triangles().iter().map(material).enumerate();

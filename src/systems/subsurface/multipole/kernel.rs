@@ -134,7 +134,7 @@ impl<const N: usize> DistanceTable<N> {
         }
     }
 
-    /// How large pieces at each distance may be.
+    /// Largest size of pieces at each distance.
     fn set_reaches(&mut self, area: f64, tolerance: f64) {
         // What the second order leaves out grows with the third power of the size.
         let far = FAR * cbrt(tolerance / 0.01);

@@ -4,8 +4,8 @@
 //!
 //! **What is tested.** The baseline is the card's f32 test over all pairs. Where its answer is right in exact
 //! arithmetic, every path gives its bits. Where it is wrong, or the error of t is a hundredth or more, a path may
-//! differ, but only by skipping triangles: every hit that a path reports passes the f32 test. How often fp32 is wrong,
-//! and by which rounding, is the table of docs/papers/ray_engine.md.
+//! differ, but only by skipping triangles: every hit that a path reports passes the f32 test. docs/papers/ray_engine.md
+//! has a table of fp32's errors by the rounding that causes them.
 
 mod cause;
 mod scene;

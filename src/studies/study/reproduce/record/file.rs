@@ -112,7 +112,7 @@ impl EntryRecord {
         }
     }
 
-    /// Findings of the run. Rows that are expressions of printed values are of this program, and come first.
+    /// Findings of the run. Rows that are expressions of printed values are computed by this program, and come first.
     ///
     /// # Errors
     /// If a figure of the record is unknown or not judged.

@@ -127,8 +127,8 @@ fn same_bits(a: &FragmentResults, b: &FragmentResults) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|((at, a), (other, b))| at == other && a.to_bits() == b.to_bits())
 }
 
-/// Follows a pixel with one instruction in a coarse format: what differs first is that instruction, or a texture with
-/// results of it. Returns `false` if the instruction changes nothing.
+/// Traces a pixel with one instruction in a coarse format: the first difference is that instruction, or a texture with
+/// its results. Returns `false` if the instruction changes nothing.
 fn is_traced(
     subject: &dyn PrecisionSubject,
     (exact, right): (&Profile, &Measured),
