@@ -116,7 +116,7 @@ pub struct FineDirections {
 }
 
 impl FineDirections {
-    /// The fine directions, 4 x 4 a texel. Computed once.
+    /// The fine directions, 4 x 4 per texel. Computed once.
     pub fn get() -> &'static Self {
         Self::of(SUPERSAMPLES)
     }

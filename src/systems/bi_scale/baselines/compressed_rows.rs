@@ -31,7 +31,7 @@ impl CompressedRows {
         Self::new(matrix, 3, u16::MAX.into(), "values of -128 to 127 units", fits)
     }
 
-    /// Eight bytes an entry: a column and a value in f32 of four each.
+    /// Eight bytes per entry: four for the column, and four for the value in f32.
     ///
     /// # Errors
     /// [`InputError`] if a value is beyond single precision.
