@@ -52,8 +52,8 @@ impl Configuration {
         Ok(configuration)
     }
 
-    /// Returns the configurations of a device, and of the device with each of its open switches set to each other
-    /// value, one at a time; without those of generated mip levels.
+    /// Returns the configuration of a device, then one configuration for each other value of each of its open switches,
+    /// with one switch changed at a time. Switches of generated mip levels are left out.
     ///
     /// # Errors
     /// If there is no such device.

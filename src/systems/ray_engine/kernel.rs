@@ -24,10 +24,10 @@ pub enum Form {
 /// How the edge that two triangles share is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeRule {
-    /// As in the paper: by each triangle anew, from its own corner a. Rounding may put a ray outside both.
+    /// As in the paper: each triangle tests the edge anew, from its own corner a. Rounding may put a ray outside both.
     Paper,
-    /// From the edge's own two corners, in one orientation, so that both triangles get the same bits: no ray is outside
-    /// both. Rays of one origin on `ps_1_4`, of any origin on `ps_2_0`.
+    /// Each triangle tests the edge from the edge's own two corners, in one orientation, so both triangles get the same
+    /// bits and no ray is outside both. Rays of one origin on `ps_1_4`, of any origin on `ps_2_0`.
     SharedEdges,
 }
 

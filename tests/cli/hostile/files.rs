@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Files, assert_refused};
 
-/// Every option for an input file with every kind of file that is no such input.
+/// Gives every option for an input file every kind of file that is not such an input.
 #[test]
 fn hostile_files() {
     let commands: [&[&str]; 19] = [

@@ -104,9 +104,9 @@ fn a_mirror_casts_a_point_light_on_gloss() {
     }
 }
 
-/// Behind the first glass each of the two rays samples one of two lamps, of which it sees one: with separate random
-/// numbers the variance of their sum is the sum of their variances. With the same numbers one of them would be lit
-/// exactly where the other is not.
+/// Behind the first glass each of the two rays samples one of two lamps, and sees only one of the two. With separate
+/// random numbers the variance of the rays' sum is the sum of their variances. With the same numbers one ray would be
+/// lit exactly where the other is not.
 #[test]
 fn the_two_rays_of_glass_are_independent() {
     let variance = |below: f32, above: f32| {

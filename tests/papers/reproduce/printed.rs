@@ -1,4 +1,4 @@
-//! Rows that set print against print, and print in the emulator and the systems.
+//! Rows that compare printed figures with each other, and printed figures that the emulator and the systems use.
 
 use crossbar::all_frequency::on_card::time::TABLE_1;
 use crossbar::study::reproduce::{PaperRow, RowVerdict, printed};

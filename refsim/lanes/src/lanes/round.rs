@@ -198,11 +198,12 @@ impl DoubleRounder {
 pub(crate) struct ShortRounder {
     /// Exponent bits of the smallest normal number, and of the power of two that is too large.
     binades: [u32; 2],
-    /// Less the exponent bits of a binade it is the reciprocal of its unit.
+    /// This minus the exponent bits of a binade is the bit pattern of 1 / (unit of the binade).
     per_unit: u32,
-    /// Added to the exponent bits of a binade makes its unit, stretched so that what is too large is so for the host.
+    /// This plus the exponent bits of a binade is the bit pattern of the binade's unit, scaled so that numbers that are
+    /// too large for the format overflow in the host's `f32` too.
     unit: u32,
-    /// Undoes the stretching.
+    /// Undoes the scaling.
     shrink: f32,
 }
 

@@ -19,7 +19,7 @@ pub(super) struct BitScan {
     pub(super) points: BTreeMap<u8, f64>,
     /// Fewest bits from which on every computed number of bits meets the goal.
     pub(super) smallest: Option<u8>,
-    /// Bits, and more bits that are worse; all numbers of bits were computed then.
+    /// A number of bits, and a larger one with a worse value. If such a pair is found, all points are computed.
     pub(super) counterexample: Option<[u8; 2]>,
 }
 

@@ -12,7 +12,7 @@ pub enum PassKind {
     /// Pass 1.
     #[strum(to_string = "radiosity map")]
     RadiosityMap,
-    /// The map's levels.
+    /// The mip levels of the radiosity map.
     Levels,
     /// Pass 2.
     Gather,

@@ -1,4 +1,4 @@
-//! The tables of the chips, read from `tables/*.csv` once. Columns are those of the files without the index.
+//! The tables of the chips, read from `tables/*.csv` once. Columns are the columns of the files, without the index.
 
 use std::sync::LazyLock;
 

@@ -72,8 +72,8 @@ pub(super) fn quarter_of_half_vector(lobe: Lobe) -> Lobe {
     Lobe { distribution, denominators: Denominators::Quarter, ..lobe }
 }
 
-/// Lobes of some interpretations, each once, with their names where they are sampled at equal solid angles: "1024
-/// samples in both light direction and view direction sampled over the hemisphere" need not be texels of a map.
+/// The different lobes of some interpretations, named for samples at equal solid angles: the paper's "1024 samples in
+/// both light direction and view direction sampled over the hemisphere" need not be texels of a map.
 pub(super) fn at_equal_angles(forms: &[Form]) -> Vec<(String, Lobe)> {
     let mut found: Vec<(String, Lobe)> = Vec::new();
     for (name, lobe, _) in forms {
