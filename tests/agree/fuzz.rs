@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// Number of differences that are shrunk and printed; more are only counted.
 const REPORTS: usize = 10;
-/// The first seed, where `CROSSBAR_SEED` names no other: beyond those of the short and the full form.
+/// The first seed, unless `CROSSBAR_SEED` names another. It lies beyond all seeds of the short and the full form.
 const FIRST: u64 = 1 << 32;
 
 /// Counts and reports of a run.

@@ -88,7 +88,7 @@ impl Fixture {
     }
 }
 
-/// The log without what only a watched draw knows.
+/// The log without the details that only an observed draw records.
 fn log(machine: &mut Machine) -> Vec<Event> {
     let mut log = machine.take_log();
     for event in &mut log {

@@ -155,7 +155,7 @@ fn snorm8(format: Format, bits: u32, k: u32) -> u32 {
 }
 
 /// `(2k - 255) / 255`, k the whole part of the exact `127.5 (c + 1)` of the clamped number c, rounded into `format`.
-/// NaN is stored as 0 is.
+/// NaN is stored like 0.
 fn unorm8_expanded(format: Format, bits: u32) -> u32 {
     let magnitude = if magnitude(bits) > 0x7f80_0000 { 0 } else { magnitude(bits).min(FP32_ONE) };
     let (significand, exponent) = match magnitude >> 23 {

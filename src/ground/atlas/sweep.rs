@@ -145,7 +145,7 @@ fn axes(graph: &FaceGraph, measures: &FaceMeasures) -> [usize; 3] {
     axes
 }
 
-/// Orders the faces of a connected part by a sweep from its lowest face along an axis to the one farthest from that.
+/// Orders the faces of a connected part by a sweep: from its lowest face along an axis to the face farthest from it.
 fn order(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, of: impl Fn(u32) -> bool) -> Vec<u32> {
     let mut order: Vec<u32> = (0..graph.len() as u32).filter(|&face| of(face)).collect();
     let along = |face: u32| measures.center(graph.faces()[face as usize])[axis];

@@ -2,7 +2,7 @@
 //! `numpy.savez` writes them. Equal contents have equal bytes: members have no time, and are in the order in which they
 //! were written.
 //!
-//! Reading allocates nothing that the bytes at hand do not fill: arrays are slices of the file until they are taken.
+//! Reading never allocates more than the file holds: arrays are slices of the file until they are taken.
 
 use std::borrow::Borrow;
 use std::collections::BTreeMap;

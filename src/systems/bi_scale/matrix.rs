@@ -178,7 +178,8 @@ impl SparseMatrix {
     }
 }
 
-/// The least number of fraction bits of a unit of which all values are multiples that 32 bits hold, if there is one.
+/// The smallest number of fraction bits f such that every value is a multiple of 2^-f that fits into 32 bits; `None` if
+/// there is none.
 fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
     let finest = f64::from(1_u32 << EntryValues::MOST_FRACTION_BITS);
     let mut fraction_bits = 0;

@@ -226,7 +226,7 @@ impl Translator<'_> {
         })
     }
 
-    /// An operand in single precision: `f[TEX#]` as interpolated, a register converted.
+    /// An operand in single precision: `f[TEX#]` as it was interpolated, any other register converted.
     fn place(&mut self, source: &Source) -> NodeVector {
         if source.register.file == RegisterFile::Texture {
             return source.swizzle.0.map(|c| {

@@ -51,7 +51,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// An operand in single precision: `f[TEX#]` as interpolated, a register converted.
+    /// An operand in single precision: `f[TEX#]` as it was interpolated, any other register converted.
     fn address(&mut self, lane: usize, source: &Source) -> Components {
         if source.register.file == RegisterFile::Texture {
             let set = self.coordinate_set(lane, source.register.index);

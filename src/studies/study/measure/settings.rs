@@ -100,7 +100,7 @@ impl Survey {
     }
 }
 
-/// Switches of a device. One that is known has its current value alone.
+/// Switches of a device with their possible values. A switch that is known has only its current value.
 fn questions(measure: &Measure) -> Vec<Question> {
     let of = |switch: &Switch| {
         let is_known = measure.known.iter().any(|(name, _)| *name == switch.name);

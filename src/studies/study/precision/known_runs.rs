@@ -80,7 +80,7 @@ impl KnownRuns {
         Some((f64::from_bits(run.bits), run.worst))
     }
 
-    /// Adds a run that was made. Where another value was known, everything else that was known is forgotten.
+    /// Adds a run that was made. If the known value is a different one, everything that was known is forgotten.
     pub(super) fn insert(&mut self, assignment: &Assignment, value: f64, worst: Option<WorstPlace>) {
         let run = KnownRun { bits: value.to_bits(), worst };
         let key = digest(assignment);

@@ -31,7 +31,7 @@ pub(super) const MOST_SPARE: u8 = 6;
 pub struct Precision {
     /// Programs with their input.
     pub subject: Box<dyn PrecisionSubject>,
-    /// Goal; `None` for the subject's own.
+    /// Goal; `None` for the default goal of the subject.
     pub goal: Option<Goal>,
     /// Families of formats, each once; at least one.
     pub families: Vec<FormatFamily>,

@@ -82,7 +82,7 @@ fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     ))
 }
 
-/// Bins that follow each other as one range each: "0 to 45".
+/// Joins consecutive bins into ranges such as "0 to 45".
 fn ranges(bins: impl Iterator<Item = [f64; 2]>) -> Vec<String> {
     let mut ranges: Vec<[f64; 2]> = Vec::new();
     for [from, to] in bins {

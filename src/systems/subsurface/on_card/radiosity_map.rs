@@ -112,8 +112,8 @@ impl LightPass {
         Ok(())
     }
 
-    /// eta^2 - 1, eta^2, eta, and the smallest squared distance to a light. An eta of 1 counts as a little more: the
-    /// program divides by what would be 0 along the surface.
+    /// eta^2 - 1, eta^2, eta, and the smallest squared distance to a light. An eta of 1 is raised a little: along the
+    /// surface, the program would divide by 0.
     fn refraction(&self) -> [f32; 4] {
         let square = self.eta * self.eta;
         [((square - 1.0) as f32).max(1e-12), square as f32, self.eta as f32, LEAST_SQUARE]

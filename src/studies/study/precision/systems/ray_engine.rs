@@ -154,7 +154,8 @@ impl PrecisionSubject for RayEngineSubject {
         &MEASURES
     }
 
-    /// One ray in a thousand. Without leaks alone, formats in which every ray hits something would do.
+    /// At most one ray in a thousand is wrong. Leaks alone would not do as a goal: a format in which every ray hits
+    /// something has none.
     fn default_goal(&self) -> Goal {
         at_most("wrong", 0.001)
     }

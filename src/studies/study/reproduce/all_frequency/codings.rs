@@ -5,7 +5,7 @@ use crate::all_frequency::code::{CodeOptions, CodedSegment, ScaleOf};
 use crate::all_frequency::compressed::CompressedSegment;
 use crate::elementary::pow;
 
-/// Range of which the 16 bits of a representative's numbers are.
+/// The range that 16 bits divide into steps, for the numbers of a representative.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Coding {
     /// The largest number of a representative or segment fills the bits.

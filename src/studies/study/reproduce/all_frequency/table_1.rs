@@ -147,8 +147,8 @@ impl CompressedGround {
         Ok(Self { omega: found.omega, left: found.coded.iter().map(|coded| coded.numbers / found.raw).collect() })
     }
 
-    /// Rows on raw and coded data of the printed vertices: all segments as in Table 1, decimal; or only those that hold
-    /// transfer, and in units of 2^20.
+    /// Rows on raw and coded data of the printed number of vertices. The value counts all segments, as Table 1 does, in
+    /// units of 10^6 bytes; the other readings count only segments that hold transfer, or in units of 2^20 bytes.
     fn rows(&self) -> Result<[PaperRow; 2], StudyError> {
         let raw = 4.0 * f64::from(GROUND_SIDE * GROUND_SIDE) * LIGHT_TEXELS as f64;
         let units = |bytes: f64| [1e-6 * bytes, bytes / f64::from(1 << 20)];
@@ -161,12 +161,12 @@ impl CompressedGround {
     }
 }
 
-/// Values of the rows by each reading of "16 bits": by coding, and at last with headers.
+/// Values of the rows by each reading of "16 bits": one list per coding, then one with headers.
 fn readings(found: &[CompressedModel]) -> Vec<Vec<f64>> {
     (0..CODINGS.len()).map(|at| values(found, at, false)).chain([values(found, 0, true)]).collect()
 }
 
-/// Most sizes after coding that one absolute step meets.
+/// The largest number of coded sizes that a single absolute step meets.
 fn most_met(found: &[CompressedModel], figures: &[(usize, String)], rows: &[PaperRow]) -> usize {
     let of_coding = || figures.iter().zip(rows).filter(|((_, name), _)| name.starts_with("coded-"));
     let met = |(at, how): (usize, &Coding)| {
