@@ -66,7 +66,7 @@ fn text_and_accents_stand_out_from_both_pages() {
             }
         }
         assert!(contrast(colors["link"], colors["paper"]) >= 4.5, "links are text");
-        let accents = ["good", "neutral", "bad"].map(|name| colors[name]);
+        let accents = ["good", "fair", "neutral", "excused", "odd", "bad"].map(|name| colors[name]);
         assert!(accents.iter().all(|accent| contrast(*accent, colors["paper"]) >= 3.0), "{accents:?}");
         assert!(least_distance(&accents) > 20.0, "{accents:?}");
     }
