@@ -181,7 +181,7 @@ const HOW: &str = "Each row sets a figure of a paper beside ours. The figure is 
     that the papers leave open and reaches the value without losing another row; one setting explains all rows of a sweep. \
     Missed rows name the cause as far as it is known. Where a paper contradicts itself and ours agrees with one of its values, the row is \
     contradictory; where ours agrees with none, it is missed. Differences are shares of the paper's value. The source of a row is this run \
-    (computed), a recorded run at full size (recorded), or both with the same bits (confirmed).";
+    (computed), a recorded run at full size (recorded), or both, with the same bits.";
 
 /// Most entries with printed tables: of more, the program prints a line per paper.
 const PRINTED: usize = 3;
