@@ -7,7 +7,6 @@
 mod cell;
 mod chart;
 pub mod digits;
-mod downscale;
 mod excerpt;
 pub mod false_color;
 mod findings;

@@ -1,12 +1,20 @@
 //! Counts of outcomes, and the lines at the top of a page.
 
+use std::fmt;
+
 /// Evaluation of a tally's count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
     /// Desirable.
     Good,
-    /// Neutral.
+    /// Desirable, with less weight.
+    Fair,
+    /// Neither desirable nor undesirable.
     Neutral,
+    /// Undesirable, with a known cause.
+    Excused,
+    /// Contradictory.
+    Odd,
     /// Undesirable.
     Bad,
 }
@@ -16,7 +24,10 @@ impl Tone {
     pub(super) const fn class(self) -> &'static str {
         match self {
             Self::Good => "good",
+            Self::Fair => "fair",
             Self::Neutral => "neutral",
+            Self::Excused => "excused",
+            Self::Odd => "odd",
             Self::Bad => "bad",
         }
     }
@@ -44,4 +55,13 @@ pub struct SummaryLine {
     pub tally: Vec<TallyEntry>,
     /// Sentence on the part.
     pub text: String,
+}
+
+impl fmt::Display for SummaryLine {
+    /// Title and counts: `Radiosity: 1 predicted, 3 calibrated.`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let found = self.tally.iter().filter(|entry| entry.count > 0);
+        let counts: Vec<String> = found.map(|entry| format!("{} {}", entry.count, entry.what)).collect();
+        write!(f, "{}: {}.", self.title, counts.join(", "))
+    }
 }

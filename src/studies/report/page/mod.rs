@@ -38,7 +38,7 @@ pub(super) fn html(
             Passage::Paragraph(text) => html! { p { (text) } },
             Passage::Table(table) => scrolling(&findings.tables[*table].table, *table, &findings.tally),
             Passage::Chart(chart) => drawing(&drawings[*chart], &findings.charts[*chart].caption),
-            Passage::Pictures(places) => pictures(&findings.pictures, pngs, places.clone())?,
+            Passage::Pictures(places) => pictures(&findings.pictures, pngs, places.clone()),
             Passage::Legend(legend) => render_legend(legend),
         });
     }

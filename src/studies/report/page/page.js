@@ -116,7 +116,7 @@
   };
 
   document.querySelectorAll(".figures").forEach((group) => {
-    const all = [...group.querySelectorAll("img.full")].map((image) => {
+    const all = [...group.querySelectorAll("img")].map((image) => {
       const { alt, src } = image;
       return { alt, src, width: Number(image.getAttribute("width")), height: Number(image.getAttribute("height")) };
     });

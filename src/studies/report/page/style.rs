@@ -2,20 +2,27 @@
 
 use super::super::palette::{Color, DARK, LIGHT, Theme};
 
-/// Accents of links and of good, neutral and bad outcomes: blue, grey and orange of Okabe and Ito (2008), adjusted for
-/// contrast with each page.
-type Accents = [(&'static str, Color); 4];
+/// Accents of links and of outcomes: for good, neutral and bad ones blue, grey and orange of Okabe and Ito (2008),
+/// adjusted for contrast with each page; the others differ from these and from each other for readers with any color
+/// vision.
+type Accents = [(&'static str, Color); 7];
 
 const ON_LIGHT: Accents = [
     ("link", [0x00, 0x5a, 0x8f]),
     ("good", [0x00, 0x72, 0xb2]),
+    ("fair", [0x06, 0x4c, 0x29]),
     ("neutral", [0x85, 0x8b, 0x93]),
+    ("excused", [0x51, 0x4d, 0x00]),
+    ("odd", [0xbf, 0x0d, 0xfa]),
     ("bad", [0xd5, 0x5e, 0x00]),
 ];
 const ON_DARK: Accents = [
     ("link", [0x7c, 0xc0, 0xee]),
     ("good", [0x4b, 0xa3, 0xdb]),
+    ("fair", [0xb4, 0xfb, 0xab]),
     ("neutral", [0x85, 0x8b, 0x93]),
+    ("excused", [0xf6, 0xf3, 0x11]),
+    ("odd", [0xcc, 0x0e, 0xff]),
     ("bad", [0xf0, 0x7b, 0x1f]),
 ];
 

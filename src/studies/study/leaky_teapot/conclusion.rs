@@ -2,11 +2,14 @@
 
 use std::cmp::Reverse;
 
-use super::{FormatLimits, Holes, Tally, TeapotRow};
+use refsim::num::{Format, FormatKind, Rounding};
+
+use super::{FormatLimits, Holes, SHARED, Tally, TeapotRow};
 use crate::ray_engine::EdgeRule;
 use crate::report::digits::count;
 use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
+use crate::study::configuration::Configuration;
 
 /// Maximum number of names in a sentence; further ones are counted.
 pub(super) const MAX_NAMES: usize = 4;
@@ -23,9 +26,9 @@ impl Tally {
 /// Unit of the counts, singular and plural.
 pub(super) type CountUnit = [&'static str; 2];
 
-/// Adds verdict, worst row, seams and tally to the findings.
+/// Adds the finding, verdict, seams and tally to the findings.
 pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUnit) {
-    let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows), cured(rows)];
+    let sentences = [most_leaks(rows, unit), verdict(rows, unit), seams(rows), cured(rows)];
     let limited: Vec<(&str, FormatLimits)> = rows.iter().map(|row| (label(row), row.limits)).collect();
     sentences.into_iter().flatten().chain(limits(&limited)).for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
@@ -103,19 +106,74 @@ fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     })
 }
 
-/// Sentence on the row that leaks most; `None` if none does.
+/// The finding: how much of the surface the row that leaks most loses, and, if they were traced, how much the same card
+/// loses rounded to nearest, and with each edge evaluated once. `None` if no row leaks.
 fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     // The first of equals.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
+    let loses = |row: &TeapotRow| percent(row.tally.leak_share());
+    let relief = [
+        (related(rows, worst, EdgeRule::Paper, true), "rounded to nearest it loses"),
+        (related(rows, worst, EdgeRule::SharedEdges, false), "with each edge evaluated once"),
+    ];
+    let relief = relief.into_iter().filter_map(|(row, words)| Some(format!("; {words} {}", loses(row?))));
     Some(format!(
-        "{} leaks{}: {} of {} of the surface ({}).",
-        label(worst),
-        if rows.len() > 1 { " most" } else { "" },
+        "{} loses {} of the surface's {more}: {} of {} leak{}.",
+        arithmetic(worst),
+        loses(worst),
         count(leaks),
         counted(surface, one, more),
-        percent(worst.tally.leak_share()),
+        relief.collect::<String>(),
     ))
+}
+
+/// The row of the same card with another rule for edges, or rounded to nearest.
+fn related<'a>(rows: &'a [TeapotRow], of: &TeapotRow, edges: EdgeRule, nearest: bool) -> Option<&'a TeapotRow> {
+    let switch = nearest.then(|| ("rounding".to_owned(), "rne".to_owned()));
+    (of.configuration.switch.is_none() && of.edge_rule == EdgeRule::Paper).then_some(())?;
+    rows.iter().find(|row| {
+        row.edge_rule == edges
+            && row.configuration.profile.name == of.configuration.profile.name
+            && row.configuration.switch == switch
+    })
+}
+
+/// Name of a row in words: its card, what was changed, and how it evaluates edges.
+pub(super) fn name(row: &TeapotRow) -> String {
+    let Configuration { label, profile, switch } = &row.configuration;
+    let card = match profile.title.split_once(" (") {
+        Some((card, _)) if label.trim_end_matches(SHARED) == profile.name || switch.is_some() => card,
+        _ => return label.clone(),
+    };
+    let switch = match switch.as_ref().map(|(name, value)| (name.as_str(), value.as_str())) {
+        None => String::new(),
+        Some(("rounding", "rne")) => ", rounded to nearest".to_owned(),
+        Some((name, value)) => format!(", {name} = {value}"),
+    };
+    let edges = if row.edge_rule == EdgeRule::SharedEdges { ", shared edges" } else { "" };
+    format!("{card}{switch}{edges}")
+}
+
+/// Name of a row, with the arithmetic of a card that was not changed.
+fn arithmetic(row: &TeapotRow) -> String {
+    let Format { kind, rounding, .. } = row.configuration.profile.rules.format;
+    let bits = row.configuration.profile.rules.format.width();
+    let name = name(row);
+    if name == row.configuration.label || row.configuration.switch.is_some() {
+        return name;
+    }
+    let kind = match kind {
+        FormatKind::Fixed { .. } => "fixed-point",
+        FormatKind::Normalized { .. } => "integer",
+        FormatKind::Float { .. } => "floating-point",
+    };
+    let rounded = match rounding {
+        Rounding::Down => ", rounded down,",
+        Rounding::TowardZero => ", cut,",
+        _ => "",
+    };
+    format!("The {bits}-bit {kind} arithmetic of the {name}{rounded}")
 }
 
 /// Sentence on the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the

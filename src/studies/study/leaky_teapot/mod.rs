@@ -36,6 +36,8 @@ use crate::study::StudyError;
 use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 
+/// Ending of the names of rows with shared edges.
+const SHARED: &str = "-shared-edges";
 /// Seed of the points on the edges.
 const SEED: u64 = 1;
 
@@ -92,7 +94,7 @@ impl Parameters {
     /// The rows: each configuration with the way in which it evaluates edges.
     fn cases(&self) -> impl Iterator<Item = (Cow<'_, Configuration>, EdgeRule)> {
         let shared = |configuration: &Configuration| {
-            let label = format!("{}-shared-edges", configuration.label);
+            let label = format!("{}{SHARED}", configuration.label);
             (Cow::Owned(Configuration { label, ..configuration.clone() }), EdgeRule::SharedEdges)
         };
         let paper = self.configurations.iter().map(|configuration| (Cow::Borrowed(configuration), EdgeRule::Paper));

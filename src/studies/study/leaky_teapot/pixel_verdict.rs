@@ -1,4 +1,4 @@
-//! Verdicts of the leak map: color, rank and name.
+//! Verdicts of the leak map: color and name.
 
 use strum::VariantArray as _;
 
@@ -49,15 +49,9 @@ impl PixelVerdict {
         }
     }
 
-    /// Rank in downscaling of the map: 0 for correct pixels.
-    pub const fn rank(self) -> u8 {
-        match self {
-            Self::Nothing | Self::Right => 0,
-            Self::WrongNeighbour => 1,
-            Self::WrongTriangle => 2,
-            Self::FalseHit => 3,
-            Self::Leak => 4,
-        }
+    /// Returns `true` if the pixel's hit is not the exact one.
+    pub const fn is_error(self) -> bool {
+        !matches!(self, Self::Nothing | Self::Right)
     }
 
     /// Name of the verdict.

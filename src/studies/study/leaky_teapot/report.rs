@@ -4,10 +4,10 @@ use std::cmp::Reverse;
 
 use serde_json::{Map, Value, json};
 
-use super::conclusion::{MAX_NAMES, conclude};
+use super::conclusion::{MAX_NAMES, conclude, name};
 use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
 use crate::error::InputError;
-use crate::picture::{ChannelUnit, Picture, RgbImage, Samples};
+use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::EdgeRule;
 use crate::report::words::{counted, listed};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
@@ -168,29 +168,23 @@ fn layers(parameters: &Parameters, t: Vec<f32>, triangles: Vec<u32>) -> Result<P
         .with("triangle", ChannelUnit::Id, Samples::Uint(triangles))
 }
 
-/// Picture and map of a row, side by side; downscaling keeps every wrong pixel.
-fn pair(group: &Group<'_>, exact: &RgbImage) -> [NamedPicture; 2] {
+/// Picture and map of a row, side by side.
+fn pair(group: &Group<'_>) -> [NamedPicture; 2] {
     let row = group.row;
-    let (label, t) = (&row.configuration.label, &row.tally);
+    let (label, name, t) = (&row.configuration.label, name(row), &row.tally);
     let leaks = counted(t.leaks, "leak", "leaks");
-    // Verdicts alone do not include whether there is a surface; ranks do not depend on it.
-    let ranks: Vec<u8> = row.verdicts.iter().map(|verdict| PixelVerdict::of(*verdict, true).rank()).collect();
-    // A pixel with a wrong triangle may be shaded correctly, and then shows no error.
-    let differs = row.picture.pixels().zip(exact.pixels()).map(|(ours, exact)| ours != exact);
-    let seen = ranks.iter().zip(differs).map(|(rank, differs)| if differs { *rank } else { 0 }).collect();
     let counts = [
         leaks.clone(),
         counted(t.false_hits, "false hit", "false hits"),
         counted(t.wrong_triangle, "wrong triangle", "wrong triangles"),
     ];
     [
-        NamedPicture::new(label, row.picture.clone(), format!("{label}: {leaks}{}", group.others())).marked(seen),
+        NamedPicture::new(label, row.picture.clone(), format!("{name}: {leaks}{}", group.others())),
         NamedPicture::new(
             format!("{label}-map"),
             row.map.clone(),
-            format!("{label}, what is wrong where: {}", listed(&counts)),
-        )
-        .marked(ranks),
+            format!("{name}, what is wrong where: {}", listed(&counts)),
+        ),
     ]
 }
 
@@ -275,10 +269,11 @@ fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
 fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutcome) {
     let mut groups = groups(outcome);
     let mut lead: Vec<NamedPicture> = Vec::new();
+    let exact = NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic");
     if let Some(three) = cure(&groups) {
-        let pairs = three.map(|at| pair(&groups[at], &outcome.exact_picture));
-        let [pictures, maps] = [0, 1].map(|which| pairs.iter().map(|pair| pair[which].clone()).collect());
-        found.pictures(pictures);
+        let pairs = three.map(|at| pair(&groups[at]));
+        let [pictures, maps] = [0, 1].map(|which| pairs.iter().map(|pair| pair[which].clone()).collect::<Vec<_>>());
+        found.pictures(pictures.into_iter().chain([exact]).collect());
         lead = maps;
         let mut at = 0;
         groups.retain(|_| {
@@ -286,10 +281,11 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
             !three.contains(&(at - 1))
         });
     } else if let Some(worst) = worst(&groups) {
-        let [picture, map] = pair(&groups.remove(worst), &outcome.exact_picture);
-        lead.extend([map, picture]);
+        let [picture, map] = pair(&groups.remove(worst));
+        lead.extend([picture, map, exact]);
+    } else {
+        lead.push(exact);
     }
-    lead.push(NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic"));
     found.legend(PixelVerdict::legend());
     found.pictures(lead);
     let asked = counted(parameters.rays().len() as u64, "ray", "rays");
@@ -298,7 +294,8 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
         None => format!(
             "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {asked} from the eye and \
              {triangles}, in several number formats, judged against first hits that are decided in exact arithmetic on \
-             the same inputs."
+             the same inputs. A ray leaks if it misses a surface that it should hit: the paper's program evaluates the \
+             edge of two triangles once for each of them, and rounding can put the ray outside both."
         ),
         Some(model) => format!(
             "{asked} and the {triangles} of {model} on an emulated card, by the programs of the Ray Engine paper (Carr, \
@@ -311,6 +308,6 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
     if !groups.is_empty() {
         found.heading("The other rows");
         found.legend(PixelVerdict::legend());
-        found.pictures(groups.iter().flat_map(|group| pair(group, &outcome.exact_picture)).collect());
+        found.pictures(groups.iter().flat_map(pair).collect());
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
         ]),
         counts(&[("Met only by the rounding of the print", of(&needs_rounding))]),
         counts(&[
-            ("Beside these, chose a constant of a model and are no evidence", rows.len() - evidence.len()),
+            ("A constant was fitted to these, which are no evidence", rows.len() - evidence.len()),
             ("missed all the same", count(&rows, |row| row.is_calibrated() && row.verdict() == RowVerdict::Missed)),
         ]),
     ];
@@ -67,13 +67,10 @@ const fn tone(verdict: RowVerdict) -> Tone {
     match verdict {
         RowVerdict::Predicted => Tone::Good,
         RowVerdict::Missed => Tone::Bad,
-        RowVerdict::OrderOnly
-        | RowVerdict::Consistent
-        | RowVerdict::ByConstruction
-        | RowVerdict::Calibrated
-        | RowVerdict::Explained
-        | RowVerdict::Contradictory
-        | RowVerdict::TooVague => Tone::Neutral,
+        RowVerdict::OrderOnly | RowVerdict::Consistent => Tone::Fair,
+        RowVerdict::ByConstruction | RowVerdict::Calibrated | RowVerdict::TooVague => Tone::Neutral,
+        RowVerdict::Explained => Tone::Excused,
+        RowVerdict::Contradictory => Tone::Odd,
     }
 }
 
@@ -90,9 +87,14 @@ fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
 fn judged(rows: &[&PaperRow]) -> Option<String> {
     let of = |verdict: RowVerdict| (count(rows, |row| row.verdict() == verdict), verdict);
     let parts = RowVerdict::VARIANTS.iter().map(|verdict| of(*verdict)).filter(|(count, _)| *count > 0);
-    let parts = listed(&parts.map(|(count, verdict)| format!("{count} {}", verdict.of_rows())).collect::<Vec<_>>());
+    let parts = parts.enumerate().map(|(n, (count, verdict))| {
+        // The first part has the verb of all.
+        let verb = ["are ", "is "][usize::from(count == 1)];
+        format!("{count} {}{}", if n == 0 { verb } else { "" }, verdict.of_rows())
+    });
+    let parts = listed(&parts.collect::<Vec<_>>());
     let all = counted(rows.len() as u64, "figure", "figures");
-    (!rows.is_empty()).then(|| format!("{all} chose no constant: {parts}"))
+    (!rows.is_empty()).then(|| format!("Of {all} to which no constant was fitted, {parts}"))
 }
 
 /// Formats the tally of the rows that chose no constant, and how many of them are recorded.
@@ -106,7 +108,7 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
     let of = |class: MissClass| (count(rows, |row| row.missed() == Some(class)), class);
     let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, class)| format!("{class} {count}")).collect();
-    (!counts.is_empty()).then(|| format!("Missed for what is in the way: {}.", counts.join(", ")))
+    (!counts.is_empty()).then(|| format!("Why figures are missed: {}.", counts.join(", ")))
 }
 
 /// Names of the rows that are not as recorded.

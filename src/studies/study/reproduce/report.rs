@@ -170,17 +170,21 @@ fn as_recorded(found: &Reproduced) -> bool {
     !all_rows(found).any(PaperRow::differs)
 }
 
-const HOW: &str = "The papers' figures beside ours, each figure in one row. A figure is printed, implied by printed ones, or inferred by us. Its bound is \
-    data with a date: all bounds were restated on 2026-11-26, when rows had been worked out since 2026-11-21, and before the recorded runs; the data list what changed \
-    since. Within the bound a row is predicted if ours is drawn, solved, counted or timed and the bound is in \
-    numbers ({} % of the paper's value, or of the gain over the host alone where the host was calibrated; every digit of what is counted or solved); order only if the bound \
-    is which of two values is larger; by construction if the bound admits every value that the computation can give; and consistent in print if nothing is measured: the \
-    paper's values are set against each other or its own equations. Calibrated rows chose a constant of \
-    the model: they stand apart and are no evidence. Where the text allows several readings, all must lie within the bound. Outside it a row is missed, unless a sweep of this \
-    run over something that the papers leave open reaches the value without losing another row that holds: then it is explained. One setting explains all that a sweep explains. \
-    Missed rows have the class of what is in the way, as far as it is known. Where the paper contradicts itself and ours agrees with one of its values, the row is contradictory, with the computation; \
-    where ours agrees with none, it is missed. Differences are shares of the paper's value. \
-    The source of a row is this run (computed), a recorded run at full size (recorded), or both with the same bits.";
+const HOW: &str = "Each row sets a figure of a paper beside ours. The figure is printed, implied by printed figures, or inferred by us. \
+    The bound of a figure is data with a date: all bounds were restated on 2026-11-26, before the recorded runs; rows had been worked out \
+    since 2026-11-21, and the data list later changes. Within its bound, a row is predicted if ours is drawn, solved, counted or timed and the \
+    bound is in numbers: {} % of the paper's value, or of the gain over the host alone where the host was calibrated; every digit of \
+    counts and solutions. It is order only if the bound says which of two values is larger; by construction if the bound admits every value \
+    that the computation can give; consistent if nothing is measured, and the paper's values are compared with each other or with its own \
+    equations. Calibrated rows fitted a constant of the model: they stand apart and are no evidence. Where the text allows several \
+    readings, all of them must lie within the bound. Outside its bound, a row is missed. It is explained if this run varies something \
+    that the papers leave open and reaches the value without losing another row; one setting explains all rows of a sweep. \
+    Missed rows name the cause as far as it is known. Where a paper contradicts itself and ours agrees with one of its values, the row is \
+    contradictory; where ours agrees with none, it is missed. Differences are shares of the paper's value. The source of a row is this run \
+    (computed), a recorded run at full size (recorded), or both, with the same bits.";
+
+/// Most entries with printed tables: of more, the program prints a line per paper.
+const PRINTED: usize = 3;
 
 /// Findings of the study from those of its entries.
 pub fn findings(found: &Reproduced) -> Findings {
@@ -193,7 +197,9 @@ pub fn findings(found: &Reproduced) -> Findings {
     all.heading("All rows");
     overview_chart(found).into_iter().for_each(|chart| all.chart(chart));
     all.paragraph(how);
-    tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(table));
+    let is_short = found.len() <= PRINTED;
+    let printed = |table: Table| if is_short { FoundTable::from(table) } else { FoundTable::from(table).unprinted() };
+    tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(printed(table)));
     // The files are known to be whole: rows have come of them.
     if let Ok(table) = unjudged(found) {
         all.table(FoundTable::from(table).csv("unjudged").field("unjudged").unprinted());
@@ -213,8 +219,13 @@ pub fn findings(found: &Reproduced) -> Findings {
         }));
     }
     all.field("entries", json!(entries));
-    for (entry, question) in questions(found) {
-        all.print(format!("open ({entry}): {question}"));
+    if is_short {
+        questions(found).into_iter().for_each(|(entry, question)| all.print(format!("open ({entry}): {question}")));
+    } else {
+        summary_lines(found).iter().for_each(|line| all.print(line.to_string()));
+        all.print(
+            "The page has every row, with its bound and what is open; rows.csv has them for programs.".to_owned(),
+        );
     }
     all.conclude(Verdict::held(as_recorded(found)));
     all

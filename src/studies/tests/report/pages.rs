@@ -66,7 +66,7 @@ fn text_and_accents_stand_out_from_both_pages() {
             }
         }
         assert!(contrast(colors["link"], colors["paper"]) >= 4.5, "links are text");
-        let accents = ["good", "neutral", "bad"].map(|name| colors[name]);
+        let accents = ["good", "fair", "neutral", "excused", "odd", "bad"].map(|name| colors[name]);
         assert!(accents.iter().all(|accent| contrast(*accent, colors["paper"]) >= 3.0), "{accents:?}");
         assert!(least_distance(&accents) > 20.0, "{accents:?}");
     }
@@ -78,7 +78,7 @@ fn the_sheet_has_no_color_of_its_own() {
     let (css, themes) = sheet();
     assert!(!css.contains('#') && !css.contains("rgb("));
     // A picture sets its own width.
-    for name in between(&css, "var(--", ")").filter(|name| *name != "zoomed") {
+    for name in between(&css, "var(--", ")").filter(|name| !["shown", "zoomed"].contains(name)) {
         assert!(themes.iter().all(|theme| theme.contains_key(name)), "{name}");
     }
 }

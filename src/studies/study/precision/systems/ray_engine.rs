@@ -98,7 +98,7 @@ impl RayEngineSubject {
         ];
         let mut pixels = judged.pixels(&verdicts);
         let picture = is_pictured.then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
-        let worst = pixels.position(|verdict| verdict.rank() > 0);
+        let worst = pixels.position(|verdict| verdict.is_error());
         let worst = worst.map(|at| {
             let [x, y] = pixel_of(at);
             WorstPlace { text: format!("ray at pixel {x}, {y}"), pixel: Some([x, y]) }
