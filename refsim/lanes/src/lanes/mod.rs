@@ -37,4 +37,4 @@ pub use odd::div_odd_long;
 pub use reading::Reading;
 pub use row::{LANES, LaneRow, TRUE};
 pub use simd::SimdLevel;
-pub(crate) use unit::{CardLane, CardUnit};
+pub(crate) use unit::{CardLane, CardUnit, Met};

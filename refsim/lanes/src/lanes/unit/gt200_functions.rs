@@ -1,7 +1,24 @@
 //! Functions of GT200, one lane at a time: quadratic interpolation in tables.
 
+use super::card::CardFunctions;
+use super::gt200::Gt200;
 use super::word::{FIELD, MANTISSA, NAN, SIGN, cut_complement, field, is_nan, is_zero, significand};
+use crate::num::NumberOperation as Op;
 use crate::num::unit::tables::{GT200_EX2, GT200_LG2, GT200_RCP, GT200_RSQRT};
+
+impl CardFunctions for Gt200 {
+    #[inline(always)]
+    fn function(&self, operation: Op, [a, b, _]: [u32; 3]) -> Option<u32> {
+        Some(match operation {
+            Op::Rcp => rcp(a),
+            Op::Rsq => rsq(a),
+            Op::Exp2 => exp2(a),
+            Op::Log2 => log2(a),
+            Op::Scale => self.scale(a, b.cast_signed()),
+            _ => return None,
+        })
+    }
+}
 
 /// The squarer: each partial product is cut.
 fn square(y: u32) -> i64 {
@@ -20,7 +37,7 @@ fn scaled(sign: u32, field: i32, significand: i64) -> u32 {
 }
 
 /// RCP.
-pub(super) fn rcp(x: u32) -> u32 {
+fn rcp(x: u32) -> u32 {
     let (sign, m) = (x & SIGN, x & MANTISSA);
     match field(x) {
         0 => sign | FIELD,
@@ -39,7 +56,7 @@ pub(super) fn rcp(x: u32) -> u32 {
 }
 
 /// RSQRT.
-pub(super) fn rsq(x: u32) -> u32 {
+fn rsq(x: u32) -> u32 {
     if is_nan(x) {
         return NAN;
     }
@@ -63,7 +80,7 @@ pub(super) fn rsq(x: u32) -> u32 {
 }
 
 /// LG2.
-pub(super) fn log2(x: u32) -> u32 {
+fn log2(x: u32) -> u32 {
     if is_nan(x) {
         return NAN;
     }
@@ -86,7 +103,7 @@ pub(super) fn log2(x: u32) -> u32 {
 }
 
 /// EX2 after its preparation.
-pub(super) fn exp2(x: u32) -> u32 {
+fn exp2(x: u32) -> u32 {
     let (e, negative) = (field(x), x & SIGN != 0);
     if is_nan(x) {
         return NAN;

@@ -17,3 +17,4 @@ mod word;
 pub(crate) use card::{CardLane, CardUnit};
 pub(crate) use gt200::Gt200;
 pub(crate) use nv::Nv;
+pub(crate) use word::Met;
