@@ -99,6 +99,18 @@ fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32)
     }
 }
 
+/// A function of a row and of what is looked up for it in a table.
+#[inline(always)]
+fn with_table<E: Copy>(a: &LaneRow, out: &mut LaneRow, entry: impl Fn(u32) -> E, f: impl Fn(u32, E) -> u32) {
+    let mut entries = [entry(0); LANES];
+    for i in 0..LANES {
+        entries[i] = entry(a[i]);
+    }
+    for i in 0..LANES {
+        out[i] = f(a[i], entries[i]);
+    }
+}
+
 /// A function of three rows.
 #[inline(always)]
 fn three([a, b, c]: [&LaneRow; 3], out: &mut LaneRow, f: impl Fn(u32, u32, u32) -> u32) {
@@ -139,10 +151,8 @@ fn quick<U: CardUnit, const FUSED: bool>(lane: &CardLane<U>, op: &LaneOp, slots:
         LaneCode::Plain(Op::Abs) => two(a, a, out, |a, _| a & !SIGN),
         LaneCode::Plain(Op::Floor) => two(a, a, out, |a, _| unit.floor(a)),
         LaneCode::Plain(Op::Saturate) => two(a, a, out, |a, _| unit.saturate(a)),
-        LaneCode::Plain(operation @ (Op::Rcp | Op::Rsq)) => match operation {
-            Op::Rcp => two(a, a, out, |a, _| unit.function(Op::Rcp, [a; 3]).unwrap_or_default()),
-            _ => two(a, a, out, |a, _| unit.function(Op::Rsq, [a; 3]).unwrap_or_default()),
-        },
+        LaneCode::Plain(Op::Rcp) => with_table(a, out, |a| unit.rcp_entry(a), |a, entry| unit.rcp(a, entry)),
+        LaneCode::Plain(Op::Rsq) => with_table(a, out, |a| unit.rsq_entry(a), |a, entry| unit.rsq(a, entry)),
         LaneCode::Plain(Op::Less) => two(a, b, out, |a, b| if lane.less(a, b) { TRUE } else { 0 }),
         LaneCode::Plain(Op::LessEqual) => two(a, b, out, |a, b| if lane.less_equal(a, b) { TRUE } else { 0 }),
         LaneCode::Plain(Op::Equal) => two(a, b, out, |a, b| if lane.equal(a, b) { TRUE } else { 0 }),

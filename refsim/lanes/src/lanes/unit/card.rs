@@ -14,7 +14,17 @@ const HALF: u32 = 0x3f00_0000;
 
 /// What a unit has besides sums, products, comparisons and integral parts.
 pub(crate) trait CardFunctions {
-    /// An operation; `None` if the unit does not have it.
+    /// Numbers of a table. They are looked up apart: a loop that does is compiled to no vector code.
+    type Entry: Copy;
+    /// What RCP of `x` starts from.
+    fn rcp_entry(&self, x: u32) -> Self::Entry;
+    /// RCP.
+    fn rcp(&self, x: u32, entry: Self::Entry) -> u32;
+    /// What RSQ of `x` starts from.
+    fn rsq_entry(&self, x: u32) -> Self::Entry;
+    /// RSQ.
+    fn rsq(&self, x: u32, entry: Self::Entry) -> u32;
+    /// An operation besides those; `None` if the unit does not have it.
     fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
 }
 
@@ -95,6 +105,8 @@ impl<U: CardUnit> CardLane<U> {
             Op::Floor => unit.floor(a),
             Op::Frc => unit.add(a, unit.floor(a) ^ SIGN),
             Op::Saturate => unit.saturate(a),
+            Op::Rcp => unit.rcp(a, unit.rcp_entry(a)),
+            Op::Rsq => unit.rsq(a, unit.rsq_entry(a)),
             Op::Neg => a ^ SIGN,
             Op::Abs => a & !SIGN,
             Op::Less => mask(self.less(a, b)),

@@ -2,6 +2,7 @@
 //! loops of vector code and say what they met, by which their results may be wrong.
 
 use super::card::CardUnit;
+use super::tables::{GT200, Tables};
 use super::word::{Met, NAN, ONE, SIGN, SURPLUS, cut_product, flushed, is_nan, is_zero, mask};
 use crate::lanes::odd;
 use crate::lanes::round::ZERO;
@@ -17,6 +18,7 @@ pub(crate) struct Gt200 {
     /// Sums and products are rounded toward zero, those of MAD never.
     toward_zero: bool,
     zero_wins: bool,
+    pub(super) tables: &'static Tables<128, 3>,
 }
 
 /// A subnormal as a zero.
@@ -67,7 +69,11 @@ impl CardUnit for Gt200 {
     const SETS_NAN: bool = false;
 
     fn new(format: &Format) -> Self {
-        Self { toward_zero: format.rounding == Rounding::TowardZero, zero_wins: format.unit == Unit::Gt200ZeroWins }
+        Self {
+            toward_zero: format.rounding == Rounding::TowardZero,
+            zero_wins: format.unit == Unit::Gt200ZeroWins,
+            tables: &GT200,
+        }
     }
 
     fn mul(&self, a: u32, b: u32) -> u32 {

@@ -4,6 +4,7 @@
 //! in host floats, and say what they met, by which their results may be wrong.
 
 use super::card::CardUnit;
+use super::tables::{NV, Tables};
 use super::word::{
     FIELD, MANTISSA, Met, NAN, ONE, SIGN, cut_double, cut_product, field, flushed, is_nan, is_zero, mask, significand,
 };
@@ -16,6 +17,7 @@ pub(crate) struct Nv {
     pub(super) is_2x: bool,
     /// As programs of GL_NV_vertex_program2 see it: NaN and infinities count everywhere, -0 equals +0.
     pub(super) modern: bool,
+    pub(super) tables: &'static Tables<64, 1>,
 }
 
 impl Nv {
@@ -96,7 +98,7 @@ impl CardUnit for Nv {
     const SETS_NAN: bool = true;
 
     fn new(format: &Format) -> Self {
-        Self { is_2x: format.unit == Unit::Nv2x, modern: format.unit == Unit::Nv3x }
+        Self { is_2x: format.unit == Unit::Nv2x, modern: format.unit == Unit::Nv3x, tables: &NV }
     }
 
     fn mul(&self, a: u32, b: u32) -> u32 {

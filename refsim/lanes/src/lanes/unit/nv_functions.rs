@@ -2,16 +2,64 @@
 
 use super::card::{CardFunctions, CardUnit};
 use super::nv::Nv;
-use super::word::{FIELD, MANTISSA, NAN, ONE, SIGN, cut, cut_complement, field, is_nan, is_zero, significand};
+use super::word::{
+    FIELD, MANTISSA, NAN, ONE, SIGN, assembled, cut, cut_complement, field, halved, is_nan, is_zero, significand, whole,
+};
+use crate::lanes::layout::pow2;
 use crate::num::NumberOperation as Op;
-use crate::num::unit::tables::{NV_EXP, NV_LOG, NV_RCP, NV_RSQ, NV3X_EX2, NV3X_LG2};
+use crate::num::unit::tables::{NV_EXP, NV_LOG, NV3X_EX2, NV3X_LG2};
 
+/// Doubles hold the integers that the steps of Newton's method are made of, but for one product.
 impl CardFunctions for Nv {
+    type Entry = [f64; 1];
+
+    #[inline(always)]
+    fn rcp_entry(&self, x: u32) -> [f64; 1] {
+        self.tables.rcp[((x & MANTISSA) >> 17) as usize]
+    }
+
+    #[inline(always)]
+    fn rcp(&self, x: u32, [a]: [f64; 1]) -> u32 {
+        let (sign, e, m) = (x & SIGN, field(x), x & MANTISSA);
+        let f = f64::from(significand(x).cast_signed());
+        let a = halved((pow2(31) - a * f) * a, 24);
+        let a = halved((pow2(37) - a * f) * a, 25);
+        let power = m == 0;
+        let word = assembled(sign, 253 - e + i32::from(power), if power { 0 } else { whole(a) });
+        let word = if e == 0 { sign | FIELD } else { word };
+        if is_nan(x) { NAN } else { word }
+    }
+
+    #[inline(always)]
+    fn rsq_entry(&self, x: u32) -> [f64; 1] {
+        // The upper bits of the mantissa, and the last one of the field.
+        self.tables.rsq[((!x & 1 << 23 | x & MANTISSA) >> 17) as usize]
+    }
+
+    #[inline(always)]
+    fn rsq(&self, x: u32, [a]: [f64; 1]) -> u32 {
+        let sign = if self.modern { x & SIGN } else { 0 };
+        let (e, m) = (field(x), x & MANTISSA);
+        // The reciprocal of the root of half the number in [1, 4).
+        let even = 1 - (e & 1);
+        let g = f64::from((significand(x) << even).cast_signed());
+        let a = halved((3.0 * pow2(37) - a * a * g) * a, 32);
+        // The product has 64 bits: the lower ones are added apart.
+        let factor = 3.0 * pow2(49) - a * a * g;
+        let high = halved(factor, 20);
+        let low = halved((factor - high * pow2(20)) * a, 20);
+        let a = halved(high * a + low, 19);
+        let power = !self.is_2x & (even == 0) & (m == 0);
+        let field = 126 - ((e - 127 - even) >> 1);
+        let word = assembled(0, field + i32::from(power), if power { 0 } else { whole(a) });
+        let word = if e == 255 { 0 } else { word };
+        let word = if e == 0 { sign | FIELD } else { word };
+        if is_nan(x) | (sign != 0) & (e != 0) { NAN } else { word }
+    }
+
     #[inline(always)]
     fn function(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
         Some(match operation {
-            Op::Rcp => rcp(a),
-            Op::Rsq => self.rsq(a),
             Op::Exp2 if !self.is_2x => Self::exp2(a),
             Op::Log2 if !self.is_2x => Self::log2(a),
             Op::ExpFloor => Self::exp_floor(a),
@@ -76,57 +124,7 @@ fn cut_signed(value: i64, bits: i32) -> u32 {
     if value == 0 { 0 } else { cut(value < 0, value.unsigned_abs(), bits) }
 }
 
-/// RCP.
-fn rcp(x: u32) -> u32 {
-    let (sign, e, m) = (x & SIGN, field(x), x & MANTISSA);
-    if is_nan(x) {
-        return NAN;
-    }
-    if e == 0 {
-        return sign | FIELD;
-    }
-    if m == 0 {
-        return normal(sign, 254 - e, 0);
-    }
-    let f = i64::from(significand(x));
-    let [mut a] = NV_RCP[(m >> 17) as usize];
-    a = (((1 << 31) - a * f) * a) >> 24;
-    a = (((1 << 37) - a * f) * a) >> 25;
-    normal(sign, 253 - e, a)
-}
-
 impl Nv {
-    /// RSQ.
-    fn rsq(self, x: u32) -> u32 {
-        let x = if self.modern || is_nan(x) { x } else { x & !SIGN };
-        let (e, m) = (field(x), x & MANTISSA);
-        if is_nan(x) {
-            return NAN;
-        }
-        if e == 0 {
-            return x & SIGN | FIELD;
-        }
-        if x & SIGN != 0 {
-            return NAN;
-        }
-        if e == 255 {
-            return 0;
-        }
-        let odd = e & 1;
-        if !self.is_2x && odd == 1 && m == 0 {
-            return normal(0, 127 - (e - 127) / 2, 0);
-        }
-        // The reciprocal of the root of half the number in [1, 4).
-        let g = i64::from(significand(x)) << (1 - odd);
-        let [mut a] = NV_RSQ[(64 * (1 - odd)) as usize + (m >> 17) as usize];
-        a = (((3 << 37) - a * a * g) * a) >> 32;
-        // The product has 69 bits: the lower ones are added apart.
-        let factor = (3 << 49) - a * a * g;
-        let low = ((factor & 0xf_ffff) * a) >> 20;
-        a = ((factor >> 20) * a + low) >> 19;
-        normal(0, 126 - ((e - 128 + odd) >> 1), a)
-    }
-
     /// x of EXP.
     fn exp_floor(x: u32) -> u32 {
         power(in_8192ths(x) & !8191)

@@ -1,5 +1,6 @@
 //! Single floats as words: fields, and the numbers that units make.
 
+use crate::lanes::layout::pow2;
 use crate::lanes::round::ZERO;
 use crate::lanes::toward;
 
@@ -23,6 +24,26 @@ pub(super) fn field(w: u32) -> i32 {
 #[inline(always)]
 pub(super) fn is_nan(w: u32) -> bool {
     (w & !SIGN).cast_signed() > FIELD.cast_signed()
+}
+
+/// The quotient of a whole number of a double and `2^bits`, rounded down.
+#[inline(always)]
+pub(super) fn halved(x: f64, bits: i32) -> f64 {
+    (x * pow2(-bits)).floor()
+}
+
+/// A double that is a whole number below `2^32`. A cast would be compiled to no vector code.
+#[inline(always)]
+pub(super) fn whole(x: f64) -> u32 {
+    (x + pow2(52)).to_bits() as u32
+}
+
+/// The number of a field, which may be too small or too large, and a significand with its leading one, or a mantissa.
+#[inline(always)]
+pub(super) fn assembled(sign: u32, field: i32, significand: u32) -> u32 {
+    let normal = field.cast_unsigned() << 23 | significand & MANTISSA;
+    let magnitude = if field >= 255 { FIELD } else { normal };
+    sign | if field <= 0 { 0 } else { magnitude }
 }
 
 /// Bits of a double that a float of 24 bits does not have.
