@@ -30,7 +30,6 @@ pub use any::AnyLane;
 pub(crate) use any::{Arithmetic, narrow, with_any_lane};
 pub use evaluate::{convert, evaluate, exact_dot};
 pub(crate) use lane::{Lane, RegisterNumber, apply, is_finite};
-pub(crate) use layout::pow2;
 pub use matrix::{MatrixColumns, MatrixRows};
 pub(crate) use odd::add_odd;
 pub use odd::div_odd_long;
