@@ -36,4 +36,4 @@ pub use odd::div_odd_long;
 pub use reading::Reading;
 pub use row::{LANES, LaneRow, TRUE};
 pub use simd::SimdLevel;
-pub(crate) use unit::{CardLane, CardUnit, Met};
+pub(crate) use unit::{CardLane, CardUnit, Met, drops_small_halves, without_small};

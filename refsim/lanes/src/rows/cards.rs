@@ -7,7 +7,7 @@ use super::apart::apart;
 use super::code::{LaneCode, LaneOp};
 use super::pack;
 use super::slots::Slots;
-use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, Met, SimdLevel, TRUE};
+use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, Met, SimdLevel, TRUE, without_small};
 use crate::num::NumberOperation as Op;
 
 /// The sign bit.
@@ -17,9 +17,12 @@ const SIGN: u32 = 1 << 31;
 #[inline(never)]
 pub(super) fn run<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
-        if op.code == LaneCode::Widen {
+        if matches!(op.code, LaneCode::Widen | LaneCode::WidenToHalf) {
             let Slots { rows, wide, .. } = slots;
             lane.reading().row_to_f64(simd, &rows[usize::from(op.args[0])], wide);
+            if op.code == LaneCode::WidenToHalf {
+                wide.iter_mut().for_each(|x| *x = without_small(*x));
+            }
             continue;
         }
         let done = match simd {

@@ -21,6 +21,18 @@ pub(crate) struct Gt200 {
     pub(super) tables: &'static Tables<128, 3>,
 }
 
+/// Returns `true` if a conversion makes zeros of what is below `2^-33`, whatever the rounding: GT200's to half floats.
+pub(crate) fn drops_small_halves(from: &Format, to: &Format) -> bool {
+    matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins) && to.kind == Format::FP16.kind
+}
+
+/// A number without what [`drops_small_halves`].
+#[inline(always)]
+pub(crate) fn without_small(x: f64) -> f64 {
+    let kept = if x.abs() < crate::lanes::layout::pow2(-33) { 0.0 } else { x };
+    kept.copysign(x)
+}
+
 /// A subnormal as a zero.
 #[inline(always)]
 fn number(w: u32) -> f64 {

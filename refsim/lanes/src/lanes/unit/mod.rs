@@ -17,6 +17,6 @@ mod tables;
 mod word;
 
 pub(crate) use card::{CardLane, CardUnit};
-pub(crate) use gt200::Gt200;
+pub(crate) use gt200::{Gt200, drops_small_halves, without_small};
 pub(crate) use nv::Nv;
 pub(crate) use word::Met;
