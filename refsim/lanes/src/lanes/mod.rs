@@ -1,7 +1,7 @@
 //! The arithmetic of number formats on single lanes, and the vector instructions that it is compiled for.
 //!
-//! - `row`: rows of lanes; `lane`: what an arithmetic has to offer; `layout`: fields of floats; `fixed`, `normalized`,
-//!   `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's;
+//! - `row`: rows of lanes; `lane`: what an arithmetic has to offer; `layout`: fields of floats; `integer`, `fixed`,
+//!   `normalized`, `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's;
 //!   `toward`: in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
 //! - `unit`: units of cards, on words.
 //! - `any`: which format gets which; `reading`: what slots hold as numbers of the host.
@@ -13,6 +13,7 @@ mod evaluate;
 mod fixed;
 mod float;
 mod ieee;
+mod integer;
 mod lane;
 mod layout;
 mod matrix;
