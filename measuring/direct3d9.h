@@ -9,9 +9,10 @@ static void assemble(const Program *program, DWORD *token) {
     static const struct {
         const char *name;
         DWORD code;
-    } codes[] = {{"mov", 1},     {"add", 2},  {"sub", 3},    {"mad", 4},       {"mul", 5},           {"dp3", 8},
-                 {"dp4", 9},     {"lrp", 18}, {"dcl", 31},   {"dcl_2d", 31},   {"dcl_position", 31}, {"dcl_color0", 31},
-                 {"texcrd", 64}, {"tex", 66}, {"texld", 66}, {"texdepth", 87}, {"phase", 0xfffd}};
+    } codes[] = {{"mov", 1},     {"add", 2},     {"sub", 3},           {"mad", 4},         {"mul", 5},
+                 {"rcp", 6},     {"dp3", 8},     {"dp4", 9},           {"lrp", 18},        {"dcl", 31},
+                 {"dcl_2d", 31}, {"texcrd", 64}, {"dcl_position", 31}, {"dcl_color0", 31}, {"texkill", 65},
+                 {"tex", 66},    {"texld", 66},  {"texdepth", 87},     {"phase", 0xfffd}};
     static const char kinds[] = "rvctPD..Cos"; /* by the number of the type; s is 10, the depth (o) is not used */
     *token++ = (program->vertex ? 0xfffe0000u : 0xffff0000u) | (DWORD)program->major << 8 | (DWORD)program->minor;
     for (const Step *step = program->step; step < program->step + program->count; step++) {

@@ -107,9 +107,11 @@ static int use_ati(const Program *program) {
         for (int c = 0; c < 4; c++)
             if (program->constant[i][c] < 0 || program->constant[i][c] > 1)
                 return refuse("OpenGL's constants go from 0 to 1: needs Direct3D 9");
-    for (int i = 0; i < program->count; i++)
-        if (!strcmp(program->step[i].name, "texdepth"))
-            return refuse("GL_ATI_fragment_shader has no texdepth: needs Direct3D 9");
+    for (int i = 0; i < program->count; i++) {
+        const char *name = program->step[i].name;
+        if (!strcmp(name, "texdepth") || !strcmp(name, "texkill") || !strcmp(name, "rcp"))
+            return refuse("GL_ATI_fragment_shader has no %s: needs Direct3D 9", name);
+    }
     glBindFragmentShaderATI_(glGenFragmentShadersATI_(1));
     glBeginFragmentShaderATI_();
     for (GLuint i = 0; i < 8; i++)
@@ -173,8 +175,10 @@ static int use_arb(const Program *program, GLenum stage, const char *extension) 
     end += sprintf(end, "!!ARB%cp1.0\nTEMP r0, r1, r2, r3, r4, r5%s;\n", vertex ? 'v' : 'f',
                    program->minor == 1 && !vertex ? ", t0" : "");
     for (const Step *step = program->step; step < program->step + program->count; step++) {
-        int reads = !strncmp(step->name, "tex", 3);
+        int reads = !strncmp(step->name, "tex", 3), scalar = !strcmp(step->name, "rcp");
         if (!strncmp(step->name, "dcl", 3)) continue;
+        if (!strcmp(step->name, "texkill"))
+            return refuse("OpenGL's KIL reads four components, whatever the card's texkill: needs Direct3D 9");
         if (step->shift || !strcmp(step->name, "texcrd") || !strcmp(step->name, "texdepth"))
             return refuse("not a program of OpenGL: needs Direct3D 9");
         for (const char *letter = reads ? "TEX" : step->name; *letter; letter++) *end++ = (char)toupper(*letter);
@@ -193,7 +197,7 @@ static int use_arb(const Program *program, GLenum stage, const char *extension) 
             else if (operand->kind == 't') end += sprintf(end, "fragment.texcoord[%d]", operand->number);
             else end += sprintf(end, "result.%s", operand->kind == 'P' ? "position" : "color");
             *end++ = '.';
-            for (int c = 0; c < 4; c++)
+            for (int c = 0; c < (i >= 0 && scalar ? 1 : 4); c++)
                 if (i >= 0 || step->mask >> c & 1) *end++ = "xyzw"[i < 0 ? c : operand->swizzle[c]];
         }
         if (reads) end += sprintf(end, "%s, texture[0], 2D", step->sources ? "" : ", fragment.texcoord[0]");

@@ -2,7 +2,9 @@
 //! awkward words, and the operands of the vectors that real chips' models gave.
 
 use refsim_lanes::num::{DotOrder, Format, NumberOperation as Op, ops};
-use refsim_lanes::{AnyLane, LANES, LaneCode, LaneOp, LaneRow, OPERANDS, SimdLevel, Slots, TRUE, evaluate, run};
+use refsim_lanes::{
+    AnyLane, LANES, LaneCode, LaneOp, LaneRow, OPERANDS, SimdLevel, Slots, TRUE, convert, evaluate, run,
+};
 
 const FORMATS: [&str; 8] = [
     "e8m23:nv2x",
@@ -299,6 +301,29 @@ fn single_operations_are_as_defined() {
                     assert_eq!(Some(found[i]), expected, "{text} {operation:?} {:08x} {:08x} {:08x}", a[i], b[i], c[i]);
                 }
             }
+        }
+    }
+}
+
+/// Conversions to half floats near and below the least one, in rows and one by one.
+#[test]
+fn half_floats_are_as_defined() {
+    let mut words = Words(4);
+    for (from, to) in
+        FORMATS.into_iter().flat_map(|from| ["fp16", "fp16:rtz", "fp16:rdn", "fp16:rup"].map(|to| (from, to)))
+    {
+        let [from, to]: [Format; 2] = [from, to].map(|text| text.parse().expect("a format"));
+        let (source, target) = (AnyLane::new(from), AnyLane::new(to));
+        for (center, span) in [(127 - 33, 4), (127 - 24, 8), (127, 60), (8, 14)] {
+            let row: LaneRow = std::array::from_fn(|_| words.number(center, span));
+            let expected: Vec<u32> = row.iter().map(|&bits| ops::convert(&from, to, bits).bits).collect();
+            assert_eq!(convert(from, to, &row), expected, "{from} to {to}");
+            let mut slots = Slots::new(1);
+            *slots.row_mut(0) = row.map(|bits| source.decode(bits));
+            run(&source, SimdLevel::widest(), &[LaneOp::of_one(LaneCode::widen(&from, &to), 0, 0)], &mut slots);
+            run(&target, SimdLevel::widest(), &[LaneOp::of_one(LaneCode::Narrow, 0, 0)], &mut slots);
+            let found: Vec<u32> = slots.row(0).iter().map(|&raw| target.encode(raw)).collect();
+            assert_eq!(found, expected, "{from} to {to}, a row");
         }
     }
 }

@@ -2,14 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde::Deserialize;
-
 use super::DeviceError;
 use super::cards::{CARDS, VARIANTS, card_named};
-use super::figure::{FigureRow, RawFigure, Section};
+use super::figure::{FigureRow, Section};
 use super::instruction_formats::InstructionFormats;
 use super::limits::{Bus, Limits, Rates};
-use super::rules::{ResultRange, Rules};
+use super::profile_file::{LIMIT_SWITCHES, RawProfile};
+use super::rule_values::ResultRange;
+use super::rules::Rules;
 use super::storage_formats::StorageFormats;
 use super::switch::{FORMAT_RULES, Switch, apply, denormals_name, overflow_name, registers_name, sets_rule};
 use crate::isa::{Opcode, Version};
@@ -17,56 +17,6 @@ use crate::num::{Format, FormatError};
 use crate::texel::{DepthFormat, TexelFormat};
 
 const IDEAL: &str = include_str!("profiles/ideal.toml");
-
-/// Switches that change limits instead of rules.
-const LIMIT_SWITCHES: [&str; 2] = ["ray-textures", "instruction-slots"];
-
-/// A profile's file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawProfile {
-    name: String,
-    title: String,
-    /// The card whose figures apply where this file states none.
-    base: Option<String>,
-    versions: Option<RawFigure>,
-    #[serde(default)]
-    rules: BTreeMap<String, RawFigure>,
-    #[serde(default)]
-    limits: BTreeMap<String, RawFigure>,
-    #[serde(default)]
-    formats: BTreeMap<String, RawFigure>,
-    #[serde(default)]
-    rates: BTreeMap<String, RawFigure>,
-    #[serde(default)]
-    clocks: BTreeMap<String, RawFigure>,
-    #[serde(default)]
-    bus: BTreeMap<String, RawFigure>,
-}
-
-impl RawProfile {
-    /// Parses a file and fills in the figures of its base.
-    fn read(text: &str) -> Result<Self, String> {
-        let mut own: Self = toml::from_str(text).map_err(|e| e.to_string())?;
-        let Some(name) = &own.base else { return Ok(own) };
-        let base = CARDS.iter().find(|(card, _)| card == name).ok_or_else(|| format!("base: no card `{name}`"))?;
-        let base = Self::read(base.1)?;
-        own.versions = own.versions.or(base.versions);
-        for (figures, more) in [
-            (&mut own.rules, base.rules),
-            (&mut own.limits, base.limits),
-            (&mut own.formats, base.formats),
-            (&mut own.rates, base.rates),
-            (&mut own.clocks, base.clocks),
-            (&mut own.bus, base.bus),
-        ] {
-            for (key, figure) in more {
-                figures.entry(key).or_insert(figure);
-            }
-        }
-        Ok(own)
-    }
-}
 
 /// Rules that [`Profile::set_switch`] set since the format was: those of the format, and those that need floats.
 /// Devices may be equal that came about in other ways.
@@ -342,9 +292,9 @@ impl Profile {
     pub fn from_toml(device: &str, text: &str) -> Result<Self, DeviceError> {
         let problem = |problem: String| DeviceError::Profile { device: device.to_owned(), problem };
         let raw = RawProfile::read(text).map_err(problem)?;
-        let figures = rows(&raw).map_err(problem)?;
-        let switches = switches(&raw.rules);
-        let rules = read_rules(&raw.rules).map_err(problem)?;
+        let figures = raw.rows().map_err(problem)?;
+        let switches = raw.switches();
+        let rules = raw.rules().map_err(problem)?;
         let section = |name, figures| Section { device, name, figures };
 
         let mut part = section("limits", raw.limits);
@@ -415,53 +365,4 @@ impl Profile {
     pub fn supports(&self, version: Version) -> bool {
         self.limits.versions.contains(&version)
     }
-}
-
-fn rows(raw: &RawProfile) -> Result<Vec<FigureRow>, String> {
-    let mut rows: Vec<FigureRow> =
-        raw.versions.iter().map(|figure| figure.row("versions".to_owned())).collect::<Result<_, _>>()?;
-    let sections = [
-        ("rules", &raw.rules),
-        ("limits", &raw.limits),
-        ("formats", &raw.formats),
-        ("rates", &raw.rates),
-        ("clocks", &raw.clocks),
-        ("bus", &raw.bus),
-    ];
-    for (name, figures) in sections {
-        for (key, figure) in figures {
-            rows.push(figure.row(format!("{name}.{key}"))?);
-        }
-    }
-    Ok(rows)
-}
-
-fn switches(rules: &BTreeMap<String, RawFigure>) -> Vec<Switch> {
-    let open = rules.iter().filter(|(_, figure)| !figure.values.is_empty());
-    open.map(|(name, figure)| Switch {
-        name: name.clone(),
-        values: figure.values.clone(),
-        current: figure.text(),
-        default: figure.text(),
-        source: figure.source.clone(),
-        confidence: figure.confidence,
-        meaning: figure.meaning.clone(),
-    })
-    .collect()
-}
-
-/// Reads the rules of a profile's file. Every rule must be stated, because a default would have no source.
-fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
-    let rules = Rules::read(|name| figures.get(name).map(RawFigure::text))?;
-    let known =
-        |name: &str| Rules::NAMES.contains(&name) || FORMAT_RULES.contains(&name) || LIMIT_SWITCHES.contains(&name);
-    for (name, figure) in figures {
-        if !known(name) {
-            return Err(format!("rules.{name}: no such rule"));
-        }
-        if !Rules::NAMES.contains(&name.as_str()) && figure.values.is_empty() {
-            return Err(format!("rules.{name} must be a switch, but has no `values`"));
-        }
-    }
-    Ok(rules)
 }

@@ -74,33 +74,33 @@ const BODIES: [&str; 5] = [
 /// The pixels that the programs draw, one after the other.
 pub(crate) fn drawn(mut machine: Machine, profile: &Profile, seed: u64) -> Vec<u8> {
     let mut random = Random::new(seed ^ 0x5eed);
-    let target = machine.create_target(TexelFormat::Rgba32f, SIDE, SIDE).unwrap();
-    let textures = [0; 3].map(|_: u32| {
-        let (format, kind, extents) = (TexelFormat::Rgba32f, TextureKind::D2, [SIDE, SIDE, 1]);
-        let values = numbers(&mut random);
-        let image = Image::from_values(format, kind, extents, Format::FP32, &values, TargetRounding::Nearest);
-        machine.create_texture(image.unwrap()).unwrap()
-    });
+    let textures = [0; 3].map(|_: u32| numbers(&mut random));
+    let head = "ps_2_a\ndcl t0\ndcl_2d s0\ndcl_2d s1\ndcl_2d s2\ntexld r0, t0, s0\ntexld r1, t0, s1\ntexld r2, t0, s2";
+    let draw = |body| pixels(&mut machine, profile, &format!("{head}\n{body}\nmov oC0, r3"), &textures);
+    BODIES.into_iter().flat_map(draw).collect()
+}
+
+/// The pixels that a program draws on a square of textures of single precision, pixel by pixel.
+pub(crate) fn pixels(machine: &mut Machine, profile: &Profile, text: &str, textures: &[Vec<[u32; 4]>]) -> Vec<u8> {
+    let side = textures[0].len().isqrt() as u32;
+    let program = checked(text, profile);
+    let target = machine.create_target(TexelFormat::Rgba32f, side, side).unwrap();
     let corners = [(-1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.0), (1.0, -1.0, 1.0, 1.0), (-1.0, -1.0, 0.0, 1.0)];
     let vertices = corners.map(|(x, y, u, v)| {
         let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
         vertex.texcoords[0] = [u, v, 0.0, 1.0].map(f32::to_bits);
         vertex
     });
-    let mut pixels = Vec::new();
-    for body in BODIES {
-        let head =
-            "ps_2_a\ndcl t0\ndcl_2d s0\ndcl_2d s1\ndcl_2d s2\ntexld r0, t0, s0\ntexld r1, t0, s1\ntexld r2, t0, s2";
-        let program = checked(&format!("{head}\n{body}\nmov oC0, r3"), profile);
-        let constants = Constants::default();
-        let source = VertexSource::Transformed(&vertices);
-        let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
-        for (sampler, &texture) in textures.iter().enumerate() {
-            call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
-        }
-        call.center = PixelCenter::OpenGl;
-        machine.draw(&call).unwrap();
-        pixels.extend_from_slice(machine.read_back(target).unwrap().bytes());
+    let constants = Constants::default();
+    let source = VertexSource::Transformed(&vertices);
+    let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
+    for (sampler, values) in textures.iter().enumerate() {
+        let (format, kind, extents) = (TexelFormat::Rgba32f, TextureKind::D2, [side, side, 1]);
+        let image = Image::from_values(format, kind, extents, Format::FP32, values, TargetRounding::Nearest).unwrap();
+        let texture = machine.create_texture(image).unwrap();
+        call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
     }
-    pixels
+    call.center = PixelCenter::OpenGl;
+    machine.draw(&call).unwrap();
+    machine.read_back(target).unwrap().bytes().to_vec()
 }

@@ -3,16 +3,15 @@
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
 use crate::random::Random;
+use crate::sums::pixels;
 use crate::{generate, running};
 use proptest::{prelude::*, sample::select};
 use refsim::asm::assemble;
 use refsim::device::{ColorIterator, Profile, Storage};
 use refsim::exec::Constants;
 use refsim::isa::{ConstantValue, RegisterFile};
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::machine::{ExecutorKind, Machine};
 use refsim::num::{DotOrder, Format, ops};
-use refsim::raster::{PixelCenter, Primitive, Vertex};
-use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
 fn format(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
@@ -199,30 +198,7 @@ fn factors(seed: u64) -> Vec<[u32; 4]> {
 fn dots(profile: &Profile, kind: ExecutorKind, textures: &[Vec<[u32; 4]>; 2]) -> Vec<u8> {
     let text = "ps_2_0\ndcl t0\ndcl_2d s0\ndcl_2d s1\ntexld r0, t0, s0\ntexld r1, t0, s1\ndp4 r2.x, r0, r1\n\
                 dp3 r2.y, r0, r1\ndp2add r2.z, r0, r1, r0.z\ndp4 r2.w, r0, -r1\nmov oC0, r2";
-    let program = running::checked(text, profile);
-    let mut machine = Machine::new(profile.clone(), kind);
-    let target = machine.create_target(TexelFormat::Rgba32f, SIDE, SIDE).unwrap();
-    let textures = textures.each_ref().map(|values| {
-        let extents = [SIDE, SIDE, 1];
-        let (format, kind) = (TexelFormat::Rgba32f, TextureKind::D2);
-        let image = Image::from_values(format, kind, extents, Format::FP32, values, TargetRounding::Nearest);
-        machine.create_texture(image.unwrap()).unwrap()
-    });
-    let corners = [(-1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.0), (1.0, -1.0, 1.0, 1.0), (-1.0, -1.0, 0.0, 1.0)];
-    let vertices = corners.map(|(x, y, u, v)| {
-        let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
-        vertex.texcoords[0] = [u, v, 0.0, 1.0].map(f32::to_bits);
-        vertex
-    });
-    let constants = Constants::default();
-    let source = VertexSource::Transformed(&vertices);
-    let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
-    for (sampler, texture) in textures.into_iter().enumerate() {
-        call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
-    }
-    call.center = PixelCenter::OpenGl;
-    machine.draw(&call).unwrap();
-    machine.read_back(target).unwrap().bytes().to_vec()
+    pixels(&mut Machine::new(profile.clone(), kind), profile, text, textures)
 }
 
 /// Accumulators that lack numbers of the registers: every product is rounded into them once, in all executors.

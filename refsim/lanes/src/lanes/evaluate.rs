@@ -2,7 +2,7 @@
 
 use super::any::{AnyLane, Arithmetic, with_any_lane};
 use super::lane::{Lane, apply, is_finite};
-use super::unit::{CardLane, CardUnit};
+use super::unit::{CardLane, CardUnit, drops_small_halves, without_small};
 use crate::num::{Format, NumberOperation};
 
 /// The operation on operands given as bit patterns of `format`; missing operands count as zero. Comparisons give the
@@ -79,6 +79,9 @@ fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) 
 pub fn convert(from: Format, to: Format, bits: &[u32]) -> Vec<u32> {
     let mut wide = Vec::with_capacity(bits.len());
     with_any_lane!(&AnyLane::new(from), |lane| { wide.extend(bits.iter().map(|&b| lane.to_f64(lane.decode(b)))) });
+    if drops_small_halves(&from, &to) {
+        wide.iter_mut().for_each(|x| *x = without_small(*x));
+    }
     let mut out = Vec::with_capacity(bits.len());
     with_any_lane!(&AnyLane::new(to), |lane| { out.extend(wide.iter().map(|&x| lane.encode(lane.round_f64(x)))) });
     out

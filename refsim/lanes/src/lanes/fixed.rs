@@ -1,116 +1,16 @@
 //! Lane arithmetic of the fixed-point formats `sI.F`, in host integers.
 
 use super::float::GeneralLane;
+use super::integer::{Beside, IntegerRounding, PIVOT, Shift};
 use super::lane::Lane;
 use super::power;
 use super::reading::Reading;
-use super::round::{AWAY, EVEN, UP, ZERO, rounding_index};
+use super::round::{EVEN, rounding_index};
 use crate::num::Format;
 
-/// How to divide by a power of two with rounding, the same way for every rounding: `(v + more + (v >> at & mask)) >>
-/// count`.
-///
-/// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
-/// - Nearest away is half a unit up, one less where `v` is negative.
-/// - Toward zero is up to the next unit where `v` is negative, and up is that everywhere.
-#[derive(Clone, Copy, Debug)]
-struct Shift {
-    count: u32,
-    /// Half a unit, and the mask of the dropped bits; zero if none are dropped.
-    half: i64,
-    dropped: i64,
-    more: i64,
-    mask: i64,
-    /// `true` if the mask applies to the sign of `v`, not to its lowest remaining bit.
-    by_sign: bool,
-}
-
-impl Shift {
-    #[inline(always)]
-    const fn new(rounding: u8, count: u32) -> Shift {
-        let dropped = 1_i64.wrapping_shl(count).wrapping_sub(1);
-        let (half, some) = (dropped.wrapping_add(1) >> 1 & dropped, 1 & dropped);
-        let (more, mask) = match rounding {
-            EVEN => (half.wrapping_sub(some), some),
-            AWAY => (half, some.wrapping_neg()),
-            ZERO => (0, dropped),
-            UP => (dropped, 0),
-            _ => (0, 0),
-        };
-        Shift { count, half, dropped, more, mask, by_sign: rounding != EVEN }
-    }
-}
-
-/// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
-pub(super) const PIVOT: f64 = 6_755_399_441_055_744.0;
-
-/// The nearest integer, ties to even, of a double below 2^51.
-#[inline(always)]
-pub(super) fn by_pivot(x: f64) -> f64 {
-    (x + PIVOT) - PIVOT
-}
-
-/// The same in a single, for numbers of up to 22 bits, and its bits.
+/// The pivot of singles, for numbers of up to 22 bits, and its bits.
 const SINGLE_PIVOT: f32 = 12_582_912.0;
 const SINGLE_PIVOT_BITS: i32 = SINGLE_PIVOT.to_bits().cast_signed();
-
-/// Rounding of a double to an integer: the nearest integer (ties to even) of the number or of its magnitude, corrected
-/// by one depending on the distance of the number from it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct IntegerRounding {
-    /// Mask of the bits that are kept: all, or all but the sign.
-    sign: u64,
-    /// Distances below which one is subtracted, and from which one is added.
-    pub(super) lower: f64,
-    pub(super) upper: f64,
-}
-
-impl IntegerRounding {
-    /// The number that is rounded: it, or its magnitude.
-    #[inline(always)]
-    pub(super) fn magnitude(&self, x: f64) -> f64 {
-        f64::from_bits(x.to_bits() & self.sign)
-    }
-
-    /// The rounded magnitude, with the sign of the number if that was taken off.
-    #[inline(always)]
-    pub(super) fn signed(&self, rounded: f64, x: f64) -> f64 {
-        f64::from_bits(rounded.to_bits() | x.to_bits() & !self.sign)
-    }
-
-    pub(super) const fn new(rounding: u8) -> IntegerRounding {
-        const SIZE: u64 = u64::MAX >> 1;
-        let never = f64::INFINITY;
-        match rounding {
-            EVEN => IntegerRounding { sign: u64::MAX, lower: -never, upper: never },
-            AWAY => IntegerRounding { sign: SIZE, lower: -never, upper: 0.5 },
-            ZERO => IntegerRounding { sign: SIZE, lower: 0.0, upper: never },
-            UP => IntegerRounding { sign: u64::MAX, lower: -never, upper: f64::from_bits(1) },
-            _ => IntegerRounding { sign: u64::MAX, lower: 0.0, upper: never },
-        }
-    }
-}
-
-/// Masks of when a quotient becomes the integer beside its nearest even one: one less if it lies below, one more if
-/// beyond, by its sign; any quotient, or ties alone.
-#[derive(Clone, Copy, Debug)]
-struct Beside {
-    less: [i32; 2],
-    more: [i32; 2],
-    any: i32,
-}
-
-impl Beside {
-    const fn new(rounding: u8) -> Beside {
-        match rounding {
-            EVEN => Beside { less: [0, 0], more: [0, 0], any: 0 },
-            AWAY => Beside { less: [0, -1], more: [-1, 0], any: 0 },
-            ZERO => Beside { less: [-1, 0], more: [0, -1], any: -1 },
-            UP => Beside { less: [0, 0], more: [-1, -1], any: -1 },
-            _ => Beside { less: [-1, -1], more: [0, 0], any: -1 },
-        }
-    }
-}
 
 /// The arithmetic of one fixed-point format: `WIDE` whether it has more than 16 bits, `WRAP` whether it wraps.
 ///
@@ -118,8 +18,8 @@ impl Beside {
 /// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
 /// ones use `i64`, where the same holds with 2^62.
 ///
-/// So no sum or product of numbers of the format leaves its type. The common operations are wrapping even so: if a
-/// build checks each for overflow, its loops are not vectorised.
+/// So no sum or product of numbers of the format leaves its type. The common operations are wrapping ones all the same:
+/// where a build checks each for overflow, its loops are no vector code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     rounding: u8,
@@ -191,8 +91,8 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if WRAP { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
     }
 
-    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; results out of range stay
-    /// out of range, since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which
+    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; what is out of range
+    /// stays so, since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which
     /// wrap: still far from where the order of integers would break.
     #[inline(always)]
     pub(super) fn fused_sum_of<const N: usize>(&self, unit: f32, a: [i32; N], b: [i32; N]) -> i32 {
@@ -225,9 +125,9 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
 
     /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and fitted; anything if `d` is zero.
     ///
-    /// A quotient that lies between two numbers with a tie lies at least one part in `2^16` away from all of them, and
-    /// the error of the double is at most one in `2^22`: it rounds as the quotient does. Saturating numbers are clamped
-    /// first; wrapping ones are integers of at most 31 bits.
+    /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and
+    /// the double errs by one in `2^22` at most: it rounds as the quotient does. What saturates is clamped first; what
+    /// wraps is an integer of at most 31 bits.
     #[inline(always)]
     pub(super) fn quotient(&self, n: i32, d: i32) -> i32 {
         let exact = f64::from(n) / f64::from(d);

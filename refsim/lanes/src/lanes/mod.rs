@@ -1,7 +1,7 @@
 //! The arithmetic of number formats on single lanes, and the vector instructions that it is compiled for.
 //!
-//! - `row`: rows of lanes; `lane`: the interface of an arithmetic; `layout`: fields of floats; `fixed`, `normalized`,
-//!   `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's;
+//! - `row`: rows of lanes; `lane`: what an arithmetic has to offer; `layout`: fields of floats; `integer`, `fixed`,
+//!   `normalized`, `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's;
 //!   `toward`: in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
 //! - `unit`: units of cards, on words.
 //! - `any`: which format gets which; `reading`: what slots hold as numbers of the host.
@@ -13,6 +13,7 @@ mod evaluate;
 mod fixed;
 mod float;
 mod ieee;
+mod integer;
 mod lane;
 mod layout;
 mod matrix;
@@ -30,11 +31,10 @@ pub use any::AnyLane;
 pub(crate) use any::{Arithmetic, narrow, with_any_lane};
 pub use evaluate::{convert, evaluate, exact_dot};
 pub(crate) use lane::{Lane, RegisterNumber, apply, is_finite};
-pub(crate) use layout::pow2;
 pub use matrix::{MatrixColumns, MatrixRows};
 pub(crate) use odd::add_odd;
 pub use odd::div_odd_long;
 pub use reading::Reading;
 pub use row::{LANES, LaneRow, TRUE};
 pub use simd::SimdLevel;
-pub(crate) use unit::{CardLane, CardUnit};
+pub(crate) use unit::{CardLane, CardUnit, Met, drops_small_halves, without_small};

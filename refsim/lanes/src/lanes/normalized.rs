@@ -1,7 +1,8 @@
 //! Lane arithmetic of normalized integers `nI.F`, in host integers: codes that count in units of `1 / (2^F - 1)`.
 
-use super::fixed::{FixedLane, IntegerRounding, PIVOT, by_pivot};
+use super::fixed::FixedLane;
 use super::float::GeneralLane;
+use super::integer::{IntegerRounding, PIVOT, by_pivot};
 use super::lane::Lane;
 use super::power;
 use super::reading::Reading;

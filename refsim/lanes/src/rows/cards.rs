@@ -1,13 +1,13 @@
 //! Rows of the units of cards.
 //!
-//! Operations that matter for speed are computed in loops of vector code first. Where these mark a result that may be
-//! wrong (a special value, an end of the range), the row is computed once more, lane by lane.
+//! What matters for speed is computed in loops of vector code. Where these met what may make results wrong (a special
+//! value, an end of the range), the lanes that it concerns are computed once more.
 
 use super::apart::apart;
 use super::code::{LaneCode, LaneOp};
 use super::pack;
 use super::slots::Slots;
-use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, SimdLevel, TRUE};
+use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, Met, SimdLevel, TRUE, without_small};
 use crate::num::NumberOperation as Op;
 
 /// The sign bit.
@@ -17,15 +17,21 @@ const SIGN: u32 = 1 << 31;
 #[inline(never)]
 pub(super) fn run<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
-        if op.code == LaneCode::Widen {
+        if matches!(op.code, LaneCode::Widen | LaneCode::WidenToHalf) {
             let Slots { rows, wide, .. } = slots;
             lane.reading().row_to_f64(simd, &rows[usize::from(op.args[0])], wide);
+            if op.code == LaneCode::WidenToHalf {
+                wide.iter_mut().for_each(|x| *x = without_small(*x));
+            }
             continue;
         }
-        let done = simd.run(
-            #[inline(always)]
-            || quick(lane, op, slots),
-        );
+        let done = match simd {
+            SimdLevel::Baseline => quick::<U, false>(lane, op, slots),
+            _ => simd.run(
+                #[inline(always)]
+                || quick::<U, true>(lane, op, slots),
+            ),
+        };
         if !done {
             each(lane, simd, op, slots);
         }
@@ -33,64 +39,133 @@ pub(super) fn run<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneO
     }
 }
 
-/// A function of `N` rows, which marks results that may be wrong; returns `true` if none is marked.
+/// A function of `N` rows in vector code, and `slow` in lanes where what it met makes it wrong.
 #[inline(always)]
-fn marked<const N: usize>(rows: [&LaneRow; N], out: &mut LaneRow, f: impl Fn([u32; N]) -> (u32, u32)) -> bool {
-    let mut marks = 0;
+fn checked<const N: usize>(
+    rows: [&LaneRow; N],
+    out: &mut LaneRow,
+    quick: impl Fn([u32; N]) -> (u32, Met),
+    slow: impl Fn([u32; N]) -> u32,
+) {
+    let mut met = Met::NONE;
     for i in 0..LANES {
         let mut operands = [0; N];
         for k in 0..N {
             operands[k] = rows[k][i];
         }
-        let (word, mark) = f(operands);
+        let (word, here) = quick(operands);
         out[i] = word;
-        marks |= mark;
+        met = met.and(here);
     }
-    marks == 0
+    if met.is_risky() {
+        for i in 0..LANES {
+            let operands = rows.map(|row| row[i]);
+            if quick(operands).1.is_risky() {
+                out[i] = slow(operands);
+            }
+        }
+    }
 }
 
-/// A function of two rows that is right.
+/// A sum of `N` products of `M` rows, the factors of one product after the other.
 #[inline(always)]
-fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32) -> bool {
+fn products<U: CardUnit, const FUSED: bool, const N: usize, const M: usize>(
+    unit: &U,
+    rows: [&LaneRow; M],
+    out: &mut LaneRow,
+) {
+    checked(
+        rows,
+        out,
+        // Out of line a closure would be compiled for the baseline processor.
+        #[inline(always)]
+        |x| unit.quick_dot::<FUSED, N>(factors(x, 0), factors(x, 1)),
+        |x| unit.dot::<N>(factors(x, 0), factors(x, 1)),
+    );
+}
+
+/// The first or the second factors of products.
+#[inline(always)]
+fn factors<const N: usize, const M: usize>(x: [u32; M], which: usize) -> [u32; N] {
+    let mut factors = [0; N];
+    for k in 0..N {
+        factors[k] = x[2 * k + which];
+    }
+    factors
+}
+
+/// A function of two rows.
+#[inline(always)]
+fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32) {
     for i in 0..LANES {
         out[i] = f(a[i], b[i]);
     }
-    true
 }
 
-/// Computes an operation in vector code, if there is such code; returns `true` if all results are right.
+/// A function of a row and of what is looked up for it in a table.
 #[inline(always)]
-fn quick<U: CardUnit>(lane: &CardLane<U>, op: &LaneOp, slots: &mut Slots) -> bool {
+fn with_table<E: Copy>(a: &LaneRow, out: &mut LaneRow, entry: impl Fn(u32) -> E, f: impl Fn(u32, E) -> u32) {
+    let mut entries = [entry(0); LANES];
+    for i in 0..LANES {
+        entries[i] = entry(a[i]);
+    }
+    for i in 0..LANES {
+        out[i] = f(a[i], entries[i]);
+    }
+}
+
+/// A function of three rows.
+#[inline(always)]
+fn three([a, b, c]: [&LaneRow; 3], out: &mut LaneRow, f: impl Fn(u32, u32, u32) -> u32) {
+    for i in 0..LANES {
+        out[i] = f(a[i], b[i], c[i]);
+    }
+}
+
+/// Computes an operation in vector code, if there is such code; else returns `false`.
+#[inline(always)]
+fn quick<U: CardUnit, const FUSED: bool>(lane: &CardLane<U>, op: &LaneOp, slots: &mut Slots) -> bool {
     let Slots { rows, scratch, .. } = slots;
     let out: &mut LaneRow = scratch;
     let arg = |k: usize| -> &LaneRow { &rows[usize::from(op.args[k])] };
     let (a, b, c) = (arg(0), arg(1), arg(2));
     let unit = &lane.unit;
     match op.code {
-        LaneCode::Plain(Op::Add) => marked([a, b], out, |[a, b]| unit.quick_add(a, b)),
-        LaneCode::Plain(Op::Sub) => marked([a, b], out, |[a, b]| unit.quick_add(a, b ^ SIGN)),
-        LaneCode::Plain(Op::Mul) => marked([a, b], out, |[a, b]| unit.quick_mul(a, b)),
-        LaneCode::Plain(Op::Mad | Op::FusedMad) => marked([a, b, c], out, |[a, b, c]| unit.quick_mad(a, b, c)),
-        LaneCode::Dot(2) => marked([a, b, c, arg(3)], out, |[a, b, c, d]| unit.quick_dot([a, c], [b, d])),
-        LaneCode::Dot(3) => {
-            marked([a, b, c, arg(3), arg(4), arg(5)], out, |[a, b, c, d, e, f]| unit.quick_dot([a, c, e], [b, d, f]))
+        LaneCode::Plain(Op::Add) => checked([a, b], out, |[a, b]| unit.quick_add(a, b), |[a, b]| unit.add(a, b)),
+        LaneCode::Plain(Op::Sub) => {
+            checked([a, b], out, |[a, b]| unit.quick_add(a, b ^ SIGN), |[a, b]| unit.add(a, b ^ SIGN));
         }
-        LaneCode::Dot(4) => {
-            marked([a, b, c, arg(3), arg(4), arg(5), arg(6), arg(7)], out, |[a, b, c, d, e, f, g, h]| {
-                unit.quick_dot([a, c, e, g], [b, d, f, h])
-            })
+        LaneCode::Plain(Op::Frc) => {
+            let whole = |a: u32| unit.floor(a) ^ SIGN;
+            checked([a], out, |[a]| unit.quick_add(a, whole(a)), |[a]| unit.add(a, whole(a)));
         }
+        LaneCode::Plain(Op::Mul) => {
+            checked([a, b], out, |[a, b]| unit.quick_mul::<FUSED>(a, b), |[a, b]| unit.mul(a, b))
+        }
+        LaneCode::Plain(Op::Mad | Op::FusedMad) => {
+            checked([a, b, c], out, |[a, b, c]| unit.quick_mad::<FUSED>(a, b, c), |[a, b, c]| unit.mad(a, b, c));
+        }
+        LaneCode::Dot(2) => products::<U, FUSED, 2, 4>(unit, [a, b, c, arg(3)], out),
+        LaneCode::Dot(3) => products::<U, FUSED, 3, 6>(unit, [a, b, c, arg(3), arg(4), arg(5)], out),
+        LaneCode::Dot(4) => products::<U, FUSED, 4, 8>(unit, [a, b, c, arg(3), arg(4), arg(5), arg(6), arg(7)], out),
         LaneCode::Plain(Op::Min) => two(a, b, out, |a, b| unit.min(a, b)),
         LaneCode::Plain(Op::Max) => two(a, b, out, |a, b| unit.max(a, b)),
         LaneCode::Plain(Op::Neg) => two(a, a, out, |a, _| a ^ SIGN),
         LaneCode::Plain(Op::Abs) => two(a, a, out, |a, _| a & !SIGN),
+        LaneCode::Plain(Op::Floor) => two(a, a, out, |a, _| unit.floor(a)),
+        LaneCode::Plain(Op::Saturate) => two(a, a, out, |a, _| unit.saturate(a)),
+        LaneCode::Plain(Op::Rcp) => with_table(a, out, |a| unit.rcp_entry(a), |a, entry| unit.rcp(a, entry)),
+        LaneCode::Plain(Op::Rsq) => with_table(a, out, |a| unit.rsq_entry(a), |a, entry| unit.rsq(a, entry)),
         LaneCode::Plain(Op::Less) => two(a, b, out, |a, b| if lane.less(a, b) { TRUE } else { 0 }),
         LaneCode::Plain(Op::LessEqual) => two(a, b, out, |a, b| if lane.less_equal(a, b) { TRUE } else { 0 }),
         LaneCode::Plain(Op::Equal) => two(a, b, out, |a, b| if lane.equal(a, b) { TRUE } else { 0 }),
         LaneCode::Plain(Op::SetLess) => two(a, b, out, |a, b| lane.flag(a, b, lane.less(a, b))),
         LaneCode::Plain(Op::SetLessEqual) => two(a, b, out, |a, b| lane.flag(a, b, lane.less_equal(a, b))),
-        _ => false,
+        LaneCode::Plain(Op::SelectNonNegative) => three([a, b, c], out, |a, b, c| lane.select_non_negative(a, b, c)),
+        LaneCode::OrLess => three([a, b, c], out, |a, b, c| a | if lane.less(b, c) { TRUE } else { 0 }),
+        _ => return false,
     }
+    true
 }
 
 /// Computes an operation lane by lane.
@@ -99,22 +174,10 @@ fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &m
     let out: &mut LaneRow = scratch;
     let x = |k: usize, i: usize| rows[usize::from(op.args[k])][i];
     let (operation, immediate) = match op.code {
-        LaneCode::Dot(terms) => {
-            for (i, out) in out.iter_mut().enumerate() {
-                *out = dot(lane, terms, |k| x(k, i));
-            }
-            return;
-        }
         LaneCode::Neighbors(down) => {
             let bit = if down { 16 } else { 1 };
             for (i, out) in out.iter_mut().enumerate() {
                 *out = lane.unit.add(x(0, i | bit), x(0, i & !bit) ^ SIGN);
-            }
-            return;
-        }
-        LaneCode::OrLess => {
-            for (i, out) in out.iter_mut().enumerate() {
-                *out = x(0, i) | if lane.less(x(1, i), x(2, i)) { TRUE } else { 0 };
             }
             return;
         }
@@ -134,14 +197,5 @@ fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &m
     }
     if op.code == LaneCode::Plain(Op::AddressFloor) {
         pack::to_addresses(lane.reading(), out);
-    }
-}
-
-/// The dot product of a lane whose operands `x` has, the factors of one product after the other.
-fn dot<U: CardUnit>(lane: &CardLane<U>, terms: u8, x: impl Fn(usize) -> u32) -> u32 {
-    match terms {
-        2 => lane.unit.dot([x(0), x(2)], [x(1), x(3)]),
-        3 => lane.unit.dot([x(0), x(2), x(4)], [x(1), x(3), x(5)]),
-        _ => lane.unit.dot([x(0), x(2), x(4), x(6)], [x(1), x(3), x(5), x(7)]),
     }
 }

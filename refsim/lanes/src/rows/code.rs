@@ -1,6 +1,7 @@
 //! Lane operations.
 
-use crate::num::NumberOperation;
+use crate::lanes::drops_small_halves;
+use crate::num::{Format, NumberOperation};
 
 /// The number of a row.
 pub type Slot = u16;
@@ -16,6 +17,8 @@ pub enum LaneCode {
     Neighbors(bool),
     /// Copies `a` to the wide row.
     Widen,
+    /// The same for a half float, of a unit that makes none of small numbers.
+    WidenToHalf,
     /// Rounds the wide row to the destination.
     Narrow,
     /// 2 to 4 products, summed exactly and rounded once.
@@ -39,12 +42,17 @@ pub enum LaneCode {
 }
 
 impl LaneCode {
+    /// What copies numbers of one format to the wide row, to be rounded to another.
+    pub fn widen(from: &Format, to: &Format) -> Self {
+        if drops_small_halves(from, to) { Self::WidenToHalf } else { Self::Widen }
+    }
+
     /// Number of slots read.
     pub fn arity(self) -> usize {
         match self {
             Self::Plain(operation) => operation.operands(),
             Self::Immediate(operation, _) => operation.operands() - 1,
-            Self::Neighbors(_) | Self::Widen | Self::Narrow => 1,
+            Self::Neighbors(_) | Self::Widen | Self::WidenToHalf | Self::Narrow => 1,
             Self::AddTo | Self::SubFrom | Self::SubOff => 2,
             Self::MadBy | Self::OrLess => 3,
             Self::Difference => 4,
@@ -66,7 +74,8 @@ impl LaneCode {
         use NumberOperation::{Add, Div, Mad, Mul, Rcp, Sub};
         match self {
             Self::Plain(operation) => matches!(operation, Add | Sub | Mul | Mad | Div | Rcp),
-            Self::Immediate(..) | Self::Widen | Self::Narrow | Self::Dot(_) | Self::OrLess => false,
+            Self::Immediate(..) | Self::Widen | Self::WidenToHalf => false,
+            Self::Narrow | Self::Dot(_) | Self::OrLess => false,
             _ => true,
         }
     }

@@ -3,8 +3,11 @@
 
 use super::code::Slot;
 use super::slots::Slots;
-use crate::lanes::{AnyLane, LANES, SimdLevel, add_odd, pow2};
+use crate::lanes::{AnyLane, LANES, LaneRow, SimdLevel, add_odd};
 use crate::num::{Format, FormatKind, Rounding};
+
+/// The sign bit of a double.
+const SIGN: u64 = 1 << 63;
 
 /// How numbers are added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,45 +45,52 @@ pub fn add_rows(
     let down = format.rounding == Rounding::Down;
     let Slots { rows, scratch, wide, .. } = slots;
     let [a, b, c, d] = args.map(|slot| &**rows[usize::from(slot)]);
+    let rows = [a, b, c, d];
     simd.run(
         #[inline(always)]
-        || {
-            for i in 0..LANES {
-                let numbers = [a[i], b[i], c[i], d[i]].map(|raw| f64::from(f32::from_bits(raw)));
-                wide[i] = match sum {
-                    RowSum::Aligned { terms, bits } => aligned(numbers, terms, bits, down),
-                    RowSum::ProductCut => product_cut(format, numbers, down),
-                };
-            }
+        || match sum {
+            RowSum::Aligned { terms: 1, bits } => each(rows, wide, |[a, ..]| aligned([a], bits, down)),
+            RowSum::Aligned { terms: 2, bits } => each(rows, wide, |[a, b, ..]| aligned([a, b], bits, down)),
+            RowSum::Aligned { terms: 3, bits } => each(rows, wide, |[a, b, c, _]| aligned([a, b, c], bits, down)),
+            RowSum::Aligned { bits, .. } => each(rows, wide, |numbers| aligned(numbers, bits, down)),
+            RowSum::ProductCut => each(rows, wide, |numbers| product_cut(format, numbers, down)),
         },
     );
     lane.round_row(simd, wide, scratch);
     slots.commit(to);
 }
 
-/// The sum of the first numbers, exact but for the bits that alignment drops.
+/// A function of rows of singles.
 #[inline(always)]
-fn aligned(numbers: [f64; 4], terms: u8, bits: u8, down: bool) -> f64 {
-    let (mut plain, mut largest, mut same) = (numbers[0], numbers[0].abs(), true);
-    for k in 1..usize::from(terms) {
-        plain += numbers[k];
-        largest = largest.max(numbers[k].abs());
-        same &= numbers[k].is_sign_negative() == numbers[0].is_sign_negative();
+fn each([a, b, c, d]: [&LaneRow; 4], wide: &mut [f64; LANES], f: impl Fn([f64; 4]) -> f64) {
+    for i in 0..LANES {
+        wide[i] = f([a[i], b[i], c[i], d[i]].map(|raw| f64::from(f32::from_bits(raw))));
     }
-    // Singles don't overflow here: what is not finite comes from an infinity or a NaN.
-    if plain.abs() >= f64::INFINITY || plain.is_nan() {
-        return plain;
+}
+
+/// The sum of numbers, exact but for the bits that alignment drops. Branch-free.
+#[inline(always)]
+fn aligned<const N: usize>(numbers: [f64; N], bits: u8, down: bool) -> f64 {
+    const FIELD: u64 = 0x7ff << 52;
+    let (mut plain, mut largest, mut signs, mut all) = (0.0, 0.0, 0, u64::MAX);
+    for number in numbers {
+        plain += number;
+        largest = if number.abs() > largest { number.abs() } else { largest };
+        (signs, all) = (signs | number.to_bits(), all & number.to_bits());
     }
-    if largest == 0.0 {
-        return signed_zero(if same { numbers[0].is_sign_negative() } else { down });
-    }
-    let exponent = (largest.to_bits() >> 52) as i32 - 1023;
-    let (unit, inverse) = (pow2(exponent - i32::from(bits)), pow2(i32::from(bits) - exponent));
+    let (top, bits) = (largest.to_bits() & FIELD, u64::from(bits) << 52);
+    // Powers of two by their fields: one makes the last bit that is kept 1, the other takes that back.
+    let (up, unit) = ((2046u64 << 52).wrapping_sub(top).wrapping_add(bits), top.wrapping_sub(bits));
     let mut sum = 0.0;
-    for number in numbers.iter().take(terms.into()) {
-        sum += f64::from((number * inverse) as i32);
+    for number in numbers {
+        sum += (number * f64::from_bits(up)).trunc();
     }
-    if sum == 0.0 { signed_zero(down) } else { sum * unit }
+    // The sign of what cancels, and of zeros that don't have one sign.
+    let none = signed_zero(down).to_bits();
+    let zero = if largest == 0.0 { all & SIGN | signs & none } else { none };
+    let scaled = if (sum == 0.0) | (largest == 0.0) { f64::from_bits(zero) } else { sum * f64::from_bits(unit) };
+    // Singles don't overflow here: what is not finite comes from an infinity or a NaN.
+    if plain.abs() < f64::INFINITY { scaled } else { plain }
 }
 
 /// `a b + c` of the first three, rounded to odd, with the product cut.

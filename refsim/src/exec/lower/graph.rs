@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use refsim_lanes::{RowSum, Slot};
+use refsim_lanes::{LaneCode, RowSum, Slot};
 
 use crate::num::{Encoding, Format, NumberOperation as Op};
 
@@ -138,11 +138,9 @@ impl NodeKind {
 /// The nodes; each follows its operands.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
-    /// By [`Arith::index`], `true` if the unit of a card computes.
-    cards: Vec<bool>,
-    /// By [`Arith::index`], `true` for single floats.
-    singles: Vec<bool>,
-    /// `true` if inputs are words to keep unchanged, rather than results of arithmetic.
+    /// By [`Arith::index`].
+    formats: Vec<Format>,
+    /// `true` if inputs are words as they are, rather than results of arithmetic.
     reads_words: bool,
     kinds: Vec<NodeKind>,
     known: BTreeMap<NodeKind, NodeId>,
@@ -151,21 +149,29 @@ pub(crate) struct Graph {
 impl Graph {
     /// An empty graph of computations in these formats.
     pub(crate) fn new(formats: &[Format], reads_words: bool) -> Self {
-        let is_single = |format: &Format| format.kind == Format::FP32.kind && format.encoding == Encoding::Ieee;
-        let cards = formats.iter().map(|format| format.unit.is_card()).collect();
-        Self { cards, singles: formats.iter().map(is_single).collect(), reads_words, ..Self::default() }
+        Self { formats: formats.to_vec(), reads_words, ..Self::default() }
+    }
+
+    fn format(&self, arith: Arith) -> Option<&Format> {
+        self.formats.get(arith.index())
     }
 
     /// Returns `true` if the unit of a card computes.
     pub(crate) fn is_card(&self, arith: Arith) -> bool {
-        self.cards.get(arith.index()).is_some_and(|&card| card)
+        self.format(arith).is_some_and(|format| format.unit.is_card())
+    }
+
+    /// What takes numbers of one format on their way to another.
+    pub(crate) fn widen(&self, from: Arith, to: Arith) -> LaneCode {
+        self.format(from).zip(self.format(to)).map_or(LaneCode::Widen, |(from, to)| LaneCode::widen(from, to))
     }
 
     /// The operation that converts single floats into the words of a card's unit, and its format; `None` for other
-    /// conversions. Words stay unchanged; numbers of an ideal format become their patterns, with one NaN. Operands of a
-    /// vertex program are words.
+    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. What a
+    /// vertex program reads are words.
     pub(crate) fn copies(&self, from: Arith, to: Arith, number: NodeId) -> Option<(Arith, Op)> {
-        if !self.is_card(to) || !self.singles.get(from.index()).is_some_and(|&single| single) {
+        let is_single = |format: &Format| format.kind == Format::FP32.kind && format.encoding == Encoding::Ieee;
+        if !self.is_card(to) || !self.format(from).is_some_and(is_single) {
             return None;
         }
         let word = self.is_card(from) || self.reads_words && matches!(self.kind(number), NodeKind::Input(_));

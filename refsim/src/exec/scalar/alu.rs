@@ -1,19 +1,18 @@
 //! Arithmetic in one format under a device's rules: a thin layer over [`crate::num::ops`] that selects the rounding
 //! sequence of the profile and collects exception flags.
 
-use crate::device::{AddMode, LrpMode, MadMode, ResultRange, Rules, SumRules};
+use crate::device::{AddMode, LrpMode, ResultRange, Rules, SumRules};
 use crate::isa::Version;
-use crate::num::{self, DotOrder, Flags, Format, NumberOperation, Specials, ops};
+use crate::num::{self, Flags, Format, NumberOperation, Specials, ops};
 
 /// Operations in `format` under `rules`; accumulates exception flags.
 pub(crate) struct Alu<'r> {
     rules: &'r Rules,
-    legacy_zero: bool,
     /// `true` if results are clamped to [-1, 1] when written to a register.
     to_one: bool,
     /// Format of the sums of dot products, if not [`Self::format`].
     accumulator: Option<Format>,
-    /// Rounding of products and sums.
+    /// Products and sums.
     sums: SumRules,
     /// Format of operands and results.
     pub(crate) format: Format,
@@ -35,19 +34,20 @@ impl<'r> Alu<'r> {
     pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
         let to_one = rules.result_range == ResultRange::One;
         let (accumulator, sums) = (rules.accumulator_of(format), rules.sums_in(format));
-        Self { rules, legacy_zero: rules.zero_times_anything, to_one, accumulator, sums, format, flags: Flags::empty() }
+        Self { rules, to_one, accumulator, sums, format, flags: Flags::empty() }
     }
 
     /// Creates vertex arithmetic in `format`: without the range, the accumulator and the sums of pixel arithmetic.
     pub(crate) fn vertex(rules: &'r Rules, format: Format) -> Self {
-        Self { legacy_zero: rules.vertex_zero_times_anything, ..Self::plain(rules, format) }
+        let sums = SumRules { zero_wins: rules.vertex_zero_times_anything, ..SumRules::plain(format) };
+        Self { sums, ..Self::plain(rules, format) }
     }
 
     /// Creates address arithmetic in `format`: without the legacy rule for zero, and the range, the accumulator and the
     /// sums of pixel arithmetic.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
         let sums = SumRules::plain(format);
-        Self { legacy_zero: false, to_one: false, accumulator: None, sums, ..Self::new(rules, format) }
+        Self { to_one: false, accumulator: None, sums, ..Self::new(rules, format) }
     }
 
     /// Returns and clears the accumulated flags.
@@ -137,19 +137,8 @@ impl<'r> Alu<'r> {
         cnd(condition, a, b) = ops::cnd;
     }
 
-    /// Operands of a product. With the legacy rule that zero times anything is zero, a zero together with an infinity
-    /// or NaN replaces both by +0, so that the product is +0. A card's unit has a rule of its own.
-    fn factors(&self, a: u32, b: u32) -> (u32, u32) {
-        let f = &self.format;
-        let zero = f.is_zero(a) || f.is_zero(b);
-        if self.legacy_zero && !self.by_card() && zero && !(f.is_finite(a) && f.is_finite(b)) { (0, 0) } else { (a, b) }
-    }
-
     pub(crate) fn add(&mut self, a: u32, b: u32) -> u32 {
-        self.keep(match self.sums.add {
-            AddMode::Rounded => ops::add(self.format, a, b),
-            AddMode::Aligned(bits) => ops::sum_aligned(self.format, bits, &[a, b]),
-        })
+        self.keep(self.sums.add(self.format, a, b))
     }
 
     /// `a - b` as an instruction subtracts; [`Self::difference`] is that of neighbouring lanes, which no adder of the
@@ -165,30 +154,12 @@ impl<'r> Alu<'r> {
     }
 
     pub(crate) fn mul(&mut self, a: u32, b: u32) -> u32 {
-        let (a, b) = self.factors(a, b);
-        self.keep(ops::mul(self.sums.products, a, b))
+        self.keep(self.sums.mul(self.format, a, b))
     }
 
-    /// `a * b + c`: product and sum rounded separately, the exact result rounded once, or with the product cut,
-    /// according to the rules; by a card's unit as the unit does it.
+    /// `a * b + c` by the rules, or by a card's unit.
     pub(crate) fn mad(&mut self, a: u32, b: u32, c: u32) -> u32 {
-        if self.by_card() {
-            return self.keep(ops::mad(self.format, a, b, c));
-        }
-        match self.sums.mad {
-            MadMode::TwoRoundings => {
-                let product = self.mul(a, b);
-                self.add(product, c)
-            }
-            MadMode::Fused => {
-                let (a, b) = self.factors(a, b);
-                self.keep(ops::fused_mad(self.format, a, b, c))
-            }
-            MadMode::ProductCut => {
-                let (a, b) = self.factors(a, b);
-                self.keep(ops::product_cut_mad(self.format, a, b, c))
-            }
-        }
+        self.keep(self.sums.mad(self.format, a, b, c))
     }
 
     /// Dot product of equally long vectors (at most 4 terms), summed in the order and the format given by the rules, or
@@ -196,20 +167,11 @@ impl<'r> Alu<'r> {
     pub(crate) fn dot(&mut self, a: &[u32], b: &[u32]) -> u32 {
         let n = a.len().min(b.len()).min(4);
         let mut terms = [(0, 0); 4];
-        for (term, (&x, &y)) in terms.iter_mut().zip(a.iter().zip(b)) {
-            *term = self.factors(x, y);
+        for (term, pair) in terms.iter_mut().zip(a.iter().copied().zip(b.iter().copied())) {
+            *term = pair;
         }
-        let (format, terms) = (self.format, &terms[..n]);
-        let accumulator = self.accumulator.unwrap_or(format);
-        let SumRules { products, dot: order, .. } = match self.accumulator {
-            Some(accumulator) => self.rules.sums_in(accumulator),
-            None => self.sums,
-        };
-        self.keep(match order {
-            _ if accumulator == format && products == format => ops::dot(format, order, terms),
-            DotOrder::Exact => ops::dot_accumulated(format, accumulator, order, terms),
-            _ => ops::dot_of_products(format, products, accumulator, order, terms),
-        })
+        let sums = self.accumulator.map_or(self.sums, |accumulator| self.rules.sums_in(accumulator));
+        self.keep(sums.dot(self.format, self.accumulator.unwrap_or(self.format), &terms[..n]))
     }
 
     /// `_SAT` of OpenGL's programs (GL_NV_fragment_program 3.11.4.4, GL_ARB_fragment_program 3.11.4.3): numbers below 0

@@ -2,8 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::word::{NAN, ONE, SIGN, flushed, is_nan, mask};
-use super::{Gt200, Nv, gt200_functions, nv_functions};
+use super::word::{Met, NAN, ONE, SIGN, flushed, mask};
 use crate::lanes::float::GeneralLane;
 use crate::lanes::lane::Lane;
 use crate::lanes::lane::apply;
@@ -13,9 +12,25 @@ use crate::num::{Format, FormatKind, NumberOperation as Op, Unit as Name};
 /// 0.5.
 const HALF: u32 = 0x3f00_0000;
 
-/// The differences between units. The quick versions are for loops of vector code: with their result they hand back all
-/// ones if it may be wrong, else zero.
-pub(crate) trait CardUnit: Copy + Send + Sync + Debug {
+/// What a unit has besides sums, products, comparisons and integral parts.
+pub(crate) trait CardFunctions {
+    /// Numbers of a table. They are looked up apart: a loop that does is compiled to no vector code.
+    type Entry: Copy;
+    /// What RCP of `x` starts from.
+    fn rcp_entry(&self, x: u32) -> Self::Entry;
+    /// RCP.
+    fn rcp(&self, x: u32, entry: Self::Entry) -> u32;
+    /// What RSQ of `x` starts from.
+    fn rsq_entry(&self, x: u32) -> Self::Entry;
+    /// RSQ.
+    fn rsq(&self, x: u32, entry: Self::Entry) -> u32;
+    /// An operation besides those; `None` if the unit does not have it.
+    fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
+}
+
+/// What differs from unit to unit. The quick versions are for loops of vector code: with their result they hand back
+/// what they met, by which it may be wrong. `FUSED` tells them that the host has fused multiply-add.
+pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// True if comparisons set NaN where words have no order.
     const SETS_NAN: bool;
 
@@ -30,17 +45,15 @@ pub(crate) trait CardUnit: Copy + Send + Sync + Debug {
     fn add(&self, a: u32, b: u32) -> u32;
     /// `a b + c`
     fn mad(&self, a: u32, b: u32, c: u32) -> u32;
-    /// An operation of the unit besides those; `None` if it has none.
-    fn other(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
 
     /// [`Self::add`] in vector code.
-    fn quick_add(&self, a: u32, b: u32) -> (u32, u32);
+    fn quick_add(&self, a: u32, b: u32) -> (u32, Met);
     /// [`Self::mul`] in vector code.
-    fn quick_mul(&self, a: u32, b: u32) -> (u32, u32);
+    fn quick_mul<const FUSED: bool>(&self, a: u32, b: u32) -> (u32, Met);
     /// [`Self::mad`] in vector code.
-    fn quick_mad(&self, a: u32, b: u32, c: u32) -> (u32, u32);
+    fn quick_mad<const FUSED: bool>(&self, a: u32, b: u32, c: u32) -> (u32, Met);
     /// [`Self::dot`] in vector code.
-    fn quick_dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, u32);
+    fn quick_dot<const FUSED: bool, const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, Met);
 
     /// Returns `true` if one of two words is a NaN that has no order. Branch-free, as the following are.
     fn unordered(&self, a: u32, b: u32) -> bool;
@@ -52,188 +65,13 @@ pub(crate) trait CardUnit: Copy + Send + Sync + Debug {
     fn min(&self, a: u32, b: u32) -> u32;
     /// The greater word.
     fn max(&self, a: u32, b: u32) -> u32;
+    /// The largest integer not above `x`.
+    fn floor(&self, x: u32) -> u32;
+    /// `x` clamped to [0, 1].
+    fn saturate(&self, x: u32) -> u32;
 }
 
-impl CardUnit for Nv {
-    const SETS_NAN: bool = true;
-
-    fn new(format: &Format) -> Self {
-        Self::new(format.unit)
-    }
-
-    fn mul(&self, a: u32, b: u32) -> u32 {
-        Nv::mul(*self, a, b)
-    }
-
-    fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
-        Nv::dot(*self, a, b)
-    }
-
-    fn add(&self, a: u32, b: u32) -> u32 {
-        self.sum([a, b])
-    }
-
-    fn mad(&self, a: u32, b: u32, c: u32) -> u32 {
-        self.sum([Nv::mul(*self, a, b), c])
-    }
-
-    fn other(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
-        Some(match operation {
-            Op::Rcp => nv_functions::rcp(a),
-            Op::Rsq => self.rsq(a),
-            Op::Exp2 if !self.is_2x => Self::exp2(a),
-            Op::Log2 if !self.is_2x => Self::log2(a),
-            Op::Floor => Self::floor(a),
-            Op::Frc => self.sum([a, Self::floor(a) ^ SIGN]),
-            Op::ExpFloor => Self::exp_floor(a),
-            Op::ExpFraction => Self::exp_fraction(a),
-            Op::ExpPower => Self::exp_power(a),
-            Op::LogExponent => self.log_exponent(a),
-            Op::LogMantissa => self.log_mantissa(a),
-            Op::LogPower => self.log_power(a),
-            Op::LitDiffuse => Self::lit_diffuse(a),
-            Op::LitSpecular => Self::lit_specular(a, b, c),
-            Op::Sign if self.unordered(a, 0) => NAN,
-            Op::Sign if self.same(a, 0) => 0,
-            Op::Sign => ONE | if self.below(a, 0) { SIGN } else { 0 },
-            _ => return None,
-        })
-    }
-
-    #[inline(always)]
-    fn quick_add(&self, a: u32, b: u32) -> (u32, u32) {
-        Self::quick_sum([a, b])
-    }
-
-    #[inline(always)]
-    fn quick_mul(&self, a: u32, b: u32) -> (u32, u32) {
-        Nv::quick_mul(a, b)
-    }
-
-    #[inline(always)]
-    fn quick_mad(&self, a: u32, b: u32, c: u32) -> (u32, u32) {
-        let (product, strange) = Nv::quick_mul(a, b);
-        let (sum, mark) = Self::quick_sum([product, c]);
-        (sum, strange | mark)
-    }
-
-    #[inline(always)]
-    fn quick_dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, u32) {
-        Nv::quick_dot(a, b)
-    }
-
-    #[inline(always)]
-    fn unordered(&self, a: u32, b: u32) -> bool {
-        Nv::unordered(*self, a, b)
-    }
-
-    #[inline(always)]
-    fn below(&self, a: u32, b: u32) -> bool {
-        Nv::below(*self, a, b)
-    }
-
-    #[inline(always)]
-    fn same(&self, a: u32, b: u32) -> bool {
-        Nv::same(*self, a, b)
-    }
-
-    #[inline(always)]
-    fn min(&self, a: u32, b: u32) -> u32 {
-        let chosen = if Nv::below(*self, a, b) { a } else { b };
-        if Nv::unordered(*self, a, b) { NAN } else { chosen }
-    }
-
-    #[inline(always)]
-    fn max(&self, a: u32, b: u32) -> u32 {
-        let chosen = if Nv::below(*self, a, b) { b } else { a };
-        if Nv::unordered(*self, a, b) { NAN } else { chosen }
-    }
-}
-
-impl CardUnit for Gt200 {
-    const SETS_NAN: bool = false;
-
-    fn new(format: &Format) -> Self {
-        Self::new(format)
-    }
-
-    fn mul(&self, a: u32, b: u32) -> u32 {
-        Gt200::mul(*self, a, b)
-    }
-
-    fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
-        Gt200::dot(*self, a, b)
-    }
-
-    fn add(&self, a: u32, b: u32) -> u32 {
-        Gt200::add(*self, a, b)
-    }
-
-    fn mad(&self, a: u32, b: u32, c: u32) -> u32 {
-        Gt200::mad(*self, a, b, c)
-    }
-
-    fn other(&self, operation: Op, [a, b, _]: [u32; 3]) -> Option<u32> {
-        Some(match operation {
-            Op::Rcp => gt200_functions::rcp(a),
-            Op::Rsq => gt200_functions::rsq(a),
-            Op::Exp2 => gt200_functions::exp2(a),
-            Op::Log2 => gt200_functions::log2(a),
-            Op::Floor => Self::floor(a),
-            Op::Frc => Gt200::add(*self, a, Self::floor(a) ^ SIGN),
-            Op::Saturate => Self::saturate(a),
-            Op::Scale => self.scale(a, b.cast_signed()),
-            _ => return None,
-        })
-    }
-
-    #[inline(always)]
-    fn quick_add(&self, a: u32, b: u32) -> (u32, u32) {
-        Gt200::quick_add(*self, a, b)
-    }
-
-    #[inline(always)]
-    fn quick_mul(&self, a: u32, b: u32) -> (u32, u32) {
-        (Gt200::mul(*self, a, b), 0)
-    }
-
-    #[inline(always)]
-    fn quick_mad(&self, a: u32, b: u32, c: u32) -> (u32, u32) {
-        (Gt200::mad(*self, a, b, c), 0)
-    }
-
-    #[inline(always)]
-    fn quick_dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, u32) {
-        (Gt200::dot(*self, a, b), 0)
-    }
-
-    #[inline(always)]
-    fn unordered(&self, a: u32, b: u32) -> bool {
-        is_nan(a) | is_nan(b)
-    }
-
-    #[inline(always)]
-    fn below(&self, a: u32, b: u32) -> bool {
-        Self::less(a, b)
-    }
-
-    #[inline(always)]
-    fn same(&self, a: u32, b: u32) -> bool {
-        Self::equal(a, b)
-    }
-
-    #[inline(always)]
-    fn min(&self, a: u32, b: u32) -> u32 {
-        Self::choose(a, b, 0)
-    }
-
-    #[inline(always)]
-    fn max(&self, a: u32, b: u32) -> u32 {
-        Self::choose(a, b, u32::MAX)
-    }
-}
-
-/// The arithmetic of a unit. Operations that the unit lacks are those of the ideal format, with the unit's NaN.
+/// The arithmetic of a unit. What the unit does not have is that of the ideal format, with the unit's NaN.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CardLane<U> {
     pub(crate) unit: U,
@@ -264,6 +102,11 @@ impl<U: CardUnit> CardLane<U> {
             Op::Mad | Op::FusedMad => unit.mad(a, b, c),
             Op::Min => unit.min(a, b),
             Op::Max => unit.max(a, b),
+            Op::Floor => unit.floor(a),
+            Op::Frc => unit.add(a, unit.floor(a) ^ SIGN),
+            Op::Saturate => unit.saturate(a),
+            Op::Rcp => unit.rcp(a, unit.rcp_entry(a)),
+            Op::Rsq => unit.rsq(a, unit.rsq_entry(a)),
             Op::Neg => a ^ SIGN,
             Op::Abs => a & !SIGN,
             Op::Less => mask(self.less(a, b)),
@@ -273,13 +116,7 @@ impl<U: CardUnit> CardLane<U> {
             Op::SetLessEqual => self.flag(a, b, self.less_equal(a, b)),
             Op::SetEqual => self.flag(a, b, self.equal(a, b)),
             Op::SetNotEqual => self.flag(a, b, !self.equal(a, b)),
-            Op::SelectNonNegative => {
-                if self.less_equal(0, a) {
-                    b
-                } else {
-                    c
-                }
-            }
+            Op::SelectNonNegative => self.select_non_negative(a, b, c),
             Op::SelectAboveHalf => {
                 if self.less(HALF, a) {
                     b
@@ -287,7 +124,7 @@ impl<U: CardUnit> CardLane<U> {
                     c
                 }
             }
-            _ => return unit.other(operation, [a, b, c]).or_else(|| self.otherwise(operation, [a, b, c])),
+            _ => return unit.function(operation, [a, b, c]).or_else(|| self.otherwise(operation, [a, b, c])),
         })
     }
 
@@ -306,7 +143,7 @@ impl<U: CardUnit> CardLane<U> {
         Some(Self::of_ideal(value))
     }
 
-    /// The condition that a comparison sets: 1 or +0, and without an order the NaN of a unit that has one there.
+    /// What a comparison sets: 1 or +0, and without an order the NaN of a unit that has one there.
     #[inline(always)]
     pub(crate) fn flag(&self, a: u32, b: u32, holds: bool) -> u32 {
         let word = if holds { ONE } else { 0 };
@@ -323,6 +160,12 @@ impl<U: CardUnit> CardLane<U> {
     #[inline(always)]
     pub(crate) fn less_equal(&self, a: u32, b: u32) -> bool {
         !self.unit.unordered(a, b) & !self.unit.below(b, a)
+    }
+
+    /// `b` where `a` is not below zero, else `c`.
+    #[inline(always)]
+    pub(crate) fn select_non_negative(&self, a: u32, b: u32, c: u32) -> u32 {
+        if self.less_equal(0, a) { b } else { c }
     }
 
     /// `a == b`; false without an order.

@@ -1,13 +1,15 @@
-//! The unit of GT200: sums and products of the host where these are exact or rounded once. Branch-free, for loops of
-//! vector code; rounding toward zero too.
+//! The unit of GT200: sums and products of the host where these are exact or rounded once. The quick versions are for
+//! loops of vector code and say what they met, by which their results may be wrong.
 
-use super::word::{NAN, ONE, SIGN, flushed, is_nan, is_zero, mask};
+use super::card::CardUnit;
+use super::tables::{GT200, Tables};
+use super::word::{Met, NAN, ONE, SIGN, SURPLUS, cut_product, flushed, is_nan, is_zero, mask};
 use crate::lanes::odd;
+use crate::lanes::round::ZERO;
+use crate::lanes::toward;
 use crate::num::{Format, Rounding, Unit};
 
-/// Bits of a double that a float of 24 bits does not have.
-const SURPLUS: u64 = (1 << 29) - 1;
-/// `2^-126 (1 - 2^-25)`: smaller numbers, rounded to 24 bits, are below the least normal number.
+/// `2^-126 (1 - 2^-25)`: what is below, rounded to 24 bits, is below the least normal number.
 const LEAST: f64 = f64::from_bits((1023 - 126) << 52) * (1.0 - f64::from_bits((1023 - 25) << 52));
 
 /// The state of the unit.
@@ -16,6 +18,19 @@ pub(crate) struct Gt200 {
     /// Sums and products are rounded toward zero, those of MAD never.
     toward_zero: bool,
     zero_wins: bool,
+    pub(super) tables: &'static Tables<128, 3>,
+}
+
+/// Returns `true` if a conversion makes zeros of what is below `2^-33`, whatever the rounding: GT200's to half floats.
+pub(crate) fn drops_small_halves(from: &Format, to: &Format) -> bool {
+    matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins) && to.kind == Format::FP16.kind
+}
+
+/// A number without what [`drops_small_halves`].
+#[inline(always)]
+pub(crate) fn without_small(x: f64) -> f64 {
+    let kept = if x.abs() < crate::lanes::layout::pow2(-33) { 0.0 } else { x };
+    kept.copysign(x)
 }
 
 /// A subnormal as a zero.
@@ -31,12 +46,7 @@ fn word(x: f32) -> u32 {
 }
 
 impl Gt200 {
-    pub(super) fn new(format: &Format) -> Self {
-        Self { toward_zero: format.rounding == Rounding::TowardZero, zero_wins: format.unit == Unit::Gt200ZeroWins }
-    }
-
     /// Rounds a double, exact or rounded to odd.
-    #[inline(always)]
     fn rounded(self, x: f64) -> u32 {
         let near = x as f32;
         let beyond = self.toward_zero & (f64::from(near).abs() > x.abs());
@@ -44,35 +54,55 @@ impl Gt200 {
         if x.abs() < LEAST { (x as f32).to_bits() & SIGN } else { word(kept) }
     }
 
-    /// `a + b`
-    #[inline(always)]
-    pub(super) fn add(self, a: u32, b: u32) -> u32 {
-        self.rounded(odd::add_odd(number(a), number(b)))
-    }
-
-    /// [`Self::add`] in vector code, and all ones if it may be wrong. A sum below the least normal number is exact.
-    #[inline(always)]
-    pub(super) fn quick_add(self, a: u32, b: u32) -> (u32, u32) {
-        (word(f32::from_bits(flushed(a)) + f32::from_bits(flushed(b))), mask(self.toward_zero))
-    }
-
     /// The exact product, or a zero that wins.
-    #[inline(always)]
     fn product(self, a: u32, b: u32) -> f64 {
         let product = number(a) * number(b);
         if self.zero_wins & (is_zero(a) | is_zero(b)) { 0.0 } else { product }
     }
 
-    /// `a b`
+    /// MIN, or MAX if `flip` is all ones: the order of integers, turned around.
     #[inline(always)]
-    pub(super) fn mul(self, a: u32, b: u32) -> u32 {
+    fn choose(a: u32, b: u32, flip: u32) -> u32 {
+        let (a, b) = (flushed(a), flushed(b));
+        let key = |w: u32| (w ^ mask(w & SIGN != 0) >> 1 ^ flip).cast_signed();
+        let chosen = if key(a) < key(b) { a } else { b };
+        let chosen = if is_nan(a) { b } else { chosen };
+        let chosen = if is_nan(b) { a } else { chosen };
+        if is_nan(a) & is_nan(b) { NAN } else { chosen }
+    }
+
+    /// `x 2^shift`
+    pub(super) fn scale(self, x: u32, shift: i32) -> u32 {
+        self.rounded(number(x) * crate::lanes::layout::pow2(shift))
+    }
+}
+
+impl CardUnit for Gt200 {
+    const SETS_NAN: bool = false;
+
+    fn new(format: &Format) -> Self {
+        Self {
+            toward_zero: format.rounding == Rounding::TowardZero,
+            zero_wins: format.unit == Unit::Gt200ZeroWins,
+            tables: &GT200,
+        }
+    }
+
+    fn mul(&self, a: u32, b: u32) -> u32 {
         self.rounded(self.product(a, b))
     }
 
-    /// `a b + c`
-    #[inline(always)]
-    pub(super) fn mad(self, a: u32, b: u32, c: u32) -> u32 {
-        let nearest = Self { toward_zero: false, ..self };
+    /// The first product, and MAD for the others.
+    fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
+        (1..N).fold(self.mul(a[0], b[0]), |sum, k| self.mad(a[k], b[k], sum))
+    }
+
+    fn add(&self, a: u32, b: u32) -> u32 {
+        self.rounded(odd::add_odd(number(a), number(b)))
+    }
+
+    fn mad(&self, a: u32, b: u32, c: u32) -> u32 {
+        let nearest = Self { toward_zero: false, ..*self };
         let product = self.product(a, b);
         let cut = f64::from_bits(product.to_bits() & !SURPLUS);
         // Below the least normal number the host rounds as the unit does.
@@ -82,55 +112,77 @@ impl Gt200 {
         if is_zero(c) { word(alone) } else { sum }
     }
 
-    /// The first product, and MAD for the others.
+    /// A sum below the least normal number is exact.
     #[inline(always)]
-    pub(super) fn dot<const N: usize>(self, a: [u32; N], b: [u32; N]) -> u32 {
-        let mut sum = self.mul(a[0], b[0]);
-        for k in 1..N {
-            sum = self.mad(a[k], b[k], sum);
-        }
-        sum
+    fn quick_add(&self, a: u32, b: u32) -> (u32, Met) {
+        let (a, b) = (f32::from_bits(flushed(a)), f32::from_bits(flushed(b)));
+        let sum = if self.toward_zero { toward::sum::<ZERO>(a, b) } else { a + b }.to_bits();
+        (sum, Met::product(sum))
     }
 
-    /// `a < b` of numbers.
     #[inline(always)]
-    pub(super) fn less(a: u32, b: u32) -> bool {
+    fn quick_mul<const FUSED: bool>(&self, a: u32, b: u32) -> (u32, Met) {
+        let (x, y) = (flushed(a), flushed(b));
+        let near = f32::from_bits(x) * f32::from_bits(y);
+        let product = if self.toward_zero { cut_product::<FUSED>(x, y) } else { near }.to_bits();
+        (if self.zero_wins & (is_zero(a) | is_zero(b)) { 0 } else { product }, Met::product(product))
+    }
+
+    /// The product of 24 bits and the sum are those of the host.
+    #[inline(always)]
+    fn quick_mad<const FUSED: bool>(&self, a: u32, b: u32, c: u32) -> (u32, Met) {
+        let (x, y, z) = (flushed(a), flushed(b), f32::from_bits(flushed(c)));
+        let near = f32::from_bits(x) * f32::from_bits(y);
+        let product = if is_zero(c) { near } else { cut_product::<FUSED>(x, y) };
+        let wins = self.zero_wins & (is_zero(a) | is_zero(b));
+        let sum = (if wins { 0.0 } else { product } + z).to_bits();
+        (sum, Met::product(product.to_bits()).and(Met::product(sum)))
+    }
+
+    #[inline(always)]
+    fn quick_dot<const FUSED: bool, const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, Met) {
+        let (mut sum, mut met) = self.quick_mul::<FUSED>(a[0], b[0]);
+        for k in 1..N {
+            let (next, of_next) = self.quick_mad::<FUSED>(a[k], b[k], sum);
+            (sum, met) = (next, met.and(of_next));
+        }
+        (sum, met)
+    }
+
+    #[inline(always)]
+    fn unordered(&self, a: u32, b: u32) -> bool {
+        is_nan(a) | is_nan(b)
+    }
+
+    #[inline(always)]
+    fn below(&self, a: u32, b: u32) -> bool {
         f32::from_bits(flushed(a)) < f32::from_bits(flushed(b))
     }
 
-    /// `a == b` of numbers.
     #[inline(always)]
-    pub(super) fn equal(a: u32, b: u32) -> bool {
+    fn same(&self, a: u32, b: u32) -> bool {
         f32::from_bits(flushed(a)) == f32::from_bits(flushed(b))
     }
 
-    /// MIN, or MAX if `flip` is all ones: the order of integers, turned around.
     #[inline(always)]
-    pub(super) fn choose(a: u32, b: u32, flip: u32) -> u32 {
-        let (a, b) = (flushed(a), flushed(b));
-        let key = |w: u32| (w ^ mask(w & SIGN != 0) >> 1 ^ flip).cast_signed();
-        let chosen = if key(a) < key(b) { a } else { b };
-        let chosen = if is_nan(a) { b } else { chosen };
-        let chosen = if is_nan(b) { a } else { chosen };
-        if is_nan(a) & is_nan(b) { NAN } else { chosen }
+    fn min(&self, a: u32, b: u32) -> u32 {
+        Self::choose(a, b, 0)
     }
 
-    /// `x` clamped to [0, 1].
     #[inline(always)]
-    pub(super) fn saturate(x: u32) -> u32 {
+    fn max(&self, a: u32, b: u32) -> u32 {
+        Self::choose(a, b, u32::MAX)
+    }
+
+    /// A zero keeps its sign.
+    #[inline(always)]
+    fn floor(&self, x: u32) -> u32 {
+        word(f32::from_bits(flushed(x)).floor())
+    }
+
+    #[inline(always)]
+    fn saturate(&self, x: u32) -> u32 {
         let positive = if x & SIGN == 0 { flushed(x).min(ONE) } else { 0 };
         if is_nan(x) { NAN } else { positive }
-    }
-
-    /// `x 2^shift`
-    #[inline(always)]
-    pub(super) fn scale(self, x: u32, shift: i32) -> u32 {
-        self.rounded(number(x) * crate::lanes::layout::pow2(shift))
-    }
-
-    /// The largest integer not above `x`; a zero keeps its sign.
-    #[inline(always)]
-    pub(super) fn floor(x: u32) -> u32 {
-        word(number(x).floor() as f32)
     }
 }

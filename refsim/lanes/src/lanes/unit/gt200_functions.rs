@@ -1,69 +1,93 @@
 //! Functions of GT200, one lane at a time: quadratic interpolation in tables.
 
-use super::word::{FIELD, MANTISSA, NAN, SIGN, cut_complement, field, is_nan, is_zero, significand};
-use crate::num::unit::tables::{GT200_EX2, GT200_LG2, GT200_RCP, GT200_RSQRT};
+use super::card::CardFunctions;
+use super::gt200::Gt200;
+use super::word::{
+    FIELD, MANTISSA, NAN, SIGN, assembled, cut_complement, field, halved, is_nan, is_zero, significand, whole,
+};
+use crate::lanes::layout::pow2;
+use crate::num::NumberOperation as Op;
+use crate::num::unit::tables::{GT200_EX2, GT200_LG2};
+
+impl CardFunctions for Gt200 {
+    type Entry = [f64; 3];
+
+    #[inline(always)]
+    fn rcp_entry(&self, x: u32) -> [f64; 3] {
+        self.tables.rcp[((x & MANTISSA) >> 16) as usize]
+    }
+
+    #[inline(always)]
+    fn rcp(&self, x: u32, [a, b, c]: [f64; 3]) -> u32 {
+        let (sign, e) = (x & SIGN, field(x));
+        let r = x & 0xffff;
+        let sum = a * pow2(13) + b * f64::from(r.cast_signed()) + c * squared(2 * r);
+        let word = scaled(sign, 253 - e, whole(halved(sum + 18407.0, 15)));
+        let word = if e == 255 { sign } else { word };
+        let word = if e == 0 { sign | FIELD } else { word };
+        if is_nan(x) { NAN } else { word }
+    }
+
+    #[inline(always)]
+    fn rsq_entry(&self, x: u32) -> [f64; 3] {
+        self.tables.rsq[(root_bits(x) >> 17) as usize]
+    }
+
+    #[inline(always)]
+    fn rsq(&self, x: u32, [a, b, c]: [f64; 3]) -> u32 {
+        let (sign, e) = (x & SIGN, field(x));
+        let k = e - 127;
+        let (f, r) = (root_bits(x), x & 0x1_ffff);
+        let sum = a * pow2(14) + b * f64::from(r.cast_signed()) + 4.0 * c * squared(r);
+        let one = f == 0;
+        let significand = whole(halved(sum + 32767.0, 16));
+        let word = scaled(0, 126 + i32::from(one) - (k >> 1), if one { 1 << 23 } else { significand });
+        let word = if e == 255 { 0 } else { word };
+        let word = if sign != 0 { NAN } else { word };
+        let word = if e == 0 { sign | FIELD } else { word };
+        if is_nan(x) { NAN } else { word }
+    }
+
+    #[inline(always)]
+    fn function(&self, operation: Op, [a, b, _]: [u32; 3]) -> Option<u32> {
+        Some(match operation {
+            Op::Exp2 => exp2(a),
+            Op::Log2 => log2(a),
+            Op::Scale => self.scale(a, b.cast_signed()),
+            _ => return None,
+        })
+    }
+}
+
+/// What RSQ depends on but for powers of 4: the mantissa, and whether the exponent is odd.
+#[inline(always)]
+fn root_bits(x: u32) -> u32 {
+    !x & 1 << 23 | x & MANTISSA
+}
 
 /// The squarer: each partial product is cut.
-fn square(y: u32) -> i64 {
-    let y = i64::from(y);
-    (0..17).filter(|i| y >> i & 1 == 1).map(|i| y >> (18 - i)).sum::<i64>() >> 1
+#[inline(always)]
+fn square(y: u32) -> u32 {
+    let mut sum = 0;
+    for i in 0..17 {
+        sum += if y >> i & 1 == 1 { y >> (18 - i) } else { 0 };
+    }
+    sum >> 1
+}
+
+#[inline(always)]
+fn squared(y: u32) -> f64 {
+    f64::from(square(y).cast_signed())
 }
 
 /// A result of an exponent field and a significand, 2^23 to 2^24.
-fn scaled(sign: u32, field: i32, significand: i64) -> u32 {
-    let field = field + (significand >> 24) as i32;
-    match field {
-        ..=0 => sign,
-        255.. => sign | FIELD,
-        _ => sign | field.cast_unsigned() << 23 | significand as u32 & MANTISSA,
-    }
-}
-
-/// RCP.
-pub(super) fn rcp(x: u32) -> u32 {
-    let (sign, m) = (x & SIGN, x & MANTISSA);
-    match field(x) {
-        0 => sign | FIELD,
-        255 => {
-            if is_nan(x) {
-                NAN
-            } else {
-                sign
-            }
-        }
-        e => {
-            let (r, [a, b, c]) = (m & 0xffff, GT200_RCP[(m >> 16) as usize]);
-            scaled(sign, 253 - e, (a * (1 << 13) + b * i64::from(r) + c * square(2 * r) + 18407) >> 15)
-        }
-    }
-}
-
-/// RSQRT.
-pub(super) fn rsq(x: u32) -> u32 {
-    if is_nan(x) {
-        return NAN;
-    }
-    if is_zero(x) {
-        return x & SIGN | FIELD;
-    }
-    if x & SIGN != 0 {
-        return NAN;
-    }
-    if field(x) == 255 {
-        return 0;
-    }
-    let k = field(x) - 127;
-    let f = x & MANTISSA | (k & 1).cast_unsigned() << 23;
-    let k = k >> 1;
-    if f == 0 {
-        return scaled(0, 127 - k, 1 << 23);
-    }
-    let (r, [a, b, c]) = (f & 0x1_ffff, GT200_RSQRT[(f >> 17) as usize]);
-    scaled(0, 126 - k, (a * (1 << 14) + b * i64::from(r) + 4 * c * square(r) + 32767) >> 16)
+#[inline(always)]
+fn scaled(sign: u32, field: i32, significand: u32) -> u32 {
+    assembled(sign, field + (significand >> 24).cast_signed(), significand)
 }
 
 /// LG2.
-pub(super) fn log2(x: u32) -> u32 {
+fn log2(x: u32) -> u32 {
     if is_nan(x) {
         return NAN;
     }
@@ -80,13 +104,13 @@ pub(super) fn log2(x: u32) -> u32 {
     let (r, [a, b, c]) = (m & 0x1_ffff, GT200_LG2[(m >> 17) as usize]);
     let fraction = match m {
         0 => 0,
-        _ => (a * (1 << 12) + b * i64::from(r) + 2 * c * square(r) + 13125) >> 2,
+        _ => (a * (1 << 12) + b * i64::from(r) + 2 * c * i64::from(square(r)) + 13125) >> 2,
     };
     cut_complement(fraction + (i64::from(e) - 127) * (1 << 36), 36)
 }
 
 /// EX2 after its preparation.
-pub(super) fn exp2(x: u32) -> u32 {
+fn exp2(x: u32) -> u32 {
     let (e, negative) = (field(x), x & SIGN != 0);
     if is_nan(x) {
         return NAN;
@@ -107,5 +131,5 @@ pub(super) fn exp2(x: u32) -> u32 {
         (q, f) = if f > 0 { (!q, MANTISSA - f) } else { (-q, 0) };
     }
     let (r, [a, b, c]) = (f & 0x1_ffff, GT200_EX2[(f >> 17) as usize]);
-    scaled(0, q + 127, (a * (1 << 13) + b * i64::from(r) + c * square(r) + 30690) >> 15)
+    scaled(0, q + 127, ((a * (1 << 13) + b * i64::from(r) + c * i64::from(square(r)) + 30690) >> 15) as u32)
 }

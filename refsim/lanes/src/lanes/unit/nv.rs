@@ -1,17 +1,14 @@
 //! The vertex unit of NV20 to NV35: products cut to 24 bits, sums of aligned addends.
 //!
 //! [`Nv::mul`] and [`Nv::sum`] are right for all words. The quick versions are for loops of vector code. They compute
-//! in host floats, and mark what these may get wrong: special values, and numbers near the ends of the range.
+//! in host floats, and say what they met, by which their results may be wrong.
 
-use super::word::{FIELD, MANTISSA, NAN, SIGN, field, is_nan, is_zero, mask, significand};
-use crate::num::Unit;
-
-/// Bits of a double that a float of 24 bits does not have.
-const SURPLUS: u64 = (1 << 29) - 1;
-/// Sums whose largest addend is from this number on are computed in host floats: no bit of a subnormal addend counts.
-const LOW: u32 = 64 << 23;
-/// The first number too large for that: four addends below it have a sum in range.
-const HIGH: u32 = 252 << 23;
+use super::card::CardUnit;
+use super::tables::{NV, Tables};
+use super::word::{
+    FIELD, MANTISSA, Met, NAN, ONE, SIGN, cut_double, cut_product, field, flushed, is_nan, is_zero, mask, significand,
+};
+use crate::num::{Format, Unit};
 
 /// The state of the unit.
 #[derive(Clone, Copy, Debug)]
@@ -20,13 +17,10 @@ pub(crate) struct Nv {
     pub(super) is_2x: bool,
     /// As programs of GL_NV_vertex_program2 see it: NaN and infinities count everywhere, -0 equals +0.
     pub(super) modern: bool,
+    pub(super) tables: &'static Tables<64, 1>,
 }
 
 impl Nv {
-    pub(super) fn new(unit: Unit) -> Self {
-        Self { is_2x: unit == Unit::Nv2x, modern: unit == Unit::Nv3x }
-    }
-
     /// A result of any exponent, of which the significand has its leading one at bit 23.
     fn packed(self, sign: u32, exponent: i32, significand: u32) -> u32 {
         let magnitude = match exponent {
@@ -36,24 +30,6 @@ impl Nv {
             _ => exponent.cast_unsigned() << 23 | significand & MANTISSA,
         };
         sign | magnitude
-    }
-
-    /// `a b`
-    pub(super) fn mul(self, a: u32, b: u32) -> u32 {
-        let (e, d) = (field(a), field(b));
-        if e.min(d) == 0 {
-            return if self.modern && e.max(d) == 255 { NAN } else { 0 };
-        }
-        let sign = (a ^ b) & SIGN;
-        if is_nan(a) || is_nan(b) {
-            return NAN;
-        }
-        if e.max(d) == 255 {
-            return sign | FIELD;
-        }
-        let product = u64::from(significand(a)) * u64::from(significand(b));
-        let carry = (product >> 47) as i32;
-        self.packed(sign, e + d - 127 + carry, (product >> (23 + carry)) as u32)
     }
 
     /// The sum of up to four addends.
@@ -85,11 +61,6 @@ impl Nv {
         self.packed(sum.cast_unsigned() & SIGN, top + 3 - zeros.cast_signed(), magnitude << zeros >> 8)
     }
 
-    /// The sum of products.
-    pub(super) fn dot<const N: usize>(self, a: [u32; N], b: [u32; N]) -> u32 {
-        self.sum::<N>(std::array::from_fn(|k| self.mul(a[k], b[k])))
-    }
-
     /// The place of a word in the order of comparisons, which is that of integers.
     #[inline(always)]
     fn key(self, w: u32) -> i32 {
@@ -97,97 +68,144 @@ impl Nv {
         if self.modern & is_zero(w) { 0 } else { key }
     }
 
-    /// Returns `true` if two words have no order.
+    /// The powers of two that make the last bit of an aligned addend 1, and 1 that bit.
     #[inline(always)]
-    pub(super) fn unordered(self, a: u32, b: u32) -> bool {
+    fn scales(largest: u32) -> [f32; 2] {
+        let top = largest & FIELD;
+        [(282u32 << 23).wrapping_sub(top), top.wrapping_sub(28 << 23)].map(f32::from_bits)
+    }
+
+    /// The sum of addends in vector code: cut to integers in units of the last aligned bit, whose sum is exact in
+    /// doubles.
+    #[inline(always)]
+    fn quick_sum<const N: usize>(addends: [u32; N]) -> (u32, Met) {
+        let mut largest = 0;
+        for w in addends {
+            largest = largest.max(w & !SIGN);
+        }
+        let [up, down] = Self::scales(largest);
+        let aligned = |w: u32| f64::from((f32::from_bits(w) * up).trunc());
+        let mut sum = aligned(addends[0]);
+        for w in &addends[1..] {
+            sum += aligned(*w);
+        }
+        // No sum is -0.
+        ((cut_double(sum) * down + 0.0).to_bits(), Met::addends(largest))
+    }
+}
+
+impl CardUnit for Nv {
+    const SETS_NAN: bool = true;
+
+    fn new(format: &Format) -> Self {
+        Self { is_2x: format.unit == Unit::Nv2x, modern: format.unit == Unit::Nv3x, tables: &NV }
+    }
+
+    fn mul(&self, a: u32, b: u32) -> u32 {
+        let (e, d) = (field(a), field(b));
+        if e.min(d) == 0 {
+            return if self.modern && e.max(d) == 255 { NAN } else { 0 };
+        }
+        let sign = (a ^ b) & SIGN;
+        if is_nan(a) || is_nan(b) {
+            return NAN;
+        }
+        if e.max(d) == 255 {
+            return sign | FIELD;
+        }
+        let product = u64::from(significand(a)) * u64::from(significand(b));
+        let carry = (product >> 47) as i32;
+        self.packed(sign, e + d - 127 + carry, (product >> (23 + carry)) as u32)
+    }
+
+    fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
+        self.sum::<N>(std::array::from_fn(|k| self.mul(a[k], b[k])))
+    }
+
+    fn add(&self, a: u32, b: u32) -> u32 {
+        self.sum([a, b])
+    }
+
+    fn mad(&self, a: u32, b: u32, c: u32) -> u32 {
+        self.sum([self.mul(a, b), c])
+    }
+
+    #[inline(always)]
+    fn quick_add(&self, a: u32, b: u32) -> (u32, Met) {
+        let (x, y) = (a & !SIGN, b & !SIGN);
+        let (largest, least) = (x.max(y), x.min(y));
+        let [up, down] = Self::scales(largest);
+        // Alignment cuts the lesser addend alone. The sum is a magnitude; the host's own tells the sign.
+        let aligned = (f32::from_bits(least) * up).trunc() * down;
+        let other = f32::from_bits(aligned.to_bits() ^ (a ^ b) & SIGN);
+        let sum = f32::from_bits(largest) + other;
+        let above = sum - f32::from_bits(largest) > other;
+        let sign = (f32::from_bits(a) + f32::from_bits(b) + 0.0).to_bits() & SIGN;
+        (sum.to_bits().wrapping_sub(above.into()) | sign, Met::addends(largest))
+    }
+
+    #[inline(always)]
+    fn quick_mul<const FUSED: bool>(&self, a: u32, b: u32) -> (u32, Met) {
+        let product = cut_product::<FUSED>(a, b).to_bits();
+        (if is_zero(a) | is_zero(b) { 0 } else { product }, Met::product(product))
+    }
+
+    #[inline(always)]
+    fn quick_mad<const FUSED: bool>(&self, a: u32, b: u32, c: u32) -> (u32, Met) {
+        let (product, met) = self.quick_mul::<FUSED>(a, b);
+        let (sum, of_sum) = self.quick_add(product, c);
+        (sum, met.and(of_sum))
+    }
+
+    #[inline(always)]
+    fn quick_dot<const FUSED: bool, const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, Met) {
+        let (mut products, mut met) = ([0; N], Met::NONE);
+        for k in 0..N {
+            let (product, of_product) = self.quick_mul::<FUSED>(a[k], b[k]);
+            products[k] = product;
+            met = met.and(of_product);
+        }
+        let (sum, of_sum) = Self::quick_sum(products);
+        (sum, met.and(of_sum))
+    }
+
+    #[inline(always)]
+    fn unordered(&self, a: u32, b: u32) -> bool {
         self.modern & (is_nan(a) | is_nan(b))
     }
 
-    /// `a < b` of ordered words.
     #[inline(always)]
-    pub(super) fn below(self, a: u32, b: u32) -> bool {
+    fn below(&self, a: u32, b: u32) -> bool {
         self.key(a) < self.key(b)
     }
 
-    /// `a == b` of ordered words.
     #[inline(always)]
-    pub(super) fn same(self, a: u32, b: u32) -> bool {
+    fn same(&self, a: u32, b: u32) -> bool {
         self.key(a) == self.key(b)
     }
 
-    /// FLR.
-    pub(super) fn floor(x: u32) -> u32 {
-        let (e, negative) = (field(x), x & SIGN != 0);
-        match e {
-            255 if is_nan(x) => NAN,
-            0 => 0,
-            150.. => x,
-            ..127 => {
-                if negative {
-                    0xbf80_0000
-                } else {
-                    0
-                }
-            }
-            _ => {
-                let fraction = MANTISSA >> (e - 127);
-                (if negative { x + fraction } else { x }) & !fraction
-            }
-        }
+    #[inline(always)]
+    fn min(&self, a: u32, b: u32) -> u32 {
+        let chosen = if self.below(a, b) { a } else { b };
+        if self.unordered(a, b) { NAN } else { chosen }
     }
 
-    /// `a b` in vector code, and all ones if the result may be wrong.
     #[inline(always)]
-    pub(super) fn quick_mul(a: u32, b: u32) -> (u32, u32) {
-        let exact = f64::from(f32::from_bits(a)) * f64::from(f32::from_bits(b));
-        let product = (f64::from_bits(exact.to_bits() & !SURPLUS) as f32).to_bits();
-        let magnitude = product & !SIGN;
-        // The smallest normal number may have been rounded up to.
-        let low = (magnitude != 0) & (magnitude.cast_signed() <= 1 << 23);
-        let strange = low | (magnitude.cast_signed() >= FIELD.cast_signed());
-        let zero = (a & FIELD).cast_signed().min((b & FIELD).cast_signed()) == 0;
-        (if zero { 0 } else { product }, mask(strange))
+    fn max(&self, a: u32, b: u32) -> u32 {
+        let chosen = if self.below(a, b) { b } else { a };
+        if self.unordered(a, b) { NAN } else { chosen }
     }
 
-    /// The sum of addends in vector code, and all ones if the result may be wrong.
-    ///
-    /// An addend times a power of two, cut to an integer, is the addend as the adder aligns it.
+    /// FLR, which has no -0.
     #[inline(always)]
-    pub(super) fn quick_sum<const N: usize>(addends: [u32; N]) -> (u32, u32) {
-        let mut largest = 0i32;
-        for w in addends {
-            largest = largest.max((w & !SIGN).cast_signed());
-        }
-        let low = (largest != 0) & (largest < LOW.cast_signed());
-        let strange = low | (largest >= HIGH.cast_signed());
-        let top = largest & FIELD.cast_signed();
-        let scale = f32::from_bits((282u32 << 23).wrapping_sub(top.cast_unsigned()));
-        let mut sum = 0i32;
-        for w in addends {
-            sum = sum.wrapping_add((f32::from_bits(w) * scale) as i32);
-        }
-        let magnitude = sum.wrapping_abs();
-        // As many low bits are cut as there are beyond 24.
-        let mut beyond = magnitude >> 24;
-        beyond |= beyond >> 1;
-        beyond |= beyond >> 2;
-        beyond |= beyond >> 4;
-        let float = ((magnitude & !beyond) as f32).to_bits();
-        let moved = float.wrapping_add(top.cast_unsigned()).wrapping_sub(155 << 23);
-        let word = moved | sum.cast_unsigned() & SIGN;
-        (if sum == 0 { 0 } else { word }, mask(strange))
+    fn floor(&self, x: u32) -> u32 {
+        let whole = f32::from_bits(flushed(x)).floor() + 0.0;
+        if is_nan(x) { NAN } else { whole.to_bits() }
     }
 
-    /// The sum of products in vector code.
+    /// The unit has none; of NaN it is 0, as in ideal formats.
     #[inline(always)]
-    pub(super) fn quick_dot<const N: usize>(a: [u32; N], b: [u32; N]) -> (u32, u32) {
-        let (mut products, mut strange) = ([0; N], 0);
-        for k in 0..N {
-            let (product, mark) = Self::quick_mul(a[k], b[k]);
-            products[k] = product;
-            strange |= mark;
-        }
-        let (sum, mark) = Self::quick_sum(products);
-        (sum, strange | mark)
+    fn saturate(&self, x: u32) -> u32 {
+        if (x & SIGN != 0) | is_nan(x) { 0 } else { flushed(x).min(ONE) }
     }
 }

@@ -1,8 +1,82 @@
 //! Functions of the vertex unit of NV20 to NV35, one lane at a time.
 
+use super::card::{CardFunctions, CardUnit};
 use super::nv::Nv;
-use super::word::{FIELD, MANTISSA, NAN, ONE, SIGN, cut, cut_complement, field, is_nan, is_zero, significand};
-use crate::num::unit::tables::{NV_EXP, NV_LOG, NV_RCP, NV_RSQ, NV3X_EX2, NV3X_LG2};
+use super::word::{
+    FIELD, MANTISSA, NAN, ONE, SIGN, assembled, cut, cut_complement, field, halved, is_nan, is_zero, significand, whole,
+};
+use crate::lanes::layout::pow2;
+use crate::num::NumberOperation as Op;
+use crate::num::unit::tables::{NV_EXP, NV_LOG, NV3X_EX2, NV3X_LG2};
+
+/// Doubles hold the integers that the steps of Newton's method are made of, but for one product.
+impl CardFunctions for Nv {
+    type Entry = [f64; 1];
+
+    #[inline(always)]
+    fn rcp_entry(&self, x: u32) -> [f64; 1] {
+        self.tables.rcp[((x & MANTISSA) >> 17) as usize]
+    }
+
+    #[inline(always)]
+    fn rcp(&self, x: u32, [a]: [f64; 1]) -> u32 {
+        let (sign, e, m) = (x & SIGN, field(x), x & MANTISSA);
+        let f = f64::from(significand(x).cast_signed());
+        let a = halved((pow2(31) - a * f) * a, 24);
+        let a = halved((pow2(37) - a * f) * a, 25);
+        let power = m == 0;
+        let word = assembled(sign, 253 - e + i32::from(power), if power { 0 } else { whole(a) });
+        let word = if e == 0 { sign | FIELD } else { word };
+        if is_nan(x) { NAN } else { word }
+    }
+
+    #[inline(always)]
+    fn rsq_entry(&self, x: u32) -> [f64; 1] {
+        // The upper bits of the mantissa, and the last one of the field.
+        self.tables.rsq[((!x & 1 << 23 | x & MANTISSA) >> 17) as usize]
+    }
+
+    #[inline(always)]
+    fn rsq(&self, x: u32, [a]: [f64; 1]) -> u32 {
+        let sign = if self.modern { x & SIGN } else { 0 };
+        let (e, m) = (field(x), x & MANTISSA);
+        // The reciprocal of the root of half the number in [1, 4).
+        let even = 1 - (e & 1);
+        let g = f64::from((significand(x) << even).cast_signed());
+        let a = halved((3.0 * pow2(37) - a * a * g) * a, 32);
+        // The product has 64 bits: the lower ones are added apart.
+        let factor = 3.0 * pow2(49) - a * a * g;
+        let high = halved(factor, 20);
+        let low = halved((factor - high * pow2(20)) * a, 20);
+        let a = halved(high * a + low, 19);
+        let power = !self.is_2x & (even == 0) & (m == 0);
+        let field = 126 - ((e - 127 - even) >> 1);
+        let word = assembled(0, field + i32::from(power), if power { 0 } else { whole(a) });
+        let word = if e == 255 { 0 } else { word };
+        let word = if e == 0 { sign | FIELD } else { word };
+        if is_nan(x) | (sign != 0) & (e != 0) { NAN } else { word }
+    }
+
+    #[inline(always)]
+    fn function(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
+        Some(match operation {
+            Op::Exp2 if !self.is_2x => Self::exp2(a),
+            Op::Log2 if !self.is_2x => Self::log2(a),
+            Op::ExpFloor => Self::exp_floor(a),
+            Op::ExpFraction => Self::exp_fraction(a),
+            Op::ExpPower => Self::exp_power(a),
+            Op::LogExponent => self.log_exponent(a),
+            Op::LogMantissa => self.log_mantissa(a),
+            Op::LogPower => self.log_power(a),
+            Op::LitDiffuse => Self::lit_diffuse(a),
+            Op::LitSpecular => Self::lit_specular(a, b, c),
+            Op::Sign if self.unordered(a, 0) => NAN,
+            Op::Sign if self.same(a, 0) => 0,
+            Op::Sign => ONE | if self.below(a, 0) { SIGN } else { 0 },
+            _ => return None,
+        })
+    }
+}
 
 /// A normal number by sign, field and mantissa; a field that is too small gives a zero.
 fn normal(sign: u32, field: i32, mantissa: i64) -> u32 {
@@ -50,62 +124,14 @@ fn cut_signed(value: i64, bits: i32) -> u32 {
     if value == 0 { 0 } else { cut(value < 0, value.unsigned_abs(), bits) }
 }
 
-/// RCP.
-pub(super) fn rcp(x: u32) -> u32 {
-    let (sign, e, m) = (x & SIGN, field(x), x & MANTISSA);
-    if is_nan(x) {
-        return NAN;
-    }
-    if e == 0 {
-        return sign | FIELD;
-    }
-    if m == 0 {
-        return normal(sign, 254 - e, 0);
-    }
-    let f = i64::from(significand(x));
-    let [mut a] = NV_RCP[(m >> 17) as usize];
-    a = (((1 << 31) - a * f) * a) >> 24;
-    a = (((1 << 37) - a * f) * a) >> 25;
-    normal(sign, 253 - e, a)
-}
-
 impl Nv {
-    /// RSQ.
-    pub(super) fn rsq(self, x: u32) -> u32 {
-        let x = if self.modern || is_nan(x) { x } else { x & !SIGN };
-        let (e, m) = (field(x), x & MANTISSA);
-        if is_nan(x) {
-            return NAN;
-        }
-        if e == 0 {
-            return x & SIGN | FIELD;
-        }
-        if x & SIGN != 0 {
-            return NAN;
-        }
-        if e == 255 {
-            return 0;
-        }
-        let odd = e & 1;
-        if !self.is_2x && odd == 1 && m == 0 {
-            return normal(0, 127 - (e - 127) / 2, 0);
-        }
-        // The reciprocal of the root of half the number in [1, 4).
-        let g = i128::from(significand(x)) << (1 - odd);
-        let [first] = NV_RSQ[(64 * (1 - odd)) as usize + (m >> 17) as usize];
-        let mut a = i128::from(first);
-        a = (((3 << 37) - a * a * g) * a) >> 32;
-        a = (((3 << 49) - a * a * g) * a) >> 39;
-        normal(0, 126 - ((e - 128 + odd) >> 1), a as i64)
-    }
-
     /// x of EXP.
-    pub(super) fn exp_floor(x: u32) -> u32 {
+    fn exp_floor(x: u32) -> u32 {
         power(in_8192ths(x) & !8191)
     }
 
     /// y of EXP.
-    pub(super) fn exp_fraction(x: u32) -> u32 {
+    fn exp_fraction(x: u32) -> u32 {
         let (e, negative) = (field(x), x & SIGN != 0);
         if is_nan(x) {
             return x;
@@ -126,7 +152,7 @@ impl Nv {
     }
 
     /// z of EXP.
-    pub(super) fn exp_power(x: u32) -> u32 {
+    fn exp_power(x: u32) -> u32 {
         if is_nan(x) { NAN } else { power(in_8192ths(x)) }
     }
 
@@ -140,7 +166,7 @@ impl Nv {
     }
 
     /// x of LOG.
-    pub(super) fn log_exponent(self, x: u32) -> u32 {
+    fn log_exponent(self, x: u32) -> u32 {
         self.log_of_none(x).unwrap_or_else(|| match field(x) {
             0 => FIELD | SIGN,
             255 => FIELD,
@@ -149,13 +175,13 @@ impl Nv {
     }
 
     /// y of LOG.
-    pub(super) fn log_mantissa(self, x: u32) -> u32 {
+    fn log_mantissa(self, x: u32) -> u32 {
         let of_number = || if is_zero(x) { ONE } else { ONE | x & MANTISSA };
         self.log_of_none(x).unwrap_or_else(of_number)
     }
 
     /// z of LOG.
-    pub(super) fn log_power(self, x: u32) -> u32 {
+    fn log_power(self, x: u32) -> u32 {
         self.log_of_none(x).unwrap_or_else(|| match field(x) {
             0 => FIELD | SIGN,
             255 => FIELD,
@@ -164,12 +190,12 @@ impl Nv {
     }
 
     /// y of LIT.
-    pub(super) fn lit_diffuse(x: u32) -> u32 {
+    fn lit_diffuse(x: u32) -> u32 {
         if x & SIGN == 0 { x } else { 0 }
     }
 
     /// z of LIT.
-    pub(super) fn lit_specular(x: u32, y: u32, w: u32) -> u32 {
+    fn lit_specular(x: u32, y: u32, w: u32) -> u32 {
         let (negative_w, finished) = (w & SIGN != 0, |infinite: bool| if infinite { FIELD } else { 0 });
         if x & SIGN != 0 || is_zero(x) {
             return 0;
@@ -195,7 +221,7 @@ impl Nv {
     }
 
     /// LG2 of NV3x.
-    pub(super) fn log2(x: u32) -> u32 {
+    fn log2(x: u32) -> u32 {
         match field(x) {
             0 => FIELD | SIGN,
             _ if is_nan(x) || x & SIGN != 0 => NAN,
@@ -209,7 +235,7 @@ impl Nv {
     }
 
     /// EX2 of NV3x.
-    pub(super) fn exp2(x: u32) -> u32 {
+    fn exp2(x: u32) -> u32 {
         let (e, negative) = (field(x), x & SIGN != 0);
         match e {
             255 if is_nan(x) => NAN,

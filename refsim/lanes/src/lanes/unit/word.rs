@@ -1,5 +1,9 @@
 //! Single floats as words: fields, and the numbers that units make.
 
+use crate::lanes::layout::pow2;
+use crate::lanes::round::ZERO;
+use crate::lanes::toward;
+
 /// The sign bit.
 pub(super) const SIGN: u32 = 1 << 31;
 /// The exponent field; alone, infinity.
@@ -21,6 +25,29 @@ pub(super) fn field(w: u32) -> i32 {
 pub(super) fn is_nan(w: u32) -> bool {
     (w & !SIGN).cast_signed() > FIELD.cast_signed()
 }
+
+/// The quotient of a whole number of a double and `2^bits`, rounded down.
+#[inline(always)]
+pub(super) fn halved(x: f64, bits: i32) -> f64 {
+    (x * pow2(-bits)).floor()
+}
+
+/// A double that is a whole number below `2^32`. A cast would be compiled to no vector code.
+#[inline(always)]
+pub(super) fn whole(x: f64) -> u32 {
+    (x + pow2(52)).to_bits() as u32
+}
+
+/// The number of a field, which may be too small or too large, and a significand with its leading one, or a mantissa.
+#[inline(always)]
+pub(super) fn assembled(sign: u32, field: i32, significand: u32) -> u32 {
+    let normal = field.cast_unsigned() << 23 | significand & MANTISSA;
+    let magnitude = if field >= 255 { FIELD } else { normal };
+    sign | if field <= 0 { 0 } else { magnitude }
+}
+
+/// Bits of a double that a float of 24 bits does not have.
+pub(super) const SURPLUS: u64 = (1 << 29) - 1;
 
 /// Returns `true` for zeros and subnormals.
 #[inline(always)]
@@ -44,6 +71,67 @@ pub(super) fn flushed(w: u32) -> u32 {
 #[inline(always)]
 pub(super) fn mask(condition: bool) -> u32 {
     if condition { u32::MAX } else { 0 }
+}
+
+/// `a b` with the bits beyond 24 dropped; rounded, or cut, where it is no normal number. `FUSED` tells that the host has
+/// fused multiply-add.
+#[inline(always)]
+pub(super) fn cut_product<const FUSED: bool>(a: u32, b: u32) -> f32 {
+    let (a, b) = (f32::from_bits(a), f32::from_bits(b));
+    if FUSED { toward::product::<ZERO>(a, b) } else { cut_double(f64::from(a) * f64::from(b)) }
+}
+
+/// A double as a single, the bits beyond 24 dropped; rounded where it is no normal number.
+#[inline(always)]
+pub(super) fn cut_double(x: f64) -> f32 {
+    f64::from_bits(x.to_bits() & !SURPLUS) as f32
+}
+
+/// The ends of a range of numbers met in a computation in vector code, which is right far from the ends of the format.
+/// Of single numbers, and of all lanes: no loop that gathers conditions is compiled to vector code, those of minima are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Met {
+    /// The largest magnitude.
+    largest: u32,
+    /// The least magnitude but zero of a sum's largest addend, less 1.
+    addend: u32,
+    /// The least magnitude but zero of a product, less 1.
+    product: u32,
+}
+
+impl Met {
+    pub(crate) const NONE: Self = Self { largest: 0, addend: u32::MAX, product: u32::MAX };
+
+    /// A product, or any result that may not be at the lower end.
+    #[inline(always)]
+    pub(super) fn product(word: u32) -> Self {
+        let largest = word & !SIGN;
+        Self { largest, product: largest.wrapping_sub(1), ..Self::NONE }
+    }
+
+    /// A sum's addends by the magnitude of their largest.
+    #[inline(always)]
+    pub(super) fn addends(largest: u32) -> Self {
+        Self { largest, addend: largest.wrapping_sub(1), ..Self::NONE }
+    }
+
+    /// What was met in two computations.
+    #[inline(always)]
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            largest: self.largest.max(other.largest),
+            addend: self.addend.min(other.addend),
+            product: self.product.min(other.product),
+        }
+    }
+
+    /// Returns `true` if results may be wrong: of special values, of a sum that may leave the range, or of which bits
+    /// of subnormal addends count, and of products that are at most the smallest normal number, which they may have
+    /// been rounded to.
+    #[inline(always)]
+    pub(crate) fn is_risky(self) -> bool {
+        self.largest >= 252 << 23 || self.addend < (64 << 23) - 1 || self.product < 1 << 23
+    }
 }
 
 /// The single of `magnitude * 2^-bits`, its top 24 bits cut; `magnitude` above 0, the result normal.

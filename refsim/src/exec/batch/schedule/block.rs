@@ -295,7 +295,7 @@ impl Scheduler<'_> {
                 if let Some((arith, code)) = self.graph.copies(from, target, operand) {
                     return self.lane_op(arith, LaneOp::of_one(LaneCode::Plain(code), to, a));
                 }
-                self.lane_op(from, LaneOp::of_one(LaneCode::Widen, to, a));
+                self.lane_op(from, LaneOp::of_one(self.graph.widen(from, target), to, a));
                 self.lane_op(target, LaneOp::of_one(LaneCode::Narrow, to, a));
             }
             NodeKind::Sum(arith, sum, numbers) => {
