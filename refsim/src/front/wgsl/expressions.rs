@@ -48,7 +48,7 @@ impl<'a> Translator<'a> {
         handle: Handle<Expression>,
         span: Option<crate::isa::Span>,
     ) -> Result<Meaning> {
-        let (module, function) = (self.module, frame.function);
+        let function = frame.function;
         let expression = &function.expressions[handle];
         let kind = scalar(self.type_of(frame, handle));
         let mut operand = |this: &mut Self, handle: Handle<Expression>| {
@@ -59,13 +59,6 @@ impl<'a> Translator<'a> {
             value
         };
         let value = match expression {
-            Expression::Literal(literal) => self.literal(*literal)?,
-            Expression::Constant(constant) => self.constant(module.constants[*constant].init)?,
-            Expression::Override(handle) => match module.overrides[*handle].init {
-                Some(init) => self.constant(init)?,
-                None => return self.builder.refuse("an override needs a value in the text"),
-            },
-            Expression::ZeroValue(ty) => self.zeros(&module.types[*ty].inner)?,
             Expression::Compose { components, .. } => {
                 let parts = components.iter().map(|part| operand(self, *part)).collect::<Result<Vec<_>>>()?;
                 parts.concat()
@@ -149,7 +142,7 @@ impl<'a> Translator<'a> {
                 let from = scalar(self.type_of(frame, *expr));
                 self.convert(&value, from, Scalar { kind: *to, width: convert.unwrap_or(0) })?
             }
-            _ => return self.builder.refuse("this expression is not translated"),
+            other => self.leaf(other)?,
         };
         Ok(Meaning::Value(value))
     }
@@ -185,7 +178,7 @@ impl<'a> Translator<'a> {
     }
 
     fn sample(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result {
-        let function = frame.function;
+        let (function, span) = (frame.function, self.builder.span);
         let Expression::ImageSample {
             image,
             coordinate,
@@ -203,7 +196,6 @@ impl<'a> Translator<'a> {
         let Meaning::Texture(unit) = self.entry(frame, *image)? else {
             return self.builder.refuse("only textures that are variables of the module are read");
         };
-        let span = self.builder.span;
         let at = self.value(frame, *coordinate)?;
         let gradient = match level {
             SampleLevel::Auto => None,

@@ -70,10 +70,9 @@ impl<'a> Translator<'a> {
             Statement::If { condition, accept, reject } => {
                 let at = place(frame.function.expressions.get_span(*condition));
                 let condition = self.value(frame, *condition)?[0];
-                self.branch(frame, condition, [accept, reject], depth)?;
-                // What is selected here belongs to the condition's line.
+                // What is selected behind it belongs to the condition's place.
                 self.builder.span = at.unwrap_or(self.builder.span);
-                Ok(())
+                self.branch(frame, condition, [accept, reject], depth)
             }
             Statement::Switch { selector, cases } => {
                 let [Component::Int(selector)] = self.value(frame, *selector)?[..] else {

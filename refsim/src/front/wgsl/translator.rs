@@ -192,16 +192,8 @@ impl<'a> Translator<'a> {
 
     /// The value of an expression outside functions.
     pub(super) fn constant(&mut self, handle: Handle<Expression>) -> Result<Value, Refusal> {
-        let module = self.module;
         self.step(None)?;
-        match &module.global_expressions[handle] {
-            Expression::Literal(literal) => self.literal(*literal),
-            Expression::Constant(constant) => self.constant(module.constants[*constant].init),
-            Expression::Override(handle) => match module.overrides[*handle].init {
-                Some(init) => self.constant(init),
-                None => self.builder.refuse("an override needs a value in the text"),
-            },
-            Expression::ZeroValue(ty) => self.zeros(&module.types[*ty].inner),
+        match &self.module.global_expressions[handle] {
             Expression::Compose { components, .. } => {
                 let parts = components.iter().map(|part| self.constant(*part)).collect::<Result<Vec<_>, _>>()?;
                 Ok(parts.concat())
@@ -210,13 +202,25 @@ impl<'a> Translator<'a> {
                 let value = self.constant(*value)?;
                 Ok(vec![value[0]; *size as usize])
             }
-            _ => self.builder.refuse("an expression outside functions is not translated"),
+            other => self.leaf(other),
         }
     }
 
-    pub(super) fn literal(&self, literal: naga::Literal) -> Result<Value, Refusal> {
+    /// The value of an expression without operands.
+    pub(super) fn leaf(&mut self, expression: &Expression) -> Result<Value, Refusal> {
         use naga::Literal as L;
-        Ok(vec![match literal {
+        let module = self.module;
+        let literal = match expression {
+            Expression::Literal(literal) => literal,
+            Expression::Constant(constant) => return self.constant(module.constants[*constant].init),
+            Expression::Override(handle) => match module.overrides[*handle].init {
+                Some(init) => return self.constant(init),
+                None => return self.builder.refuse("an override needs a value in the text"),
+            },
+            Expression::ZeroValue(ty) => return self.zeros(&module.types[*ty].inner),
+            _ => return self.builder.refuse("this expression is not translated"),
+        };
+        Ok(vec![match *literal {
             L::F32(value) => Component::Float(value.to_bits()),
             L::F16(value) => Component::Float(value.to_f32().to_bits()),
             L::AbstractFloat(value) => Component::Float((value as f32).to_bits()),
