@@ -97,6 +97,7 @@ pub mod check;
 pub mod device;
 pub mod event;
 pub mod exec;
+pub mod front;
 pub mod isa;
 pub mod machine;
 pub mod output;

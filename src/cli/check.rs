@@ -21,7 +21,7 @@ Exit codes: 0 the program is legal (warnings say what runs otherwise than it is 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The shader, a text file that starts with a version such as ps_1_4
+    /// The shader, a text file that starts with a version such as ps_1_4; or one in WGSL
     shader: PathBuf,
 
     /// The device whose limits hold; `crossbar devices` lists them

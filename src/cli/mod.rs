@@ -50,6 +50,7 @@ mod subsurface;
 mod switch;
 mod timeline;
 mod transfer;
+mod uniform;
 mod units;
 mod version;
 mod view;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::part::PartArgs;
 use super::study::{StudyArgs, StudyFiles};
+use super::uniform::{self, Uniform};
 use super::{given, switch};
 use crate::case::{Overrides, Setup};
 use crate::options::one_of::{OneOf, one_of};
@@ -19,6 +20,8 @@ Examples:
       a goal of your own, in fixed point alone
   crossbar precision radiosity --family float --out out/radiosity_bits
       one of the six systems, on a small input of its own and the card of its paper
+  crossbar precision docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3 --out out/ggx
+      a fragment shader in WGSL, line by line (a build with the feature wgsl)
   crossbar precision docs/examples/highlight.toml --costs docs/examples/multiplier_area.csv --out out/area
       costs of formats of your own, for the format per instruction
 
@@ -32,8 +35,8 @@ Exit codes: 0 some format meets the goal, 1 none does, 2 the case or the goal ca
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// The case, a TOML file; or ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
-    #[arg(value_name = "CASE.toml|SYSTEM")]
+    /// The case, a TOML file; or a shader in WGSL; or ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
+    #[arg(value_name = "CASE.toml|SHADER.wgsl|SYSTEM")]
     case: PathBuf,
 
     /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 where no target has integer
@@ -53,6 +56,10 @@ pub(super) struct Args {
     /// A switch of the device; may be given several times
     #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
     switch: Vec<(String, String)>,
+
+    /// A value of a uniform of a shader in WGSL, up to four numbers; may be given several times
+    #[arg(long, value_name = "NAME=X,Y,..", value_parser = uniform::parse)]
+    uniform: Vec<Uniform>,
 
     /// Which formats are tried
     #[arg(long, default_value = "both", value_parser = families())]
@@ -100,14 +107,14 @@ impl StudyArgs for Args {
     fn study(&self) -> miette::Result<Precision> {
         let costs = self.costs.as_deref().map(FormatCosts::load).transpose()?.unwrap_or_default();
         if let Some(system) = self.system() {
-            let of_cases = [("--held-back", self.held_back.is_some())];
-            given::refuse(of_cases, "cases", "leave it out: a system has another view or light of its own")?;
+            let of_cases = [("--held-back", self.held_back.is_some()), ("--uniform", !self.uniform.is_empty())];
+            given::refuse(of_cases, "cases", "leave it out: a system has inputs of its own")?;
             let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
             return Ok(self.of(system.subject(profile)?, costs));
         }
         let mut subject = self.case(&self.case)?;
         if let Some(path) = &self.held_back {
-            let (other, _) = self.setup(path)?;
+            let (other, _) = self.setup(path, &[])?;
             subject = subject.holding_back(&other, &path.display().to_string())?;
         }
         Ok(self.of(Box::new(subject), costs))
@@ -121,14 +128,15 @@ impl Args {
     }
 
     fn case(&self, path: &Path) -> miette::Result<CaseSubject> {
-        let (setup, name) = self.setup(path)?;
+        let (setup, name) = self.setup(path, &self.uniform)?;
         Ok(CaseSubject::new(setup, &name)?)
     }
 
     /// A case on the device of the options, and its name.
-    fn setup(&self, path: &Path) -> miette::Result<(Setup, String)> {
+    fn setup(&self, path: &Path, uniforms: &[Uniform]) -> miette::Result<(Setup, String)> {
         let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
-        let overrides = Overrides { device, switches: self.switch.clone(), ..Overrides::default() };
+        let (switches, uniforms) = (self.switch.clone(), uniforms.to_vec());
+        let overrides = Overrides { device, switches, uniforms, ..Overrides::default() };
         let setup = Setup::read_with(path, &overrides)?;
         Ok((setup, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
     }

@@ -7,6 +7,7 @@ use refsim::{
     asm::{self, SyntaxError},
     check::{self, Checked, SlotCount, Violation, Warning},
     device::Profile,
+    front::{self, Refusal},
     isa::{Program, Span, Version},
 };
 use serde::Serialize;
@@ -61,6 +62,17 @@ pub enum ShaderError {
         #[related]
         errors: Vec<SyntaxError>,
     },
+    /// The text is WGSL that has no translation.
+    #[error("`{name}` cannot be translated")]
+    #[diagnostic(code("front::wgsl"))]
+    Refused {
+        name: String,
+        #[source_code]
+        source_code: Arc<SourceText>,
+        /// The reason, with its place.
+        #[related]
+        reasons: [Refusal; 1],
+    },
     /// The program breaks rules of its version or limits of the device.
     #[error("`{name}` is not a legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
     #[diagnostic(code("check"))]
@@ -97,6 +109,11 @@ impl ShaderWarning {
     pub fn id(&self) -> &'static str {
         self.code
     }
+}
+
+/// Returns `true` if a path names a shader in WGSL.
+pub fn is_wgsl(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "wgsl")
 }
 
 fn count(number: usize, noun: &str) -> String {
@@ -160,11 +177,23 @@ impl ShaderText {
         self.source.clone()
     }
 
-    /// Assembles the text.
+    /// Returns `true` if the name says that the text is WGSL.
+    pub fn is_wgsl(&self) -> bool {
+        is_wgsl(Path::new(self.name()))
+    }
+
+    /// Assembles the text; WGSL is translated.
     ///
     /// # Errors
-    /// All syntax errors.
+    /// All syntax errors; of WGSL the first thing without a translation.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
+        if self.is_wgsl() {
+            return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {
+                name: self.name().to_owned(),
+                source_code: self.named_source(),
+                reasons: [reason],
+            });
+        }
         asm::assemble(self.source.text()).map_err(|found| ShaderError::Syntax {
             name: self.name().to_owned(),
             source_code: self.named_source(),

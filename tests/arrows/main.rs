@@ -26,6 +26,7 @@ const REFSIM: Law = (
         ("num", ""),
         ("isa", "num"),
         ("asm", "num isa"),
+        ("front", "num isa"),
         ("texel", "num"),
         ("device", "num isa texel"),
         ("check", "num isa device"),

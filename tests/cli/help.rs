@@ -55,7 +55,8 @@ fn every_command_has_an_example_and_speaks_json() {
 fn version() {
     let ran = crossbar(&["--version"], "");
     let number = env!("CARGO_PKG_VERSION");
-    let features = if cfg!(feature = "wgpu") { "cli, wgpu" } else { "cli" };
+    let optional = [("wgpu", cfg!(feature = "wgpu")), ("wgsl", cfg!(feature = "wgsl"))];
+    let features = optional.iter().filter(|(_, has)| *has).fold("cli".to_owned(), |all, (name, _)| all + ", " + name);
     let (start, end) = (format!("crossbar {number} ("), format!(", features {features})\n"));
     let from = ran.stdout.strip_prefix(&start).and_then(|rest| rest.strip_suffix(&end));
     let from = from.unwrap_or_else(|| panic!("{}", ran.stdout));

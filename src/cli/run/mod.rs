@@ -8,9 +8,10 @@ use refsim::machine::{Executor, ExecutorKind};
 use serde_json::json;
 
 use super::executor::DeviceExecutor;
+use super::uniform::{self, Uniform};
 use super::{Out, Problem, error, pixel, study, view};
 use crate::{
-    case::{self, CaseOutcome, PixelTrace, ProbeResult, Setup, Traced},
+    case::{self, CaseOutcome, Overrides, PixelTrace, ProbeResult, Setup, Traced},
     io::atomic::FileSet,
     report::{Cell, Findings, Table, Verdict},
 };
@@ -21,6 +22,8 @@ Examples:
       draws the case, writes its targets there and answers its probes
   crossbar run fixtures/cases/transform.toml --trace 2,2
       and shows what every instruction wrote at column 2, row 2
+  crossbar run docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3
+      a fragment shader in WGSL, on a device of single precision (a build with the feature wgsl)
 
 docs/cases.md describes what a case may say. Unsigned targets are written as PNG, all others and the depth buffer as \
 EXR. The counts say how much work there was, in instruction slots and bytes; `crossbar timeline` says how long a card \
@@ -32,8 +35,13 @@ Exit codes: 0 done, 1 a probe found something else than it expected, 2 the case 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The case, a TOML file
+    /// The case, a TOML file; or a shader in WGSL, drawn over 64 x 64 pixels
+    #[arg(value_name = "CASE.toml|SHADER.wgsl")]
     case: PathBuf,
+
+    /// A value of a uniform of a shader in WGSL, up to four numbers; may be given several times
+    #[arg(long, value_name = "NAME=X,Y,..", value_parser = uniform::parse)]
+    uniform: Vec<Uniform>,
 
     /// Where the pictures go [default: out/ and the case's name]
     #[arg(long, value_name = "DIR")]
@@ -50,7 +58,8 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let executor = args.executor.open()?;
-    let setup = Setup::read(&args.case)?;
+    let overrides = Overrides { uniforms: args.uniform.clone(), ..Overrides::default() };
+    let setup = Setup::read_with(&args.case, &overrides)?;
     error::print_warnings(&setup.warnings, out.json());
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;

@@ -39,7 +39,9 @@ impl Binder<'_> {
                     *place_at(&mut constants.float, number) = self.four(numbers, span)?;
                 }
                 (ConstantTarget::Named, Constant::Vector(numbers)) => {
-                    constants.named.insert(name.clone(), self.four(numbers, span)?);
+                    // A uniform has as many as its type; the rest is not read.
+                    let filled = numbers.iter().copied().chain([Number::Value(0.0); 3]).take(numbers.len().max(4));
+                    constants.named.insert(name.clone(), self.four(&filled.collect::<Vec<_>>(), span)?);
                 }
                 (ConstantTarget::Int(number @ 0..16), Constant::Vector(numbers)) => match integers(numbers) {
                     Some(four) => *place_at(&mut constants.int, number) = four,

@@ -23,6 +23,7 @@ mod state;
 mod texels;
 mod trace;
 mod traced;
+mod translated;
 mod value;
 mod vertices;
 

@@ -21,6 +21,7 @@ use super::{
     stages,
     state::{self, Probe},
     texels::{self, CaseTexture},
+    translated,
     value::Exactly,
     vertices::{self, Geometry},
 };
@@ -28,7 +29,7 @@ use crate::{
     compare,
     error::{InputError, input_error},
     io::read_limited,
-    shader::{ShaderError, ShaderText},
+    shader::{ShaderError, ShaderText, is_wgsl},
 };
 
 /// Maximum length of a case file, in bytes.
@@ -99,11 +100,15 @@ impl Setup {
     pub fn read_with(path: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         let unreadable =
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
+        if is_wgsl(path) {
+            let case = translated::lone_shader(path);
+            return Self::from_bytes_with(&path.display().to_string(), case.as_bytes(), folder, overrides);
+        }
         // Reads no more than the limit: the path may name an endless device file.
         let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
             return Err(too_long().into());
         };
-        let folder = path.parent().unwrap_or_else(|| Path::new(""));
         Self::from_bytes_with(&path.display().to_string(), &bytes, folder, overrides)
     }
 
@@ -240,7 +245,7 @@ impl Binder<'_> {
             title: case.title,
             pixel_constants: Constants {
                 state: self.fixed_function(case.state.as_ref(), &pixel)?,
-                ..self.constants(&case.constants, &pixel)?
+                ..self.uniforms(self.constants(&case.constants, &pixel)?, &pixel, &pixel_text)?
             },
             vertex_constants: match (&vertex, case.vertex_constants.first_key_value()) {
                 (Some(program), _) => self.constants(&case.vertex_constants, program)?,

@@ -109,7 +109,7 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
 }
 
 /// A message if the command does not end as its text states; `None` if it does. A program of `CROSSBAR_PROGRAM` without
-/// the feature `wgpu` may refuse what the text builds with it, but must name the feature.
+/// the features `wgpu` and `wgsl` may refuse what the text builds with them, but must name the feature.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();
     let (arguments, expected) = match exemption(&command.arguments) {
@@ -119,7 +119,9 @@ fn fault(command: &Command) -> Option<String> {
     };
     let ran = run(root.path(), &arguments, &command.input);
     let is_other_program = std::env::var_os("CROSSBAR_PROGRAM").is_some();
-    if is_other_program && command.with_wgpu && ran.stderr.contains("the feature `wgpu` is off") {
+    let of_wgsl = arguments.iter().any(|argument| argument.contains("wgsl"));
+    let lacks = |feature: &str| ran.stderr.contains(&format!("the feature `{feature}` is off"));
+    if is_other_program && ((command.with_wgpu && lacks("wgpu")) || (of_wgsl && lacks("wgsl"))) {
         return (ran.code != Some(2)).then(|| format!("{}: expected exit code 2\n{}", command.place, ran.transcript()));
     }
     (ran.code != Some(expected)).then(|| format!("{}: `{}`\n{}", command.place, arguments.join(" "), ran.transcript()))

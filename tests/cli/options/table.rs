@@ -129,8 +129,11 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--list same:--full-size --out=other --record=other",
     },
     Tried {
-        bases: &["run docs/examples/product.toml --out OUT"],
-        options: "--out=other same:--executor=batch --trace=0,0",
+        bases: &[
+            "run docs/examples/product.toml --out OUT",
+            "run docs/examples/wgsl/fresnel.wgsl --uniform f0=0.04 --out OUT",
+        ],
+        options: "--out=other same:--executor=batch --trace=0,0 --uniform=f0=0.5",
     },
     Tried { bases: &["scene white-box", "scene white-box --out OUT"], options: "--out=other" },
     Tried {
@@ -332,8 +335,11 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--device=nv20 --switch=rounding=rtz",
     },
     Tried {
-        bases: &["precision docs/examples/lerp.toml --out OUT"],
-        options: "--goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 --part=1/6 \
+        bases: &[
+            "precision docs/examples/lerp.toml --out OUT",
+            "precision docs/examples/wgsl/fresnel.wgsl --uniform f0=0.04 --budget 9 --out OUT",
+        ],
+        options: "--uniform=f0=0.5 --goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 --part=1/6 \
                   --costs=docs/examples/multiplier_area.csv --out=other",
     },
     Tried { bases: &["page --out OUT"], options: "--out=other --emulator=missing.wasm" },

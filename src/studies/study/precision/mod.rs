@@ -10,6 +10,8 @@ mod curve;
 mod executors;
 mod family_report;
 mod goal;
+mod half;
+mod half_report;
 mod instructions;
 mod known_runs;
 mod outcome;

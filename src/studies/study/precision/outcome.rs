@@ -6,6 +6,7 @@ use super::bits::{FormatBits, FormatFamily};
 use super::costs::FormatCosts;
 use super::curve::Curve;
 use super::goal::Goal;
+use super::half::{HalfExpression, half_expressions};
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
 use super::known_runs::KnownRuns;
 use super::refutations::{self, RefutationTrace};
@@ -73,6 +74,8 @@ pub(super) struct PrecisionOutcome {
     pub(super) given: Option<f64>,
     /// Values of formats of cards.
     pub(super) named: Vec<(&'static str, FormatBits, f64)>,
+    /// Expressions in half precision, of a shader in WGSL.
+    pub(super) half: Vec<HalfExpression>,
     pub(super) families: Vec<FamilyOutcome>,
     /// Ranges of results by instruction; empty if the subject has no traces.
     pub(super) ranges: Vec<Option<ResultRange>>,
@@ -167,6 +170,7 @@ impl Precision {
             let value = runs.value(&runs.uniform(bits))?;
             outcome.named.push((name, bits, value));
         }
+        half_expressions(runs, &mut outcome.half)?;
         let minima: Vec<FormatBits> = outcome.families.iter().filter_map(|family| family.curve.minimum).collect();
         let sample = sample_results(&minima, runs)?;
         outcome.ranges = sample.ranges;

@@ -6,7 +6,7 @@ use super::bits::FormatBits;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
 use super::tables::number;
-use super::{family_report, known_runs, pictures, tables};
+use super::{family_report, half_report, known_runs, pictures, tables};
 use crate::report::words::{counted, percent};
 use crate::report::{Chart, Findings, FoundTable, NamedChart, Scale, Series, Verdict};
 use crate::shader::SourceLine;
@@ -27,6 +27,7 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     found.heading("Formats for all instructions");
     found.table(FoundTable::from(tables::named(outcome, runs)).csv("formats").field("formats"));
     found.table(FoundTable::from(tables::curves(outcome, runs)).csv("curve").field("curve").unprinted());
+    half_report::report(&mut found, &outcome.half, runs);
     for family in &outcome.families {
         family_report::per_instruction(&mut found, study, family, outcome, runs);
     }

@@ -225,7 +225,8 @@ pub trait PrecisionSubject {
 /// Number of instructions with the same text from which on they are an unrolled loop and share a format.
 const UNROLLED: usize = 8;
 
-/// Instruction of a subject, by the indices of program and instruction; of an unrolled loop all that have its text.
+/// Instruction of a subject, by the indices of program and instruction; of an expression of WGSL, and of an unrolled
+/// loop, all that have its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct InstructionPlace {
     pub(super) program: usize,
@@ -249,17 +250,24 @@ pub(super) fn places(programs: &[StudiedProgram<'_>]) -> Vec<InstructionPlace> {
 
 fn places_of(program: usize, studied: &Program) -> Vec<InstructionPlace> {
     let takes = |at: &usize| takes_format(&studied.instructions[*at]);
-    let mut by_text: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    // By text, and by place in the text: an expression of a translated shader may be several instructions.
+    let mut by_text: BTreeMap<String, BTreeMap<[u32; 2], Vec<usize>>> = BTreeMap::new();
     for at in (0..studied.instructions.len()).filter(takes) {
-        by_text.entry(studied.instruction_text(at).unwrap_or_default()).or_default().push(at);
+        let (text, span) = (studied.instruction_text(at), studied.instructions[at].span);
+        // Instructions that tests build have no place.
+        let place = if text.is_some() { [span.start, span.end] } else { [0, at as u32] };
+        by_text.entry(text.unwrap_or_default()).or_default().entry(place).or_default().push(at);
     }
-    let split = |same: Vec<usize>| -> Vec<InstructionPlace> {
-        match same.split_first() {
-            Some((&at, alike)) if same.len() >= UNROLLED => {
-                vec![InstructionPlace { program, at, alike: alike.to_vec() }]
-            }
-            _ => same.into_iter().map(|at| InstructionPlace { program, at, alike: Vec::new() }).collect(),
-        }
+    let split = |same: BTreeMap<[u32; 2], Vec<usize>>| -> Vec<InstructionPlace> {
+        let together = match same.len() >= UNROLLED {
+            true => vec![same.into_values().flatten().collect()],
+            false => same.into_values().collect(),
+        };
+        let place = |mut all: Vec<usize>| {
+            all.sort_unstable();
+            InstructionPlace { program, at: all[0], alike: all.split_off(1) }
+        };
+        together.into_iter().map(place).collect()
     };
     let mut places: Vec<InstructionPlace> = by_text.into_values().flat_map(split).collect();
     places.sort_by_key(|place| place.at);

@@ -34,6 +34,10 @@ pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
 /// As [`named_line`], by the indices of program and instruction.
 pub(super) fn line_cells(program: usize, instruction: usize, runs: &Runs<'_>) -> [Cell; 2] {
     let SourceLine { file, line, text, .. } = source_line(program, instruction, runs);
+    let studied = &runs.programs[program];
+    // A line of WGSL has several expressions.
+    let expression = studied.program.instruction_text(instruction).filter(|_| studied.text.is_wgsl());
+    let text = expression.unwrap_or(text);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }

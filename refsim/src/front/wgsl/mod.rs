@@ -1,0 +1,170 @@
+//! WGSL: a fragment entry point in one straight line of instructions.
+
+mod builder;
+mod builtins;
+mod expressions;
+mod finish;
+mod statements;
+mod translator;
+mod values;
+
+use std::collections::BTreeMap;
+
+use naga::front::wgsl::{Frontend, Options};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::{Binding, BuiltIn, EntryPoint, Module, ShaderStage, Type};
+
+use super::Refusal;
+use crate::isa::{
+    ConstantDef, ConstantValue, FIRST_LITERAL, Program, ProgramText, Register, RegisterFile, Span, Version,
+};
+use translator::{Meaning, Translator, place};
+use values::{Component, Value, scalars};
+
+/// Maximum length of a text, in bytes.
+const MAX_TEXT: usize = 1 << 18;
+
+/// What a text may use beyond the core of WGSL: f16, and `quantizeToF16`.
+const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16.union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
+
+pub(super) fn translate(text: &str) -> Result<Program, Refusal> {
+    if text.len() > MAX_TEXT {
+        return Err(Refusal::new(format!("the shader is longer than {MAX_TEXT} bytes"), Span::default()));
+    }
+    let module = parsed(text)?;
+    let info = Validator::new(ValidationFlags::all(), CAPABILITIES).validate(&module);
+    let info = info.map_err(|error| {
+        let span = error.spans().next().and_then(|(span, _)| place(*span)).unwrap_or_default();
+        Refusal::new(causes(error.as_inner()), span).help("the text is no valid WGSL")
+    })?;
+    let fragments: Vec<usize> =
+        (0..module.entry_points.len()).filter(|i| module.entry_points[*i].stage == ShaderStage::Fragment).collect();
+    let [index] = fragments[..] else {
+        let message = format!("expected one function with @fragment, found {}", fragments.len());
+        return Err(Refusal::new(message, Span::default()).help("keep one fragment entry point in the text"));
+    };
+    let entry = &module.entry_points[index];
+    let mut translator = Translator::new(&module, &info);
+    translator.declare()?;
+    let mut arguments = Vec::new();
+    for argument in &entry.function.arguments {
+        arguments.push(Meaning::Value(translator.input(argument.ty, argument.binding.as_ref())?));
+    }
+    let value = translator.call(&entry.function, info.get_entry_point(index), arguments, 0)?;
+    translator.finish(entry, &value, text)
+}
+
+fn parsed(text: &str) -> Result<Module, Refusal> {
+    let options = Options { parse_doc_comments: false, capabilities: CAPABILITIES };
+    Frontend::new_with_options(options).parse(text).map_err(|error| {
+        let (span, label) = error.labels().next().map(|(span, label)| (place(span), label)).unwrap_or_default();
+        let notes: Vec<&str> = Some(label).filter(|label| !label.is_empty()).into_iter().chain(error.notes()).collect();
+        let help = if notes.is_empty() { "the text is no valid WGSL".to_owned() } else { notes.join("; ") };
+        Refusal::new(error.message(), span.unwrap_or_default()).help(help)
+    })
+}
+
+/// The place of a whole call, of which naga keeps the function's name alone.
+fn with_arguments(text: &str, span: Span) -> Span {
+    let rest = text.get(span.end as usize..).filter(|rest| rest.starts_with('(')).unwrap_or_default();
+    let mut open = 0;
+    let closes = rest.bytes().position(|byte| {
+        open += i32::from(byte == b'(') - i32::from(byte == b')');
+        open == 0
+    });
+    closes.map_or(span, |at| Span::new(span.start, span.end + at as u32 + 1))
+}
+
+/// A message with its causes.
+fn causes(error: &dyn std::error::Error) -> String {
+    let sources = std::iter::successors(error.source(), |source| source.source());
+    sources.fold(error.to_string(), |message, source| format!("{message}: {source}"))
+}
+
+impl Translator<'_> {
+    /// The value of an input of the entry point.
+    fn input(&mut self, ty: naga::Handle<Type>, binding: Option<&Binding>) -> Result<Value, Refusal> {
+        let inner = &self.module.types[ty].inner;
+        let Some(binding) = binding else {
+            let naga::TypeInner::Struct { members, .. } = inner else {
+                return self.builder.refuse("an input has no @location");
+            };
+            let parts = members.iter().map(|member| self.input(member.ty, member.binding.as_ref()));
+            return Ok(parts.collect::<Result<Vec<_>, _>>()?.concat());
+        };
+        let register = match binding {
+            Binding::Location { location: location @ 0..8, .. } => {
+                Register::new(RegisterFile::Texture, *location as u16)
+            }
+            Binding::BuiltIn(BuiltIn::Position { .. }) => Register::new(RegisterFile::WindowPosition, 0),
+            Binding::Location { .. } => return self.builder.refuse("inputs are @location(0) to @location(7)"),
+            Binding::BuiltIn(_) => return self.builder.refuse("of builtin inputs only the position is translated"),
+        };
+        let list = scalars(self.module, inner).unwrap_or_default();
+        if list.is_empty() || list.len() > 4 || list.iter().any(|scalar| scalar.kind != naga::ScalarKind::Float) {
+            return self.builder.refuse("inputs are f32, f16 and vectors of them");
+        }
+        Ok((0..list.len() as u8).map(|lane| Component::Place(register, lane)).collect())
+    }
+
+    /// Writes the outputs, and makes a program of the instructions.
+    fn finish(mut self, entry: &EntryPoint, value: &[Component], text: &str) -> Result<Program, Refusal> {
+        if self.killed != Component::Bool(false) {
+            let killed = self.killed;
+            self.builder.kill(killed)?;
+        }
+        let Some(result) = &entry.function.result else {
+            return self.builder.refuse("the entry point returns no color");
+        };
+        let mut outputs = Vec::new();
+        match (&result.binding, &self.module.types[result.ty].inner) {
+            (Some(binding), _) => outputs.push((binding.clone(), value.len())),
+            (None, naga::TypeInner::Struct { members, .. }) => {
+                for member in members {
+                    let length = scalars(self.module, &self.module.types[member.ty].inner).unwrap_or_default().len();
+                    outputs.extend(member.binding.clone().map(|binding| (binding, length)));
+                }
+            }
+            _ => {}
+        }
+        let mut rest = value;
+        for (binding, length) in outputs {
+            let Some((part, after)) = rest.split_at_checked(length).filter(|(part, _)| !part.is_empty()) else {
+                return self.builder.refuse("a path through the entry point returns no color");
+            };
+            rest = after;
+            match binding {
+                Binding::Location { location: 0, blend_src: None, .. } if part.len() <= 4 => {
+                    let mut color = part.to_vec();
+                    // What a color leaves out is black and opaque.
+                    color.extend((part.len()..4).map(|lane| Component::Float(if lane == 3 { 0x3f80_0000 } else { 0 })));
+                    self.builder.output(Register::new(RegisterFile::ColorOut, 0), 0b1111, &color)?;
+                }
+                Binding::BuiltIn(BuiltIn::FragDepth) => {
+                    self.builder.output(Register::new(RegisterFile::DepthOut, 0), 0b0100, &part[..1])?;
+                }
+                _ => return self.builder.refuse("outputs are @location(0) and frag_depth"),
+            }
+        }
+        let mut instructions = finish::without_unused(self.builder.instructions);
+        instructions.iter_mut().for_each(|instruction| instruction.span = with_arguments(text, instruction.span));
+        finish::numbered(&mut instructions)?;
+        let literal = |(index, numbers): (usize, &[Option<u32>; 4])| ConstantDef {
+            register: Register::new(RegisterFile::Constant, FIRST_LITERAL + index as u16),
+            value: ConstantValue::Float(numbers.map(Option::unwrap_or_default)),
+            position: 0,
+            span: Span::default(),
+        };
+        Ok(Program {
+            version: Version::Fp1_0,
+            version_span: Span::default(),
+            constants: self.builder.literals.iter().enumerate().map(literal).collect(),
+            declarations: Vec::new(),
+            instructions,
+            parameters: self.parameters,
+            resources: BTreeMap::new(),
+            fog: None,
+            text: ProgramText::new(text),
+        })
+    }
+}

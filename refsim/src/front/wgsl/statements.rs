@@ -1,0 +1,304 @@
+//! Statements: every fragment executes all of them, and values are selected where paths meet. Loops are unrolled and
+//! functions put in line.
+
+use std::collections::HashMap;
+
+use naga::valid::FunctionInfo;
+use naga::{Block, Expression, Function, Handle, Span, Statement, SwitchValue};
+
+use super::super::Refusal;
+use super::translator::{Exit, Frame, Meaning, Translator, Variables, place};
+use super::values::{Component, Value};
+
+type Result<T = ()> = std::result::Result<T, Refusal>;
+
+/// The variable of a function's result.
+pub(super) const RESULT: usize = 0;
+/// Maximum depth of blocks and calls.
+const MAX_DEPTH: usize = 64;
+
+impl<'a> Translator<'a> {
+    /// Puts a function in line, and returns its result; empty if it has none.
+    pub(super) fn call(
+        &mut self,
+        function: &'a Function,
+        info: &'a FunctionInfo,
+        arguments: Vec<Meaning>,
+        depth: usize,
+    ) -> Result<Value> {
+        let mut frame = Frame { function, info, arguments, locals: HashMap::new(), values: HashMap::new() };
+        for (handle, local) in function.local_variables.iter() {
+            let value = match local.init {
+                Some(init) => self.value(&mut frame, init)?,
+                None => self.zero_of(local.ty)?,
+            };
+            let slot = self.variable(value);
+            frame.locals.insert(handle, slot);
+        }
+        let before = self.live;
+        self.returns.push(Exit::default());
+        self.block(&mut frame, &function.body, depth)?;
+        if self.live != Component::Bool(false) {
+            self.leave(|this| this.returns.last_mut())?;
+        }
+        if let Some(Exit(Some((_, variables)))) = self.returns.pop() {
+            self.variables = variables;
+        }
+        frame.locals.values().for_each(|slot| drop(self.variables.remove(slot)));
+        self.live = before;
+        Ok(self.variables.remove(&RESULT).unwrap_or_default())
+    }
+
+    pub(super) fn block(&mut self, frame: &mut Frame<'a>, block: &'a Block, depth: usize) -> Result {
+        if depth > MAX_DEPTH {
+            return self.builder.refuse(format!("blocks and calls are nested more than {MAX_DEPTH} deep"));
+        }
+        for (statement, span) in block.span_iter() {
+            self.step(place(*span))?;
+            self.statement(frame, statement, *span, depth + 1)?;
+            if self.live == Component::Bool(false) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn statement(&mut self, frame: &mut Frame<'a>, statement: &'a Statement, span: Span, depth: usize) -> Result {
+        match statement {
+            Statement::Emit(range) => range.clone().try_for_each(|handle| self.evaluate(frame, handle).map(drop)),
+            Statement::Block(block) => self.block(frame, block, depth),
+            Statement::If { condition, accept, reject } => {
+                let at = place(frame.function.expressions.get_span(*condition));
+                let condition = self.value(frame, *condition)?[0];
+                // What is selected behind it belongs to the condition's place.
+                self.builder.span = at.unwrap_or(self.builder.span);
+                self.branch(frame, condition, [accept, reject], depth)
+            }
+            Statement::Switch { selector, cases } => {
+                let [Component::Int(selector)] = self.value(frame, *selector)?[..] else {
+                    return self.builder.unknown();
+                };
+                let is = |value: &SwitchValue| match value {
+                    SwitchValue::I32(value) => i64::from(*value) == selector,
+                    SwitchValue::U32(value) => i64::from(*value) == selector,
+                    SwitchValue::Default => false,
+                };
+                let default = || cases.iter().position(|case| case.value == SwitchValue::Default);
+                let first = cases.iter().position(|case| is(&case.value)).or_else(default).unwrap_or(cases.len());
+                let before = self.live;
+                self.breaks.push(Exit::default());
+                for case in &cases[first..] {
+                    self.block(frame, &case.body, depth)?;
+                    if !case.fall_through || self.live == Component::Bool(false) {
+                        break;
+                    }
+                }
+                if self.live != Component::Bool(false) {
+                    self.leave(|this| this.breaks.last_mut())?;
+                }
+                let exit = self.breaks.pop().unwrap_or_default();
+                self.resume(exit, before);
+                Ok(())
+            }
+            Statement::Loop { body, continuing, break_if } => {
+                self.unrolled(frame, body, continuing, *break_if, span, depth)
+            }
+            Statement::Break => self.leave(|this| this.breaks.last_mut()),
+            Statement::Continue => self.leave(|this| this.continues.last_mut()),
+            Statement::Return { value } => {
+                if let Some(value) = value {
+                    let value = self.value(frame, *value)?;
+                    self.variables.insert(RESULT, value);
+                }
+                self.builder.span = place(span).unwrap_or(self.builder.span);
+                self.leave(|this| this.returns.last_mut())
+            }
+            Statement::Kill => {
+                self.builder.half = false;
+                self.killed = self.builder.or(self.killed, self.live)?;
+                Ok(())
+            }
+            Statement::Store { pointer, value } => {
+                let (to, value) = (self.entry(frame, *pointer)?, self.value(frame, *value)?);
+                self.store(&to, &value)
+            }
+            Statement::Call { function, arguments, result } => {
+                let given = arguments.iter().map(|part| self.entry(frame, *part)).collect::<Result<Vec<_>>>()?;
+                let value = self.call(&self.module.functions[*function], &self.info[*function], given, depth)?;
+                if let Some(result) = result {
+                    frame.values.insert(*result, Meaning::Value(value));
+                }
+                Ok(())
+            }
+            _ => self.builder.refuse("this statement is not translated"),
+        }
+    }
+
+    fn store(&mut self, to: &Meaning, value: &[Component]) -> Result {
+        let target = match to {
+            Meaning::Pointer { slot, offset, length } if *length == value.len() => {
+                self.variables.get_mut(slot).and_then(|whole| whole.get_mut(*offset..*offset + *length))
+            }
+            _ => None,
+        };
+        match target {
+            Some(target) => {
+                target.copy_from_slice(value);
+                Ok(())
+            }
+            None => self.builder.refuse("only whole variables, members, elements and components are written"),
+        }
+    }
+
+    fn branch(&mut self, frame: &mut Frame<'a>, condition: Component, blocks: [&'a Block; 2], depth: usize) -> Result {
+        match condition {
+            Component::Bool(known) => return self.block(frame, blocks[usize::from(!known)], depth),
+            Component::Place(..) => {}
+            _ => return self.builder.unknown(),
+        }
+        let (before, span, start) = (self.live, self.builder.span, self.variables.clone());
+        self.charge()?;
+        let not = self.builder.not(condition)?;
+        let [accept, reject] = blocks;
+        let (then_live, then_whole) = self.path(frame, accept, [before, condition], depth)?;
+        let then = std::mem::replace(&mut self.variables, start);
+        self.builder.span = span;
+        let (else_live, else_whole) = self.path(frame, reject, [before, not], depth)?;
+        let otherwise = std::mem::take(&mut self.variables);
+        self.builder.half = false;
+        self.builder.span = span;
+        self.live = match then_whole && else_whole {
+            true => before,
+            false => self.builder.or(then_live, else_live)?,
+        };
+        self.variables = match (then_live, else_live) {
+            (Component::Bool(false), _) => otherwise,
+            (_, Component::Bool(false)) => then,
+            _ => self.merged(condition, then, otherwise)?,
+        };
+        Ok(())
+    }
+
+    /// Executes a block where two conditions hold; returns who is left at its end, and whether that is all.
+    fn path(
+        &mut self,
+        frame: &mut Frame<'a>,
+        block: &'a Block,
+        [before, holds]: [Component; 2],
+        depth: usize,
+    ) -> Result<(Component, bool)> {
+        self.builder.half = false;
+        let entered = self.builder.and(before, holds)?;
+        self.live = entered;
+        self.block(frame, block, depth)?;
+        Ok((self.live, self.live == entered))
+    }
+
+    /// The variables of two paths that meet: the first's where the condition holds.
+    fn merged(&mut self, condition: Component, mut first: Variables, second: Variables) -> Result<Variables> {
+        let (mut accept, mut reject) = (Value::new(), Value::new());
+        for (slot, value) in &first {
+            if let Some(other) = second.get(slot).filter(|other| other.len() == value.len()) {
+                accept.extend(value);
+                reject.extend(other);
+            }
+        }
+        let mut chosen = if accept.is_empty() {
+            Value::new().into_iter()
+        } else {
+            self.builder.select(&[condition], &accept, &reject)?.into_iter()
+        };
+        for (slot, other) in second {
+            match first.get_mut(&slot) {
+                Some(value) if value.len() == other.len() => {
+                    let count = value.len();
+                    *value = chosen.by_ref().take(count).collect();
+                }
+                Some(_) => {}
+                None => {
+                    first.insert(slot, other);
+                }
+            }
+        }
+        Ok(first)
+    }
+
+    /// The fragments that execute this leave by an exit, which keeps their variables.
+    fn leave(&mut self, exit: impl Fn(&mut Self) -> Option<&mut Exit>) -> Result {
+        self.builder.half = false;
+        self.charge()?;
+        let kept = exit(self).and_then(|exit| exit.0.take());
+        let joined = match kept {
+            None => (self.live, self.variables.clone()),
+            Some((left, variables)) => {
+                let all = self.builder.or(left, self.live)?;
+                (all, self.merged(self.live, self.variables.clone(), variables)?)
+            }
+        };
+        match exit(self) {
+            Some(exit) => exit.0 = Some(joined),
+            None => return self.builder.refuse("nothing to leave here"),
+        }
+        self.live = Component::Bool(false);
+        Ok(())
+    }
+
+    /// Goes on behind a loop or a switch that the fragments `before` have entered.
+    fn resume(&mut self, Exit(exit): Exit, before: Component) {
+        match exit {
+            Some((left, variables)) => {
+                // Where nobody left further, all that came go on.
+                let left_further = [self.returns.last(), self.continues.last()];
+                let all = left_further.into_iter().flatten().all(|Exit(exit)| exit.is_none());
+                self.live = if all { before } else { left };
+                self.variables = variables;
+            }
+            None => self.live = Component::Bool(false),
+        }
+    }
+
+    fn unrolled(
+        &mut self,
+        frame: &mut Frame<'a>,
+        body: &'a Block,
+        continuing: &'a Block,
+        break_if: Option<Handle<Expression>>,
+        span: Span,
+        depth: usize,
+    ) -> Result {
+        let before = self.live;
+        self.breaks.push(Exit::default());
+        while self.live != Component::Bool(false) {
+            self.step(place(span))?;
+            self.continues.push(Exit::default());
+            self.block(frame, body, depth)?;
+            if let Some(Exit(Some((left, variables)))) = self.continues.pop() {
+                self.builder.half = false;
+                self.variables = match self.live {
+                    Component::Bool(false) => variables,
+                    _ => self.merged(left, variables, self.variables.clone())?,
+                };
+                self.live = self.builder.or(self.live, left)?;
+            }
+            if self.live == Component::Bool(false) {
+                break;
+            }
+            self.block(frame, continuing, depth)?;
+            if let Some(condition) = break_if {
+                let condition = self.value(frame, condition)?[0];
+                self.builder.half = false;
+                let all = self.live;
+                self.live = self.builder.and(all, condition)?;
+                let stays = self.builder.not(condition)?;
+                let stay = self.builder.and(all, stays)?;
+                if self.live != Component::Bool(false) {
+                    self.leave(|this| this.breaks.last_mut())?;
+                }
+                self.live = stay;
+            }
+        }
+        let exit = self.breaks.pop().unwrap_or_default();
+        self.resume(exit, before);
+        Ok(())
+    }
+}

@@ -1,0 +1,234 @@
+//! What is known while a module is translated: variables, exits, parameters.
+
+use std::collections::{BTreeMap, HashMap};
+
+use naga::valid::{FunctionInfo, ModuleInfo};
+use naga::{AddressSpace, Expression, Function, GlobalVariable, Handle, LocalVariable, Module, ScalarKind, TypeInner};
+
+use super::super::Refusal;
+use super::builder::Builder;
+use super::values::{Component, Value, scalars};
+use crate::isa::{FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Register, RegisterFile, Span};
+
+/// Maximum number of statements and expressions that are walked over, loops unrolled.
+const MAX_WORK: usize = 1 << 17;
+/// Maximum number of uniforms, counted in vectors.
+const MAX_PARAMETERS: usize = (FIRST_LITERAL - FIRST_NAMED) as usize - 2;
+
+/// What an expression stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Meaning {
+    Value(Value),
+    /// Scalars of a variable.
+    Pointer {
+        slot: usize,
+        offset: usize,
+        length: usize,
+    },
+    /// Image unit.
+    Texture(u16),
+    Sampler,
+}
+
+/// A function that is being put in line.
+pub(super) struct Frame<'a> {
+    pub(super) function: &'a Function,
+    pub(super) info: &'a FunctionInfo,
+    pub(super) arguments: Vec<Meaning>,
+    pub(super) locals: HashMap<Handle<LocalVariable>, usize>,
+    pub(super) values: HashMap<Handle<Expression>, Meaning>,
+}
+
+/// The values of all variables, by slot.
+pub(super) type Variables = BTreeMap<usize, Value>;
+
+/// Fragments that have left a loop or a function: which, and with which values.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Exit(pub(super) Option<(Component, Variables)>);
+
+pub(super) struct Translator<'a> {
+    pub(super) module: &'a Module,
+    pub(super) info: &'a ModuleInfo,
+    pub(super) builder: Builder,
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) variables: Variables,
+    /// Which fragments execute the current statement.
+    pub(super) live: Component,
+    pub(super) killed: Component,
+    pub(super) breaks: Vec<Exit>,
+    pub(super) continues: Vec<Exit>,
+    pub(super) returns: Vec<Exit>,
+    pub(super) globals: HashMap<Handle<GlobalVariable>, Meaning>,
+    slots: usize,
+    textures: u16,
+    work: usize,
+}
+
+/// The place of a node in the text, if naga knows it.
+pub(super) fn place(span: naga::Span) -> Option<Span> {
+    span.to_range().map(|range| Span::new(range.start as u32, range.end as u32))
+}
+
+impl<'a> Translator<'a> {
+    pub(super) fn new(module: &'a Module, info: &'a ModuleInfo) -> Self {
+        Self {
+            module,
+            info,
+            builder: Builder::default(),
+            parameters: Vec::new(),
+            variables: Variables::new(),
+            live: Component::Bool(true),
+            killed: Component::Bool(false),
+            breaks: Vec::new(),
+            continues: Vec::new(),
+            returns: Vec::new(),
+            globals: HashMap::new(),
+            slots: 0,
+            textures: 0,
+            work: 0,
+        }
+    }
+
+    /// Counts a step of the translation, whose sum is bounded.
+    pub(super) fn step(&mut self, at: Option<Span>) -> Result<(), Refusal> {
+        if let Some(span) = at {
+            self.builder.span = span;
+        }
+        self.work += 1;
+        if self.work > MAX_WORK { self.builder.too_long() } else { Ok(()) }
+    }
+
+    /// Counts a copy of all variables.
+    pub(super) fn charge(&mut self) -> Result<(), Refusal> {
+        self.work += self.variables.values().map(Vec::len).sum::<usize>() / 64;
+        self.step(None)
+    }
+
+    /// A new variable.
+    pub(super) fn variable(&mut self, value: Value) -> usize {
+        self.slots += 1;
+        self.variables.insert(self.slots, value);
+        self.slots
+    }
+
+    /// Declares all global variables.
+    pub(super) fn declare(&mut self) -> Result<(), Refusal> {
+        let module = self.module;
+        for (handle, global) in module.global_variables.iter() {
+            self.step(place(module.global_variables.get_span(handle)))?;
+            let inner = &module.types[global.ty].inner;
+            let entry = match (global.space, inner) {
+                (AddressSpace::Uniform, _) => {
+                    let mut value = Value::new();
+                    self.uniform(global.name.clone().unwrap_or_default(), inner, &mut value)?;
+                    let (length, slot) = (value.len(), self.variable(value));
+                    Meaning::Pointer { slot, offset: 0, length }
+                }
+                (AddressSpace::Private, _) => {
+                    let value = match global.init {
+                        Some(init) => self.constant(init)?,
+                        None => self.zeros(inner)?,
+                    };
+                    let (length, slot) = (value.len(), self.variable(value));
+                    Meaning::Pointer { slot, offset: 0, length }
+                }
+                (AddressSpace::Handle, TypeInner::Sampler { comparison: false }) => Meaning::Sampler,
+                (AddressSpace::Handle, TypeInner::Image { dim: naga::ImageDimension::D2, arrayed: false, class })
+                    if matches!(class, naga::ImageClass::Sampled { kind: ScalarKind::Float, multi: false }) =>
+                {
+                    self.textures += 1;
+                    Meaning::Texture(self.textures - 1)
+                }
+                (AddressSpace::Handle, _) => return self.builder.refuse("only `texture_2d<f32>` is translated"),
+                _ => return self.builder.refuse("variables of this address space are not translated"),
+            };
+            self.globals.insert(handle, entry);
+        }
+        Ok(())
+    }
+
+    pub(super) fn zeros(&self, inner: &TypeInner) -> Result<Value, Refusal> {
+        match scalars(self.module, inner) {
+            Some(list) => Ok(list.iter().map(super::values::zero).collect()),
+            None => self.builder.refuse("values of this type are not translated"),
+        }
+    }
+
+    /// Declares the parameters of a uniform, one for each scalar, vector and column of a matrix.
+    fn uniform(&mut self, name: String, inner: &TypeInner, value: &mut Value) -> Result<(), Refusal> {
+        let module = self.module;
+        let of = |handle: Handle<naga::Type>| &module.types[handle].inner;
+        match inner {
+            TypeInner::Scalar(scalar) => self.parameter(name, 1, scalar.kind, value),
+            TypeInner::Vector { size, scalar } => self.parameter(name, *size as usize, scalar.kind, value),
+            TypeInner::Matrix { columns, rows, scalar } => (0..*columns as usize)
+                .try_for_each(|column| self.parameter(format!("{name}[{column}]"), *rows as usize, scalar.kind, value)),
+            TypeInner::Array { base, size: naga::ArraySize::Constant(count), .. } => {
+                (0..count.get()).try_for_each(|index| self.uniform(format!("{name}[{index}]"), of(*base), value))
+            }
+            TypeInner::Struct { members, .. } => members.iter().try_for_each(|member| {
+                let member_name = member.name.as_deref().unwrap_or_default();
+                self.uniform(format!("{name}.{member_name}"), of(member.ty), value)
+            }),
+            _ => self.builder.refuse("uniforms of this type are not translated"),
+        }
+    }
+
+    fn parameter(&mut self, name: String, width: usize, kind: ScalarKind, value: &mut Value) -> Result<(), Refusal> {
+        if kind != ScalarKind::Float {
+            value.extend(vec![Component::Unknown; width]);
+            return Ok(());
+        }
+        let count = self.parameters.len();
+        if count >= MAX_PARAMETERS {
+            return self.builder.refuse(format!("the uniforms have more than {MAX_PARAMETERS} vectors"));
+        }
+        let register = Register::new(RegisterFile::Constant, FIRST_NAMED + count as u16);
+        let (source, span) = (ParameterSource::Named([0; 4]), self.builder.span);
+        self.parameters.push(Parameter { name, register, source, span });
+        value.extend((0..width as u8).map(|lane| Component::Place(register, lane)));
+        Ok(())
+    }
+
+    /// The value of an expression outside functions.
+    pub(super) fn constant(&mut self, handle: Handle<Expression>) -> Result<Value, Refusal> {
+        self.step(None)?;
+        match &self.module.global_expressions[handle] {
+            Expression::Compose { components, .. } => {
+                let parts = components.iter().map(|part| self.constant(*part)).collect::<Result<Vec<_>, _>>()?;
+                Ok(parts.concat())
+            }
+            Expression::Splat { size, value } => {
+                let value = self.constant(*value)?;
+                Ok(vec![value[0]; *size as usize])
+            }
+            other => self.leaf(other),
+        }
+    }
+
+    /// The value of an expression without operands.
+    pub(super) fn leaf(&mut self, expression: &Expression) -> Result<Value, Refusal> {
+        use naga::Literal as L;
+        let module = self.module;
+        let literal = match expression {
+            Expression::Literal(literal) => literal,
+            Expression::Constant(constant) => return self.constant(module.constants[*constant].init),
+            Expression::Override(handle) => match module.overrides[*handle].init {
+                Some(init) => return self.constant(init),
+                None => return self.builder.refuse("an override needs a value in the text"),
+            },
+            Expression::ZeroValue(ty) => return self.zeros(&module.types[*ty].inner),
+            _ => return self.builder.refuse("this expression is not translated"),
+        };
+        Ok(vec![match *literal {
+            L::F32(value) => Component::Float(value.to_bits()),
+            L::F16(value) => Component::Float(value.to_f32().to_bits()),
+            L::AbstractFloat(value) => Component::Float((value as f32).to_bits()),
+            L::U32(value) => Component::Int(value.into()),
+            L::I32(value) => Component::Int(value.into()),
+            L::AbstractInt(value) => Component::Int(value),
+            L::Bool(value) => Component::Bool(value),
+            _ => return self.builder.refuse("numbers of this type are not translated"),
+        }])
+    }
+}

@@ -1,0 +1,203 @@
+//! Functions and statements against doubles of the host.
+
+use super::drawn::{SIDE, drawn};
+
+/// `a` and `b` of a pixel, both exact in single precision: -2 to 2, and 1/4 to 3.
+fn inputs(index: usize) -> [f64; 2] {
+    let side = SIDE as usize;
+    let [u, v] = [index % side, index / side].map(|at| (at as f64 + 0.5) / side as f64);
+    [u * 4.0 - 2.0, v * 2.75 + 0.25]
+}
+
+/// A shader whose red is an expression of `a` and `b`.
+fn shader(before: &str, expression: &str) -> String {
+    format!(
+        "{before}\n@fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {{\n\
+         let a = uv.x * 4.0 - 2.0;\n let b = uv.y * 2.75 + 0.25;\n return vec4f({expression}, 0.0, 0.0, 1.0);\n}}"
+    )
+}
+
+/// Holds an expression against doubles, within so many steps of 2^-24 of the largest of 1 and the value.
+fn holds(text: &str, name: &str, steps: f64, expected: impl Fn(f64, f64) -> f64) {
+    for (index, pixel) in drawn(text, &[]).iter().enumerate() {
+        let [a, b] = inputs(index);
+        let expected = expected(a, b);
+        let allowed = steps * 2f64.powi(-24) * expected.abs().max(1.0);
+        let alike = pixel[0] == expected || (pixel[0] - expected).abs() <= allowed;
+        assert!(alike || (pixel[0].is_nan() && expected.is_nan()), "{name} of {a}, {b}: {}, not {expected}", pixel[0]);
+    }
+}
+
+fn smooth(low: f64, high: f64, x: f64) -> f64 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+pub(crate) fn functions_compute_their_formulas() {
+    type Row = (&'static str, f64, fn(f64, f64) -> f64);
+    let table: &[Row] = &[
+        ("a / b", 2.0, |a, b| a / b),
+        ("a % b", 8.0, |a, b| a - b * (a / b).trunc()),
+        ("-a", 0.0, |a, _| -a),
+        ("abs(a)", 0.0, |a, _| a.abs()),
+        ("sign(a)", 0.0, |a, _| a.signum()),
+        ("floor(a * 3.0)", 0.0, |a, _| (a * 3.0).floor()),
+        ("ceil(a * 3.0)", 0.0, |a, _| (a * 3.0).ceil()),
+        ("trunc(a * 3.0)", 0.0, |a, _| (a * 3.0).trunc()),
+        ("round(a * 4.0)", 0.0, |a, _| (a * 4.0).round_ties_even()),
+        ("fract(a)", 0.0, |a, _| a - a.floor()),
+        ("min(a, b)", 0.0, f64::min),
+        ("max(a, b)", 0.0, f64::max),
+        ("clamp(a, -0.5, b)", 0.0, |a, b| a.clamp(-0.5, b)),
+        ("saturate(a)", 0.0, |a, _| a.clamp(0.0, 1.0)),
+        ("mix(a, b, 0.25)", 3.0, |a, b| a * 0.75 + b * 0.25),
+        ("step(a, b)", 0.0, |a, b| f64::from(a <= b)),
+        ("smoothstep(-1.0, b, a)", 8.0, |a, b| smooth(-1.0, b, a)),
+        ("sqrt(b)", 3.0, |_, b| b.sqrt()),
+        ("inverseSqrt(b)", 1.0, |_, b| b.sqrt().recip()),
+        ("exp(a)", 4.0, |a, _| a.exp()),
+        ("exp2(a)", 1.0, |a, _| a.exp2()),
+        ("log(b)", 3.0, |_, b| b.ln()),
+        ("log2(b)", 1.0, |_, b| b.log2()),
+        ("pow(b, a)", 8.0, |a, b| b.powf(a)),
+        ("sin(a)", 1.0, |a, _| a.sin()),
+        ("cos(a)", 1.0, |a, _| a.cos()),
+        ("tan(b * 0.25)", 4.0, |_, b| (b * 0.25).tan()),
+        ("radians(a)", 2.0, |a, _| a.to_radians()),
+        ("degrees(a)", 200.0, |a, _| a.to_degrees()),
+        ("fma(a, b, 0.5)", 2.0, |a, b| a * b + 0.5),
+        ("dot(vec2f(a, b), vec2f(b, 2.0))", 4.0, |a, b| a * b + b * 2.0),
+        ("dot(vec3f(a, b, 1.0), vec3f(b, 2.0, a))", 6.0, |a, b| a * b + b * 2.0 + a),
+        ("cross(vec3f(a, b, 1.0), vec3f(b, 2.0, a)).y", 6.0, |a, b| b - a * a),
+        ("length(vec3f(a, b, 1.0))", 6.0, |a, b| (a * a + b * b + 1.0).sqrt()),
+        ("distance(vec2f(a, b), vec2f(1.0, 2.0))", 6.0, |a, b| (a - 1.0).hypot(b - 2.0)),
+        ("normalize(vec3f(a, b, 1.0)).x", 4.0, |a, b| a / (a * a + b * b + 1.0).sqrt()),
+        ("reflect(vec2f(a, b), vec2f(0.6, 0.8)).x", 12.0, |a, b| a - 2.0 * (0.6 * a + 0.8 * b) * 0.6),
+        ("refract(vec2f(0.6, -0.8), vec2f(0.0, 1.0), b * 0.4).x", 8.0, |_, b| 0.6 * 0.4 * b),
+        ("faceForward(vec2f(a, b), vec2f(1.0, 0.0), vec2f(a, 0.0)).y", 0.0, |a, b| if a < 0.0 { b } else { -b }),
+        ("select(a, b, a < b)", 0.0, |a, b| if a < b { b } else { a }),
+        ("f32(any(vec2f(a, b) > vec2f(1.0, 2.0)))", 0.0, |a, b| f64::from(a > 1.0 || b > 2.0)),
+        ("f32(all(vec2f(a, b) > vec2f(1.0, 2.0)))", 0.0, |a, b| f64::from(a > 1.0 && b > 2.0)),
+        ("f32((a < 0.0) == (b < 1.0))", 0.0, |a, b| f64::from((a < 0.0) == (b < 1.0))),
+        ("(mat2x2f(1.0, 2.0, 3.0, 4.0) * vec2f(a, b)).y", 6.0, |a, b| 2.0 * a + 4.0 * b),
+        ("(vec2f(a, b) * mat2x2f(1.0, 2.0, 3.0, 4.0)).y", 6.0, |a, b| 3.0 * a + 4.0 * b),
+        ("(mat2x2f(a, b, 1.0, 2.0) * mat2x2f(1.0, a, 3.0, b))[1].x", 6.0, |a, b| a * 3.0 + b),
+        ("transpose(mat2x3f(a, b, 1.0, 2.0, 3.0, 4.0))[1].y", 0.0, |_, _| 3.0),
+        ("(2.0 * mat2x2f(a, b, 1.0, 2.0) + mat2x2f(b, a, a, b))[0].y", 2.0, |a, b| 2.0 * b + a),
+        ("array<f32, 3>(a, b, 7.0)[1]", 0.0, |_, b| b),
+    ];
+    for (expression, steps, expected) in table {
+        holds(&shader("", expression), expression, *steps, expected);
+    }
+}
+
+/// A double rounded to half precision, of ordinary size.
+fn half(x: f64) -> f64 {
+    let unit = 2f64.powi((x.abs().max(2f64.powi(-14)).log2().floor() as i32) - 10);
+    (x / unit).round_ties_even() * unit
+}
+
+pub(crate) fn half_precision_rounds_each_step() {
+    let rows: [(&str, fn(f64, f64) -> f64); 4] = [
+        ("f32(f16(a) * f16(b) + 0.1h)", |a, b| half(half(half(a) * half(b)) + half(0.1))),
+        ("f32(mix(f16(a), f16(b), 0.3h))", |a, b| {
+            half(half(half(a) * half(1.0 - half(0.3))) + half(half(b) * half(0.3)))
+        }),
+        ("f32(vec2h(uv * 5.0).x - 1.0h)", |a, _| half(half((a + 2.0) / 4.0 * 5.0) - 1.0)),
+        ("quantizeToF16(a * b)", |a, b| half(a * b)),
+    ];
+    for (expression, expected) in rows {
+        holds(&shader("enable f16;", expression), expression, 0.0, expected);
+    }
+}
+
+pub(crate) fn control_flow_keeps_the_values_of_each_fragment() {
+    let rows: [(&str, &str, fn(f64, f64) -> f64); 8] = [
+        (
+            "fn f(a: f32, b: f32) -> f32 { if (a < 0.0) { return b; } if (b < 1.0) { return 7.0; } return a; }",
+            "f(a, b)",
+            |a, b| {
+                if a < 0.0 {
+                    b
+                } else if b < 1.0 {
+                    7.0
+                } else {
+                    a
+                }
+            },
+        ),
+        (
+            "fn f(a: f32, b: f32) -> f32 { var n = 0.0; for (var i = 0; i < 8; i++) { if (f32(i) > a * 4.0) { break; } \
+          if (f32(i) < b) { continue; } n += 1.0; } return n; }",
+            "f(a, b)",
+            |a, b| (0..8).map(f64::from).take_while(|i| *i <= a * 4.0).filter(|i| *i >= b).count() as f64,
+        ),
+        (
+            "fn f(a: f32) -> f32 { var x = a; var i = 0; loop { if (x > 1.0) { return x; } x += 0.5; \
+          continuing { i++; break if i == 3; } } return -x; }",
+            "f(a)",
+            |a, _| {
+                let mut x = a;
+                for _ in 0..3 {
+                    if x > 1.0 {
+                        return x;
+                    }
+                    x += 0.5;
+                }
+                -x
+            },
+        ),
+        (
+            "fn f(a: f32) -> f32 { var x = 0.0; for (var i = 0; i < 4; i++) { switch i { case 1: { x += a; } \
+          case 2, 3: { if (a > 0.0) { continue; } x += 10.0; } default: { x += 1.0; } } x += 100.0; } return x; }",
+            "f(a)",
+            |a, _| 201.0 + a + if a > 0.0 { 0.0 } else { 220.0 },
+        ),
+        (
+            "fn swap(a: ptr<function, vec2f>) { let t = (*a).x; (*a).x = (*a).y; if (t > 0.0) { (*a).y = t; } }\n\
+          fn f(a: f32, b: f32) -> f32 { var v = vec2f(a, b); swap(&v); return v.x + 8.0 * v.y; }",
+            "f(a, b)",
+            |a, b| b + 8.0 * if a > 0.0 { a } else { b },
+        ),
+        (
+            "struct S { v: vec3f, list: array<vec2f, 2> }\nfn f(a: f32, b: f32) -> f32 { var s: S; s.v.y = a; \
+          for (var i = 0; i < 2; i++) { s.list[i] = vec2f(b, f32(i)); } return s.v.y + s.list[1].x + s.list[1].y; }",
+            "f(a, b)",
+            |a, b| a + b + 1.0,
+        ),
+        (
+            "var<private> count: f32 = 1.0;\nfn more(a: f32) -> bool { count += a; return a > 0.0; }\n\
+          fn f(a: f32, b: f32) -> f32 { if (b > 1.0 && more(a)) { count += 4.0; } return count; }",
+            "f(a, b)",
+            |a, b| {
+                if b > 1.0 { 1.0 + a + if a > 0.0 { 4.0 } else { 0.0 } } else { 1.0 }
+            },
+        ),
+        (
+            "fn f(a: f32, b: f32) -> f32 { var x = 0.0; for (var i = 0u; i < 3u; i++) { for (var j = i; j < 3u; j++) { \
+          if (a < f32(j) - 1.0) { break; } x += b; } if (x > 4.0) { return -1.0; } } return x; }",
+            "f(a, b)",
+            |a, b| {
+                let mut x = 0.0;
+                for i in 0..3 {
+                    for j in i..3 {
+                        if a < f64::from(j) - 1.0 {
+                            break;
+                        }
+                        x += b;
+                    }
+                    if x > 4.0 {
+                        return -1.0;
+                    }
+                }
+                x
+            },
+        ),
+    ];
+    for (functions, expression, expected) in rows {
+        holds(&shader(functions, expression), functions, 8.0, expected);
+    }
+    let kill = "fn f(a: f32) -> f32 { if (a < 0.0) { discard; } return 5.0; }";
+    // A target starts with zeros.
+    holds(&shader(kill, "f(a)"), "discard", 0.0, |a, _| if a < 0.0 { 0.0 } else { 5.0 });
+}

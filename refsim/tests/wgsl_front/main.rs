@@ -1,0 +1,25 @@
+//! Shaders in WGSL: what they become, what they compute, and what is refused.
+
+#[path = "../common/adapter.rs"]
+mod adapter;
+mod builtins;
+mod drawn;
+mod hostile;
+#[cfg(feature = "wgpu")]
+mod native;
+mod texts;
+
+fn main() -> std::process::ExitCode {
+    let mut trials = adapter::trials![
+        on_host: builtins::functions_compute_their_formulas,
+        builtins::half_precision_rounds_each_step,
+        builtins::control_flow_keeps_the_values_of_each_fragment,
+        texts::translations_as_they_are,
+        texts::what_is_refused_says_where_and_why,
+        texts::places_are_those_of_the_text,
+        hostile::mutated_shaders_do_not_panic,
+    ];
+    #[cfg(feature = "wgpu")]
+    trials.extend(adapter::trials![on_adapter: native::shaders_compute_what_a_driver_computes]);
+    adapter::run(trials)
+}
