@@ -194,8 +194,9 @@ fn the_page_says_how_errors_grow_with_the_model() {
         assert!(way >= 3 || errors.is_sorted(), "{errors:?}: fixed links are farther off on a larger model");
         before[way / 3] = errors;
         let name = ["fixed, 4", "fixed, 16", "fixed, 64", "adaptive, 4", "adaptive, 16", "adaptive, 64"][way];
-        let [one, two, four] = errors;
-        text += &format!("| {name} | {single:.2} | {half:.2} | {one:.1} | {two:.1} | {four:.1} |\n");
+        let seams = [0, 1, 2].map(|size| number(&sizes[size][2 * way], "links_seams_percent"));
+        let [one, two, four] = [0, 1, 2].map(|size| format!("{:.1} ({:.1})", errors[size], seams[size]));
+        text += &format!("| {name} | {single:.2} | {half:.2} | {one} | {two} | {four} |\n");
     }
     hold_on_page("sizes", &command("4"), &format!("{text}\n"));
 }
