@@ -1,7 +1,7 @@
 //! Ground of a row's verdict: its source, its bound, its class, its explanation.
 
 use crossbar::study::reproduce::report::{evidence_line, notes};
-use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, RowSource, RowVerdict, figures};
+use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, RowSource, RowVerdict, figures, timed};
 
 use super::{FOUND, all, findings, row};
 
@@ -120,6 +120,24 @@ fn calibration_hides_no_miss() {
     let mut calibrated = all().filter(|row| row.is_calibrated());
     let verdicts = [RowVerdict::Calibrated, RowVerdict::Missed, RowVerdict::Contradictory];
     assert!(calibrated.all(|row| verdicts.contains(&row.verdict())));
+}
+
+/// What benches in modelled time measure is what rows compare.
+#[test]
+fn timed_work_has_the_times_of_its_rows() {
+    for work in timed()
+        .expect("the cards take the work")
+        .iter()
+        .filter(|work| work.figure != "ray-engine/radeon-8500" || work.device == "r200")
+    {
+        let (row, seconds) = (row(work.figure), work.time.seconds());
+        let ours = match row.target.unit.as_str() {
+            "ms" => 1e3 * seconds,
+            "M/s" => 1e-6 * work.items as f64 / seconds,
+            _ => 1.0 / seconds,
+        };
+        assert!((ours / row.ours - 1.0).abs() < 1e-9, "{}: {ours}, {}", work.figure, row.ours);
+    }
 }
 
 /// A bound that a card worth nothing would meet says nothing.

@@ -176,9 +176,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
             bi_scale::table_1::findings,
         )
         .recorded(include_str!("../../records/bi-scale-table-1.toml")),
-    BiScale
-        .entry("bi-scale-table-2", "Biclusters of bunnies (bi-scale transfer, table II)", bi_scale::table_2::findings)
-        .recorded(include_str!("../../records/bi-scale-table-2.toml")),
+    BiScale.entry(
+        "bi-scale-table-2",
+        "Biclusters of bunnies (bi-scale transfer, table II)",
+        bi_scale::table_2::findings,
+    ),
     BiScale
         .entry(
             "bi-scale-figure-6",

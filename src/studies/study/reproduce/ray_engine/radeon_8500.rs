@@ -19,8 +19,8 @@ use crate::study::leaky_teapot::JudgedRays;
 
 const DEVICE: &str = "r200";
 /// Side of the batch, in rays, and of the one whose leaks are counted.
-const SIDE: u32 = 256;
-const LEAK_SIDE: u32 = 128;
+const SIDE: u32 = 128;
+const LEAK_SIDE: u32 = 96;
 /// "Thousands of triangles" (section 6.1).
 const TRIANGLES: usize = 2048;
 /// Printed tests per second, in millions.
