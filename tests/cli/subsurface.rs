@@ -194,8 +194,14 @@ fn the_page_says_how_errors_grow_with_the_model() {
         assert!(way >= 3 || errors.is_sorted(), "{errors:?}: fixed links are farther off on a larger model");
         before[way / 3] = errors;
         let name = ["fixed, 4", "fixed, 16", "fixed, 64", "adaptive, 4", "adaptive, 16", "adaptive, 64"][way];
-        let [one, two, four] = errors;
-        text += &format!("| {name} | {single:.2} | {half:.2} | {one:.1} | {two:.1} | {four:.1} |\n");
+        let seams = [0, 1, 2].map(|size| number(&sizes[size][2 * way], "links_seams_percent"));
+        let [one, two, four] = [0, 1, 2].map(|size| format!("{:.1} ({:.1})", errors[size], seams[size]));
+        text += &format!("| {name} | {single:.2} | {half:.2} | {one} | {two} | {four} |\n");
+    }
+    // Section 4.3: 16 adaptive links show seams where as many fixed ones do not, and fewer with more links.
+    for size in &sizes {
+        let [fixed, adaptive, more] = [2, 8, 10].map(|row: usize| number(&size[row], "links_seams_percent"));
+        assert!(adaptive > 1.5 * fixed && more < 0.5 * adaptive, "{fixed}, {adaptive}, {more}");
     }
     hold_on_page("sizes", &command("4"), &format!("{text}\n"));
 }

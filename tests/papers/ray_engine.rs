@@ -80,6 +80,7 @@ fn the_radeon_8500_kernels_take_the_slots_that_the_book_says() {
         (kernels::ONE_ORIGIN_SHARED_UNSIGNED, [(6, 6), (3, 3)]),
         (kernels::ANY_ORIGIN_UNSIGNED, [(5, 8), (6, 5)]),
         (kernels::ANY_ORIGIN_BOTH_UNSIGNED, [(5, 8), (5, 8)]),
+        (kernels::ANY_ORIGIN_BYTES, [(4, 6), (6, 5)]),
     ];
     for (kernel, wanted) in expected {
         let program = assemble(kernel.text).expect("a kernel assembles");

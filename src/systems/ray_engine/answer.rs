@@ -28,6 +28,13 @@ pub enum EngineError {
         help("give the rays one origin, or take a device with ps_2_0: r300, r350, nv30, nv35")
     )]
     NoSharedEdges { device: String },
+    /// The program for rays in bytes is one of ps_1_4, for front faces.
+    #[error("device `{device}` has no program for rays in bytes that meet these faces")]
+    #[diagnostic(
+        code(ray_engine::no_byte_rays),
+        help("take a device with ps_1_4 and fixed point, such as r200, and front faces")
+    )]
+    NoByteRays { device: String },
     /// The device refuses a program.
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -13,7 +13,6 @@ use super::bits_left::BitsLeft;
 use super::bundle::{Bundle, regions};
 use super::card::{RayTextures, Streams, rounded};
 use super::pass::PassCard;
-use super::range::Range;
 use super::resident::ResidentCrossbar;
 use super::units::Units;
 use super::{EdgeRule, Kernel, RayBatch};
@@ -44,6 +43,7 @@ pub struct Crossbar {
     executor: Executor,
     all_pairs: bool,
     edges: EdgeRule,
+    byte_rays: bool,
     /// Cache of assembled and checked programs, by use.
     kernels: Arc<Mutex<Vec<ChosenKernel>>>,
 }
@@ -62,6 +62,7 @@ impl Crossbar {
             executor: executor.into(),
             all_pairs: false,
             edges: EdgeRule::Paper,
+            byte_rays: false,
             kernels: Arc::default(),
         }
     }
@@ -82,6 +83,26 @@ impl Crossbar {
         self.edges = edges;
         self.kernels = Arc::default();
         self
+    }
+
+    /// Holds rays in bytes, as section 4.1 has them, with the paper's edges ([`super::RayTexels::Bytes`]). Passes of the
+    /// engine have 16 bits only.
+    #[must_use]
+    pub fn byte_rays(mut self) -> Self {
+        self.byte_rays = true;
+        self.kernels = Arc::default();
+        self
+    }
+
+    /// Rays that textures of bytes hold in place of these.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub fn rays_in_bytes(&self, mesh: &Mesh, rays: &RayBatch) -> Result<RayBatch, EngineError> {
+        let kernel = Kernel::with_byte_rays(&self.profile, Sides::Front)?;
+        let units = Units::choose(kernel.numbers(&self.profile.rules), mesh, rays);
+        let held: Vec<Ray> = rays.rays().iter().map(|ray| units.in_bytes(ray)).collect::<Result<_, _>>()?;
+        Ok(RayBatch::new(rays.width(), rays.height(), held)?)
     }
 
     /// Intersects all rays with all triangles: section 3.3 of the paper.
@@ -154,7 +175,7 @@ impl Crossbar {
         let mut resident = ResidentCrossbar { work: None, rays: rays.clone(), kernel };
         if !rays.rays().is_empty() && !mesh.is_empty() {
             let kernel = &resident.kernel;
-            let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
+            let units = Units::choose(kernel.numbers(&self.profile.rules), mesh, rays);
             let mut machine = self.machine()?;
             let sheet = RayTextures::new(&mut machine, kernel, rays, &units)?;
             let ids: Vec<u32> = (0..mesh.len() as u32).collect();
@@ -174,6 +195,7 @@ impl Crossbar {
             return Ok(Arc::clone(kernel));
         }
         let kernel = Arc::new(match self.edges {
+            _ if self.byte_rays => Kernel::with_byte_rays(&self.profile, wanted.1)?,
             EdgeRule::Paper => Kernel::choose(&self.profile, wanted.0, wanted.1)?,
             EdgeRule::SharedEdges => Kernel::with_shared_edges(&self.profile, wanted.0, wanted.1)?,
         });
@@ -195,7 +217,7 @@ impl Crossbar {
         if rays.rays().is_empty() || mesh.is_empty() {
             return Ok(answer);
         }
-        let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
+        let units = Units::choose(kernel.numbers(&self.profile.rules), mesh, rays);
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
             let mut machine = self.machine()?;
@@ -250,7 +272,7 @@ impl Crossbar {
         if rays.is_empty() || mesh.is_empty() {
             return Ok(BitsLeft::default());
         }
-        let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, &batch);
+        let units = Units::choose(kernel.numbers(&self.profile.rules), mesh, &batch);
         Ok(BitsLeft::of(mesh, kernel.edges, &units))
     }
 

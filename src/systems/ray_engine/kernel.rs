@@ -1,12 +1,13 @@
 //! The choice of an intersection program for a device.
 
-use refsim::device::Profile;
+use refsim::device::{Profile, Rules};
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::EngineError;
 use super::kernels;
+use super::range::Range;
 use crate::card::KernelText;
 use crate::geom::exact::Sides;
 
@@ -31,6 +32,17 @@ pub enum EdgeRule {
     SharedEdges,
 }
 
+/// How ray textures of `ps_1_4` programs hold a component x.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayTexels {
+    /// Two channels of 16 bits, unsigned: (x + 1) / 2.
+    Unsigned,
+    /// Two channels of 16 bits, signed.
+    Signed,
+    /// One texture of origins and one of directions, as in section 4.1: signed bytes.
+    Bytes,
+}
+
 /// Intersection program that its device accepts.
 #[derive(Clone, Debug)]
 pub struct Kernel {
@@ -42,9 +54,8 @@ pub struct Kernel {
     pub vertex: CheckedProgram,
     /// Pixel program: intersection.
     pub pixel: CheckedProgram,
-    /// `true` if ray textures hold signed codes; otherwise a component x is stored as (x + 1) / 2. Used by `ps_1_4`
-    /// forms only.
-    pub signed_rays: bool,
+    /// How its textures hold rays. Used by `ps_1_4` forms only.
+    pub texels: RayTexels,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
     /// How shared edges are evaluated.
@@ -63,24 +74,25 @@ impl Kernel {
         let fixed = profile.rules.format.is_fixed();
         if has(Version::Ps2_0) && !(fixed && has(Version::Ps1_4)) {
             let pixel = if sides == Sides::Front { kernels::FLOAT } else { kernels::FLOAT_BOTH };
-            return Self::load(profile, Form::Float, kernels::SEVEN_VECTORS_SETUP, pixel, true);
+            return Self::load(profile, Form::Float, kernels::SEVEN_VECTORS_SETUP, pixel, RayTexels::Signed);
         }
         if !has(Version::Ps1_4) {
             return Err(EngineError::NoKernel { device: profile.name.clone() });
         }
         let signed = profile.limits.texture_formats.contains(&TexelFormat::Rg16Snorm);
+        let texels = if signed { RayTexels::Signed } else { RayTexels::Unsigned };
         let pick = |unsigned: KernelText, with_sign: KernelText| if signed { with_sign } else { unsigned };
         if one_origin {
             let setup = if sides == Sides::Front { kernels::ONE_ORIGIN_SETUP } else { kernels::ONE_ORIGIN_BOTH_SETUP };
             let pixel = pick(kernels::ONE_ORIGIN_UNSIGNED, kernels::ONE_ORIGIN_SIGNED);
-            return Self::load(profile, Form::OneOrigin, setup, pixel, signed);
+            return Self::load(profile, Form::OneOrigin, setup, pixel, texels);
         }
         let pixel = if sides == Sides::Front {
             pick(kernels::ANY_ORIGIN_UNSIGNED, kernels::ANY_ORIGIN_SIGNED)
         } else {
             pick(kernels::ANY_ORIGIN_BOTH_UNSIGNED, kernels::ANY_ORIGIN_BOTH_SIGNED)
         };
-        Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
+        Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, texels)
     }
 
     /// Chooses the program that evaluates each edge once.
@@ -95,9 +107,9 @@ impl Kernel {
             Form::AnyOrigin => return Err(EngineError::NoSharedEdges { device: profile.name.clone() }),
             Form::OneOrigin => (
                 if front { kernels::ONE_ORIGIN_SHARED_SETUP } else { kernels::ONE_ORIGIN_BOTH_SHARED_SETUP },
-                match paper.signed_rays {
-                    true => kernels::ONE_ORIGIN_SHARED_SIGNED,
-                    false => kernels::ONE_ORIGIN_SHARED_UNSIGNED,
+                match paper.texels {
+                    RayTexels::Unsigned => kernels::ONE_ORIGIN_SHARED_UNSIGNED,
+                    _ => kernels::ONE_ORIGIN_SHARED_SIGNED,
                 },
             ),
             Form::Float => (
@@ -105,8 +117,29 @@ impl Kernel {
                 if front { kernels::FLOAT_SHARED } else { kernels::FLOAT_BOTH_SHARED },
             ),
         };
-        let shared = Self::load(profile, paper.form, setup, pixel, paper.signed_rays)?;
+        let shared = Self::load(profile, paper.form, setup, pixel, paper.texels)?;
         Ok(Self { edges: EdgeRule::SharedEdges, ..shared })
+    }
+
+    /// Chooses the program for rays in bytes, of any origin.
+    ///
+    /// # Errors
+    /// [`EngineError::NoByteRays`] where both faces can be hit, or the device stores rays as floats; that of
+    /// [`Self::choose`] if it runs no intersection program.
+    pub fn with_byte_rays(profile: &Profile, sides: Sides) -> Result<Self, EngineError> {
+        match (Self::choose(profile, false, sides)?.form, sides) {
+            (Form::AnyOrigin, Sides::Front) => {
+                let (setup, pixel) = (kernels::ANY_ORIGIN_SETUP, kernels::ANY_ORIGIN_BYTES);
+                Self::load(profile, Form::AnyOrigin, setup, pixel, RayTexels::Bytes)
+            }
+            _ => Err(EngineError::NoByteRays { device: profile.name.clone() }),
+        }
+    }
+
+    /// Form, and range of its intermediates.
+    pub(super) fn numbers(&self, rules: &Rules) -> (Form, Range) {
+        let range = Range::of_pixels(rules);
+        (self.form, if self.texels == RayTexels::Bytes { range.with_byte_texels() } else { range })
     }
 
     /// Chooses the program for passes of rays of any origin, with or without culling by the bucket.
@@ -127,14 +160,14 @@ impl Kernel {
         form: Form,
         setup: KernelText,
         pixel: KernelText,
-        signed_rays: bool,
+        texels: RayTexels,
     ) -> Result<Self, EngineError> {
         Ok(Self {
             form,
             name: pixel.name,
             vertex: setup.checked(profile)?,
             pixel: pixel.checked(profile)?,
-            signed_rays,
+            texels,
             culls: false,
             edges: EdgeRule::Paper,
         })

@@ -41,7 +41,7 @@ mod vertex_crossbar;
 pub use answer::{Answer, EngineError};
 pub use bits_left::BitsLeft;
 pub use crossbar::{Crossbar, MakeObserver};
-pub use kernel::{EdgeRule, Form, Kernel};
+pub use kernel::{EdgeRule, Form, Kernel, RayTexels};
 pub use rays::RayBatch;
 pub use resident::ResidentCrossbar;
 pub use vertex_crossbar::VertexCrossbar;

@@ -13,7 +13,8 @@ pub struct CostRates {
 }
 
 impl CostRates {
-    /// Equation 11: seconds to test `triangles` against `rays`, with `gamma` bytes read back per ray.
+    /// Equation 11: seconds to test `triangles` against `rays`, with `gamma` bytes read back per ray. Section 6.1 prints
+    /// 4 for "a single 64-bit triangle ID", which has 8 bytes; its rates are those of 4.
     pub fn seconds(&self, rays: f64, triangles: f64, gamma: f64) -> f64 {
         triangles * rays / self.fill_pixels_per_s + rays * gamma / self.readback_bytes_per_s
     }

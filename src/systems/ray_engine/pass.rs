@@ -8,7 +8,6 @@ use refsim::machine::Machine;
 
 use super::card::{CardHit, RayTextures, Streams};
 use super::cull;
-use super::range::Range;
 use super::units::Units;
 use super::{EngineError, Kernel, RayBatch};
 use crate::geom::Mesh;
@@ -51,7 +50,7 @@ impl PassCard {
         rays: &RayBatch,
     ) -> Result<DrawnPass, EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
-        let units = Units::within(kernel.form, Range::of_pixels(&machine.profile().rules), self.bounds, rays);
+        let units = Units::within(kernel.numbers(&machine.profile().rules), self.bounds, rays);
         let bucket = match kernel.culls {
             true => cull::bucket(&machine.profile().rules, &units, mesh, triangles, rays, self.sides),
             false => Vec::new(),

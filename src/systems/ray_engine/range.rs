@@ -22,6 +22,9 @@ use refsim::num::{Format, FormatKind, power_of_two};
 
 use crate::tracer::scale::ceil_power_of_two;
 
+/// Steps of a signed byte between 0 and 1.
+pub(super) const BYTE_CODES: f64 = 127.0;
+
 /// Properties of a number format that the intersection programs depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Range {
@@ -32,6 +35,8 @@ pub(super) struct Range {
     pub(super) step: f64,
     /// Exclusive bound on n.d, the divisor.
     divisor: f64,
+    /// Bound on the difference of a component of a ray and its code in a texture, as `_bx2` expands it.
+    code: f64,
     kind: RangeKind,
 }
 
@@ -74,7 +79,14 @@ impl Range {
                 }
             }
         };
-        Self { end, step, divisor: end, kind }
+        // Half a 16-bit code, doubled by `_bx2`.
+        Self { end, step, divisor: end, code: power_of_two(-15), kind }
+    }
+
+    /// The same for rays in textures of signed bytes.
+    pub(super) fn with_byte_texels(self) -> Self {
+        // Components between the largest code used and 1 are off by up to a step.
+        Self { code: 1.0 / BYTE_CODES, ..self }
     }
 
     /// Bound on numbers that the card rounds once or twice: coordinates, offsets, edges, normals.
@@ -108,10 +120,9 @@ impl Range {
         [offsets.min(4.0), offsets]
     }
 
-    /// Error of a component read from a ray texture: half a 16-bit code plus the register's rounding, doubled by
-    /// `_bx2`.
+    /// Error of a component read from a ray texture: that of its code plus the register's rounding, doubled by `_bx2`.
     pub(super) fn texel_error(&self) -> f64 {
-        if self.step == 0.0 { 0.0 } else { power_of_two(-15) + 2.0 * self.step }
+        if self.step == 0.0 { 0.0 } else { self.code + 2.0 * self.step }
     }
 
     /// Error of a component of ao x d: that of d times ao, twice, plus that of ao and the roundings.

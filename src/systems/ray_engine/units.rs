@@ -6,9 +6,10 @@
 use glam::DVec3;
 use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
 
-use super::range::Range;
+use super::range::{BYTE_CODES, Range};
 use super::reach::{Reach, VectorRange, inner, largest, mixed, most_of_partial_sums};
-use super::{EdgeRule, Form, Kernel, RayBatch};
+use super::{EdgeRule, Form, Kernel, RayBatch, RayTexels};
+use crate::error::InputError;
 use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::scale::{ceil_power_of_two, in_single_precision, normalize_range, scale_into};
@@ -35,12 +36,12 @@ const ANY_ORIGIN_T_MAX: f64 = 4.0;
 
 impl Units {
     /// Chooses the largest scale at which all values fit the registers, textures and depth range of a program.
-    pub(super) fn choose(form: Form, range: Range, mesh: &Mesh, rays: &RayBatch) -> Self {
-        Self::within(form, range, mesh.bounds().unwrap_or_default(), rays)
+    pub(super) fn choose((form, range): (Form, Range), mesh: &Mesh, rays: &RayBatch) -> Self {
+        Self::within((form, range), mesh.bounds().unwrap_or_default(), rays)
     }
 
     /// Like [`Self::choose`], for a mesh with these lowest and highest coordinates.
-    pub(super) fn within(form: Form, range: Range, bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
+    pub(super) fn within((form, range): (Form, Range), bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
         let reach = Reach::of(bounds, rays);
         // Registers hold o - a and its product with d.
         let offsets =
@@ -194,6 +195,12 @@ impl Units {
         }
     }
 
+    /// Ray that textures of bytes hold in place of this one, its direction brought into range.
+    pub(super) fn in_bytes(&self, ray: &Ray) -> Result<Ray, InputError> {
+        let held = |v: DVec3, scale: f64| narrow((v * scale).map(byte_code) / BYTE_CODES / scale);
+        Ray::new(held(wide(ray.origin()), self.scale), held(normalize_range(ray.direction()).0, 1.0))
+    }
+
     /// Converts a depth to t in multiples of the ray's own direction, exactly.
     pub(super) fn t(&self, depth: f32, ray: &Ray) -> f64 {
         let (_, power) = normalize_range(ray.direction());
@@ -209,18 +216,19 @@ pub(super) fn ray_textures(
 ) -> Result<Vec<(usize, Image)>, TextureError> {
     let directions: Vec<DVec3> = rays.rays().iter().map(|r| normalize_range(r.direction()).0).collect();
     let origin = |r: &Ray| wide(r.origin()) * units.scale;
-    if kernel.form == Form::Float {
+    if kernel.form == Form::Float || kernel.texels == RayTexels::Bytes {
         let origins: Vec<DVec3> = match rays.common_origin() {
             // Section 4.1: rays of one origin need a single texel.
             Some(_) => rays.rays().first().map(origin).into_iter().collect(),
             None => rays.rays().iter().map(origin).collect(),
         };
         let size = if origins.len() == 1 { [1, 1, 1] } else { extents(rays) };
-        return Ok(vec![(0, float_texture(size, &origins)?), (1, float_texture(extents(rays), &directions)?)]);
+        let texture = if kernel.form == Form::Float { float_texture } else { byte_texture };
+        return Ok(vec![(0, texture(size, &origins)?), (1, texture(extents(rays), &directions)?)]);
     }
     let pairs = |pair: &dyn Fn(usize) -> [f64; 2]| {
         let texels = (0..directions.len()).map(pair);
-        pair_texture(kernel.signed_rays, units.range.of_texels(), extents(rays), texels)
+        pair_texture(kernel.texels == RayTexels::Signed, units.range.of_texels(), extents(rays), texels)
     };
     let xy = pairs(&|i| [directions[i][0], directions[i][1]])?;
     if kernel.form == Form::OneOrigin {
@@ -245,6 +253,17 @@ fn float_texture(extents: [u32; 3], vectors: &[DVec3]) -> Result<Image, TextureE
         bytes.extend_from_slice(&value.to_le_bytes());
     }
     Image::from_bytes(TexelFormat::Rgba32f, TextureKind::D2, extents, 1, bytes)
+}
+
+/// Code of a component in a signed byte. The largest is 126, so that no direction grows into the next power of two.
+fn byte_code(x: f64) -> f64 {
+    (x * BYTE_CODES).round().clamp(1.0 - BYTE_CODES, BYTE_CODES - 1.0)
+}
+
+/// Builds a texture of four signed bytes: x, y, z, 0.
+fn byte_texture(extents: [u32; 3], vectors: &[DVec3]) -> Result<Image, TextureError> {
+    let bytes = vectors.iter().flat_map(|v| [v.x, v.y, v.z, 0.0]).map(|x| byte_code(x) as i8 as u8).collect();
+    Image::from_bytes(TexelFormat::Rgba8Snorm, TextureKind::D2, extents, 1, bytes)
 }
 
 /// Builds a texture of two 16-bit channels, each component rounded to the nearest code with a magnitude of at most

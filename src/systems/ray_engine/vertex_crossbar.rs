@@ -55,7 +55,7 @@ impl VertexCrossbar {
         let (vertex, pixel) = (kernels::VERTEX_TEST.checked(&self.profile)?, kernels::ID.checked(&self.profile)?);
         let size = [rays.width(), rays.height()];
         let target = NearestTarget::new(machine, TexelFormat::Bgra8, DepthFormat::Unorm24, size)?;
-        let units = Units::choose(Form::Float, Range::of(&self.profile.rules.vertex_format), mesh, rays);
+        let units = Units::choose((Form::Float, Range::of(&self.profile.rules.vertex_format)), mesh, rays);
         let streams = Streams::new(mesh, rays, units.scale());
         let mut events = DrawEvents::default();
         for (i, ray) in rays.rays().iter().enumerate() {

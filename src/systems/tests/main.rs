@@ -2,6 +2,7 @@
 
 mod all_frequency;
 mod bi_scale;
+mod byte_rays;
 mod clustering;
 mod cpca;
 mod radiosity;

@@ -28,6 +28,7 @@ mod shared;
 mod sky;
 mod subsurface;
 mod summary;
+mod timed;
 
 use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
@@ -47,6 +48,7 @@ pub use row::{
     Bound, Contradiction, Dependence, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure,
     PaperRow, RowSource, RowVerdict, Setting, Sweep,
 };
+pub use timed::{TimedWork, timed};
 
 /// Parts that tests call themselves, because no run that ends in seconds reaches their cases.
 #[doc(hidden)]

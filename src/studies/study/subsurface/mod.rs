@@ -14,6 +14,7 @@ mod outcome;
 mod parameters;
 mod pictures;
 mod report;
+mod seams;
 mod tables;
 mod vertices;
 mod way;
@@ -31,6 +32,7 @@ use bands::GatheredBands;
 use model::ModelLengths;
 use options::ALL_PAIRS_SIDE;
 use outcome::SubsurfaceOutcome;
+use seams::Neighbours;
 use way::WayRow;
 
 pub use error::no_atlas;
@@ -87,7 +89,7 @@ fn run(
         let help = "add a `--light`, or move one to where the model's front faces see it";
         return Err(StudyError::new("subsurface::dark", "expected light on the model, found none").with_help(help));
     }
-    let model = CardModel::new(&atlas);
+    let (model, neighbours) = (CardModel::new(&atlas), Neighbours::of(&atlas));
     let scene = way::Scene {
         parameters,
         atlas: &atlas,
@@ -96,6 +98,7 @@ fn run(
         dipoles: &dipoles,
         irradiance: &irradiance,
         truth: None,
+        neighbours: &neighbours,
     };
     let of_range = |range| GatheredBands::new(&scene, range, progress);
     let mut known = match split.known("bands of texels", LinkBands::count(parameters.options.side), of_range)? {

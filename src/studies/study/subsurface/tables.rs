@@ -52,8 +52,9 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
 /// Errors, a row per way.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "Ways of gathering; errors of B: root mean square by area and the largest, relative to those of B",
-        "way links_rms_% links_largest_% plain_means_rms_% card_rms_% card_largest_% all_rms_% all_largest_%",
+        "Ways of gathering; errors of B: root mean square by area and the largest, relative to those of B; seams, how far \
+         errors are from smooth among neighbouring texels",
+        "way links_rms_% links_largest_% links_seams_% plain_means_rms_% card_rms_% card_largest_% all_rms_% all_largest_%",
     );
     let rms = |error: GatherError| Cell::percent(100.0 * error.rms);
     let largest = |error: GatherError| Cell::percent(100.0 * error.largest);
@@ -63,6 +64,7 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
             row.label.as_str().into(),
             or_empty(row.links_error, rms),
             or_empty(row.links_error, largest),
+            row.seams.map_or(Cell::Empty, |seams| Cell::percent(100.0 * seams)),
             or_empty(row.plain_error, rms),
             rms(row.card_error),
             largest(row.card_error),

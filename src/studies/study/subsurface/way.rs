@@ -9,6 +9,7 @@ use refsim::timing::TimingError;
 
 use super::all_pairs::{AllPairSums, GatherError};
 use super::error::{no_card, no_time};
+use super::seams::Neighbours;
 use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
 use crate::atlas::Atlas;
 use crate::card::CardError;
@@ -42,6 +43,8 @@ pub(super) struct Scene<'a> {
     pub(super) irradiance: &'a [[f64; 3]],
     /// Radiosities over all pairs, if requested.
     pub(super) truth: Option<&'a [[f64; 3]]>,
+    /// Texels that are neighbours on the surface.
+    pub(super) neighbours: &'a Neighbours,
 }
 
 impl<'a> Scene<'a> {
@@ -70,7 +73,9 @@ pub(super) struct WayRow {
     pub(super) saturated: usize,
     /// The links' own error: the host's sum over them against all pairs.
     pub(super) links_error: Option<GatherError>,
-    /// The same with means by number of texels.
+    /// How far its errors are from smooth among neighbouring texels, over B.
+    pub(super) seams: Option<f64>,
+    /// The links' own error with means by number of texels.
     pub(super) plain_error: Option<GatherError>,
     /// The card's own error: against the host's sum over the same links.
     pub(super) card_error: GatherError,
@@ -157,6 +162,7 @@ pub(super) fn run(
         lost: encoded.lost(format(way.links)),
         saturated: card.saturated().map_err(no_card)?,
         links_error: against_truth(&summed),
+        seams: scene.truth.map(|truth| scene.neighbours.seams(scene.atlas, &summed, truth)),
         plain_error: against_truth(&plain),
         card_error: off(&radiosity, &summed),
         error: against_truth(&radiosity),

@@ -13,6 +13,7 @@ kernels! {
     ONE_ORIGIN_SIGNED "one_origin_signed.psa"
     ANY_ORIGIN_UNSIGNED "any_origin_unsigned.psa"
     ANY_ORIGIN_SIGNED "any_origin_signed.psa"
+    ANY_ORIGIN_BYTES "any_origin_bytes.psa"
     ANY_ORIGIN_BOTH_UNSIGNED "any_origin_both_unsigned.psa"
     ANY_ORIGIN_BOTH_SIGNED "any_origin_both_signed.psa"
     FLOAT "float.psa"

@@ -4,10 +4,11 @@ use super::display::{CARD, DisplayRun, display};
 use super::models::{BUNNY, ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph,
-    printed_value, solved,
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, number,
+    paper_row, paragraph, printed_value, solved,
 };
 use crate::report::{Cell, Table};
+use crate::transfer::{Tangents, Vertices};
 
 const HOW: &str = "What light costs is the difference of a scene's two rates. One constant, {} billion operations a second and channel, is what the \
     transfers of table I take together; with it and the printed rates for views alone all rates for light are computed. The display is that of the emulated card: \
@@ -85,6 +86,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ]);
     let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers.map(|value| number(value, 0)));
     Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table(&printed, constant), of_display(&run)]))
+}
+
+/// Time of a view of the small bunny.
+pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
+    let mesh = BUNNY.mesh(1);
+    let vertices = Vertices::new(&mesh, Tangents::Texture).on(CARD)?;
+    let run = display((&mesh, &vertices), SCENES[0].side, PICTURE)?;
+    TimedWork::new("bi-scale/view-bunny", CARD, run.time.frame)
 }
 
 fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Result<PaperRow, StudyError> {

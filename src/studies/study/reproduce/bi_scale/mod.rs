@@ -14,8 +14,8 @@ pub(super) mod table_2;
 use super::error::RunResult;
 use super::shared::Shared;
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, StudyError, number, paper_row,
-    paragraph, printed, printed_value,
+    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, StudyError, TimedWork, number,
+    paper_row, paragraph, printed, printed_value,
 };
 use scenes::HOST;
 

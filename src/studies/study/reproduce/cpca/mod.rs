@@ -25,6 +25,7 @@ mod views;
 
 pub use figure_2::crossings;
 pub use figure_3::reaching;
+pub(super) use rates::timed;
 
 use mesh_cost::REGISTERS;
 use signals::HOST;
@@ -32,8 +33,8 @@ use signals::HOST;
 use super::error::RunResult;
 use super::shared::Shared;
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperRow, StudyError, number, paper_row, paragraph,
-    printed, printed_value,
+    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperRow, StudyError, TimedWork, number, paper_row,
+    paragraph, printed, printed_value,
 };
 
 /// Row of a value that follows from the paper's equations alone.

@@ -5,10 +5,10 @@ use refsim::timing::host::HostOperation;
 
 use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters};
 use super::mesh_cost::{CARD, MeshCost};
-use super::signals::SIGNALS;
+use super::signals::{BIRD, PaperSignal, SIGNALS};
 use super::{
-    Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, RunResult, Shared, StudyError, paper_row, printed,
-    printed_value,
+    Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, RunResult, Shared, StudyError, TimedWork, paper_row,
+    printed, printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
 use crate::cpca::on_card::model::TransferSize;
@@ -99,10 +99,7 @@ pub(super) fn rates(
         let paper = &SIGNALS[at];
         let mesh = *shared.get::<MeshCost>(paper.model)?;
         for (column, how) in COLUMNS.into_iter().enumerate() {
-            let fit = if column < 2 { 1 } else { paper.size.clusters_per_batch(REGISTERS) };
-            let groups = paper.size.clusters.div_ceil(fit);
-            let overdraw = printed_value(&format!("cpca/overdraw-{id}-{}", COLUMN_IDS[column]))?;
-            let time = modelled(&card, mesh, paper.size, (overdraw, groups))?;
+            let (overdraw, time) = of_print(&card, mesh, paper.size, (id, column))?;
             let id = format!("rate-{id}-{}", COLUMN_IDS[column]);
             let row = rate_row(&id, &time, INPUTS)?;
             table.push(line(name, how, (overdraw, row.target.value), &time, mesh.run_per_triangle));
@@ -110,6 +107,25 @@ pub(super) fn rates(
         }
     }
     Ok((rows, table))
+}
+
+/// Printed overdraw of a column, and the time of a frame with it.
+fn of_print(
+    card: &Profile,
+    mesh: MeshCost,
+    size: TransferSize,
+    (id, column): (&str, usize),
+) -> Result<(f64, FrameTime), StudyError> {
+    let fit = if column < 2 { 1 } else { size.clusters_per_batch(REGISTERS) };
+    let overdraw = printed_value(&format!("cpca/overdraw-{id}-{}", COLUMN_IDS[column]))?;
+    Ok((overdraw, modelled(card, mesh, size, (overdraw, size.clusters.div_ceil(fit)))?))
+}
+
+/// Time of a frame of the bird with both optimisations.
+pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
+    let PaperSignal { model, size, .. } = SIGNALS[BIRD];
+    let (_, time) = of_print(&Profile::named(CARD)?, MeshCost::new(&model.mesh(1))?, size, ("bird", BOTH))?;
+    TimedWork::new("cpca/rate-bird-both", CARD, time.frame)
 }
 
 fn line(name: &str, how: &str, (overdraw, printed): (f64, f64), time: &FrameTime, run: f64) -> [Cell; 10] {

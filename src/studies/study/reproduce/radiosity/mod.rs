@@ -7,7 +7,7 @@ pub(super) mod rates;
 
 use refsim::device::Profile;
 
-use super::{EntryFindings, StudyError, error::RunResult, printed_value, shared::Shared};
+use super::{EntryFindings, StudyError, TimedWork, error::RunResult, printed_value, shared::Shared};
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};
@@ -39,6 +39,11 @@ impl PrintedRates {
     fn named(rate: &str, operations: &str) -> Result<Self, StudyError> {
         Ok(Self { per_s: printed_value(rate)?, mflops: printed_value(operations)? })
     }
+}
+
+/// Time of Jacobi's iteration.
+pub(super) fn timed() -> Result<TimedWork, StudyError> {
+    TimedWork::new("radiosity/jacobi-rate", CARD, iteration(PATCHES, Packing::Rgb, Storage::Fp32)?.time)
 }
 
 /// Times an iteration of `patches` patches on the paper's card, by the pipeline model.

@@ -2,9 +2,10 @@
 //! dependence on the number of patches.
 
 use super::{CARD, EntryFindings, PATCHES, PrintedRates, Shared, Storage, StudyError, host, iteration};
-use crate::radiosity::model;
+use crate::card::KernelText;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
+use crate::radiosity::{kernels, model};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::error::figure;
 use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
@@ -73,7 +74,21 @@ fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<
         (1.0 / host::iteration(PATCHES)?, Dependence::Calibrated { on: "this figure, which sets what memory costs" });
     // The paper's own arithmetic: operations per iteration, times its rate.
     let (jacobi, gauss_seidel) = (model::mflops(PATCHES, card.per_s), model::mflops(PATCHES, host.per_s));
+    let block = |kernel: KernelText| {
+        let texels = kernel.block(model::MAX_INSTRUCTIONS as usize);
+        [texels, kernel.overhead() + texels * kernel.per_texel()].map(|count| count as f64)
+    };
+    let [[texels, rgb], [_, luminance]] = [kernels::RGB_FIRST, kernels::LUMINANCE_FIRST].map(block);
+    let limit = f64::from(model::MAX_INSTRUCTIONS);
+    let long = |id, ours| {
+        let from = Dependence::Predicted { from: "1024 instructions of a program" };
+        paper_row(id, (CARD, Method::Pipeline), (ours, from))
+    };
     Ok(vec![
+        long("radiosity/block-elements", texels)?,
+        long("radiosity/block-instructions", rgb)?
+            .with_readings([luminance])
+            .confined([limit - 3.0, limit], "a block has as many texels of four instructions as fit"),
         paper_row("radiosity/jacobi-rate", (CARD, Method::Pipeline), (paper.per_s, predicted))?,
         paper_row("radiosity/jacobi-operations", (CARD, Method::Equation), (jacobi, calibrated))?,
         paper_row("radiosity/gauss-seidel-operations", (HOST, Method::Equation), (gauss_seidel, calibrated))?,

@@ -31,6 +31,6 @@ use stated::{QUESTION, RATE, commands, how, speed_up};
 use super::error::{RunResult, figure, no_time};
 use super::shared::{Shared, SharedResult};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row, paragraph, printed,
-    printed_value,
+    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, number, paper_row, paragraph,
+    printed, printed_value,
 };

@@ -4,21 +4,23 @@ use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::equation_11::MEGA;
-use super::pipeline::{TimedDraw, model, timed};
+use super::pipeline::{model, timed};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, figure, number, paper_row, paragraph,
-    printed_value,
+    Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, figure, number, paper_row,
+    paragraph, printed_value,
 };
-use crate::geom::exact::Sides;
+use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
 use crate::geom::{Mesh, Ray};
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
+use crate::study::leaky_teapot::JudgedRays;
 
 const DEVICE: &str = "r200";
-/// Side of the batch, in rays.
-const SIDE: u32 = 256;
+/// Side of the batch, in rays, and of the one whose leaks are counted.
+const SIDE: u32 = 128;
+const LEAK_SIDE: u32 = 96;
 /// "Thousands of triangles" (section 6.1).
 const TRIANGLES: usize = 2048;
 /// Printed tests per second, in millions.
@@ -27,11 +29,13 @@ const PRINTED: &str = "ray-engine/radeon-8500";
 const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and vertices do not show, so the figure is the pixel \
     program's. R200 is taken to issue one pair of a colour and an alpha instruction a clock in each of its {} pipelines, and two texture \
     instructions beside it. No source gives the first rate; it was chosen because with it, and not with two a clock, our program comes near the printed \
-    figure. So this row is a calibration, by a whole number; it has our program for rays of any origin, and the one for rays of one origin as \
-    another reading. The printed figure is {} clocks of a pipeline a test.";
+    figure. So this row is a calibration, by a whole number; it has our program for rays of any origin in the two textures of section 4.1, and the one \
+    for rays of one origin as another reading. The printed figure is {} clocks of a pipeline a test. Engine and studies hold rays in 16 bits, of which a \
+    texel has two: three textures, and two pairs more to join them. Bytes make rays coarser, not the holes between triangles larger: of the same {} rays, \
+    rounded to bytes, both programs lose about as many.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let (row, slots) = kernels()?;
+    let (rows, tables) = kernels()?;
     let profile = Profile::named(DEVICE)?;
     let rates = &profile.rates;
     let pipes = figure(&profile, "rates.pixel_pipes", rates.pixel_pipes)?;
@@ -39,29 +43,32 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         pipes * figure(&profile, "rates.core_clock_hz", rates.core_clock_hz)? / (printed_value(PRINTED)? * MEGA);
     let side = || SIDE.to_string();
     Ok(EntryFindings::new(
-        [paragraph(PAIRS, [side(), side(), number(pipes, 0), number(clocks, 2)])],
-        [row],
+        [paragraph(
+            PAIRS,
+            [side(), side(), number(pipes, 0), number(clocks, 2), number(f64::from(LEAK_SIDE.pow(2)), 0)],
+        )],
+        rows,
         [
             "how long the authors' program was, and whether its rays shared an origin: it is not printed.",
             "at which rate the card issues pairs: no document that we found states it.",
         ],
-        [slots],
+        tables,
     ))
 }
 
-fn kernels() -> Result<(PaperRow, Table), StudyError> {
+fn kernels() -> Result<([PaperRow; 2], [Table; 2]), StudyError> {
     let mesh = mesh()?;
-    let camera = Camera::teapot(SIDE, SIDE).on(DEVICE)?;
-    let eye = camera.rays();
-    // The same rays, each started a little further on, have no common origin any more.
-    let moved = eye.iter().enumerate().map(|(i, ray)| moved(ray, 1e-3 * i as f32)).collect::<Result<Vec<_>, _>>()?;
+    let (eye, moved) = (eye_rays(SIDE)?, moved_rays(SIDE)?);
+    let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
+    let in_bytes = card.clone().byte_rays();
     let mut rates = Vec::new();
     let mut slots = Table::of(
         "Slots and clocks of a test in one pipeline of four",
         "program phase pairs texture_slots M_tests_per_s bound_by",
     );
-    for rays in [eye, moved] {
-        let (kernel, drawn) = run(&mesh, rays)?;
+    for (card, rays) in [(&in_bytes, &moved), (&card, &eye), (&card, &moved)] {
+        let answer = card.intersect_recorded(&mesh, rays, Sides::Front)?;
+        let (kernel, drawn) = (answer.kernel, timed(DEVICE, answer.log)?);
         let rate = drawn.pixels_per_s() / MEGA;
         for (i, phase) in drawn.record.pixel.phases.iter().enumerate() {
             let pairs: u64 = phase.arithmetic.iter().map(|slot| u64::from(slot.slots) * slot.times).sum();
@@ -80,16 +87,56 @@ fn kernels() -> Result<(PaperRow, Table), StudyError> {
         rates.push(rate);
     }
     let dependence = Dependence::Calibrated { on: "this figure, which chose one pair a clock for r200, not two" };
-    let any_origin = rates.pop().unwrap_or(f64::NAN);
-    let row = paper_row(PRINTED, (DEVICE, Method::Pipeline), (any_origin, dependence))?.with_readings(rates);
-    Ok((row, slots))
+    let [in_bytes, one_origin, _] = rates[..] else { unreachable!("a rate per run") };
+    let row = |id, over| {
+        let ours = (in_bytes / over, dependence);
+        Ok::<_, StudyError>(paper_row(id, (DEVICE, Method::Pipeline), ours)?.with_readings([one_origin / over]))
+    };
+    let rows = [row(PRINTED, 1.0)?, row("ray-engine/over-doubled-host", 2.0 * printed_value("ray-engine/host-most")?)?];
+    Ok((rows, [slots, leaks(&mesh)?]))
 }
 
-fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), StudyError> {
-    let rays = RayBatch::new(SIDE, SIDE, rays).on(DEVICE)?;
-    let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
-    let answer = card.intersect_recorded(mesh, &rays, Sides::Front)?;
-    Ok((answer.kernel, timed(DEVICE, answer.log)?))
+/// Table of the leaks of rays that bytes hold exactly, by the precision of the ray textures and the card's rounding.
+fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
+    let mut table = Table::of("Leaks of rays in bytes", "rounding rays_that_hit leaks_from_bytes leaks_from_16_bits");
+    for rounding in ["rdn", "rne"] {
+        let mut profile = Profile::named(DEVICE)?;
+        profile.set_switch("rounding", rounding).on(DEVICE)?;
+        let card = Crossbar::new(profile, ExecutorKind::Batch);
+        let rays = card.rays_in_bytes(mesh, &moved_rays(LEAK_SIDE)?)?;
+        let judged = JudgedRays::new(&Tracer::new(mesh), rays.rays().to_vec(), Sides::Front);
+        let mut tallies = Vec::new();
+        for card in [card.clone().byte_rays(), card] {
+            tallies.push(judged.judge(mesh, &card.intersect(mesh, &rays, Sides::Front)?.hits).1);
+        }
+        let leaks = tallies.iter().map(|tally| Cell::from(tally.leaks));
+        table.push([rounding.into(), tallies[0].surface.into()].into_iter().chain(leaks));
+    }
+    Ok(table)
+}
+
+/// Time of the intersections of each card's program for rays of any origin: that of two textures of bytes, and in float.
+pub(in crate::study::reproduce) fn timed_tests() -> Result<Vec<TimedWork>, StudyError> {
+    let (mesh, rays) = (mesh()?, moved_rays(SIDE)?);
+    let on = |device| {
+        let card = Crossbar::new(Profile::named(device)?, ExecutorKind::Batch).all_pairs(true);
+        let card = if device == DEVICE { card.byte_rays() } else { card };
+        let drawn = timed(device, card.intersect_recorded(&mesh, &rays, Sides::Front)?.log)?;
+        let items = drawn.record.counts.fragments.generated;
+        Ok(TimedWork { items, ..TimedWork::new(PRINTED, device, drawn.cost.total)? })
+    };
+    [DEVICE, "r300", "nv35"].into_iter().map(on).collect()
+}
+
+fn eye_rays(side: u32) -> Result<RayBatch, StudyError> {
+    RayBatch::new(side, side, Camera::teapot(side, side).on(DEVICE)?.rays()).on(DEVICE)
+}
+
+/// Eye rays that each start a little further on, so that they have no common origin.
+fn moved_rays(side: u32) -> Result<RayBatch, StudyError> {
+    let eye = eye_rays(side)?;
+    let moved = eye.rays().iter().enumerate().map(|(i, ray)| moved(ray, 1e-3 * (i % 64) as f32));
+    RayBatch::new(side, side, moved.collect::<Result<_, _>>()?).on(DEVICE)
 }
 
 /// Builds a part of the teapot.

@@ -39,7 +39,7 @@ const SCENES: [PrintedScene; 5] = [
         share: "ray-engine/share-teapot-monte-carlo",
         polygons: "ray-engine/polygons-teapot",
         tick: "teapot, Monte Carlo",
-        job: Some(Job { scene: "teapot-room", view: None, renderer: JobRenderer::MonteCarlo(4), side: 112 }),
+        job: Some(Job { scene: "teapot-room", view: None, renderer: JobRenderer::MonteCarlo(4), side: 56 }),
         rays: 64,
     },
     PrintedScene {

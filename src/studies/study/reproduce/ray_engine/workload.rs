@@ -6,7 +6,8 @@ use super::{RunResult, StudyError};
 use crate::error::InputError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
-use crate::renderer::{RenderedPicture, Settings, distributed, eye, whitted};
+use crate::renderer::photon::Photons;
+use crate::renderer::{RenderedPicture, Settings, eye, photon, whitted};
 use crate::scene::{Camera, Scene, built};
 use crate::tracer::octree::OctreeParameters;
 use crate::tracer::{self, CastError, Caster, HostTracer};
@@ -24,7 +25,7 @@ pub(super) enum JobRenderer {
     Eyes,
     /// Whitted's ray tracing: "classical" in the paper.
     Classical,
-    /// Distributed ray tracing with this many samples per pixel: "Monte Carlo" in the paper.
+    /// Distributed rays and photon maps with this many samples per pixel: "Monte Carlo" in the paper (section 5.4).
     MonteCarlo(u32),
 }
 
@@ -109,7 +110,7 @@ impl Job {
             JobRenderer::Classical => whitted::render(scene, camera, &settings, caster, &mut watch),
             JobRenderer::MonteCarlo(per_pixel) => {
                 let settings = Settings { samples: per_pixel, ..settings };
-                distributed::render(scene, camera, &settings, caster, &mut watch)
+                photon::render(scene, camera, &settings, &Photons::for_scene(scene), caster, &mut watch)
             }
         }
     }

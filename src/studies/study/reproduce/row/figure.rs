@@ -54,6 +54,10 @@ pub enum MissClass {
     #[serde(rename = "ours differs")]
     #[strum(to_string = "ours differs")]
     OursDiffers,
+    /// The same with less error, storage or work than is printed.
+    #[serde(rename = "ours differs, for the better")]
+    #[strum(to_string = "ours differs, for the better")]
+    OursBetter,
     /// Another place of the paper speaks against the figure, and ours agrees with neither.
     #[serde(rename = "paper contradicts")]
     #[strum(to_string = "paper contradicts")]

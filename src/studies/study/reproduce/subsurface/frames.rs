@@ -4,12 +4,15 @@
 //! Passes 1 and 3 draw the model, so they are drawn with as many faces as the paper's models have. Pass 2 is that of
 //! [`super::gather`]. The window is not printed; ours has as many pixels as the smaller atlas has texels.
 
+use refsim::timing::Picoseconds;
+
 use super::counts::{MODELS, mesh};
 use super::frame_cost::{FrameCost, WINDOW, cost};
 use super::gather::{self, GatherCost, VARIANTS};
 use super::table_1::{DISPLAY, PrintedFrame, SIDES, display_lock};
 use super::{
-    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph,
+    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, TimedWork, number, paper_row,
+    paragraph,
 };
 use crate::report::{Cell, Table};
 
@@ -55,6 +58,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let rates: Vec<PaperRow> = frames.iter().map(|frame| rate(frame, &costs[OURS])).collect::<Result<_, _>>()?;
     rows.extend(rates);
+    rows.push(dominance(&frames, &costs[OURS])?);
     rows.push(figure_7()?);
     rows.push(paper_row(
         "subsurface/link-time",
@@ -98,8 +102,28 @@ fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Res
     paper_row(&format!("subsurface/rate-{}-{}", printed.model, printed.side), (CARD, Method::Pipeline), ours)
 }
 
-/// Row on Figure 7: 40 frames per second are not an integer fraction of the display's rate, so the frame without
-/// synchronisation counts, for the bunny at the smaller size.
+/// Times of the three passes of the head at the smaller size.
+pub(in crate::study::reproduce) fn timed() -> Result<[TimedWork; 3], StudyError> {
+    let cost = cost(CARD, &mesh(MODELS[0].2)?, SIDES[0] as u32)?;
+    let gather = gather::cost(CARD, VARIANTS[OURS])?.seconds(SIDES[0]);
+    let pass = |id, seconds: f64| TimedWork::new(id, CARD, Picoseconds((1e12 * seconds).round() as u64));
+    Ok([
+        pass("subsurface/pass-head-512-1", cost.light + cost.levels)?,
+        pass("subsurface/pass-head-512-2", gather)?,
+        pass("subsurface/pass-head-512-3", cost.view)?,
+    ])
+}
+
+/// Row on pass 2 at the larger size, over the other passes, of each model.
+fn dominance(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Result<PaperRow, StudyError> {
+    let large = frames.iter().filter(|(printed, _)| printed.side == SIDES[1]);
+    let mut ratios = large.map(|(printed, cost)| gather.seconds(printed.side) / cost.frame(0.0));
+    let ours = (ratios.next().unwrap_or(f64::NAN), PREDICTED);
+    Ok(paper_row("subsurface/pass-2-dominates", (CARD, Method::Pipeline), ours)?.with_readings(ratios))
+}
+
+/// Row on Figure 7: 40 frames per second are no integer fraction of the display's rate, so that the frame counts
+/// without synchronisation, for the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, StudyError> {
     let gather = gather::cost(OTHER_CARD, VARIANTS[OURS])?;
     let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;

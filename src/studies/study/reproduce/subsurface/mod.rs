@@ -12,6 +12,6 @@ use gather::LINKS;
 use super::error::{RunResult, no_time};
 use super::shared::Shared;
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row,
-    paragraph, printed_value,
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, number,
+    paper_row, paragraph, printed_value,
 };

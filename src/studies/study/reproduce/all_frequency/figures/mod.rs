@@ -12,7 +12,9 @@ mod truncation;
 use super::{
     Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paper_row, paragraph, solved,
 };
-use crate::study::reproduce::ModelSize;
+pub(in crate::study::reproduce) use rates::timed;
+
+use crate::study::reproduce::{ModelSize, TimedWork};
 
 const QUESTION: &str = "the models, the light of St. Peter's, the cameras and the sources of Figure 6 with their sizes, and the frame rates printed under \
     it, which the scan has lost.";

@@ -6,7 +6,8 @@ use refsim::timing::host::HostOperation;
 
 use super::scene::FigureScene;
 use super::{
-    Dependence, EntryFindings, ModelSize, PaperRow, RunResult, StudyError, models, number, paper_row, paragraph,
+    Dependence, EntryFindings, ModelSize, PaperRow, RunResult, StudyError, TimedWork, models, number, paper_row,
+    paragraph,
 };
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
 use crate::all_frequency::on_card::{ProductPlace, VertexColors};
@@ -93,6 +94,11 @@ fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, Study
     }
     let (profile, host) = (Profile::named(CARD)?, host_of_table_1().on(super::HOST)?);
     frame_time(&profile, &log, &host).on(CARD)
+}
+
+/// Time of a frame of the bunny without a ground.
+pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
+    TimedWork::new("all-frequency/fps-bunny", CARD, time_of(&TABLE_1[0], None)?.frame)
 }
 
 fn rate_row(id: &str, time: &FrameTime) -> Result<PaperRow, StudyError> {
