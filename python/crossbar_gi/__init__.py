@@ -3,6 +3,7 @@
 - :func:`oracle`, :func:`hard_rays`: exact first hits of rays on a mesh, and other people's hits held against them.
 - :class:`Format`, :func:`round`, :func:`add`, :func:`mul`, :func:`fma`, :func:`dot`, ...: arithmetic in any number
   format, each result rounded once.
+- :func:`matmul`, :func:`units`, :func:`dot` with a ``unit``: what the matrix units of GPUs make of a product.
 - :func:`run`, :func:`compare`, :func:`diff`: shaders on emulated graphics cards of 2001 to 2008, bit for bit.
 - :func:`reproduce`, :func:`precision`: the studies, as records.
 
@@ -35,6 +36,7 @@ from .formats import (
     sub,
     to_bits,
 )
+from .matrix import matmul, units
 from .rays import HIT, VERDICT, Aim, HardRays, Kind, Oracle, counts, hard_rays, oracle
 from .studies import entries, precision, reproduce
 
@@ -64,6 +66,7 @@ __all__ = [
     "hard_rays",
     "log2",
     "mad",
+    "matmul",
     "maximum",
     "minimum",
     "mul",
@@ -78,4 +81,5 @@ __all__ = [
     "sqrt",
     "sub",
     "to_bits",
+    "units",
 ]

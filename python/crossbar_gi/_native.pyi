@@ -23,6 +23,27 @@ def dot(
     out: NDArray[np.float64],
 ) -> None: ...
 def format_facts(text: str) -> dict[str, Any]: ...
+def units() -> list[tuple[str, str, list[str], str, int, int, int | None, str, str, str]]: ...
+
+_Numbers = NDArray[np.float64] | NDArray[np.uint64]
+_Types = tuple[str | None, str | None]
+_Words = tuple[NDArray[np.uint64], int]
+
+def matmul(
+    unit: str,
+    types: _Types,
+    a: _Numbers,
+    b: _Numbers,
+    c: NDArray[np.float64] | None,
+    bits_promote: tuple[int | None, int | None],
+) -> _Words: ...
+def unit_dot(
+    unit: str,
+    types: _Types,
+    operands: tuple[_Numbers, _Numbers, _Numbers],
+    length: int,
+    scales: tuple[NDArray[np.uint8], NDArray[np.uint8]] | None,
+) -> _Words: ...
 def kinds() -> list[str]: ...
 def aims() -> list[str]: ...
 def hard_rays(

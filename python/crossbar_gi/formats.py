@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native
+from . import _native, matrix
 
 #: Formats with more bits have no table: it would have more than 2^20 rows.
 MAX_TABLE_BITS = 20
@@ -275,12 +275,16 @@ def log2(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
 def dot(
     x: ArrayLike,
     y: ArrayLike,
-    format: Format | str,
+    format: Format | str | None = None,
     *,
     order: str = "sequential",
     accumulator: Format | str | None = None,
+    unit: str | None = None,
+    c: ArrayLike = 0.0,
+    types: str | tuple[str, str] | None = None,
+    scales: tuple[ArrayLike, ArrayLike] | None = None,
 ) -> Any:
-    """Sum of products along the last axis.
+    """Sum of products along the last axis, in a format or in a matrix unit of a GPU.
 
     Args:
         x: Numbers of shape ``(..., n)``, or bit patterns.
@@ -289,13 +293,25 @@ def dot(
         order: ``"sequential"``: ``((a + b) + c) + d``; ``"tree"``: ``(a + b) + (c + d)``; each product and each sum is
             rounded. ``"exact"``: one rounding of the exact sum.
         accumulator: The format in which products and sums are rounded; by default ``format``.
+        unit: A unit of :func:`units`, in place of a format: rounding, types and results as in :func:`matmul`.
+        c: With a unit: what is added, numbers or bit patterns that broadcast to the result.
+        types: With a unit that takes several: types of x and y, or that of both.
+        scales: With a unit that has scales: bit patterns of those of x and y, along the last axis.
 
     Returns:
-        Shape ``(...)``, float64 or bit patterns.
+        Shape ``(...)``, float64 or bit patterns; of a unit its own type.
 
     Raises:
-        ValueError: as :func:`round`; if an operand has no axis; under ``:rst``.
+        ValueError: as :func:`round`; if an operand has no axis; under ``:rst``; if the unit does not take the operands.
     """
+    if unit is not None:
+        if (format, order, accumulator) != (None, "sequential", None):
+            raise ValueError("a unit has its own types and order: leave format, order and accumulator out")
+        return matrix.dot(x, y, unit, c, types, scales)
+    if format is None:
+        raise ValueError("expected a format, or a unit (cg.units() lists them)")
+    if types is not None or scales is not None or np.any(np.asarray(c) != 0):
+        raise ValueError("c, types and scales go with a unit")
     known, sums = _format(format), _format(format if accumulator is None else accumulator)
     arrays = [np.asarray(x), np.asarray(y)]
     if any(array.ndim == 0 for array in arrays):

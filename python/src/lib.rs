@@ -5,10 +5,11 @@
 //!
 //! - `operand`: arrays of the shape of a result, block by block; `signals`: work without the interpreter's lock that
 //!   Ctrl-C ends; `error`: errors of the library as Python's.
-//! - `numbers`: number formats; `oracle`: exact hits; `cases`: cases on cards; `studies`: studies and pictures.
+//! - `numbers`: number formats; `matrix`: matrix units; `oracle`: exact hits; `cases`: cases on cards; `studies`: studies and pictures.
 
 mod cases;
 mod error;
+mod matrix;
 mod numbers;
 mod operand;
 mod oracle;
@@ -22,6 +23,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::cases::{Case, compare};
+    #[pymodule_export]
+    use crate::matrix::{matmul, unit_dot, units};
     #[pymodule_export]
     use crate::numbers::{compute, compute_patterns, dot, format_facts, from_patterns, to_patterns};
     #[pymodule_export]

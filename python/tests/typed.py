@@ -28,4 +28,6 @@ def main() -> tuple[int, float, float | None]:
     difference: cg.Difference = cg.diff(target, target)
     rows: list[dict[str, object]] = drawn.trace(0, 0)
     assert len(rows) > 0
+    product_of_units: NDArray[np.float32] = cg.matmul([[1.0]], [[2.0]], unit="hopper-fp8", promote=128)
+    assert product_of_units.dtype == np.float32 and cg.dot([1.0], [2.0], unit="hopper-f16") == product_of_units[0, 0]
     return leaks(vertices, np.array([[0, 1, 2], [0, 2, 3]])), float(product[0]), difference.ssim

@@ -18,7 +18,7 @@ Examples:
   crossbar matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8 --goal \"worst<=1e-2\"
       the fewest bits, or the rarest promotion, that keep the error below a hundredth
 
-A is M x K, B is K x N, of f4 or f8, which are quantised to nearest even (types of up to 8 bits saturate; units with scales \
+A is M x K, B is K x N, of f2, f4 or f8, which are quantised to nearest even (types of up to 8 bits saturate; units with scales \
 take OCP's), or patterns of u1, u2 or u4. K need not be whole blocks: zeros are left out of sums, so padding is exact. \
 Measures of goals: worst, mean, bits, of_addends, differing. Written to --out: index.html, D of every unit as .npy, \
 errors.csv, curve.csv, addends.csv.

@@ -36,24 +36,21 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
             types.join(" ").into(),
             unit.addend.name.into(),
             unit.length.into(),
-            unit.block().into(),
-            unit.bits().map_or(Cell::Empty, Cell::from),
-            unit.result.name().into(),
-            unit.evidence.name().into(),
+            unit.block.into(),
+            unit.bits.map_or(Cell::Empty, Cell::from),
+            unit.result.name.into(),
+            unit.evidence.into(),
         ]);
     }
     let mut found = Findings::new("Matrix units");
     found.table(FoundTable::from(table).field("units"));
     if let [unit] = units[..] {
-        let scales = unit.scaling.map(|scaling| {
-            format!("one {} for {} numbers", if scaling.is_e4m3 { "ue4m3" } else { "ue8m0" }, scaling.block)
-        });
+        let scales = unit.scaling.map(|(share, scale)| format!("one {} for {share} numbers", scale.name));
         let mut facts = Table::of(unit.name, "figure value");
         for (figure, value) in [
             ("chips", unit.chips.to_owned()),
             ("rule", format!("{:?}", unit.rule)),
             ("scales", scales.unwrap_or_else(|| "none".to_owned())),
-            ("confidence", unit.evidence.name().to_owned()),
             ("source", unit.source.to_owned()),
             ("M", "microsoft/MMA-Sim, mmasim 2.1.1 (MIT), arXiv 2511.10909: it has the same bits".to_owned()),
             ("K", "Khattak and Mikaitis, arXiv 2512.07004; MATLAB-tensor-core b12b5a7".to_owned()),

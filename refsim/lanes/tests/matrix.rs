@@ -1,7 +1,7 @@
 //! Matrix units: results of models and of GPUs, and laws of sums.
 
-use refsim_lanes::num::matrix::{Element, MatrixUnit, Operand, ResultFormat, Rule, UNITS, Value};
-use refsim_lanes::num::random_word;
+use refsim_lanes::num::matrix::{Element, MatrixUnit, Operand, ResultFormat, Rule, UNITS};
+use refsim_lanes::num::{Format, Rounding, from_f64, random_word};
 use refsim_lanes::{MatrixColumns, MatrixRows};
 use std::fs;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn differing(unit: &MatrixUnit, row: &[(String, String)]) -> Option<String> {
     unit.check(&a, &b).expect("operands of the unit");
     let found = unit.dot(a, b, codes(cell("c"), 16)[0]);
     let expected = cell("result");
-    let is_nan = unit.result.element().decode(found) == Value::Nan;
+    let is_nan = unit.result.element.number(found).is_nan();
     let same = if expected == "nan" { is_nan } else { found == codes(expected, 16)[0] };
     (!same).then(|| format!("{} {row:?}: found {found:x}", unit.name))
 }
@@ -69,9 +69,10 @@ fn units_give_the_results_that_were_measured_on_gpus() {
 
 /// Random codes of ordinary numbers: exponents near the middle, so that nothing overflows, even where they are scaled.
 fn ordinary(element: Element, count: usize, seed: u64) -> Vec<u64> {
-    let fraction = element.fraction_bits + element.ignored_bits;
-    let middle = (1 << (element.exponent_bits - 1)) - 1;
-    let spread = if element.exponent_bits > 3 { 4 } else { 1 };
+    let (exponent_bits, fraction_bits) = element.fields();
+    let fraction = fraction_bits + element.ignored_bits;
+    let middle = (1 << (exponent_bits - 1)) - 1;
+    let spread = if exponent_bits > 3 { 4 } else { 1 };
     let code = |k: usize| {
         let word = u64::from(random_word(seed, k as u64));
         let exponent = middle - spread / 2 + (word >> 24) % spread.max(1);
@@ -103,9 +104,8 @@ fn order_within_a_block_does_not_show_but_that_of_blocks_does() {
         let sum = dot(unit, element, a, b, 0);
         let reversed = |codes: &[u64]| codes.iter().rev().copied().collect::<Vec<_>>();
         shown[0] += usize::from(dot(unit, element, &reversed(a), &reversed(b), 0) != sum);
-        if let Rule::Aligned { block, .. } | Rule::Exact { block } | Rule::Floored { block, halves: false } = unit.rule
-        {
-            let within = |codes: &[u64]| codes.chunks(block).flat_map(reversed).collect::<Vec<_>>();
+        if matches!(unit.rule, Rule::Aligned { .. } | Rule::Exact | Rule::Floored { halves: false }) {
+            let within = |codes: &[u64]| codes.chunks(unit.block).flat_map(reversed).collect::<Vec<_>>();
             assert_eq!(dot(unit, element, &within(a), &within(b), 0), sum, "{}", unit.name);
             shown[1] += 1;
         }
@@ -118,14 +118,14 @@ fn negation_negates_but_on_cdna3() {
     let mut asymmetric = 0;
     each_unit(|unit, element, a, b| {
         // The smallest addend: CDNA3 rounds a negative one down, however small.
-        let [sign, minus] = [unit.result.element(), element].map(|of| 1 << (of.width() - 1));
+        let [sign, minus] = [unit.result.element, element].map(|of| 1 << (of.width() - 1));
         let both = |a: &[u64], b: &[u64]| {
             let negated: Vec<u64> = a.iter().map(|code| code ^ minus).collect();
             let c = 1 << (unit.addend.width() - 1);
             [dot(unit, element, a, b, c | 1), dot(unit, element, &negated, b, 1)]
         };
-        if let Rule::Floored { halves, .. } = unit.rule {
-            let one = [ordinary(element, 1, 3)[0] & element.infinity()];
+        if let Rule::Floored { halves } = unit.rule {
+            let one = [element.code(1.0).expect("a number")];
             let [plus, minus] = both(&one, &one);
             asymmetric += usize::from(!halves && minus != plus ^ sign);
         } else {
@@ -139,16 +139,13 @@ fn negation_negates_but_on_cdna3() {
 #[test]
 fn powers_of_two_scale_results() {
     each_unit(|unit, element, a, b| {
-        let one = 1 << (element.fraction_bits + element.ignored_bits);
-        if element.exponent_bits < 4 {
-            return;
-        }
-        let doubled: Vec<u64> = a.iter().map(|code| code + one).collect();
-        let result = unit.result.element();
+        let (exponent_bits, fraction_bits) = element.fields();
+        let doubled: Vec<u64> = a.iter().map(|code| code + (1 << (fraction_bits + element.ignored_bits))).collect();
+        let result = unit.result.element;
         let [single, double] = [dot(unit, element, a, b, 0), dot(unit, element, &doubled, b, 0)];
-        let shown = single & !(1 << (result.width() - 1)) >= 1 << result.fraction_bits;
-        if shown && result != Element::FP16 {
-            assert_eq!(double, single + (1 << result.fraction_bits), "{}", unit.name);
+        let is_normal = result.number(single).abs() >= 2.0_f64.powi(-126);
+        if exponent_bits > 3 && is_normal && result != Element::FP16 {
+            assert_eq!(result.number(double), 2.0 * result.number(single), "{}", unit.name);
         }
     });
 }
@@ -160,26 +157,12 @@ fn a_unit_with_enough_bits_rounds_the_exact_sum_once() {
         let mut narrow = 0;
         for seed in 0..200 {
             let element = unit.operands[0];
-            let [a, b] = [seed, seed + 500].map(|seed| ordinary(element, unit.block(), seed));
-            // Integers, and what is left of them by f64, which holds sums of such numbers exactly.
-            let number = |code: u64| match element.decode(code) {
-                Value::Finite(x) => {
-                    let size = x.magnitude as f64
-                        * f64::from_bits(((x.exponent - x.fraction.cast_signed() + 1023) as u64) << 52);
-                    if x.negative { -size } else { size }
-                }
-                _ => f64::NAN,
-            };
-            let exact: f64 = a.iter().zip(&b).map(|(&a, &b)| number(a) * number(b)).sum();
+            let [a, b] = [seed, seed + 500].map(|seed| ordinary(element, unit.block, seed));
+            // f64 holds sums of such numbers exactly.
+            let exact: f64 = a.iter().zip(&b).map(|(&a, &b)| element.number(a) * element.number(b)).sum();
             let found = dot(&unit, element, &a, &b, 0);
-            let expected = if cut {
-                let nearest = exact as f32;
-                let outward = f64::from(nearest).abs() > exact.abs();
-                u64::from(if outward { nearest.to_bits() - 1 } else { nearest.to_bits() })
-            } else {
-                let half = refsim_lanes::num::from_f64(refsim_lanes::num::Format::FP16, exact);
-                half.bits.into()
-            };
+            let format = if cut { Format::FP32.with_rounding(Rounding::TowardZero) } else { Format::FP16 };
+            let expected = from_f64(format, exact).bits.into();
             assert_eq!(found, expected, "{name} {seed}");
             let short = unit.with_bits(8).expect("an aligned adder");
             narrow += usize::from(dot(&short, element, &a, &b, 0) != expected);
@@ -195,7 +178,7 @@ fn padding_and_bad_operands() {
         assert_eq!(dot(unit, element, &a[..37], &b[..37], 0), dot(unit, element, &x, &y, 0), "{}", unit.name);
     });
     let unit = MatrixUnit::find("blackwell-nvf4").expect("found with a hyphen");
-    assert_eq!(unit.result, ResultFormat::Cut32);
+    assert_eq!(unit.result, ResultFormat::CUT32);
     let operand = |element, codes, scales| Operand { element, codes, scales };
     let good = operand(Element::E2M1, &[0; 64][..], &[0; 4][..]);
     for bad in [
@@ -228,9 +211,9 @@ fn columns_at_once_give_what_the_definition_gives() {
     for (index, unit) in UNITS.iter().enumerate() {
         for seed in 0..24 {
             let [x, y] = [seed, seed / 5].map(|at| unit.operands[at % unit.operands.len()]);
-            let (length, seed) = (3 * unit.block() + seed % 5, (100 * index + seed) as u64);
+            let (length, seed) = (3 * unit.block + seed % 5, (100 * index + seed) as u64);
             let rows = |element: Element, count: usize, seed: u64| {
-                let share = unit.scaling.map_or(1, |scaling| scaling.block);
+                let share = unit.scaling.map_or(1, |(share, _)| share);
                 let scales = unit.scaling.map_or(0, |_| count * length.div_ceil(share));
                 let code = |k: usize| {
                     if seed.is_multiple_of(3) { random_word(seed, k as u64) as u8 } else { 120 + (k % 16) as u8 }
@@ -242,7 +225,7 @@ fn columns_at_once_give_what_the_definition_gives() {
             let c = drawn(unit.addend, 19, seed + 1);
             let columns = MatrixColumns::new(*unit, &b);
             for row in 0..2 {
-                let start = if row == 0 { 0 } else { unit.block() };
+                let start = if row == 0 { 0 } else { unit.block };
                 // Both rows at once, or one.
                 let twice = [&c[..], &c[..]].concat();
                 let sums = match row {
@@ -257,6 +240,19 @@ fn columns_at_once_give_what_the_definition_gives() {
             }
         }
     }
+}
+
+/// A sum that flushes to -0 stays so to the end of the instruction; as the c of the next one it is +0.
+#[test]
+fn flushed_zeros_keep_their_sign_within_an_instruction_of_cdna2() {
+    let unit = MatrixUnit::find("cdna2_bf16").expect("a unit");
+    let code = |x: f64| Element::BF16.code(x).expect("a number");
+    // Three halves of the smallest normal number, less that, and products that flush.
+    let (least, small) = (2.0_f64.powi(-126), 2.0_f64.powi(-100));
+    let a = [-1.5 * least, 0.0, least, 0.0].into_iter().chain([-small; 12]).map(code).collect::<Vec<_>>();
+    let b = [1.0; 4].into_iter().chain([small; 12]).map(code).collect::<Vec<_>>();
+    assert_eq!(dot(&unit, Element::BF16, &a[..8], &b[..8], 0), 0x8000_0000);
+    assert_eq!(dot(&unit, Element::BF16, &a, &b, 0), 0);
 }
 
 /// 1 + 8 * 2^-25 - 7 * 2^-24, which is 3f7ffffd: docs/matrix_units.md prints what the units make of it.
@@ -280,12 +276,8 @@ fn one_sum_of_sixteen_tells_the_family_apart() {
     ];
     for (name, expected) in sums {
         let unit = MatrixUnit::find(name).expect("a unit");
-        let five = |element: &&Element| element.exponent_bits >= 5;
-        let element = *unit.operands.iter().find(five).expect("a type with 2^-13");
-        let power = |n: u64| {
-            let one = (1 - element.least_exponent()) as u64;
-            (one - n) << (element.fraction_bits + element.ignored_bits)
-        };
+        let element = *unit.operands.iter().find(|element| element.fields().0 >= 5).expect("a type with 2^-13");
+        let power = |n: i32| element.code(2.0_f64.powi(-n)).expect("a number");
         let minus = 1 << (element.width() - 1);
         let a = [vec![power(0)], vec![power(12); 8], vec![power(12) | minus; 7]].concat();
         let b = [vec![power(0)], vec![power(13); 8], vec![power(12); 7]].concat();

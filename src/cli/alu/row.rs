@@ -1,14 +1,14 @@
 //! Operations on lines of many numbers: dot products, instructions on vectors, and blocks with a shared scale there and
 //! back.
 
-use std::io::{Read, Write as _};
+use std::io::Read;
 
 use refsim::num::{DotOrder, Env, Flags, Format, block::BLOCK, block::BlockFormat, ops};
 
 use super::line::{fields, hex, other_fields, push_hex};
 use super::operation::{Steps, VectorOperation};
-use super::stream::{TaskOutput, each_line};
-use crate::cli::{Out, OutputError};
+use super::stream::{TaskOutput, written};
+use crate::cli::Out;
 use crate::error::InputError;
 
 /// The operation on a line.
@@ -150,8 +150,5 @@ pub(super) fn run(unit: &RowUnit, flags: bool, input: impl Read, out: &mut Out) 
         }
         Ok(())
     };
-    each_line(input, work, |part| {
-        out.write_all(&part.text).and_then(|()| out.flush()).map_err(OutputError::from)?;
-        Ok(())
-    })
+    written(input, out, work)
 }

@@ -31,7 +31,7 @@ pub(super) struct TaskOutput {
 }
 
 /// Calls `work` on tasks of consecutive lines, `take` on what they made, in the order of the lines.
-pub(super) fn each_line(
+fn each_line(
     mut input: impl Read,
     work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError> + Sync,
     mut take: impl FnMut(&TaskOutput) -> miette::Result<()>,
@@ -108,6 +108,15 @@ pub(super) fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut O
         part.text.push(b'\n');
         Ok(())
     };
+    written(input, out, work)
+}
+
+/// Writes what `work` makes of every line.
+pub(super) fn written(
+    input: impl Read,
+    out: &mut Out,
+    work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError> + Sync,
+) -> miette::Result<()> {
     each_line(input, work, |part| {
         out.write_all(&part.text).and_then(|()| out.flush()).map_err(OutputError::from)?;
         Ok(())
@@ -132,9 +141,8 @@ fn push_json_result(text: &mut Vec<u8>, unit: &AluUnit, flags: bool, outcome: Ou
     text.extend_from_slice(b"\"}");
 }
 
-/// Compares the results that the lines bring with ours; a closed pipe does not change the verdict.
+/// Compares the results that the lines bring with ours.
 pub(super) fn verify(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
-    out.outlive_reader();
     let format = LineFormat::verify(unit, flags);
     let json = out.json();
     let work = |part: &mut TaskOutput, text: &[u8], number: u64| {
@@ -148,6 +156,18 @@ pub(super) fn verify(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Ou
         }
         Ok(())
     };
+    verified(input, out, work)
+}
+
+/// Counts lines that pass and fail in `work`, which writes the latter: with `--json` a comma and a document. A closed
+/// pipe does not change the verdict.
+pub(super) fn verified(
+    input: impl Read,
+    out: &mut Out,
+    work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError> + Sync,
+) -> miette::Result<Verdict> {
+    out.outlive_reader();
+    let json = out.json();
     let (mut passed, mut failed) = (0_u64, 0_u64);
     // A document for machines is written whole or not at all: an error may be waiting in the last line.
     let mut mismatches = Vec::new();

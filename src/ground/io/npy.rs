@@ -240,8 +240,8 @@ pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<Num
 /// Numbers, or patterns of a number format.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NumbersOrCodes {
-    /// Of type f4 or f8.
-    Numbers(NumberArray),
+    /// Of type f2, f4 or f8.
+    Numbers(NumberArray<f64>),
     /// Of type u1, u2 or u4.
     Codes(NumberArray<u64>),
 }
@@ -251,11 +251,34 @@ pub enum NumbersOrCodes {
 pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Result<NumbersOrCodes, InputError> {
     let bytes = read_file(path, what, limit)?;
     let view = view(&bytes, path)?;
-    if matches!(view.descr.as_bytes(), [b'<' | b'|', b'u', b'1' | b'2' | b'4']) && !view.data.is_empty() {
-        let values = view.elements().collect();
-        return Ok(NumbersOrCodes::Codes(NumberArray { shape: view.shape, values }));
+    if view.data.is_empty() {
+        return Err(size_error(path, "an array", format!("none in the shape {:?}", view.shape)));
     }
-    parse_npy_array(&bytes, path).map(NumbersOrCodes::Numbers)
+    let elements = view.elements();
+    let NpyView { descr, shape, .. } = view;
+    Ok(match descr.as_str() {
+        "|u1" | "<u2" | "<u4" => NumbersOrCodes::Codes(NumberArray { shape, values: elements.collect() }),
+        "<f2" => NumbersOrCodes::Numbers(NumberArray { shape, values: elements.map(half).collect() }),
+        "<f4" | ">f4" | "<f8" | ">f8" => NumbersOrCodes::Numbers(parse_npy_array(&bytes, path)?),
+        _ => {
+            return Err(input_error!("crossbar::npy::dtype" =>
+                "expected numbers of type <f2, <f4 or <f8, or patterns of type u1, <u2 or <u4, found {}",
+                quoted(descr.as_bytes()); help "convert the array: a.astype('<f4'), or a.view('u1') for patterns")
+            .at(path));
+        }
+    })
+}
+
+/// The number of a half-precision pattern.
+fn half(word: u64) -> f64 {
+    let (field, fraction) = ((word >> 10 & 31) as i32, (word & 1023) as f64);
+    let size = match field {
+        0 => fraction / 1024.0 * f64::powi(2.0, -14),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        _ => (1.0 + fraction / 1024.0) * f64::powi(2.0, field - 15),
+    };
+    if word >> 15 == 0 { size } else { -size }
 }
 
 /// Writes a table as an array of little-endian f4, in version 1.

@@ -4,7 +4,8 @@
 use std::ops::Range;
 
 use super::SimdLevel;
-use crate::num::matrix::{Element, MatrixUnit, Operand, ResultFormat, Rule, Value};
+use crate::num::matrix::{Element, MatrixUnit, Operand, Rule, Value};
+use crate::num::{FormatKind, Rounding};
 
 /// Columns that are computed at once.
 const WIDTH: usize = 16;
@@ -46,15 +47,23 @@ impl MatrixRows {
     }
 }
 
-/// The numbers of a fast adder: signed magnitudes and exponents.
+/// A fast adder, and the fields of its results' words.
 #[derive(Clone, Copy)]
 struct Adder {
     block: usize,
     bits: i32,
+    /// Least exponent that addends are aligned to.
     least: i32,
     /// Fraction bits of a product.
+    product_fraction: i32,
+    /// Fraction bits of a word, and how many of them results have.
     fraction: i32,
-    result: ResultFormat,
+    kept: i32,
+    least_result: i32,
+    infinity: u64,
+    /// Place of the sign.
+    sign: u32,
+    nearest: bool,
 }
 
 /// A number unpacked: signed magnitude, of 11 bits at most, and exponent.
@@ -120,10 +129,10 @@ impl<'a> MatrixColumns<'a> {
             Some((_, table)) => row.codes.iter().map(|&code| table[code as usize & (table.len() - 1)]).collect(),
             None => row.codes.iter().map(|&code| unpack(row.element, code)).collect(),
         };
-        let Some(scaling) = self.unit.scaling else { return numbers };
+        let Some((share, scale)) = self.unit.scaling else { return numbers };
         let mut numbers = numbers?;
-        for (numbers, &code) in numbers.chunks_mut(scaling.block).zip(row.scales) {
-            let Value::Finite(scale) = scaling.decode(code) else { return None };
+        for (numbers, &code) in numbers.chunks_mut(share).zip(row.scales) {
+            let Value::Finite(scale) = scale.decode(code.into()) else { return None };
             numbers.iter_mut().filter(|number| number.0 != 0).for_each(|number| number.1 += scale.exponent as i16);
         }
         Some(numbers)
@@ -131,10 +140,24 @@ impl<'a> MatrixColumns<'a> {
 
     /// The unit's adder; `None` if this module does not implement it.
     fn adder(&self, a: Element) -> Option<Adder> {
-        let Rule::Aligned { block, bits, least } = self.unit.rule else { return None };
-        let fits = bits <= MAX_BITS && self.unit.addend == self.unit.result.element();
-        let fraction = (a.fraction_bits + self.columns.element.fraction_bits).cast_signed();
-        fits.then_some(Adder { block, bits: bits.cast_signed(), least, fraction, result: self.unit.result })
+        let MatrixUnit { rule: Rule::Aligned { least }, bits: Some(bits), block, result, .. } = self.unit else {
+            return None;
+        };
+        let format = result.element.format?;
+        let FormatKind::Float { man_bits: kept, .. } = result.format.kind else { return None };
+        let fits = bits <= MAX_BITS && self.unit.addend == result.element;
+        fits.then_some(Adder {
+            block,
+            bits: bits.cast_signed(),
+            least,
+            product_fraction: (a.fields().1 + self.columns.element.fields().1).cast_signed(),
+            fraction: result.element.fields().1.cast_signed(),
+            kept: kept.into(),
+            least_result: format.exponents().0,
+            infinity: format.infinity(false)?.into(),
+            sign: format.width() - 1,
+            nearest: result.format.rounding == Rounding::NearestEven,
+        })
     }
 
     /// Rows of D for rows of A: words of the result, as [`MatrixUnit::dot`] gives them, over `depth` products behind
@@ -191,10 +214,9 @@ fn chains(adder: &Adder, rows: &[(usize, &[Unpacked])], b: &[Lanes], words: &mut
 /// One block of sixteen elements of D.
 #[inline(always)]
 fn block(adder: &Adder, a: &[Unpacked], b: &[Lanes], words: &mut [u64; WIDTH]) {
-    let layout = MatrixLayout::of(adder.result);
     let mut top = [adder.least; WIDTH];
     for lane in 0..WIDTH {
-        top[lane] = top[lane].max(layout.exponent(words[lane]));
+        top[lane] = top[lane].max(adder.exponent(words[lane]));
     }
     for (&(_, e), [_, exponents]) in a.iter().zip(b) {
         for lane in 0..WIDTH {
@@ -209,15 +231,15 @@ fn block(adder: &Adder, a: &[Unpacked], b: &[Lanes], words: &mut [u64; WIDTH]) {
         }
     }
     for lane in 0..WIDTH {
-        words[lane] = layout.finish(adder, words[lane], total[lane], top[lane]);
+        words[lane] = adder.finish(words[lane], total[lane], top[lane]);
     }
 }
 
 /// The sum of up to sixteen products, cut below `top`.
 #[inline(always)]
 fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32; WIDTH] {
-    let up = (adder.bits - adder.fraction).max(0).cast_unsigned();
-    let down = (adder.fraction - adder.bits).max(0);
+    let up = (adder.bits - adder.product_fraction).max(0).cast_unsigned();
+    let down = (adder.product_fraction - adder.bits).max(0);
     let mut sum = [0_i32; WIDTH];
     for (&(m, e), [magnitudes, exponents]) in a.iter().zip(b) {
         let (m, e) = (i32::from(m), i32::from(e) - down);
@@ -233,43 +255,18 @@ fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32
     sum
 }
 
-/// Fields of the words of a result.
-#[derive(Clone, Copy)]
-struct MatrixLayout {
-    fraction: i32,
-    /// Fraction bits of results, fewer in e8m13.
-    kept: i32,
-    least: i32,
-    infinity: u64,
-    sign: u32,
-    nearest: bool,
-}
-
-impl MatrixLayout {
-    #[inline(always)]
-    fn of(result: ResultFormat) -> Self {
-        match result {
-            ResultFormat::Nearest16 => {
-                Self { fraction: 10, kept: 10, least: -14, infinity: 0x7c00, sign: 15, nearest: true }
-            }
-            _ => {
-                let kept = if result == ResultFormat::Cut22 { 13 } else { 23 };
-                Self { fraction: 23, kept, least: -126, infinity: 0x7f80_0000, sign: 31, nearest: false }
-            }
-        }
-    }
-
+impl Adder {
     /// Exponent of an addend; [`i32::MIN`] halved of zeros.
     #[inline(always)]
     fn exponent(self, word: u64) -> i32 {
         let size = word & ((1 << self.sign) - 1);
-        let exponent = self.least + ((size >> self.fraction) as i32).max(1) - 1;
+        let exponent = self.least_result + ((size >> self.fraction) as i32).max(1) - 1;
         if size == 0 { i32::MIN / 2 } else { exponent }
     }
 
     /// The result of a block: `total * 2^(top - bits)` and the addend `c`.
     #[inline(always)]
-    fn finish(self, adder: &Adder, c: u64, total: i64, top: i32) -> u64 {
+    fn finish(self, c: u64, total: i64, top: i32) -> u64 {
         let size = c & ((1 << self.sign) - 1);
         if size >= self.infinity {
             return if size > self.infinity { (1 << self.sign) - 1 } else { c };
@@ -277,15 +274,15 @@ impl MatrixLayout {
         let field = size >> self.fraction;
         let significand = size & ((1 << self.fraction) - 1) | u64::from(field != 0) << self.fraction;
         // 35 bits more than the fraction: the largest `bits` is within them.
-        let cut = (top - self.exponent(c) + 35 - adder.bits + self.fraction).clamp(0, 63);
+        let cut = (top - self.exponent(c) + 35 - self.bits + self.fraction).clamp(0, 63);
         let kept = ((significand << 35) >> cut).cast_signed();
         let sum = total + if c >> self.sign == 0 { kept } else { -kept };
         if sum == 0 {
             return 0;
         }
         let size = sum.unsigned_abs();
-        let unit = top - adder.bits;
-        let exponent = (63 - size.leading_zeros().cast_signed() + unit).max(self.least);
+        let unit = top - self.bits;
+        let exponent = (63 - size.leading_zeros().cast_signed() + unit).max(self.least_result);
         let dropped = exponent - self.kept - unit;
         let mut digits = if dropped <= 0 { size << -dropped } else { size >> dropped.min(63) };
         if self.nearest && dropped > 0 {
@@ -293,7 +290,7 @@ impl MatrixLayout {
             let (rest, half) = (size & ((1 << shift) - 1), 1 << (shift - 1));
             digits += u64::from(rest > half || rest == half && digits & 1 == 1);
         }
-        let word = ((exponent - self.least) as u64) << self.kept;
+        let word = ((exponent - self.least_result) as u64) << self.kept;
         let word = ((word + digits) << (self.fraction - self.kept)).min(self.infinity);
         if word == 0 { 0 } else { word | u64::from(sum < 0) << self.sign }
     }

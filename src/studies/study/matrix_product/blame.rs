@@ -2,8 +2,7 @@
 
 use refsim::num::matrix::{Element, MatrixError};
 
-use super::multiply::{ExactSum, Operands};
-use super::operands::{number, power};
+use super::multiply::MatrixOperands;
 
 /// The fate of an addend.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,102 +14,106 @@ pub(super) struct AddendFate {
     pub(super) kept: f64,
 }
 
-/// The place where an element first differs from its reference; with one accumulator.
+/// Sums of a unit and of its reference before some k.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct SumsAt {
+    pub(super) k: usize,
+    pub(super) ours: f64,
+    pub(super) theirs: f64,
+}
+
+impl SumsAt {
+    fn error(self) -> f64 {
+        self.ours - self.theirs
+    }
+}
+
+/// Where an element parts from its reference, with one accumulator.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Blame {
     pub(super) place: [usize; 2],
-    /// First k of the block, and that behind it; equal if the sums never part.
-    pub(super) block: [usize; 2],
-    /// Sums of the unit and of the reference before the block, and behind it.
-    pub(super) sums: [[f64; 2]; 2],
-    /// Addends in the order of k, those of the unit first.
+    /// Before the block, and behind it; the same k if the sums never part.
+    pub(super) block: [SumsAt; 2],
+    /// Sums at the end.
+    pub(super) end: SumsAt,
+    /// Addends in the order of k, those of the unit first; none of units without an aligned adder.
     pub(super) addends: Vec<AddendFate>,
 }
 
-/// The sum at a k, as the word that enters the block there.
+/// The sum before each block, and behind the last: a word and its type.
 type Sums = Vec<(usize, (u64, Element))>;
 
-/// Sums before each block and behind the last.
-fn trace(operands: &Operands, [row, column]: [usize; 2]) -> Sums {
+fn trace(operands: &MatrixOperands, [row, column]: [usize; 2]) -> Sums {
     let (unit, depth) = (operands.unit, operands.a.length);
     let [a, b] = [operands.a.row(row, 0, depth), operands.b.row(column, 0, depth)];
-    let c = operands.c[row * operands.columns() + column];
-    let mut sum = (super::operands::code(unit.addend, c).unwrap_or(0), unit.addend);
-    let mut sums = vec![(0, sum)];
-    for start in (0..depth).step_by(unit.block()) {
-        sum = (unit.block_sum(a, b, start, sum), unit.result.element());
-        sums.push(((start + unit.block()).min(depth), sum));
+    let mut sums = vec![(0, (operands.c[row * operands.b.count() + column], unit.addend))];
+    for start in (0..depth).step_by(unit.block) {
+        let sum = unit.block_sum(a, b, start, sums[sums.len() - 1].1);
+        sums.push(((start + unit.block).min(depth), (sum, unit.result.element)));
     }
     sums
 }
 
 /// Follows an element. Against another unit, the block is the first behind which the sums differ; against the exact
 /// sum, the one that adds most to the error.
-pub(super) fn blame(operands: &Operands, other: Option<&Operands>, place: [usize; 2]) -> Result<Blame, MatrixError> {
-    let size = [operands.a.count(), operands.columns()];
+pub(super) fn blame(
+    operands: &MatrixOperands,
+    other: Option<&MatrixOperands>,
+    place: [usize; 2],
+) -> Result<Blame, MatrixError> {
+    let size = operands.shape();
     if place[0] >= size[0] || place[1] >= size[1] {
         return Err(MatrixError::new("place of an element", format!("below {size:?}"), format!("{place:?}")));
     }
-    let value = |(_, (word, element)): &(usize, (u64, Element))| number(*element, *word);
+    let number = |(word, element): (u64, Element)| element.number(word);
     let ours = trace(operands, place);
     let theirs = other.map(|other| trace(other, place));
-    let depths: Vec<usize> = ours.iter().map(|sum| sum.0).collect();
     // Both sums where both are at the end of a block.
-    let both: Vec<(usize, [f64; 2])> = match &theirs {
-        Some(theirs) => ours
-            .iter()
-            .filter_map(|sum| Some((sum.0, [value(sum), value(theirs.iter().find(|other| other.0 == sum.0)?)])))
-            .collect(),
+    let reference: Vec<(usize, f64)> = match &theirs {
+        Some(theirs) => theirs.iter().map(|&(k, sum)| (k, number(sum))).collect(),
         None => {
-            let element = |sums: Vec<ExactSum>| sums[place[0] * size[1] + place[1]].value();
-            let exact = operands.exact(&depths).into_iter().map(element);
-            ours.iter().zip(exact).map(|(sum, exact)| (sum.0, [value(sum), exact])).collect()
+            let depths: Vec<usize> = ours.iter().map(|sum| sum.0).collect();
+            let exact = operands.exact_element(place[0] * size[1] + place[1], &depths);
+            depths.into_iter().zip(exact.into_iter().map(|sum| sum.value())).collect()
         }
     };
-    let error = |(_, [ours, theirs]): &(usize, [f64; 2])| ours - theirs;
-    let steps = || both.windows(2).enumerate();
+    let both: Vec<SumsAt> = ours
+        .iter()
+        .filter_map(|&(k, sum)| {
+            let theirs = reference.iter().find(|other| other.0 == k)?.1;
+            Some(SumsAt { k, ours: number(sum), theirs })
+        })
+        .collect();
+    let growth = |pair: &[SumsAt]| (pair[1].error() - pair[0].error()).abs();
+    let mut parted = both.windows(2).filter(|pair| growth(pair) != 0.0);
     let found = match theirs {
-        Some(_) => steps().find(|(_, pair)| error(&pair[1]) != 0.0),
-        None => steps().filter(|(_, pair)| error(&pair[1]) != error(&pair[0])).max_by(|(_, x), (_, y)| {
-            let growth = |pair: &[(usize, [f64; 2])]| (error(&pair[1]) - error(&pair[0])).abs();
-            growth(x).total_cmp(&growth(y))
-        }),
+        Some(_) => parted.next(),
+        None => parted.max_by(|x, y| growth(x).total_cmp(&growth(y))),
     };
-    let Some((_, [before, behind])) = found.map(|(at, pair)| (at, [pair[0], pair[1]])) else {
-        let end = both.last().copied().unwrap_or_default();
-        return Ok(Blame { place, block: [end.0; 2], sums: [end.1; 2], addends: Vec::new() });
-    };
-    let block = [before.0, behind.0];
+    let end = both.last().copied().unwrap_or_default();
+    let block = found.map_or([end; 2], |pair| [pair[0], pair[1]]);
     let mut addends = fates(operands, &ours, place, block);
     if let (Some(other), Some(theirs)) = (other, &theirs) {
         addends.extend(fates(other, theirs, place, block));
     }
-    Ok(Blame { place, block, sums: [before.1, behind.1], addends })
+    Ok(Blame { place, block, end, addends })
 }
 
-/// Addends of the blocks within a range of k; none of units without an aligned adder.
-fn fates(operands: &Operands, sums: &Sums, [row, column]: [usize; 2], [first, end]: [usize; 2]) -> Vec<AddendFate> {
+/// Addends of the blocks within a range of k.
+fn fates(operands: &MatrixOperands, sums: &Sums, [row, column]: [usize; 2], range: [SumsAt; 2]) -> Vec<AddendFate> {
     let (unit, depth) = (operands.unit, operands.a.length);
     let [a, b] = [operands.a.row(row, 0, depth), operands.b.row(column, 0, depth)];
     let mut fates = Vec::new();
-    for pair in sums.windows(2).filter(|pair| (first..end).contains(&pair[0].0)) {
+    for pair in sums.windows(2).filter(|pair| (range[0].k..range[1].k).contains(&pair[0].0)) {
         let (start, sum) = pair[0];
-        let Some((addends, unit_exponent)) = unit.kept(a, b, start, sum) else { continue };
-        let signed = |negative: bool, size: f64| if negative { -size } else { size };
-        let mut total = 0.0;
-        let count = addends.len();
-        for (at, (addend, kept)) in addends.into_iter().enumerate() {
-            let scale = power(addend.exponent) * power(-addend.fraction.cast_signed());
-            let fate = AddendFate {
-                unit: unit.name,
-                addend: if at + 1 == count { "c".to_owned() } else { (start + at).to_string() },
-                exact: signed(addend.negative, addend.magnitude as f64 * scale),
-                kept: kept as f64 * power(unit_exponent),
-            };
-            total += fate.kept;
-            fates.push(fate);
+        let Some(addends) = unit.kept(a, b, start, sum) else { continue };
+        let total = addends.iter().map(|both| both[1]).sum();
+        let last = addends.len() - 1;
+        for (at, [exact, kept]) in addends.into_iter().enumerate() {
+            let addend = if at == last { "c".to_owned() } else { (start + at).to_string() };
+            fates.push(AddendFate { unit: unit.name, addend, exact, kept });
         }
-        let kept = number(pair[1].1.1, pair[1].1.0);
+        let kept = pair[1].1.1.number(pair[1].1.0);
         fates.push(AddendFate { unit: unit.name, addend: "result".to_owned(), exact: total, kept });
     }
     fates

@@ -9,6 +9,7 @@ mod report;
 use super::{ProgressFn, Study, StudyError};
 use crate::report::Findings;
 
+pub use multiply::MatrixOperands;
 pub use operands::MatrixInput;
 pub use product::MatrixProduct;
 

@@ -2,23 +2,26 @@
 
 use rayon::prelude::*;
 use refsim::exec::batch::{MatrixColumns, MatrixRows};
-use refsim::num::matrix::{Element, MatrixError, MatrixUnit, Value};
+use refsim::num::matrix::{Element, MatrixError, MatrixUnit};
 use refsim::num::{Format, ops};
 
-use super::operands::{MatrixInput, code, number, power};
+use super::operands::MatrixInput;
+use crate::io::NumbersOrCodes;
 
 /// Rows of one task.
 const TASK_ROWS: usize = 8;
 
 /// The operands of a product in the types of a unit.
 #[derive(Debug)]
-pub(super) struct Operands {
+pub struct MatrixOperands {
     pub(super) unit: MatrixUnit,
     pub(super) a: MatrixRows,
     /// Columns of B.
     pub(super) b: MatrixRows,
-    /// C, by rows; zeros without.
-    pub(super) c: Vec<f32>,
+    /// C, by rows, in the type of the unit; zeros without.
+    pub(super) c: Vec<u64>,
+    /// The numbers of A and B, with their scales.
+    numbers: [Vec<f64>; 2],
 }
 
 /// An exact element of D: the sum in two parts, and the sum of the magnitudes of its addends.
@@ -54,84 +57,97 @@ impl ExactSum {
     }
 }
 
-impl Operands {
+impl MatrixOperands {
     /// Quantises A, B and C for a unit; `elements` are the types of A and B, by default the unit's first.
-    pub(super) fn new(
+    ///
+    /// # Errors
+    /// If shapes do not fit, or the unit does not take such operands.
+    pub fn new(
         unit: MatrixUnit,
         [a, b]: [&MatrixInput; 2],
         c: Option<&MatrixInput>,
         elements: [Option<Element>; 2],
     ) -> Result<Self, MatrixError> {
         let [[rows, depth], [other, columns]] = [a.shape()?, b.shape()?];
+        let wrong = |input: &MatrixInput, expected: String, found: String| {
+            Err(MatrixError::new(format!("{}: shape", input.name), expected, found))
+        };
         if depth != other {
-            return Err(MatrixError::new(
-                format!("{}: rows", b.name),
-                format!("{depth}, columns of A"),
-                other.to_string(),
-            ));
+            return wrong(b, format!("{depth} rows, as A has columns"), format!("[{other}, {columns}]"));
         }
         let [x, y] = elements.map(|element| element.unwrap_or(unit.operands[0]));
-        let (a, b) = (a.rows(&unit, x)?, b.transposed()?.rows(&unit, y)?);
+        let (a, b) = (a.rows(&unit, x, false)?, b.rows(&unit, y, true)?);
         unit.check(&a.row(0, 0, depth), &b.row(0, 0, depth))?;
+        let code = |x: &f64| unit.addend.code(*x).unwrap_or(0);
         let c = match c.map(|c| (c, &c.data, c.shape())) {
-            None => vec![0.0; rows * columns],
-            Some((_, crate::io::NumbersOrCodes::Numbers(array), Ok(shape))) if shape == [rows, columns] => {
-                array.values.clone()
+            None => vec![0; rows * columns],
+            Some((_, NumbersOrCodes::Numbers(array), Ok(shape))) if shape == [rows, columns] => {
+                array.values.iter().map(code).collect()
             }
-            Some((c, ..)) => {
-                let expected = format!("numbers of the shape [{rows}, {columns}]");
-                return Err(MatrixError::new(c.name.clone(), expected, format!("{:?}, or patterns", c.shape()?)));
+            Some((c, data, _)) => {
+                let kind = if matches!(data, NumbersOrCodes::Codes(_)) { "patterns of " } else { "" };
+                return wrong(c, format!("numbers of [{rows}, {columns}]"), format!("{kind}{:?}", c.shape()?));
             }
         };
-        Ok(Self { unit, a, b, c })
+        let numbers = [numbers(&unit, &a), numbers(&unit, &b)];
+        Ok(Self { unit, a, b, c, numbers })
     }
 
-    /// Columns of D.
-    pub(super) fn columns(&self) -> usize {
-        self.b.count()
+    /// Rows and columns of D.
+    pub fn shape(&self) -> [usize; 2] {
+        [self.a.count(), self.b.count()]
     }
 
-    /// D over the first `depth` products: each number exactly. With `promote`, every so many products are added to a
-    /// sum in single precision, rounded to nearest even, and the unit begins again from zero.
+    /// Products of an element.
+    pub fn depth(&self) -> usize {
+        self.a.length
+    }
+
+    /// D, each number exactly.
     pub(super) fn product(
         &self,
         unit: &MatrixUnit,
         depth: usize,
         promote: Option<usize>,
     ) -> Result<Vec<f64>, MatrixError> {
-        let result = unit.result.element();
+        let number = |word| unit.result.element.number(word);
+        Ok(self.words(unit, depth, promote)?.into_iter().map(number).collect())
+    }
+
+    /// Words of D over the first `depth` products, by a unit that takes the same operands. With `promote`, every so many
+    /// products go to a sum in single precision, rounded to nearest even, and the unit begins again from zero.
+    ///
+    /// # Errors
+    /// If the unit does not go with the promotion.
+    pub fn words(&self, unit: &MatrixUnit, depth: usize, promote: Option<usize>) -> Result<Vec<u64>, MatrixError> {
+        let result = unit.result.element;
+        let multiple = unit.block.max(self.a.share);
         if let Some(step) = promote {
             let what = format!("promotion of {}", unit.name);
             if result != Element::FP32 {
                 return Err(MatrixError::new(what, "results of single precision", result.name));
             }
-            let multiple = unit.block().max(self.a.share);
             if step == 0 || !step.is_multiple_of(multiple) {
                 return Err(MatrixError::new(what, format!("a multiple of {multiple}, its block"), step.to_string()));
             }
         }
         let columns = MatrixColumns::new(*unit, &self.b);
-        let count = self.columns();
-        let rows: Vec<usize> = (0..self.a.count()).collect();
-        let task = |rows: &[usize]| -> Vec<f64> {
+        let [height, width] = self.shape();
+        let rows: Vec<usize> = (0..height).collect();
+        let task = |rows: &[usize]| -> Vec<u64> {
             let range = rows[0]..rows[0] + rows.len();
-            let c = &self.c[range.start * count..range.end * count];
+            let c = &self.c[range.start * width..range.end * width];
             let multiply = |start, depth, c: &[u64]| columns.multiply(&self.a, range.clone(), start, depth, c);
-            let codes = |element| c.iter().map(|&x| code(element, x).unwrap_or(0)).collect::<Vec<u64>>();
-            let words = match promote {
-                None => multiply(0, depth, &codes(unit.addend)),
-                Some(step) => {
-                    let mut sums = codes(Element::FP32);
-                    for start in (0..depth).step_by(step) {
-                        let parts = multiply(start, step.min(depth - start), &vec![0; c.len()]);
-                        for (sum, part) in sums.iter_mut().zip(parts) {
-                            *sum = ops::add(Format::FP32, *sum as u32, part as u32).bits.into();
-                        }
-                    }
-                    sums
+            let Some(step) = promote else { return multiply(0, depth, c) };
+            let single = |&word: &u64| Element::FP32.code(unit.addend.number(word)).unwrap_or(0);
+            let mut sums: Vec<u64> = c.iter().map(single).collect();
+            for start in (0..depth).step_by(step) {
+                let parts = multiply(start, step.min(depth - start), &vec![0; c.len()]);
+                for (sum, part) in sums.iter_mut().zip(parts) {
+                    *sum = ops::add(Format::FP32, *sum as u32, part as u32).bits.into();
                 }
-            };
-            words.into_iter().map(|word| number(result, word)).collect()
+            }
+            sums
         };
         Ok(rows.par_chunks(TASK_ROWS).flat_map_iter(task).collect())
     }
@@ -139,37 +155,36 @@ impl Operands {
     /// The exact D over each of some depths. Products of up to 26 bits are exact in a double, and their sums in two
     /// doubles, except for types with the exponents of single precision.
     pub(super) fn exact(&self, depths: &[usize]) -> Vec<Vec<ExactSum>> {
-        let [a, b] = [&self.a, &self.b].map(|rows| self.numbers(rows));
-        let (depth, count) = (self.a.length, self.columns());
-        let element = |index: usize| -> Vec<ExactSum> {
-            let (row, column) = (&a[index / count * depth..][..depth], &b[index % count * depth..][..depth]);
-            let mut sum = ExactSum::default();
-            sum.add(self.c[index].into());
-            let mut start = 0;
-            let mut prefix = |&end: &usize| {
-                row[start..end].iter().zip(&column[start..end]).for_each(|(x, y)| sum.add(x * y));
-                start = end;
-                sum
-            };
-            depths.iter().map(&mut prefix).collect()
-        };
-        let elements: Vec<Vec<ExactSum>> = (0..self.c.len()).into_par_iter().map(element).collect();
+        let elements: Vec<Vec<ExactSum>> =
+            (0..self.c.len()).into_par_iter().map(|index| self.exact_element(index, depths)).collect();
         (0..depths.len()).map(|at| elements.iter().map(|sums| sums[at]).collect()).collect()
     }
 
-    /// Numbers with their scales.
-    fn numbers(&self, rows: &MatrixRows) -> Vec<f64> {
-        let scale = |index: usize| match self.unit.scaling {
-            None => 1.0,
-            Some(scaling) => {
-                let per_row = rows.length.div_ceil(rows.share);
-                let place = index / rows.length * per_row + index % rows.length / rows.share;
-                match scaling.decode(rows.scales[place]) {
-                    Value::Finite(x) => power(x.exponent),
-                    _ => f64::NAN,
-                }
-            }
+    /// One element of [`Self::exact`]; depths rise.
+    pub(super) fn exact_element(&self, index: usize, depths: &[usize]) -> Vec<ExactSum> {
+        let (depth, count) = (self.a.length, self.b.count());
+        let row = &self.numbers[0][index / count * depth..][..depth];
+        let column = &self.numbers[1][index % count * depth..][..depth];
+        let mut sum = ExactSum::default();
+        sum.add(self.unit.addend.number(self.c[index]));
+        let mut start = 0;
+        let mut prefix = |&end: &usize| {
+            row[start..end].iter().zip(&column[start..end]).for_each(|(x, y)| sum.add(x * y));
+            start = end;
+            sum
         };
-        rows.codes.iter().enumerate().map(|(index, &code)| number(rows.element, code) * scale(index)).collect()
+        depths.iter().map(&mut prefix).collect()
     }
+}
+
+/// Numbers with their scales.
+fn numbers(unit: &MatrixUnit, rows: &MatrixRows) -> Vec<f64> {
+    let scale = |index: usize| match unit.scaling {
+        None => 1.0,
+        Some((share, scale)) => {
+            let place = index / rows.length * rows.length.div_ceil(share) + index % rows.length / share;
+            scale.number(rows.scales[place].into())
+        }
+    };
+    rows.codes.iter().enumerate().map(|(index, &code)| rows.element.number(code) * scale(index)).collect()
 }

@@ -3,7 +3,7 @@
 use refsim::num::matrix::{Element, MatrixError, MatrixUnit};
 
 use super::blame::{self, Blame};
-use super::multiply::{ExactSum, Operands};
+use super::multiply::{ExactSum, MatrixOperands};
 use super::operands::MatrixInput;
 use crate::study::precision::Goal;
 use crate::study::{ProgressFn, StudyError};
@@ -34,6 +34,9 @@ pub struct MatrixProduct {
     pub goal: Option<Goal>,
 }
 
+/// Names of the measures of [`Errors`].
+const MEASURES: &str = "worst, mean, bits, of_addends and differing";
+
 /// Errors of all elements. Relative ones are shares of the reference's magnitude, element by element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Errors {
@@ -50,8 +53,6 @@ pub(super) struct Errors {
 }
 
 impl Errors {
-    pub(super) const MEASURES: &str = "worst, mean, bits, of_addends or differing";
-
     fn of(found: &[f64], reference: &[ExactSum]) -> Self {
         let (mut errors, mut sum) = (Self::default(), 0.0);
         for (&found, reference) in found.iter().zip(reference) {
@@ -98,14 +99,6 @@ pub(super) struct ProductRow {
     pub(super) product: Vec<f64>,
 }
 
-/// Result of the search for a goal.
-#[derive(Debug)]
-pub(super) struct GoalOutcome {
-    pub(super) fewest_bits: Option<u32>,
-    /// Products per promotion, at most; the depth for one accumulator.
-    pub(super) rarest_promotion: Option<usize>,
-}
-
 /// Everything that was computed.
 #[derive(Debug)]
 pub(super) struct ProductOutcome {
@@ -113,35 +106,44 @@ pub(super) struct ProductOutcome {
     pub(super) depths: Vec<usize>,
     pub(super) rows: Vec<ProductRow>,
     pub(super) blame: Option<Blame>,
-    pub(super) goal: Option<GoalOutcome>,
+    /// Fewest bits with one accumulator that meet the goal.
+    pub(super) fewest_bits: Option<u32>,
+    /// Products of the rarest promotion that meets the goal; the depth for one accumulator.
+    pub(super) rarest_promotion: Option<usize>,
 }
 
 impl MatrixProduct {
-    fn operands(&self, unit: &MatrixUnit) -> Result<Operands, MatrixError> {
+    fn operands(&self, unit: &MatrixUnit) -> Result<MatrixOperands, MatrixError> {
         let [a, b] = &self.factors;
-        Operands::new(*unit, [a, b], self.addend.as_ref(), self.elements)
+        MatrixOperands::new(*unit, [a, b], self.addend.as_ref(), self.elements)
     }
 
     pub(super) fn compute(&self, progress: &mut ProgressFn<'_>) -> Result<ProductOutcome, StudyError> {
-        let [rows, depth] = self.factors[0].shape()?;
-        let mut depths: Vec<usize> = (0..POINTS).map(|half| depth >> half).filter(|&depth| depth > 0).collect();
-        depths.reverse();
+        if let Some(goal) = self.goal.as_ref().filter(|goal| Errors::default().measure(&goal.measure).is_none()) {
+            return Err(StudyError::usage(
+                format!("expected a goal of one of {MEASURES}, found `{}`", goal.measure),
+                "write it as in `--goal \"worst<=1e-3\"`",
+            ));
+        }
+        let ([rows, depth], columns) = (self.factors[0].shape()?, self.factors[1].shape()?[1]);
+        let depths: Vec<usize> = (0..POINTS).rev().map(|half| depth >> half).filter(|&depth| depth > 0).collect();
         let steps = (self.units.len() * self.promotions.len() + 1) as u64;
         let mut outcome = ProductOutcome {
-            shape: [rows, depth, self.factors[1].shape()?[1]],
+            shape: [rows, depth, columns],
             depths: depths.clone(),
             rows: Vec::new(),
             blame: None,
-            goal: None,
+            fewest_bits: None,
+            rarest_promotion: None,
         };
-        let against = self.against.map(|unit| Ok::<_, MatrixError>((unit, self.operands(&unit)?))).transpose()?;
-        for unit in &self.units {
+        let against = self.against.map(|unit| self.operands(&unit)).transpose()?;
+        for (index, unit) in self.units.iter().enumerate() {
             progress(unit.name, outcome.rows.len() as u64, steps);
             let operands = self.operands(unit)?;
             let mut references = operands.exact(&depths);
-            if let Some((unit, operands)) = &against {
-                for (depth, sums) in depths.iter().zip(&mut references) {
-                    let product = operands.product(unit, *depth, None)?;
+            if let Some(other) = &against {
+                for (&depth, sums) in depths.iter().zip(&mut references) {
+                    let product = other.product(&other.unit, depth, None)?;
                     sums.iter_mut().zip(product).for_each(|(sum, value)| *sum = sum.replaced(value));
                 }
             }
@@ -154,16 +156,11 @@ impl MatrixProduct {
                 outcome.rows.push(row);
                 progress(unit.name, outcome.rows.len() as u64, steps);
             }
-            if outcome.goal.is_none()
-                && let (Some(goal), Some(reference)) = (&self.goal, references.last())
-            {
-                outcome.goal = Some(search(goal, &operands, reference)?);
+            if let (0, Some(goal), Some(reference)) = (index, &self.goal, references.last()) {
+                (outcome.fewest_bits, outcome.rarest_promotion) = search(goal, &operands, reference)?;
             }
-            if outcome.blame.is_none()
-                && let Some(place) = self.blame
-            {
-                let other = against.as_ref().map(|(_, operands)| operands);
-                outcome.blame = Some(blame::blame(&operands, other, place)?);
+            if let (0, Some(place)) = (index, self.blame) {
+                outcome.blame = Some(blame::blame(&operands, against.as_ref(), place)?);
             }
         }
         Ok(outcome)
@@ -172,31 +169,29 @@ impl MatrixProduct {
 
 /// The fewest bits with one accumulator, and the rarest promotion with the unit's own bits, that meet a goal. More bits
 /// are taken to be no worse.
-fn search(goal: &Goal, operands: &Operands, reference: &[ExactSum]) -> Result<GoalOutcome, StudyError> {
+fn search(
+    goal: &Goal,
+    operands: &MatrixOperands,
+    reference: &[ExactSum],
+) -> Result<(Option<u32>, Option<usize>), MatrixError> {
     let (unit, depth) = (operands.unit, operands.a.length);
-    let meets = |unit: &MatrixUnit, promote| -> Result<bool, StudyError> {
+    let meets = |unit: &MatrixUnit, promote| -> Result<bool, MatrixError> {
         let errors = Errors::of(&operands.product(unit, depth, promote)?, reference);
-        let wrong = || StudyError::usage(format!("no measure `{}`", goal.measure), format!("use {}", Errors::MEASURES));
-        Ok(goal.met(errors.measure(&goal.measure).ok_or_else(wrong)?))
+        Ok(goal.met(errors.measure(&goal.measure).unwrap_or(f64::NAN)))
     };
-    let (mut missed, mut fewest_bits) = (0, None);
-    while let Some(wider) = unit.with_bits(fewest_bits.map_or(MAX_BITS, |met| missed + (met - missed) / 2)) {
-        let bits = wider.bits().unwrap_or(MAX_BITS);
-        match (meets(&wider, None)?, fewest_bits) {
-            (true, _) => fewest_bits = Some(bits),
-            (false, None) => break,
-            (false, _) => missed = bits,
-        }
-        if fewest_bits.is_some_and(|met| met - missed <= 1) {
-            break;
-        }
+    let wider = |bits| unit.with_bits(bits).map_or(Ok(false), |unit| meets(&unit, None));
+    let (mut missed, mut met) = (0, MAX_BITS);
+    let is_met = wider(met)?;
+    while is_met && met - missed > 1 {
+        let middle = missed + (met - missed) / 2;
+        *(if wider(middle)? { &mut met } else { &mut missed }) = middle;
     }
-    let mut rarest_promotion = meets(&unit, None)?.then_some(depth);
-    let multiple = unit.block().max(operands.a.share);
+    let mut rarest = meets(&unit, None)?.then_some(depth);
+    let multiple = unit.block.max(operands.a.share);
     let mut step = multiple * (depth / multiple).max(1).next_power_of_two();
-    while rarest_promotion.is_none() && step >= multiple && unit.result.element() == Element::FP32 {
-        rarest_promotion = (step < depth && meets(&unit, Some(step))?).then_some(step);
+    while rarest.is_none() && step >= multiple && unit.result.element == Element::FP32 {
+        rarest = (step < depth && meets(&unit, Some(step))?).then_some(step);
         step /= 2;
     }
-    Ok(GoalOutcome { fewest_bits, rarest_promotion })
+    Ok((is_met.then_some(met), rarest))
 }

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::blame::Blame;
+use super::blame::{AddendFate, Blame};
 use super::product::{Errors, MatrixProduct, ProductOutcome, ProductRow};
 use crate::io::write_npy_array;
 use crate::report::digits::{Quantity, shown};
@@ -14,51 +14,61 @@ const MOST_ADDENDS: usize = 10;
 /// Lines of the chart, at most.
 const MOST_LINES: usize = 12;
 
-const ERRORS: &str = "Errors are relative to the reference, element by element: worst is the largest, mean has the sign of \
-    larger results, bits is -log2 of the worst; of addends is the largest error as a share of the sum of the magnitudes of \
-    an element's addends, which cancellation does not enlarge.";
+const ERRORS: &str = "Errors are shares of the reference's magnitude, element by element: worst is the largest, mean has the sign \
+    of larger results, bits is -log2 of the worst; of_addends is the largest error as a share of the sum of the magnitudes \
+    of an element's addends, which cancellation does not enlarge.";
 
 impl ProductRow {
     fn name(&self) -> String {
-        let promote = self.promote.map(|step| format!(", promoted every {step}")).unwrap_or_default();
-        format!("{}{promote}", self.unit.name)
+        let promotion = self.promote.map_or("with one accumulator".into(), |step| format!("promoted every {step}"));
+        format!("{} {promotion}", self.unit.name)
     }
+
+    /// Errors over all products.
+    fn last(&self) -> Errors {
+        self.errors.last().copied().unwrap_or_default()
+    }
+}
+
+fn error(value: f64) -> String {
+    shown(value, Quantity::Error)
 }
 
 pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result<Findings, StudyError> {
     let [rows, depth, columns] = outcome.shape;
     let mut found = Findings::new(format!("Matrix product, {rows} x {depth} x {columns}"));
     let reference = study.against.map_or("the exact product of the quantised operands", |unit| unit.name);
+    conclude(&mut found, reference, &outcome);
     found
         .paragraph(format!("{} times {}, against {reference}. {ERRORS}", study.factors[0].name, study.factors[1].name));
     found.field("shape", json!(outcome.shape));
-    let title = format!("Errors against {reference}");
-    found.table(FoundTable::from(errors(&title, &outcome)).csv("errors").field("errors"));
-    found.keep_table(FoundTable::from(curve(&outcome)).csv("curve").field("curve"));
-    if let Some(worst) = outcome.rows.iter().max_by(|x, y| last(x).worst.total_cmp(&last(y).worst)) {
-        let size = shown(last(worst).worst, Quantity::Error);
-        found.conclusion(format!("The largest error is {size}, of {}.", worst.name()));
-    }
+    let table = errors(&format!("Errors against {reference}"), &outcome, outcome.depths.len() - 1);
+    found.table(FoundTable::from(table).csv("errors").field("errors"));
+    found.keep_table(FoundTable::from(errors("Errors by depth", &outcome, 0)).csv("curve").field("curve"));
     if let Some(chart) = chart(&outcome) {
         found.chart(chart);
     }
     if let Some(blame) = &outcome.blame {
         add_blame(&mut found, study, blame);
     }
-    if let (Some(goal), Some(reached)) = (&study.goal, &outcome.goal) {
+    if let Some(goal) = &study.goal {
         let name = study.units.first().map_or("", |unit| unit.name);
-        let bits = reached.fewest_bits.map_or("no number of bits".to_owned(), |bits| format!("{bits} bits or more"));
-        let promotion = match reached.rarest_promotion {
-            None => "no promotion meets it".to_owned(),
-            Some(step) if step == depth => "it meets the goal with one accumulator".to_owned(),
-            Some(step) => format!("promotion every {step} products is the rarest that meets it"),
+        let bits = match (outcome.fewest_bits, study.units.first().and_then(|unit| unit.bits)) {
+            (Some(bits), _) => format!("{name} with one accumulator must keep {bits} bits below the largest exponent"),
+            (None, Some(_)) => {
+                format!("no number of bits that {name} keeps of its addends is enough with one accumulator")
+            }
+            (None, None) => format!("{name} has no number of bits to choose"),
         };
-        found.conclusion(format!(
-            "{goal}: {name} with {bits} below the largest exponent meets it with one accumulator; with its own, {promotion}."
-        ));
-        found.field("fewest_bits", json!(reached.fewest_bits));
-        found.field("rarest_promotion", json!(reached.rarest_promotion));
-        found.conclude(Verdict::held(reached.fewest_bits.is_some() || reached.rarest_promotion.is_some()));
+        let promotion = match outcome.rarest_promotion {
+            None => "no promotion meets the goal".to_owned(),
+            Some(step) if step == depth => "it meets the goal with one accumulator".to_owned(),
+            Some(step) => format!("promotion every {step} products is the rarest that meets the goal"),
+        };
+        found.conclusion(format!("{goal}: {bits}; as it is, {promotion}."));
+        found.field("fewest_bits", json!(outcome.fewest_bits));
+        found.field("rarest_promotion", json!(outcome.rarest_promotion));
+        found.conclude(Verdict::held(outcome.fewest_bits.is_some() || outcome.rarest_promotion.is_some()));
     }
     for row in &outcome.rows {
         let mut bytes = Vec::new();
@@ -71,40 +81,44 @@ pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result
     Ok(found)
 }
 
-fn last(row: &ProductRow) -> Errors {
-    row.errors.last().copied().unwrap_or_default()
+/// The largest and the smallest error in words.
+fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
+    let [rows, depth, columns] = outcome.shape;
+    let order = |x: &&ProductRow, y: &&ProductRow| x.last().worst.total_cmp(&y.last().worst);
+    let (Some(worst), Some(best)) = (outcome.rows.iter().max_by(order), outcome.rows.iter().min_by(order)) else {
+        return;
+    };
+    let (errors, elements) = (worst.last(), rows * columns);
+    if errors.differing == 0 {
+        found.conclusion(format!("All {elements} elements are those of {reference}."));
+        return;
+    }
+    let mut sentence = format!(
+        "After {depth} products {} is off by up to {} of an element ({:.1} bits are right); {} of {elements} elements \
+         differ from {reference}.",
+        worst.name(),
+        error(errors.worst),
+        errors.bits(),
+        errors.differing,
+    );
+    if best.last().worst < errors.worst {
+        sentence += &format!(" The least error is that of {}: up to {}.", best.name(), error(best.last().worst));
+    }
+    found.conclusion(sentence);
 }
 
-fn promotion(row: &ProductRow) -> Cell {
-    row.promote.map_or("none".into(), Cell::from)
-}
-
-fn errors(title: &str, outcome: &ProductOutcome) -> Table {
-    let mut table = Table::of(title, "unit promoted_every worst mean of_addends bits differing of not_finite");
+/// Errors at the depths behind the first `skipped`.
+fn errors(title: &str, outcome: &ProductOutcome, skipped: usize) -> Table {
+    let mut table = Table::of(title, "unit promoted_every k worst mean of_addends bits differing of not_finite");
     let elements = outcome.shape[0] * outcome.shape[2];
     for row in &outcome.rows {
-        let errors = last(row);
-        table.push([
-            row.unit.name.into(),
-            promotion(row),
-            Cell::error(errors.worst),
-            Cell::error(errors.mean),
-            Cell::error(errors.of_addends),
-            if errors.worst == 0.0 { Cell::Empty } else { Cell::decimals(errors.bits(), 1) },
-            errors.differing.into(),
-            elements.into(),
-            errors.not_finite.into(),
-        ]);
-    }
-    table
-}
-
-fn curve(outcome: &ProductOutcome) -> Table {
-    let mut table = Table::of("Errors by depth", "unit promoted_every k worst mean of_addends");
-    for row in &outcome.rows {
-        for (&depth, errors) in outcome.depths.iter().zip(&row.errors) {
+        let promotion: Cell = row.promote.map_or("none".into(), Cell::from);
+        for (&depth, errors) in outcome.depths.iter().zip(&row.errors).skip(skipped) {
             let [worst, mean, share] = [errors.worst, errors.mean, errors.of_addends].map(Cell::error);
-            table.push([row.unit.name.into(), promotion(row), depth.into(), worst, mean, share]);
+            let bits = if errors.worst == 0.0 { Cell::Empty } else { Cell::decimals(errors.bits(), 1) };
+            let counts = [errors.differing, elements, errors.not_finite].map(Cell::from);
+            let cells = [row.unit.name.into(), promotion.clone(), depth.into(), worst, mean, share, bits];
+            table.push(cells.into_iter().chain(counts));
         }
     }
     table
@@ -127,50 +141,39 @@ fn chart(outcome: &ProductOutcome) -> Option<NamedChart> {
         lines,
         ..Chart::default()
     };
-    let caption = format!("The first K products of every element; at most {MOST_LINES} lines.");
+    let caption = "The error of the sum of the first K products, the largest of all elements.".to_owned();
     (!chart.lines.is_empty()).then(|| NamedChart { name: "curve".to_owned(), chart, caption })
 }
 
 fn add_blame(found: &mut Findings, study: &MatrixProduct, blame: &Blame) {
-    let ([row, column], [start, end]) = (blame.place, blame.block);
-    let names =
-        [study.units.first().map_or("", |unit| unit.name), study.against.map_or("the exact sum", |unit| unit.name)];
-    let [before, behind] = blame.sums.map(|sums| sums.map(|sum| shown(sum, Quantity::Error)));
-    let sentence = if start == end {
-        format!("Element ({row}, {column}): {} and {} do not part.", names[0], names[1])
-    } else {
-        format!(
-            "Element ({row}, {column}): {} and {} part most in the products {start} to {}: {} and {} before, {} and {} behind.",
-            names[0],
-            names[1],
-            end - 1,
-            before[0],
-            before[1],
-            behind[0],
-            behind[1],
-        )
+    let ([row, column], [before, behind], end) = (blame.place, blame.block, blame.end);
+    let unit = study.units.first().map_or("", |unit| unit.name);
+    let other = study.against.map_or("the exact sum", |unit| unit.name);
+    let [x, y] = [end.ours, end.theirs].map(|sum| shown(sum, Quantity::Exact));
+    let difference = error(end.ours - end.theirs);
+    let ends = format!("Element ({row}, {column}) is {x} by {unit} and {y} by {other}: a difference of {difference}");
+    let products = format!("products {} to {}", before.k, behind.k.saturating_sub(1));
+    let [from, to] = [before, behind].map(|sums| error(sums.ours - sums.theirs));
+    let sentence = match study.against {
+        _ if before.k == behind.k => format!("Element ({row}, {column}): {unit} and {other} do not part."),
+        Some(_) => format!("{ends}. The sums first part in the {products}, by {to}."),
+        None => format!("{ends}. The {products} add most to it: behind them it is {to}, before them {from}."),
     };
-    let sentence = if study.against.is_some() { sentence.replace("part most in", "first part in") } else { sentence };
     found.heading("One element");
     found.paragraph(sentence.clone());
     found.print(sentence);
-    let mut fates: Vec<_> = blame.addends.iter().collect();
-    let table = |title: &str, fates: &[&super::blame::AddendFate]| {
+    let table = |title: &str, fates: &[&AddendFate]| {
         let mut table = Table::of(title, "unit addend exact kept cut");
         for fate in fates {
-            let cut = fate.exact - fate.kept;
-            table.push([
-                fate.unit.into(),
-                fate.addend.as_str().into(),
-                Cell::error(fate.exact),
-                Cell::error(fate.kept),
-                Cell::error(cut),
-            ]);
+            let [exact, kept, cut] = [fate.exact, fate.kept, fate.exact - fate.kept].map(Cell::error);
+            table.push([fate.unit.into(), fate.addend.as_str().into(), exact, kept, cut]);
         }
         table
     };
+    let mut fates: Vec<&AddendFate> = blame.addends.iter().collect();
     found.keep_table(FoundTable::from(table("All addends of the block", &fates)).csv("addends").field("addends"));
     fates.sort_by(|x, y| (y.exact - y.kept).abs().total_cmp(&(x.exact - x.kept).abs()));
     fates.truncate(MOST_ADDENDS);
-    found.table(FoundTable::from(table("Addends that lose most; `result` is the rounding of the block's sum", &fates)));
+    let title = "Addends that lose most: products by their k, c (the sum before the block), result (its rounding)";
+    found.table(FoundTable::from(table(title, &fates)));
 }

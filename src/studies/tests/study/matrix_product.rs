@@ -10,7 +10,7 @@ use super::{StudyFiles, findings, number};
 
 /// Numbers uniform in [0, 448), the range of E4M3.
 fn uniform(shape: [usize; 2], seed: u64) -> MatrixInput {
-    let number = |k: usize| 448.0 * (f64::from(random_word(seed, k as u64)) / 4_294_967_296.0) as f32;
+    let number = |k: usize| 448.0 * f64::from(random_word(seed, k as u64)) / 4_294_967_296.0;
     let values = (0..shape[0] * shape[1]).map(number).collect();
     MatrixInput {
         name: "random".to_owned(),
@@ -94,4 +94,25 @@ fn matrices_that_do_not_fit_are_refused() {
     assert_eq!(StudyFiles::of(&study).rows("errors.csv").len(), 1);
     study.factors[0] = codes(&[2, 64], 0x100);
     assert!(study.findings(&mut |_, _, _| {}).is_err(), "nine bits");
+}
+
+#[test]
+fn arrays_of_halves_are_numbers_and_unsigned_ones_patterns() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.npy");
+    let load = |descr: &str, shape: &str, data: &[u8]| {
+        let header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}\n");
+        let length = (header.len() as u16).to_le_bytes();
+        std::fs::write(&path, [b"\x93NUMPY\x01\x00", &length[..], header.as_bytes(), data].concat()).expect("written");
+        MatrixInput::load(&path).map(|input| input.data)
+    };
+    let words: Vec<u8> = [0x3c00_u16, 0xc500, 0x0001, 0x7c00].iter().flat_map(|word| word.to_le_bytes()).collect();
+    let values = vec![1.0, -5.0, 2.0_f64.powi(-24), f64::INFINITY];
+    let numbers = NumbersOrCodes::Numbers(NumberArray { shape: vec![2, 2], values });
+    assert_eq!(load("<f2", "(2, 2)", &words).expect("halves"), numbers);
+    let codes = NumbersOrCodes::Codes(NumberArray { shape: vec![1, 4], values: vec![0x3c00, 0xc500, 1, 0x7c00] });
+    assert_eq!(load("<u2", "(1, 4)", &words).expect("patterns"), codes);
+    for (descr, shape, data) in [("<i2", "(2, 2)", &words[..]), ("<f2", "(4,)", &words), ("<f2", "(0, 4)", &[])] {
+        assert!(load(descr, shape, data).is_err(), "{descr} {shape}");
+    }
 }

@@ -1,44 +1,41 @@
-//! Types of operands, addends and results, decoded into what the adders see.
+//! Types of operands, addends and results, and what the adders see of a number.
 
-use crate::num::Encoding;
 use crate::num::aligned::Addend;
+use crate::num::{
+    Encoding, Flags, Format, FormatKind, Overflow, Rounding, Unpacked, from_f64, from_parts, to_f64, unpack,
+};
 
-/// A type of numbers: sign, exponent and fraction from the top, then bits that the unit ignores.
+/// A type of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Element {
     /// Name, as the vectors and the command line write it.
     pub name: &'static str,
-    /// Bits of the exponent field.
-    pub exponent_bits: u32,
-    /// Bits of the fraction.
-    pub fraction_bits: u32,
-    /// Which patterns are infinities, NaN and zeros.
-    pub encoding: Encoding,
-    /// Bits below the fraction that are ignored: 13 in tf32 and xf32, whose numbers are words of single precision.
+    /// Its format; types of up to 8 bits saturate. `None` of fp64.
+    pub format: Option<Format>,
+    /// Bits below the format's that are ignored: 13 in tf32 and xf32, whose numbers are words of single precision.
     pub ignored_bits: u32,
 }
 
-/// A number as an adder sees it: nothing is normalized.
+/// A number as an adder sees it: nothing is normalized, and subnormal numbers and zeros have the least exponent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Value {
-    /// A number; a subnormal one or a zero has the least exponent.
+pub(crate) enum Value {
     Finite(Addend),
-    /// An infinity.
-    Infinite {
-        /// The sign.
-        negative: bool,
-    },
-    /// Not a number.
+    Infinite { negative: bool },
     Nan,
 }
 
-const fn element(name: &'static str, exponent_bits: u32, fraction_bits: u32, encoding: Encoding) -> Element {
-    Element { name, exponent_bits, fraction_bits, encoding, ignored_bits: 0 }
+const fn element(name: &'static str, exponent: u8, fraction: u8, encoding: Encoding) -> Element {
+    let overflow = if exponent + fraction < 8 { Overflow::Saturate } else { Overflow::Infinity };
+    let format = match Format::float(exponent, fraction) {
+        Some(format) => Some(format.with_encoding(encoding).with_overflow(overflow)),
+        None => None,
+    };
+    Element { name, format, ignored_bits: 0 }
 }
 
 impl Element {
     /// IEEE binary64.
-    pub const FP64: Self = element("fp64", 11, 52, Encoding::Ieee);
+    pub const FP64: Self = Self { name: "fp64", format: None, ignored_bits: 0 };
     /// IEEE binary32.
     pub const FP32: Self = element("fp32", 8, 23, Encoding::Ieee);
     /// NVIDIA's TF32: a word of single precision whose low 13 bits are ignored.
@@ -63,10 +60,25 @@ impl Element {
     pub const FP8: Self = element("fp8", 4, 3, Encoding::UnsignedZero);
     /// AMD's bf8: bias 16, one NaN, 80.
     pub const BF8: Self = element("bf8", 5, 2, Encoding::UnsignedZero);
+    /// Scales that are powers of two.
+    pub const UE8M0: Self = Self { name: "ue8m0", format: Some(Format::E8M0), ignored_bits: 0 };
+    /// Scales of NVFP4: E4M3 whose sign is ignored.
+    pub const UE4M3: Self = Self { name: "ue4m3", ..Self::E4M3 };
+
+    /// Bits of the exponent field and of the fraction.
+    pub const fn fields(self) -> (u32, u32) {
+        match self.format {
+            Some(Format { kind: FormatKind::Float { exp_bits, man_bits }, .. }) => (exp_bits as u32, man_bits as u32),
+            _ => (11, 52),
+        }
+    }
 
     /// Bits of a pattern, ignored ones included.
     pub const fn width(self) -> u32 {
-        1 + self.exponent_bits + self.fraction_bits + self.ignored_bits
+        match self.format {
+            Some(format) => format.width() + self.ignored_bits,
+            None => 64,
+        }
     }
 
     /// Hexadecimal digits of a pattern: 1 to 16.
@@ -74,62 +86,51 @@ impl Element {
         self.width().div_ceil(4) as usize
     }
 
-    /// Exponent of subnormal numbers and of the smallest normal one.
-    pub const fn least_exponent(self) -> i32 {
-        let half = 1 << (self.exponent_bits - 1);
-        if matches!(self.encoding, Encoding::UnsignedZero) { 1 - half } else { 2 - half }
+    /// The number of a pattern.
+    pub fn number(self, word: u64) -> f64 {
+        self.format.map_or(f64::from_bits(word), |format| to_f64(&format, (word >> self.ignored_bits) as u32))
     }
 
-    /// The pattern of +infinity in an IEEE type.
-    pub const fn infinity(self) -> u64 {
-        ((1 << self.exponent_bits) - 1) << (self.fraction_bits + self.ignored_bits)
+    /// The pattern of a number, rounded to nearest even; `None` of NaN where the type has none.
+    pub fn code(self, number: f64) -> Option<u64> {
+        let Some(format) = self.format else { return Some(number.to_bits()) };
+        let fits = !number.is_nan() || format.canonical_nan().is_some();
+        fits.then(|| u64::from(from_f64(format, number).bits) << self.ignored_bits)
     }
 
-    /// Decodes a pattern; bits above its width are ignored.
-    pub fn decode(self, word: u64) -> Value {
-        let word = word >> self.ignored_bits;
-        let field = (word >> self.fraction_bits) & ((1 << self.exponent_bits) - 1);
-        let fraction = word & ((1 << self.fraction_bits) - 1);
-        let negative = (word >> (self.exponent_bits + self.fraction_bits)) & 1 == 1;
-        let (largest, all_ones) = (field + 1 == 1 << self.exponent_bits, fraction + 1 == 1 << self.fraction_bits);
-        let zero = field == 0 && fraction == 0;
-        match self.encoding {
-            Encoding::Ieee if largest && fraction == 0 => return Value::Infinite { negative },
-            Encoding::Ieee if largest => return Value::Nan,
-            Encoding::Finite if self.width() > 6 && largest && all_ones => return Value::Nan,
-            Encoding::UnsignedZero if negative && zero => return Value::Nan,
-            _ => {}
+    /// Decodes a pattern; bits above its width are ignored. fp64 has no value here: its unit computes on words.
+    pub(crate) fn decode(self, word: u64) -> Value {
+        let word = (word >> self.ignored_bits) as u32;
+        let word = if self == Self::UE4M3 { word & 0x7f } else { word };
+        match self.format.map(|format| unpack(&format, word)) {
+            Some(Unpacked::Finite { sign, sig, exp, .. }) => {
+                let fraction = self.fields().1;
+                let exponent = exp + fraction.cast_signed();
+                Value::Finite(Addend { negative: sign, magnitude: sig, exponent, fraction })
+            }
+            Some(Unpacked::Inf { sign }) => Value::Infinite { negative: sign },
+            Some(Unpacked::Nan { .. }) | None => Value::Nan,
         }
-        Value::Finite(Addend {
-            negative,
-            magnitude: fraction | u64::from(field > 0) << self.fraction_bits,
-            exponent: self.least_exponent() + (field.max(1) - 1) as i32,
-            fraction: self.fraction_bits,
-        })
     }
 }
 
 impl Value {
-    /// Returns `true` for zeros of either sign.
-    pub fn is_zero(self) -> bool {
-        matches!(self, Self::Finite(Addend { magnitude: 0, .. }))
-    }
-
-    fn is_negative(self) -> bool {
-        matches!(self, Self::Finite(Addend { negative: true, .. }) | Self::Infinite { negative: true })
-    }
-
     /// The number, if it is one and not zero: zeros are left out of sums.
-    pub(super) fn addend(self) -> Option<Addend> {
+    pub(crate) fn addend(self) -> Option<Addend> {
         match self {
             Self::Finite(addend) if addend.magnitude != 0 => Some(addend),
             _ => None,
         }
     }
 
-    /// The exact product, not normalized. It does not overflow; operands have at most 24 bits.
+    fn is_negative(self) -> bool {
+        matches!(self, Self::Finite(Addend { negative: true, .. }) | Self::Infinite { negative: true })
+    }
+
+    /// The exact product, not normalized; operands have at most 24 bits.
     pub(super) fn times(self, other: Self) -> Self {
         let negative = self.is_negative() != other.is_negative();
+        let is_zero = |value| matches!(value, Self::Finite(Addend { magnitude: 0, .. }));
         match (self, other) {
             (Self::Finite(a), Self::Finite(b)) => Self::Finite(Addend {
                 negative,
@@ -138,7 +139,7 @@ impl Value {
                 fraction: a.fraction + b.fraction,
             }),
             (Self::Nan, _) | (_, Self::Nan) => Self::Nan,
-            _ if self.is_zero() || other.is_zero() => Self::Nan,
+            _ if is_zero(self) || is_zero(other) => Self::Nan,
             _ => Self::Infinite { negative },
         }
     }
@@ -153,4 +154,64 @@ pub(super) fn special(addends: impl IntoIterator<Item = Value>) -> Option<Value>
         (Some(found), _) if found == addend => sum,
         _ => Some(Value::Nan),
     })
+}
+
+/// Type and rounding of results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResultFormat {
+    /// In words.
+    pub name: &'static str,
+    /// Type of the word.
+    pub element: Element,
+    /// The digits that are kept, from the top of the word, and their rounding. (Of fp64 none is used.)
+    pub format: Format,
+    /// Results of NVIDIA's adders are never -0, and their NaN is 7fffffff or 7fff. Which NaN the others give is not
+    /// known: theirs is the positive quiet one.
+    pub is_nvidia: bool,
+}
+
+impl ResultFormat {
+    /// Single precision, cut. `2^128` and more is infinity.
+    pub const CUT32: Self = Self { name: "fp32, cut", format: cut(23), ..Self::NEAREST16.with(Element::FP32) };
+    /// Single precision, cut to 13 bits of fraction; the low ten bits of the word are zero.
+    pub const CUT22: Self = Self { name: "e8m13, cut", format: cut(13), ..Self::CUT32 };
+    /// Half precision, to nearest even. 65520 and more is infinity.
+    pub const NEAREST16: Self =
+        Self { name: "fp16, to nearest", element: Element::FP16, format: Format::FP16, is_nvidia: true };
+    /// Single precision, to nearest even. What rounds to zero keeps its sign.
+    pub const NEAREST32: Self =
+        Self { name: "fp32, to nearest", element: Element::FP32, format: Format::FP32, is_nvidia: false };
+    /// Double precision, to nearest even.
+    pub const NEAREST64: Self = Self { name: "fp64, to nearest", ..Self::NEAREST32.with(Element::FP64) };
+
+    const fn with(mut self, element: Element) -> Self {
+        self.element = element;
+        self
+    }
+
+    /// The word of an infinity or a NaN.
+    pub(super) fn special(self, value: Value) -> u64 {
+        let format = self.element.format.unwrap_or(Format::FP32);
+        let nan = if self.is_nvidia { Some(format.sign_bit() - 1) } else { format.canonical_nan() };
+        let word = if let Value::Infinite { negative } = value { format.infinity(negative) } else { nan };
+        word.unwrap_or(0).into()
+    }
+
+    /// The word of `(-1)^negative * magnitude * 2^exponent`, rounded once. An exact zero is +0.
+    pub(super) fn round(self, negative: bool, magnitude: u128, exponent: i32) -> u64 {
+        let outcome = from_parts(self.format, negative, magnitude, exponent, false);
+        if outcome.flags.contains(Flags::OVERFLOW) {
+            return self.special(Value::Infinite { negative });
+        }
+        let word = u64::from(outcome.bits) << (self.element.width() - self.format.width());
+        let is_zero = word << (65 - self.element.width()) == 0;
+        if magnitude == 0 || self.is_nvidia && is_zero { 0 } else { word }
+    }
+}
+
+const fn cut(fraction: u8) -> Format {
+    match Format::float(8, fraction) {
+        Some(format) => format.with_rounding(Rounding::TowardZero),
+        None => Format::FP32,
+    }
 }

@@ -4,9 +4,11 @@
 //! "Accurate Models of NVIDIA Tensor Cores" (arXiv 2512.07004; north-numerical-computing/MATLAB-tensor-core b12b5a7,
 //! BSD-2).
 
-use super::Evidence::{Measured, OneModel, TwoModels};
-use super::ResultFormat::{Cut22, Cut32, Nearest16, Nearest32, Nearest64};
-use super::{Element, Evidence, MatrixError, MatrixUnit, ResultFormat, Rule, Scaling};
+use super::{Element, MatrixError, MatrixUnit, ResultFormat, Rule};
+
+const CUT32: ResultFormat = ResultFormat::CUT32;
+const CUT22: ResultFormat = ResultFormat::CUT22;
+const NEAREST16: ResultFormat = ResultFormat::NEAREST16;
 
 const HALF: &[Element] = &[Element::FP16];
 const BRAIN: &[Element] = &[Element::BF16];
@@ -28,21 +30,27 @@ const BLACKWELL: &str = "B200: tcgen05 kind::f8f6f4; RTX Blackwell: mma kind::f8
 const MXF8: &str = "B200: tcgen05; RTX Blackwell: mma; mxf8f6f4";
 const MXF4: &str = "B200: tcgen05; RTX Blackwell: mma; mxf4nvf4";
 
-type Known = (Evidence, &'static str);
-const V100: Known = (Measured, "V100 (K); Turing: M");
-const V100_BITS: Known = (Measured, "V100 (K); its bits: M, K");
-const FOUR_CHIPS: Known = (Measured, "A100 A2 Ada L40S (K); Turing: M");
-const FOUR_CHIPS_BITS: Known = (Measured, "A100 A2 Ada L40S (K); Turing: M; its bits: M, K");
-const CHAIN: Known = (Measured, "one block: A100 A2 Ada L40S (K); two: M, K");
-const CHAIN_BITS: Known = (Measured, "one block: A100 A2 Ada L40S (K); two, and its bits: M, K");
-const MMA: Known = (Measured, "mma: H100 H200 B200 (K); wgmma, tcgen05: M, K; RTX: M");
-const MMA_BITS: Known = (Measured, "mma: H100 H200 B200 (K); wgmma, tcgen05, its bits: M, K; RTX: M");
+const MEASURED: &str = "measured";
+const TWO: &str = "two models";
+const ONE: &str = "one model";
+type Known = (&'static str, &'static str);
+const V100: Known = (MEASURED, "V100 (K); Turing: M");
+const V100_BITS: Known = (MEASURED, "V100 (K); its bits: M, K");
+const FOUR_CHIPS: Known = (MEASURED, "A100 A2 Ada L40S (K); Turing: M");
+const FOUR_CHIPS_BITS: Known = (MEASURED, "A100 A2 Ada L40S (K); Turing: M; its bits: M, K");
+const CHAIN: Known = (MEASURED, "one block: A100 A2 Ada L40S (K); two: M, K");
+const CHAIN_BITS: Known = (MEASURED, "one block: A100 A2 Ada L40S (K); two, and its bits: M, K");
+const MMA: Known = (MEASURED, "mma: H100 H200 B200 (K); wgmma, tcgen05: M, K; RTX: M");
+const MMA_BITS: Known = (MEASURED, "mma: H100 H200 B200 (K); wgmma, tcgen05, its bits: M, K; RTX: M");
 const MMA_LEAST: Known =
-    (Measured, "mma: H100 H200 B200 (K), its least exponent: one result of H100; wgmma, tcgen05: M, K; RTX: M");
-const SHORT_BLOCK: Known = (Measured, "blocks of 4: H100 H200 B200 (K); of 8: M, K; RTX: M");
-const NO_ADDEND: Known = (Measured, "with c = 0: H100 H200 (K); c: M, K, SageAttention 2");
-const DEEP_GEMM: Known = (OneModel, "M; bits: also DeepGEMM issue 176");
-const MODEL: Known = (OneModel, "M");
+    (MEASURED, "mma: H100 H200 B200 (K), its least exponent: one result of H100; wgmma, tcgen05: M, K; RTX: M");
+const SHORT_BLOCK: Known = (MEASURED, "blocks of 4: H100 H200 B200 (K); of 8: M, K; RTX: M");
+const NO_ADDEND: Known = (MEASURED, "with c = 0: H100 H200 (K); c: M, K, SageAttention 2");
+const DEEP_GEMM: Known = (ONE, "M; bits: also DeepGEMM issue 176");
+const MODEL: Known = (ONE, "M");
+const MODELS: Known = (TWO, "M, K");
+const FLUSHED: Known = (TWO, "M, K; flushing: AMD");
+const FMA: Known = (ONE, "M; documented as FMA");
 
 /// NVIDIA's adder: the least exponent follows from the bits of the unit's 16-bit types.
 const fn nvidia(
@@ -53,90 +61,83 @@ const fn nvidia(
     result: ResultFormat,
     (evidence, source): Known,
 ) -> MatrixUnit {
-    let least = if matches!(result, Nearest16) { 4 - half_bits.cast_signed() } else { -108 - half_bits.cast_signed() };
-    let (length, block) = (length as usize, block as usize);
-    let rule = Rule::Aligned { block, bits, least };
-    let addend = result.element();
-    MatrixUnit { name, chips, operands, addend, length, rule, scaling: None, result, evidence, source }
+    let addend = result.element;
+    let least = if addend.width() == 16 { 4 - half_bits.cast_signed() } else { -108 - half_bits.cast_signed() };
+    let (length, block, bits, rule) = (length as usize, block as usize, Some(bits), Rule::Aligned { least });
+    MatrixUnit { name, chips, operands, addend, length, block, bits, rule, scaling: None, result, evidence, source }
 }
 
-const fn amd(
+const fn scaled(unit: MatrixUnit, rule: Rule, share: usize, scale: Element) -> MatrixUnit {
+    MatrixUnit { rule, scaling: Some((share, scale)), ..unit }
+}
+
+const fn groups(name: &'static str, chips: &'static str, share: usize, scale: Element) -> MatrixUnit {
+    scaled(nvidia(name, chips, FOUR, [64, 64, 35, 25], CUT32, DEEP_GEMM), Rule::Groups, share, scale)
+}
+
+const fn synchronous(name: &'static str, least: i32, result: ResultFormat, source: &'static str) -> MatrixUnit {
+    let rule = Rule::Synchronous { least };
+    MatrixUnit { rule, ..nvidia(name, SYNC, EIGHT, [32, 32, 25, 25], result, (MEASURED, source)) }
+}
+
+/// Units of AMD's, and those of fused operations.
+const fn other(
     name: &'static str,
     chips: &'static str,
     operands: &'static [Element],
-    length: usize,
+    [length, block]: [usize; 2],
     rule: Rule,
-    source: &'static str,
+    (evidence, source): Known,
 ) -> MatrixUnit {
-    let (result, addend, evidence) = (Nearest32, Element::FP32, TwoModels);
-    MatrixUnit { name, chips, operands, addend, length, rule, scaling: None, result, evidence, source }
-}
-
-const fn groups(name: &'static str, chips: &'static str, block: usize, is_e4m3: bool) -> MatrixUnit {
-    let unit = nvidia(name, chips, FOUR, [64, 64, 35, 25], Cut32, DEEP_GEMM);
-    MatrixUnit { rule: Rule::Groups { bits: 35 }, scaling: Some(Scaling { block, is_e4m3 }), ..unit }
-}
-
-const fn synchronous(
-    name: &'static str,
-    bits: u32,
-    least: i32,
-    result: ResultFormat,
-    source: &'static str,
-) -> MatrixUnit {
-    let unit = nvidia(name, SYNC, EIGHT, [32, 32, 25, 25], result, (Measured, source));
-    MatrixUnit { rule: Rule::Synchronous { bits, least }, ..unit }
+    let is_double = operands[0].width() == 64;
+    let result = if is_double { ResultFormat::NEAREST64 } else { ResultFormat::NEAREST32 };
+    let (addend, bits, scaling) = (result.element, None, None);
+    MatrixUnit { name, chips, operands, addend, length, block, bits, rule, scaling, result, evidence, source }
 }
 
 /// Every unit, oldest first.
 pub static UNITS: [MatrixUnit; 36] = [
-    nvidia("volta_f16_f32", VOLTA, HALF, [4, 4, 23, 23], Cut32, V100),
-    MatrixUnit { addend: Element::FP16, ..nvidia("volta_f16_f32_c16", VOLTA, HALF, [4, 4, 23, 23], Cut32, MODEL) },
-    nvidia("volta_f16_f16", VOLTA, HALF, [4, 4, 23, 23], Nearest16, V100_BITS),
-    nvidia("turing_f16_f32", TURING, HALF, [8, 8, 24, 24], Cut32, FOUR_CHIPS),
-    nvidia("turing_f16_f16", TURING, HALF, [8, 8, 24, 24], Nearest16, FOUR_CHIPS_BITS),
-    nvidia("ampere_f16_f32", AMPERE, HALF, [16, 8, 24, 24], Cut32, CHAIN),
-    nvidia("ampere_f16_f16", AMPERE, HALF, [16, 8, 24, 24], Nearest16, CHAIN_BITS),
-    nvidia("ampere_bf16_f32", AMPERE, BRAIN, [16, 8, 24, 24], Cut32, CHAIN),
-    nvidia("ampere_tf32_f32", "Ampere, Ada: m16n8k8 and k4", TF32, [8, 4, 24, 24], Cut32, CHAIN),
-    nvidia("ada_fp8_f32", ADA, EIGHT, [32, 16, 13, 24], Cut22, (Measured, "RTX 1000 Ada, L40S (K)")),
-    nvidia("ada_fp8_f16", ADA, EIGHT, [32, 16, 13, 24], Nearest16, (Measured, "RTX 1000 Ada (K)")),
-    nvidia("hopper_f16_f32", HOPPER, HALF, [16, 16, 25, 25], Cut32, MMA),
-    nvidia("hopper_f16_f16", HOPPER, HALF, [16, 16, 25, 25], Nearest16, MMA_BITS),
-    nvidia("hopper_bf16_f32", HOPPER, BRAIN, [16, 16, 25, 25], Cut32, MMA_LEAST),
-    nvidia("hopper_tf32_f32", HOPPER, TF32, [8, 8, 25, 25], Cut32, SHORT_BLOCK),
-    nvidia("hopper_fp8_f32", HOPPER_8, EIGHT, [32, 32, 13, 25], Cut22, NO_ADDEND),
-    nvidia("hopper_fp8_f16", HOPPER_8, EIGHT, [32, 32, 13, 25], Nearest16, (TwoModels, "M, K")),
-    synchronous("sync_fp8_f32", 25, -133, Cut32, "B200 (K); special values: none"),
-    synchronous("sync_fp8_f16", 25, -21, Nearest16, "H100 H200 B200 (K); special values: none"),
-    nvidia("blackwell_f8f6f4_f32", BLACKWELL, SHORT, [32, 32, 25, 25], Cut32, DEEP_GEMM),
-    nvidia("blackwell_f8f6f4_f16", BLACKWELL, SHORT, [32, 32, 25, 25], Nearest16, MODEL),
-    MatrixUnit {
-        scaling: Some(Scaling { block: 32, is_e4m3: false }),
-        ..nvidia("blackwell_mxf8f6f4", MXF8, SHORT, [32, 32, 25, 25], Cut32, MODEL)
-    },
-    groups("blackwell_mxf4", "B200: tcgen05; RTX Blackwell: mma; mxf4, and mxf4nvf4 with blocks of 32", 32, false),
-    groups("blackwell_mxf4_block16", MXF4, 16, false),
-    groups("blackwell_nvf4", MXF4, 16, true),
-    amd("cdna1_f16", "MI100", HALF, 16, Rule::Exact { block: 4 }, "M, K"),
-    amd("cdna1_bf16", "MI100: bf16 without _1k", BRAIN, 8, Rule::Exact { block: 2 }, "M, K"),
-    amd("cdna2_f16", "MI200", HALF, 16, Rule::Pairs { block: 4 }, "M, K; flushing: AMD"),
-    amd("cdna2_bf16_1k", "MI200: bf16_1k", BRAIN, 16, Rule::Pairs { block: 4 }, "M, K; flushing: AMD"),
-    amd("cdna2_bf16", "MI200: bf16 without _1k", BRAIN, 8, Rule::Pairs { block: 2 }, "M, K; flushing: AMD"),
-    amd("cdna3_f16", "MI300", HALF, 16, Rule::Floored { block: 8, halves: false }, "M, K"),
-    amd("cdna3_bf16", "MI300", BRAIN, 16, Rule::Floored { block: 8, halves: false }, "M, K"),
-    amd("cdna3_xf32", "MI300", XF32, 8, Rule::Floored { block: 4, halves: false }, "M, K"),
-    amd("cdna3_fp8", "MI300: fp8 and bf8", AMD_EIGHT, 32, Rule::Floored { block: 16, halves: true }, "M, K"),
-    MatrixUnit {
-        result: Nearest64,
-        addend: Element::FP64,
-        evidence: OneModel,
-        ..amd("fma_f64", "all with fp64", &[Element::FP64], 4, Rule::Fused, "M; documented as FMA")
-    },
-    MatrixUnit {
-        evidence: OneModel,
-        ..amd("fma_f32", "CDNA with fp32", &[Element::FP32], 4, Rule::Fused, "M; documented as FMA")
-    },
+    nvidia("volta_f16_f32", VOLTA, HALF, [4, 4, 23, 23], CUT32, V100),
+    MatrixUnit { addend: Element::FP16, ..nvidia("volta_f16_f32_c16", VOLTA, HALF, [4, 4, 23, 23], CUT32, MODEL) },
+    nvidia("volta_f16_f16", VOLTA, HALF, [4, 4, 23, 23], NEAREST16, V100_BITS),
+    nvidia("turing_f16_f32", TURING, HALF, [8, 8, 24, 24], CUT32, FOUR_CHIPS),
+    nvidia("turing_f16_f16", TURING, HALF, [8, 8, 24, 24], NEAREST16, FOUR_CHIPS_BITS),
+    nvidia("ampere_f16_f32", AMPERE, HALF, [16, 8, 24, 24], CUT32, CHAIN),
+    nvidia("ampere_f16_f16", AMPERE, HALF, [16, 8, 24, 24], NEAREST16, CHAIN_BITS),
+    nvidia("ampere_bf16_f32", AMPERE, BRAIN, [16, 8, 24, 24], CUT32, CHAIN),
+    nvidia("ampere_tf32_f32", "Ampere, Ada: m16n8k8 and k4", TF32, [8, 4, 24, 24], CUT32, CHAIN),
+    nvidia("ada_fp8_f32", ADA, EIGHT, [32, 16, 13, 24], CUT22, (MEASURED, "RTX 1000 Ada, L40S (K)")),
+    nvidia("ada_fp8_f16", ADA, EIGHT, [32, 16, 13, 24], NEAREST16, (MEASURED, "RTX 1000 Ada (K)")),
+    nvidia("hopper_f16_f32", HOPPER, HALF, [16, 16, 25, 25], CUT32, MMA),
+    nvidia("hopper_f16_f16", HOPPER, HALF, [16, 16, 25, 25], NEAREST16, MMA_BITS),
+    nvidia("hopper_bf16_f32", HOPPER, BRAIN, [16, 16, 25, 25], CUT32, MMA_LEAST),
+    nvidia("hopper_tf32_f32", HOPPER, TF32, [8, 8, 25, 25], CUT32, SHORT_BLOCK),
+    nvidia("hopper_fp8_f32", HOPPER_8, EIGHT, [32, 32, 13, 25], CUT22, NO_ADDEND),
+    nvidia("hopper_fp8_f16", HOPPER_8, EIGHT, [32, 32, 13, 25], NEAREST16, MODELS),
+    synchronous("sync_fp8_f32", -133, CUT32, "B200 (K); special values: none"),
+    synchronous("sync_fp8_f16", -21, NEAREST16, "H100 H200 B200 (K); special values: none"),
+    nvidia("blackwell_f8f6f4_f32", BLACKWELL, SHORT, [32, 32, 25, 25], CUT32, DEEP_GEMM),
+    nvidia("blackwell_f8f6f4_f16", BLACKWELL, SHORT, [32, 32, 25, 25], NEAREST16, MODEL),
+    scaled(
+        nvidia("blackwell_mxf8f6f4", MXF8, SHORT, [32, 32, 25, 25], CUT32, MODEL),
+        Rule::Aligned { least: -133 },
+        32,
+        Element::UE8M0,
+    ),
+    groups("blackwell_mxf4", "B200: tcgen05; RTX Blackwell: mma; mxf4, mxf4nvf4 with blocks of 32", 32, Element::UE8M0),
+    groups("blackwell_mxf4_block16", MXF4, 16, Element::UE8M0),
+    groups("blackwell_nvf4", MXF4, 16, Element::UE4M3),
+    other("cdna1_f16", "MI100", HALF, [16, 4], Rule::Exact, MODELS),
+    other("cdna1_bf16", "MI100: bf16 without _1k", BRAIN, [8, 2], Rule::Exact, MODELS),
+    other("cdna2_f16", "MI200", HALF, [16, 4], Rule::Pairs, FLUSHED),
+    other("cdna2_bf16_1k", "MI200: bf16_1k", BRAIN, [16, 4], Rule::Pairs, FLUSHED),
+    other("cdna2_bf16", "MI200: bf16 without _1k", BRAIN, [8, 2], Rule::Pairs, FLUSHED),
+    other("cdna3_f16", "MI300", HALF, [16, 8], Rule::Floored { halves: false }, MODELS),
+    other("cdna3_bf16", "MI300", BRAIN, [16, 8], Rule::Floored { halves: false }, MODELS),
+    other("cdna3_xf32", "MI300", XF32, [8, 4], Rule::Floored { halves: false }, MODELS),
+    other("cdna3_fp8", "MI300: fp8 and bf8", AMD_EIGHT, [32, 16], Rule::Floored { halves: true }, MODELS),
+    other("fma_f64", "all with fp64", &[Element::FP64], [4, 1], Rule::Fused, FMA),
+    other("fma_f32", "CDNA with fp32", &[Element::FP32], [4, 1], Rule::Fused, FMA),
 ];
 
 impl MatrixUnit {
