@@ -1,9 +1,9 @@
 //! The arithmetic of a device's stage: its format, the unit that computes, and the rules beside them.
 
-use refsim::device::Rules;
+use refsim::device::SumRules;
 use refsim::num::{Format, NumberOperation as Op, Unit};
 
-use super::operation::{AluOperation, Steps, VectorOperation};
+use super::operation::{AluOperation, VectorOperation};
 use crate::cli::{Problem, switch};
 
 /// A programmable stage, for `--stage`.
@@ -39,13 +39,14 @@ impl State {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluArithmetic {
     pub(super) format: Format,
-    pub(super) steps: Steps,
+    /// Rules of products and sums; without a device those of the format.
+    pub(super) sums: Option<SumRules>,
 }
 
 impl AluArithmetic {
     /// That of a format.
     pub(super) fn of_format(format: Format) -> Self {
-        Self { format, steps: Steps::default() }
+        Self { format, sums: None }
     }
 
     /// That of a device's stage; by default of the stage whose unit was measured, or else the pixels'.
@@ -56,27 +57,17 @@ impl AluArithmetic {
             (true, false) => AluStage::Vertex,
             _ => AluStage::Pixel,
         });
-        let mut arithmetic = Self::of_stage(&rules, stage);
+        let mut format = if stage == AluStage::Vertex { rules.vertex_format } else { rules.format };
         if let Some(state) = state {
-            arithmetic.format.unit = state.of(arithmetic.format.unit).ok_or_else(|| no_state(name, stage))?;
+            format.unit = state.of(format.unit).ok_or_else(|| no_state(name, stage))?;
         }
-        Ok(arithmetic)
-    }
-
-    fn of_stage(rules: &Rules, stage: AluStage) -> Self {
-        // The rules of products and sums are those of pixels.
-        let (format, steps) = match stage {
-            AluStage::Vertex => {
-                let zero_wins = rules.vertex_zero_times_anything;
-                (rules.vertex_format, Steps { zero_wins, ..Steps::default() })
-            }
-            AluStage::Pixel => {
-                let Rules { mad, product_rounding: products, add, dot: order, zero_times_anything: zero_wins, .. } =
-                    *rules;
-                (rules.format, Steps { mad, products, add, order, zero_wins })
-            }
+        // Units of cards have rules of their own, in every state.
+        let sums = match stage {
+            _ if format.unit.is_card() => SumRules::plain(format),
+            AluStage::Vertex => rules.vertex_sums(),
+            AluStage::Pixel => rules.sums_in(format),
         };
-        Self { format, steps }
+        Ok(Self { format, sums: Some(sums) })
     }
 }
 

@@ -10,6 +10,7 @@ mod vector;
 
 use std::io::{self, Read};
 
+use refsim::device::SumRules;
 use refsim::num::matrix::MatrixUnit;
 use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
 
@@ -198,7 +199,7 @@ fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miet
 }
 
 /// The unit of an operation on lines of many numbers, once its options go together; `None` for other operations.
-fn row_unit(args: &Args, AluArithmetic { format, steps }: AluArithmetic) -> Result<Option<RowUnit>, Problem> {
+fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<Option<RowUnit>, Problem> {
     if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
         return Err(Problem::usage(
             "`--accumulator` and `--summation` are for `dot` only",
@@ -217,7 +218,9 @@ fn row_unit(args: &Args, AluArithmetic { format, steps }: AluArithmetic) -> Resu
                 "leave `--block` out, or quantize first and compute with the elements",
             ));
         }
-        (AluOperation::Vector(operation), None) => RowOperation::Vector(operation, steps),
+        (AluOperation::Vector(operation), None) => {
+            RowOperation::Vector(operation, sums.unwrap_or(SumRules::plain(format)))
+        }
         (AluOperation::Dot, None) => {
             RowOperation::Dot(args.summation.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(format))
         }
@@ -250,7 +253,7 @@ fn row_unit(args: &Args, AluArithmetic { format, steps }: AluArithmetic) -> Resu
 }
 
 /// The unit that the options make, once they go together.
-fn unit(args: &Args, AluArithmetic { format, steps }: AluArithmetic) -> Result<AluUnit, Problem> {
+fn unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<AluUnit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {
         Some(to) if convert => to,
@@ -269,5 +272,5 @@ fn unit(args: &Args, AluArithmetic { format, steps }: AluArithmetic) -> Result<A
         }
     };
     let seed = args.seed.unwrap_or_default();
-    Ok(AluUnit { op: args.op, env: format.tininess(Tininess::After), to, seed, steps })
+    Ok(AluUnit { op: args.op, env: format.tininess(Tininess::After), to, seed, sums })
 }

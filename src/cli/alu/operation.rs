@@ -1,8 +1,8 @@
 //! The operations by name.
 
-use refsim::device::{AddMode, MadMode};
+use refsim::device::SumRules;
 use refsim::num::unit::nv_functions;
-use refsim::num::{DotOrder, Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
+use refsim::num::{Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
 
 use crate::options::one_of::{OneOf, one_of};
 
@@ -117,25 +117,6 @@ impl AluOperation {
     }
 }
 
-/// How operations of several steps are done. Units of cards have their own rules.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Steps {
-    pub(super) mad: MadMode,
-    /// Rounding of products, if not that of sums.
-    pub(super) products: Option<Rounding>,
-    pub(super) add: AddMode,
-    pub(super) order: DotOrder,
-    /// A zero times infinity or NaN is +0.
-    pub(super) zero_wins: bool,
-}
-
-impl Default for Steps {
-    fn default() -> Self {
-        let (mad, add, order) = (MadMode::TwoRoundings, AddMode::Rounded, DotOrder::Sequential);
-        Self { mad, products: None, add, order, zero_wins: false }
-    }
-}
-
 /// An operation in its format.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluUnit {
@@ -146,8 +127,8 @@ pub(super) struct AluUnit {
     pub(super) to: Format,
     /// The seed of stochastic rounding.
     pub(super) seed: u64,
-    /// How `mad` is done, and products with zeros.
-    pub(super) steps: Steps,
+    /// A device's rules of products and sums.
+    pub(super) sums: Option<SumRules>,
 }
 
 impl AluUnit {
@@ -175,10 +156,11 @@ impl AluUnit {
                 *word = random_word(self.seed, index);
             }
         }
+        let sums = self.sums.unwrap_or(SumRules::plain(env.format));
         match self.op {
-            AluOperation::Table(Op::Add) => add(env, self.steps, a, b),
-            AluOperation::Table(Op::Mul) => mul(env, self.steps, a, b),
-            AluOperation::Mad => mad(env, self.steps, a, b, c),
+            AluOperation::Table(Op::Add) => sums.add(env, a, b),
+            AluOperation::Table(Op::Mul) => sums.mul(env, a, b),
+            AluOperation::Mad => sums.mad(env, a, b, c),
             AluOperation::Mov => ops::convert(&env.format, env, a),
             AluOperation::Rcc => Outcome::exact(nv_functions::rcc(a)),
             AluOperation::Set(operation, swapped) => set(env, operation, if swapped { [b, a] } else { [a, b] }),
@@ -190,50 +172,6 @@ impl AluUnit {
                 unreachable!("`super::row` has the operations on lines of many numbers")
             }
             AluOperation::Convert => ops::convert(&env.format, to.tininess(env.tininess), a),
-        }
-    }
-}
-
-/// Factors of a product: both +0 where a zero wins against infinity or NaN. Units of cards have their own rule.
-pub(super) fn factors(format: &Format, steps: Steps, a: u32, b: u32) -> (u32, u32) {
-    let zero = format.is_zero(a) || format.is_zero(b);
-    let wins = steps.zero_wins && !format.unit.is_card() && zero;
-    if wins && !(format.is_finite(a) && format.is_finite(b)) { (0, 0) } else { (a, b) }
-}
-
-/// A product under the rules of a device.
-pub(super) fn mul(env: Env, steps: Steps, a: u32, b: u32) -> Outcome {
-    let (a, b) = factors(&env.format, steps, a, b);
-    ops::mul(products(env, steps), a, b)
-}
-
-/// Where products are rounded. Units of cards have their own rule.
-pub(super) fn products(env: Env, steps: Steps) -> Env {
-    let rounding = steps.products.filter(|_| !env.format.unit.is_card());
-    Env { format: rounding.map_or(env.format, |rounding| env.format.with_rounding(rounding)), ..env }
-}
-
-/// A sum under the rules of a device.
-pub(super) fn add(env: Env, steps: Steps, a: u32, b: u32) -> Outcome {
-    match steps.add {
-        AddMode::Aligned(bits) if !env.format.unit.is_card() && !env.format.is_fixed() => {
-            ops::sum_aligned(env, bits, &[a, b])
-        }
-        _ => ops::add(env, a, b),
-    }
-}
-
-fn mad(env: Env, steps: Steps, a: u32, b: u32, c: u32) -> Outcome {
-    if env.format.unit.is_card() {
-        return ops::mad(env, a, b, c);
-    }
-    let (x, y) = factors(&env.format, steps, a, b);
-    match steps.mad {
-        MadMode::Fused => ops::fused_mad(env, x, y, c),
-        MadMode::ProductCut => ops::product_cut_mad(env, x, y, c),
-        MadMode::TwoRoundings => {
-            let product = mul(env, steps, a, b);
-            add(env, steps, product.bits, c).also(product.flags)
         }
     }
 }

@@ -3,12 +3,13 @@
 
 use std::io::Read;
 
+use refsim::device::SumRules;
 use refsim::num::{DotOrder, Env, Flags, Format, block::BLOCK, block::BlockFormat, ops};
 
 use super::line::{fields, hex, other_fields, push_hex};
-use super::operation::{Steps, VectorOperation};
-use super::stream::{TaskOutput, written};
-use crate::cli::Out;
+use super::operation::VectorOperation;
+use super::stream::{TaskOutput, each_line};
+use crate::cli::{Out, OutputError};
 use crate::error::InputError;
 
 /// The operation on a line.
@@ -21,7 +22,7 @@ pub(super) enum RowOperation {
     /// The sum of the products of neighbours, in an accumulator of this format.
     Dot(DotOrder, Format),
     /// An instruction on vectors.
-    Vector(VectorOperation, Steps),
+    Vector(VectorOperation, SumRules),
 }
 
 /// An operation on lines of numbers.
@@ -77,8 +78,8 @@ impl RowUnit {
                 let patterns = outcomes.into_iter().map(|outcome| outcome.bits).collect();
                 Converted { scale: None, patterns, flags }
             }
-            RowOperation::Vector(operation, steps) => {
-                let outcomes = operation.evaluate(self.env, steps, &read(&fields, plain)?);
+            RowOperation::Vector(operation, sums) => {
+                let outcomes = operation.evaluate(self.env, sums, &read(&fields, plain)?);
                 let flags = outcomes.iter().fold(Flags::empty(), |flags, outcome| flags | outcome.flags);
                 let patterns = outcomes.into_iter().map(|outcome| outcome.bits).collect();
                 Converted { scale: None, patterns, flags }

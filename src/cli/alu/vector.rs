@@ -1,8 +1,9 @@
 //! Instructions on vectors: a line of words, components first to last, all of `a`, then `b`.
 
-use refsim::num::{Env, NumberOperation as Op, Outcome, ops};
+use refsim::device::SumRules;
+use refsim::num::{Env, NumberOperation as Op, Outcome};
 
-use super::operation::{Steps, VectorOperation, add, factors, mul, products};
+use super::operation::VectorOperation;
 
 impl VectorOperation {
     /// The number of words of a line, and the message if it has another number.
@@ -15,16 +16,16 @@ impl VectorOperation {
         }
     }
 
-    /// The result: one number, or four components. `words` must have the length [`Self::words`].
-    pub(super) fn evaluate(self, env: Env, steps: Steps, words: &[u32]) -> Vec<Outcome> {
+    /// The result: one number, or four components. `words` has as many as [`Self::words`] says.
+    pub(super) fn evaluate(self, env: Env, sums: SumRules, words: &[u32]) -> Vec<Outcome> {
         let one = Outcome::exact(env.format.one());
         // The caller refuses formats whose unit has no such instruction.
         let unit = |operation: Op, operands| operation.evaluate(env, operands).unwrap_or(Outcome::exact(0));
         match self {
-            Self::Dp3 | Self::Dp4 => vec![dot(env, steps, words)],
-            Self::Dph => vec![homogeneous(env, steps, words)],
+            Self::Dp3 | Self::Dp4 => vec![dot(env, sums, words)],
+            Self::Dph => vec![homogeneous(env, sums, words)],
             Self::Dst => {
-                vec![one, mul(env, steps, words[1], words[5]), Outcome::exact(words[2]), Outcome::exact(words[7])]
+                vec![one, sums.mul(env, words[1], words[5]), Outcome::exact(words[2]), Outcome::exact(words[7])]
             }
             Self::Expp => {
                 let [x, y, z] = [Op::ExpFloor, Op::ExpFraction, Op::ExpPower].map(|op| unit(op, [words[0], 0, 0]));
@@ -43,21 +44,21 @@ impl VectorOperation {
 }
 
 /// The dot product of both halves of the words.
-fn dot(env: Env, steps: Steps, words: &[u32]) -> Outcome {
+fn dot(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let (a, b) = words.split_at(words.len() / 2);
-    let terms: Vec<(u32, u32)> = a.iter().zip(b).map(|(&a, &b)| factors(&env.format, steps, a, b)).collect();
-    ops::dot_of_products(env, products(env, steps), env, steps.order, &terms)
+    let terms: Vec<(u32, u32)> = a.iter().copied().zip(b.iter().copied()).collect();
+    sums.dot(env, env.format, &terms)
 }
 
 /// DPH: a fourth product by 1 in the unit of a card, or else the dot product of three components and a sum.
-fn homogeneous(env: Env, steps: Steps, words: &[u32]) -> Outcome {
+fn homogeneous(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let mut words = words.to_vec();
     if env.format.unit.is_card() {
         words[3] = env.format.one();
-        return dot(env, steps, &words);
+        return dot(env, sums, &words);
     }
     let last = words.remove(7);
     words.remove(3);
-    let three = dot(env, steps, &words);
-    add(env, steps, three.bits, last).also(three.flags)
+    let three = dot(env, sums, &words);
+    sums.add(env, three.bits, last).also(three.flags)
 }
