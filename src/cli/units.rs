@@ -52,7 +52,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
             ("rule", format!("{:?}", unit.rule)),
             ("scales", scales.unwrap_or_else(|| "none".to_owned())),
             ("source", unit.source.to_owned()),
-            ("M", "microsoft/MMA-Sim, mmasim 2.1.1 (MIT), arXiv 2511.10909: it has the same bits".to_owned()),
+            ("M", "microsoft/MMA-Sim, mmasim 2.1.1 (MIT), arXiv 2511.10909".to_owned()),
             ("K", "Khattak and Mikaitis, arXiv 2512.07004; MATLAB-tensor-core b12b5a7".to_owned()),
         ] {
             facts.push([figure.into(), value.into()]);

@@ -1,7 +1,7 @@
 //! Matrix units: results of models and of GPUs, and laws of sums.
 
 use refsim_lanes::num::matrix::{Element, MatrixUnit, Operand, ResultFormat, Rule, UNITS};
-use refsim_lanes::num::{Format, Rounding, from_f64, random_word};
+use refsim_lanes::num::{Format, Rounding, from_f64, power_of_two, random_word};
 use refsim_lanes::{MatrixColumns, MatrixRows};
 use std::fs;
 use std::path::Path;
@@ -143,7 +143,7 @@ fn powers_of_two_scale_results() {
         let doubled: Vec<u64> = a.iter().map(|code| code + (1 << (fraction_bits + element.ignored_bits))).collect();
         let result = unit.result.element;
         let [single, double] = [dot(unit, element, a, b, 0), dot(unit, element, &doubled, b, 0)];
-        let is_normal = result.number(single).abs() >= 2.0_f64.powi(-126);
+        let is_normal = result.number(single).abs() >= power_of_two(-126);
         if exponent_bits > 3 && is_normal && result != Element::FP16 {
             assert_eq!(result.number(double), 2.0 * result.number(single), "{}", unit.name);
         }
@@ -248,7 +248,7 @@ fn flushed_zeros_keep_their_sign_within_an_instruction_of_cdna2() {
     let unit = MatrixUnit::find("cdna2_bf16").expect("a unit");
     let code = |x: f64| Element::BF16.code(x).expect("a number");
     // Three halves of the smallest normal number, less that, and products that flush.
-    let (least, small) = (2.0_f64.powi(-126), 2.0_f64.powi(-100));
+    let (least, small) = (power_of_two(-126), power_of_two(-100));
     let a = [-1.5 * least, 0.0, least, 0.0].into_iter().chain([-small; 12]).map(code).collect::<Vec<_>>();
     let b = [1.0; 4].into_iter().chain([small; 12]).map(code).collect::<Vec<_>>();
     assert_eq!(dot(&unit, Element::BF16, &a[..8], &b[..8], 0), 0x8000_0000);
@@ -277,7 +277,7 @@ fn one_sum_of_sixteen_tells_the_family_apart() {
     for (name, expected) in sums {
         let unit = MatrixUnit::find(name).expect("a unit");
         let element = *unit.operands.iter().find(|element| element.fields().0 >= 5).expect("a type with 2^-13");
-        let power = |n: i32| element.code(2.0_f64.powi(-n)).expect("a number");
+        let power = |n: i32| element.code(power_of_two(-n)).expect("a number");
         let minus = 1 << (element.width() - 1);
         let a = [vec![power(0)], vec![power(12); 8], vec![power(12) | minus; 7]].concat();
         let b = [vec![power(0)], vec![power(13); 8], vec![power(12); 7]].concat();

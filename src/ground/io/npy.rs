@@ -271,14 +271,14 @@ pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Res
 
 /// The number of a half-precision pattern.
 fn half(word: u64) -> f64 {
-    let (field, fraction) = ((word >> 10 & 31) as i32, (word & 1023) as f64);
+    let (sign, field, fraction) = ((word >> 15) << 63, word >> 10 & 31, word & 1023);
     let size = match field {
-        0 => fraction / 1024.0 * f64::powi(2.0, -14),
-        31 if fraction == 0.0 => f64::INFINITY,
+        0 => fraction as f64 / f64::from(1 << 24),
+        31 if fraction == 0 => f64::INFINITY,
         31 => f64::NAN,
-        _ => (1.0 + fraction / 1024.0) * f64::powi(2.0, field - 15),
+        _ => f64::from_bits((field + 1023 - 15) << 52 | fraction << 42),
     };
-    if word >> 15 == 0 { size } else { -size }
+    f64::from_bits(size.to_bits() | sign)
 }
 
 /// Writes a table as an array of little-endian f4, in version 1.

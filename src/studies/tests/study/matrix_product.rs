@@ -4,7 +4,7 @@ use crossbar_ground::io::{NumberArray, NumbersOrCodes};
 use crossbar_studies::report::Verdict;
 use crossbar_studies::study::Study;
 use crossbar_studies::study::matrix_product::{MatrixInput, MatrixProduct};
-use refsim::num::{matrix::MatrixUnit, random_word};
+use refsim::num::{matrix::MatrixUnit, power_of_two, random_word};
 
 use super::{StudyFiles, findings, number};
 
@@ -107,7 +107,7 @@ fn arrays_of_halves_are_numbers_and_unsigned_ones_patterns() {
         MatrixInput::load(&path).map(|input| input.data)
     };
     let words: Vec<u8> = [0x3c00_u16, 0xc500, 0x0001, 0x7c00].iter().flat_map(|word| word.to_le_bytes()).collect();
-    let values = vec![1.0, -5.0, 2.0_f64.powi(-24), f64::INFINITY];
+    let values = vec![1.0, -5.0, power_of_two(-24), f64::INFINITY];
     let numbers = NumbersOrCodes::Numbers(NumberArray { shape: vec![2, 2], values });
     assert_eq!(load("<f2", "(2, 2)", &words).expect("halves"), numbers);
     let codes = NumbersOrCodes::Codes(NumberArray { shape: vec![1, 4], values: vec![0x3c00, 0xc500, 1, 0x7c00] });

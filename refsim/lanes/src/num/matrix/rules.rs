@@ -101,6 +101,7 @@ pub(super) fn pairs(x: &[Value], y: &[Value], block: usize, c: Value, is_first: 
 }
 
 /// `fma(a, b, c)`: the exact value, rounded once; the signs of zeros as IEEE has them.
+#[expect(clippy::disallowed_methods, reason = "one rounding is what the unit has")]
 pub(super) fn fused(a: u64, b: u64, c: u64, element: Element) -> u64 {
     if element == Element::FP32 {
         return ops::fused_mad(Format::FP32, a as u32, b as u32, c as u32).bits.into();
@@ -130,7 +131,7 @@ pub(super) fn floored(products: &[Value], c: Value, halves: bool) -> u64 {
         mine.filter_map(|(_, product)| product.addend()).collect()
     };
     let sides = (0..1 + usize::from(halves)).map(side).filter(|side| !side.is_empty());
-    let sums: Vec<_> = sides.map(|side| aligned(side.into_iter(), KEPT, None, Alignment::Cut)).collect();
+    let sums: Vec<_> = sides.map(|side| aligned(side, KEPT, None, Alignment::Cut)).collect();
     let least = Format::FP32.exponents().0;
     let c_exponent = if c.magnitude == 0 { least } else { c.exponent };
     let products_top = sums.iter().map(|sum| sum.top).max();
