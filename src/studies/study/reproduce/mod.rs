@@ -29,6 +29,7 @@ mod sky;
 mod subsurface;
 mod summary;
 mod timed;
+mod timed_work;
 
 use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
@@ -48,7 +49,8 @@ pub use row::{
     Bound, Contradiction, Dependence, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure,
     PaperRow, RowSource, RowVerdict, Setting, Sweep,
 };
-pub use timed::{TimedWork, timed};
+pub use timed::timed;
+pub use timed_work::TimedWork;
 
 /// Parts that tests call themselves, because no run that ends in seconds reaches their cases.
 #[doc(hidden)]

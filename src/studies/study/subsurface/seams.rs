@@ -6,7 +6,8 @@ use glam::{DMat3, DVec3};
 
 use crate::atlas::Atlas;
 
-/// Greatest distance of neighbours, in sides of a square of the mean area of texels: those across a corner are 1.41 apart.
+/// Greatest distance of neighbours, in sides of a square of the mean area of texels: those across a corner are 1.41
+/// apart.
 const REACH: f64 = 1.5;
 /// Least cosine between normals of neighbours, which excludes the far side of thin parts.
 const SAME_SIDE: f64 = 0.7;
@@ -40,8 +41,9 @@ impl Neighbours {
         Self(found)
     }
 
-    /// Root mean square over all texels of how far `found` less `expected` is from linear among a texel's neighbours, over
-    /// the root mean square of `expected`; both by area, over all channels. A smooth error counts little, a jump in full.
+    /// Root mean square over all texels of how far `found` less `expected` is from linear among a texel's neighbours,
+    /// over the root mean square of `expected`; both by area, over all channels. A smooth error counts little, a jump in
+    /// full.
     pub(super) fn seams(&self, atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> f64 {
         let off = |texel: usize| DVec3::from(found[texel]) - DVec3::from(expected[texel]);
         let (mut rough, mut whole) = (0.0, 0.0);
@@ -54,7 +56,8 @@ impl Neighbours {
     }
 }
 
-/// Mean squared distance of values at points around a plane with this normal from their best linear function; 0 for too few.
+/// Mean squared distance of values at points around a plane with this normal from their best linear function; 0 for
+/// too few.
 fn from_linear(values: &[(DVec3, DVec3)], normal: DVec3) -> f64 {
     if values.len() < 4 {
         return 0.0;

@@ -115,7 +115,8 @@ fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Time of the intersections of each card's program for rays of any origin: that of two textures of bytes, and in float.
+/// Time of the intersections of each card's program for rays of any origin: that of two textures of bytes, and in
+/// float.
 pub(in crate::study::reproduce) fn timed_tests() -> Result<Vec<TimedWork>, StudyError> {
     let (mesh, rays) = (mesh()?, moved_rays(SIDE)?);
     let on = |device| {
