@@ -44,7 +44,7 @@ fn what_does_not_go_together_is_refused() {
         ),
         (&["error", &transfer, &transfer], "expected clusters, found transfer alone"),
         (&["error", &signal, &small], "expected 24 points of 3 numbers"),
-        (&["show", &model], "expected a .npz file, found another beginning"),
+        (&["show", &model], "expected a .npz file, found other first bytes"),
     ] {
         let said = refused_in(folder.path(), &[&["cpca"], arguments].concat());
         assert!(said.contains(words), "{arguments:?}: {said}");

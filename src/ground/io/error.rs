@@ -74,10 +74,10 @@ pub(super) fn material_error(
 
 /// The parts do not make a mesh.
 pub(super) fn mesh_error(name: &Path, reason: InputError) -> InputError {
-    reason.coded("crossbar::model::mesh").with_help("mend the model in the program that wrote it").at(name)
+    reason.coded("crossbar::model::mesh").with_help("correct the model in the program that wrote it").at(name)
 }
 
 /// The parts do not make a scene.
 pub(super) fn scene_error(name: &Path, reason: InputError) -> InputError {
-    reason.coded("crossbar::model::scene").with_help("mend the model in the program that wrote it").at(name)
+    reason.coded("crossbar::model::scene").with_help("correct the model in the program that wrote it").at(name)
 }

@@ -118,7 +118,7 @@ fn forged_metadata_are_refused_by_name() {
             assert!(error(&format!("\"{field}\":"), &format!("\"{field}\":{claim},\"x\":")).starts_with("a.npz: "));
         }
     }
-    assert_eq!(parsed(b"\x93NUMPY"), Err("a.npz: expected a .npz file, found another beginning".to_owned()));
+    assert_eq!(parsed(b"\x93NUMPY"), Err("a.npz: expected a .npz file, found other first bytes".to_owned()));
     assert!(parsed(MAGIC).expect_err("cut").starts_with("a.npz: "));
 }
 
