@@ -9,7 +9,7 @@ use crate::study::measure::{Measure, load_measurement};
 const EXAMPLES: &str = "\
 Examples:
   crossbar measure docs/examples/measured.csv --device nv25
-      pixels that a card drew, against all settings of the switches of a GeForce4 Ti that they depend on
+      pixels captured on a card, against all settings of those switches of a GeForce4 Ti that affect them
   crossbar measure docs/examples/measured.csv --device nv25 --switch mad=fused --json
       the same where one answer is known, as JSON
 
@@ -17,9 +17,9 @@ The table has the header `case,column,row,red,green,blue,alpha,depth`: a case fi
 card stored there. docs/measuring.md describes it, and has for each open switch of the cards a small case that tells its \
 values apart.
 
-Exit codes: 0 some setting draws every measured code, 1 none does, 2 the table or a case cannot be used.";
+Exit codes: 0 some setting gives every measured code, 1 none does, 2 the table or a case cannot be used.";
 
-/// Compare pixels captured on a real card with every combination of a device's switches: which match
+/// Compare pixels captured on a real card with every combination of a device's switches; list those that match
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

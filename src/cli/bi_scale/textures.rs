@@ -20,7 +20,7 @@ use crate::transfer::file::require_mesh;
 /// How patches are sampled, and where they lie.
 #[derive(Debug, clap::Args)]
 pub(super) struct PatchArgs {
-    /// How often a texture repeats where texture coordinates grow by 1
+    /// Repetitions of a texture per unit of texture coordinates
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
     pub(super) repeat: f64,
 
