@@ -199,7 +199,7 @@ impl<'a> Parser<'a> {
         } else if word::is_version(token.text) {
             self.record(token.error(
                 ErrorKind::RepeatedVersion,
-                "one version, in front",
+                "one version, at the start",
                 "put each program into a text of its own",
             ));
             self.skip_line();
