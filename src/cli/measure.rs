@@ -17,7 +17,7 @@ The table has the header `case,column,row,red,green,blue,alpha,depth`: a case fi
 card stored there. docs/measuring.md describes it, and has for each open switch of the cards a small case that tells its \
 values apart.
 
-Exit codes: 0 some setting gives every measured code, 1 none does, 2 the table or a case cannot be used.";
+Exit codes: 0 some setting draws every measured code, 1 none does, 2 the table or a case cannot be used.";
 
 /// Compare pixels captured on a real card with every combination of a device's switches; list those that match
 #[derive(Debug, clap::Args)]

@@ -68,7 +68,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.signal, &args.model)?;
     let Some(maps) = &file.visibility else {
-        let what = format!("{}: expected visibility, found coded transfer alone", args.signal.display());
+        let what = format!("{}: expected visibility, found coded transfer only", args.signal.display());
         return Err(Problem::usage(what, "name a file that `crossbar all-frequency precompute` wrote").into());
     };
     let numbers = 4 * 256 * file.reflectance.terms() as u64;

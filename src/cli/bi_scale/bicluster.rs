@@ -44,7 +44,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let BiScaleFile { meaning, matrix, .. } = load(&args.file)?;
     let matrix = matrix.ok_or_else(|| {
-        let what = format!("{}: expected a matrix, found biclusters alone", args.file.display());
+        let what = format!("{}: expected a matrix, found biclusters only", args.file.display());
         Problem::usage(what, "name the file that they were made from")
     })?;
     let start = Instant::now();

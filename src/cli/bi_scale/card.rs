@@ -60,7 +60,7 @@ impl StudyArgs for Args {
         let (TransferOfModel { file, model, vertices, light: directions }, texture_of) =
             textures.transfer(&self.file, name)?;
         let Some(biclusters) = file.biclusters else {
-            let what = format!("{}: expected biclusters, found a matrix alone", self.file.display());
+            let what = format!("{}: expected biclusters, found a matrix only", self.file.display());
             return Err(Problem::usage(what, "`crossbar bi-scale bicluster` makes them").into());
         };
         let repeat = textures.patches.repeat as f32;

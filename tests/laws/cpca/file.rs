@@ -71,7 +71,7 @@ fn what_is_written_is_read_in_all_its_parts() {
         assert_eq!(load_prt(&path, file.mesh.as_ref()).expect("loaded"), file);
         match (&file.transfer, load_signal(&path).map(|(_, _, signal)| signal)) {
             (Some(transfer), Ok(signal)) => assert_eq!(&signal, transfer),
-            (None, Err(error)) => assert!(error.to_string().ends_with("expected transfer, found clusters alone")),
+            (None, Err(error)) => assert!(error.to_string().ends_with("expected transfer, found clusters only")),
             (_, other) => panic!("{other:?}"),
         }
     }
