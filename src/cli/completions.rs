@@ -16,7 +16,7 @@ Examples:
   crossbar completions fish | source
       in ~/.config/fish/config.fish";
 
-/// Print a script with which a shell completes commands, options and their values
+/// Print a shell script that completes commands, options and their values
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

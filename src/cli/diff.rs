@@ -10,11 +10,11 @@ use crate::study::picture_difference::{DifferenceOptions, PictureDifference, Pic
 const EXAMPLES: &str = "\
 Examples:
   crossbar diff docs/examples/exact.png docs/examples/leaky.png       # exit code 1
-      each channel's root mean square and largest difference and where that is, SSIM, FLIP
+      each channel's root mean square difference, its largest difference with the pixel, SSIM, FLIP
   crossbar diff docs/examples/smooth.exr docs/examples/rough.exr --out out/changes      # exit code 1
       what brightened and what darkened, in false colours; the differences as numbers in difference.exr
   crossbar diff docs/examples/smooth.exr docs/examples/rough.exr --channel R --exposure 2 --max-flip 0.5
-      a check: is FLIP at most 0.5 in the mean, twice as bright as the files say?
+      a check: is the mean FLIP at most 0.5, at twice the exposure of the files?
 
 Channels are compared as the files have them; where one picture is encoded for a screen (PNG) and \
 the other linear (EXR, HDR), the former is decoded. NaN equals NaN. SSIM and FLIP compare what a \
@@ -24,7 +24,7 @@ difference.exr, channels.csv, study.json. docs/diff.md says what each figure mea
 
 Exit codes: 0 the pictures are equal, or within all bounds that are given; 1 they are not; 2 they cannot be compared.";
 
-/// Compare two pictures (PNG, EXR, HDR): in numbers, and as people see them
+/// Compare two pictures (PNG, EXR, HDR): sample by sample, and as a viewer perceives them
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

@@ -10,7 +10,7 @@ use super::ProgressBar;
 /// The executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum DeviceExecutor {
-    /// The reference: a fragment at a time, by integers
+    /// The reference: one fragment at a time, in integer arithmetic
     Scalar,
     /// Many fragments at once
     Batch,
@@ -49,13 +49,13 @@ impl DeviceExecutor {
 /// Arithmetic that decides hits: exact, or an executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Decider {
-    /// Exact arithmetic: the truth
+    /// Exact arithmetic: the reference for hits
     Exact,
-    /// The emulated card, a fragment at a time
+    /// The emulated card, one fragment at a time
     Scalar,
-    /// The emulated card, many fragments at once; the bits are those of scalar
+    /// The emulated card, many fragments at once; same bits as scalar
     Batch,
-    /// The emulated card, on a GPU of this computer; the bits are those of scalar
+    /// The emulated card, on a GPU of this computer; same bits as scalar
     Wgpu,
 }
 

@@ -31,20 +31,20 @@ Examples:
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --executor exact --out hits.csv
       decided in exact arithmetic on the f32 numbers of the files
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --out hits.csv
-      what a Radeon 8500 would have said, with every ray against the triangles near it
+      as a Radeon 8500 computes it; each ray is tested against the triangles near it
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster host --time --out hits.csv
-      found by the host's octree in single precision; says how long the octree took to build, and the rays to cast
+      by the host's octree in single precision, with the times of building the octree and casting the rays
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --device r300 --time --out hits.csv
       the same by the Ray Engine, host and emulated Radeon 9700 together
 
-Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, a line
-a ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
+Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, one line
+per ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
 the ray's direction, written so that it reads back to the same f32,
 or to the same f64 where t exceeds f32.
 
-`crossbar leaks --mesh M.obj --rays R.csv` judges the same rays on any card: which hits leak, are false or name a wrong triangle.
+`crossbar leaks --mesh M.obj --rays R.csv` judges the same rays on any card: which rays leak, hit falsely or hit a wrong triangle.
 
-Where the format of a card leaves no bits of the triangles or of t, a warning says so.";
+A warning is printed if the format of a card is too coarse for the triangles or for t.";
 
 /// First hits of the rays of a CSV file on the triangles of an OBJ, PLY, STL or glTF file
 #[derive(Debug, clap::Args)]
@@ -70,7 +70,7 @@ pub(super) struct Args {
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
-    /// Caster of rays, which finds first hits [default: exact arithmetic, or `--device` alone without an octree]
+    /// Ray caster that finds first hits [default: exact arithmetic, or `--device` alone without an octree]
     #[arg(long, value_enum, value_name = "C")]
     caster: Option<CasterArg>,
 
@@ -79,7 +79,7 @@ pub(super) struct Args {
     #[arg(long)]
     time: bool,
 
-    /// Where the hits go
+    /// File for the hits
     #[arg(long, value_name = "H.csv")]
     out: PathBuf,
 }

@@ -30,15 +30,15 @@ Examples:
   crossbar leaky-teapot --device r300 --device nv35 --json
       two cards as they are, the rows as JSON on standard output
   crossbar leaky-teapot --size 256x256 --device r200 --device r300 --kernel paper --kernel shared-edges
-      two cards with the paper's program, and with one whose edges can not leak
+      two cards with the paper's program, and with one whose edges cannot leak
   crossbar leaks --mesh docs/examples/step.obj --size 128x128 --device r200 --out leaks
       a model of your own on a Radeon 8500: `leaks` is another name of the command
   crossbar leaks --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --device r300 --out leaks
       rays of your own, as for `crossbar intersect`, on two cards
 
 With --device and --format both, every device runs in every format; what a device file sets stays.
-Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where),
-NAME.exr (t and triangle); rows with the same bits have them once: see same_bits in study.json.";
+Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (wrong pixels by kind),
+NAME.exr (t and triangle); rows with the same bits share these files: see same_bits in study.json.";
 
 /// Rows without options that run with shared edges, too.
 const CURED: [&str; 5] = ["r200", "r200-rounding-rne", "fp16", "fp24", "fp32"];

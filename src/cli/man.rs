@@ -15,7 +15,7 @@ Examples:
   crossbar man --out ~/.local/share/man/man1
       where `man crossbar-alu` finds it";
 
-/// Write the manual pages: one of the program, one of each command and of each of its verbs
+/// Write manual pages: one for the program, one for each command and each of its verbs
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

@@ -14,9 +14,9 @@ Examples:
   crossbar materials
       the published media: coefficients, mean free paths, diffuse reflectances
   crossbar materials marble
-      lengths and reflectances of marble, and where its coefficients are from
+      lengths and reflectances of marble, and the source of its coefficients
   crossbar materials ketchup --json
-      the same of ketchup, for machines
+      the same for ketchup, as JSON
 
 Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
 
@@ -25,7 +25,7 @@ const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 /// Fractions of the light whose radii are shown.
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
 
-/// Show media: coefficients, lengths, and how much light leaves at which distance
+/// Show scattering media: coefficients, mean free paths, diffuse reflectance by distance
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

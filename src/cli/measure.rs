@@ -9,7 +9,7 @@ use crate::study::measure::{Measure, load_measurement};
 const EXAMPLES: &str = "\
 Examples:
   crossbar measure docs/examples/measured.csv --device nv25
-      pixels that a card drew, against all settings of the switches of a GeForce4 Ti that they depend on
+      pixels captured on a card, against all settings of those switches of a GeForce4 Ti that affect them
   crossbar measure docs/examples/measured.csv --device nv25 --switch mad=fused --json
       the same where one answer is known, as JSON
 
@@ -19,7 +19,7 @@ values apart.
 
 Exit codes: 0 some setting draws every measured code, 1 none does, 2 the table or a case cannot be used.";
 
-/// Compare pixels captured on a real card with every combination of a device's switches: which match
+/// Compare pixels captured on a real card with every combination of a device's switches; list those that match
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

@@ -10,7 +10,7 @@ use crate::split::PartSet;
 const EXAMPLES: &str = "\
 Examples:
   crossbar cpca precompute docs/examples/step.obj --part 1/2 --out step_1.part
-      the first half of the work of a command; `--part 2/2` is the other, on another machine perhaps
+      the first half of a command's work; `--part 2/2` computes the other, perhaps on another machine
   crossbar merge step_1.part step_2.part --out step.npz
       both, in any order: the file that one run of the command writes
 
@@ -19,11 +19,11 @@ output equals that of one run, byte for byte, but for `--out`. Run it where the 
 same files. `merge` refuses parts that are missing or given twice, parts of other commands, inputs or programs, and \
 parts that have changed since they were written. docs/scaling.md says which commands split, and what it brings.";
 
-/// Put the parts of a run together, as `--part` of other commands writes them
+/// Merge the parts of a run that another command wrote with `--part`
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The parts, all of them, in any order
+    /// All parts, in any order
     #[arg(value_name = "PART", required = true)]
     parts: Vec<PathBuf>,
 

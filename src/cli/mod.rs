@@ -78,7 +78,7 @@ Three things to try:
   crossbar render office --renderer path --samples 4
                                          a picture of an office; `--caster engine` has the Ray Engine cast its rays
   crossbar reproduce ray-engine-equation-11
-                                         what a paper printed, beside what comes out here
+                                         a printed equation of a paper beside the value computed here
 
 All commands: `crossbar --help`. One of them, with examples: `crossbar leaky-teapot --help`.
 ";
@@ -97,11 +97,11 @@ struct Cli {
     #[command(subcommand)]
     command: Command,
 
-    /// Write results, and errors, as JSON for machines
+    /// Write results and errors as JSON
     #[arg(long, global = true, display_order = 900)]
     json: bool,
 
-    /// How many threads may work; the results are the same for every number [default: one per core]
+    /// Number of threads; the results do not depend on it [default: one per core]
     #[arg(long, global = true, value_name = "N", display_order = 901,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -121,7 +121,7 @@ Examples:
   crossbar alu --help                                        # what a command does, with examples
 
 docs/examples and fixtures are folders of the repository; examples are run from its root.
-A command that is interrupted leaves nothing half-written, and starts from the beginning again.";
+An interrupted command leaves no incomplete files; run it again to start over.";
 
 #[derive(Debug, Subcommand)]
 enum Command {

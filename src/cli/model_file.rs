@@ -37,7 +37,7 @@ pub(super) fn with_options(program: Command) -> Command {
         .long("strict")
         .action(ArgAction::SetTrue)
         .requires(named_by)
-        .help("Take the model's file as it is: refuse what would be repaired, turn no triangle round")
+        .help("Refuse a model file that needs repair, and flip no triangles")
         .help_heading("Model");
     program.arg(up).arg(strict)
 }

@@ -15,7 +15,7 @@ Examples:
   crossbar page --out out/page
       out/page/index.html: open it in a browser with WebGPU
   refsim/web/build && crossbar page --emulator target/web/refsim_web.wasm
-      the same with the emulator in it, for programs of one's own
+      the same with the emulator in it, to run programs of the visitor's own
 
 The file stands alone: it loads nothing and sends nothing. On the visitor's GPU it runs operations in eight number \
 formats, the teapot under the Ray Engine's intersection program, and programs of the systems instruction by instruction, \

@@ -15,7 +15,7 @@ use crate::split::{PartNumber, SplitCommand, SplitRun, WrittenPart, not_utf8};
 /// The option of commands whose work can be split.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(super) struct PartArgs {
-    /// Compute only part K of N, and write it to --out; `crossbar merge` puts all parts together
+    /// Compute only part K of N, and write it to --out; `crossbar merge` merges all parts
     #[arg(long, value_name = "K/N", requires = "out")]
     part: Option<PartNumber>,
 }

@@ -21,11 +21,11 @@ Examples:
   crossbar reproduce ray-engine-equation-11 ray-engine-figure-7 --json
       two of them, as JSON on standard output
   crossbar reproduce radiosity
-      all of a paper: ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
+      all entries of a paper: ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
   crossbar reproduce cpca-table-1 --full-size
-      computed anew
+      a recorded entry, computed anew
   crossbar reproduce --record out/records
-      the runs that are recorded, entry by entry
+      writes the records, entry by entry
   crossbar reproduce --list
       the entries
 
@@ -39,8 +39,8 @@ that the paper leaves open reaches the value), missed, contradictory (the paper 
 and ours agrees with one of its values), or too vague to judge. All bounds were restated on
 2026-11-26: after the first results of most rows, before the recorded runs.
 Entries that take minutes to hours are recorded runs, which the program contains; --full-size
-computes them anew and holds them against the record. The source of each row says which.
-Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
+computes them anew and compares them with the record. The source of each row says which.
+An interrupted run leaves no incomplete files; the next run starts from the beginning, or from the
 entries that are named. --record goes on: a file that is there stays, and so do the finished pieces
 of all-frequency-table-1 and all-frequency-figures, which take hours, in FOLDER/ID.pieces.
 A missed figure is a finding, and docs/papers lists it with the open question: the exit code is 0. It
@@ -54,7 +54,7 @@ pub(super) struct Args {
     #[arg(value_name = "ID")]
     entries: Vec<String>,
 
-    /// Say what there is, and do nothing
+    /// List the entries, and compute nothing
     #[arg(long)]
     list: bool,
 

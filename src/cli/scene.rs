@@ -17,11 +17,11 @@ Examples:
   crossbar scene
       all scenes
   crossbar scene office
-      what is in one: triangles, materials, emitters, views
+      contents of one: triangles, materials, emitters, views
   crossbar scene teapot-room --out out/scenes
       out/scenes/teapot_room.toml (views and point lights), teapot_room.obj and teapot_room.mtl, which read back to the same bits";
 
-/// List the scenes that the program builds itself, count what is in one, write its files
+/// List the built-in scenes; show the contents of one; write its files
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

@@ -44,15 +44,15 @@ pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
 /// An eye of the user's own.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(super) struct EyeArgs {
-    /// Where the rays start [default: far enough to see all of the scene]
+    /// Position of the camera [default: far enough to see the whole scene]
     #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) eye: Option<[f32; 3]>,
 
-    /// The middle of the picture [default: the middle of the scene]
+    /// Point that the camera looks at [default: the middle of the scene]
     #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) target: Option<[f32; 3]>,
 
-    /// Tangent of half the vertical field of view, where no view of the scene says it [default: 0.375]
+    /// Tangent of half the vertical field of view, for a camera other than a view of the scene [default: 0.375]
     #[arg(long, value_name = "TAN", value_parser = number::single)]
     pub(super) tan_half_height: Option<f32>,
 }
@@ -76,8 +76,8 @@ impl EyeArgs {
         if self.tan_half_height.is_none() {
             return Ok(());
         }
-        let what = format!("`--tan-half-height` is for an eye of your own, found view `{view}` of the scene");
-        Err(Problem::usage(what, "add `--eye` or `--target`, or leave it out"))
+        let what = format!("`--tan-half-height` needs `--eye` or `--target`, found view `{view}` of the scene");
+        Err(Problem::usage(what, "add one of them, or leave it out"))
     }
 }
 
@@ -96,7 +96,7 @@ impl Viewpoint<'_> {
         let view = match self.view {
             Some(_) if aimed => {
                 let help = "leave out `--view`, or `--eye` and `--target`";
-                return Err(Problem::usage("`--view` says where the eye is", help).into());
+                return Err(Problem::usage("`--view` already places the camera", help).into());
             }
             Some(name) => Some(scene.view(name).ok_or_else(|| no_view(scene, name))?),
             None if aimed => None,

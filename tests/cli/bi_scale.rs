@@ -87,7 +87,7 @@ fn what_cannot_be_done_is_said() {
     document(&format!("bi-scale bicluster {large} --out {biclusters}"));
     for (arguments, said) in [
         ("bi-scale multiply docs/examples/quarters.mtx".to_owned(), "expected a matrix of 6144 columns, found 32"),
-        (format!("bi-scale bicluster {BICLUSTERS}"), "expected a matrix, found biclusters alone"),
+        (format!("bi-scale bicluster {BICLUSTERS}"), "expected a matrix, found biclusters only"),
         (format!("bi-scale multiply {biclusters}"), "beyond the range of the product's precision"),
         (
             format!("bi-scale compare {large} --sample 32"),
@@ -98,7 +98,7 @@ fn what_cannot_be_done_is_said() {
         (format!("bi-scale compare {BICLUSTERS} --model cornell-box"), "expected transfer of"),
         (
             "bi-scale compare docs/examples/quarters.mtx --model cornell-box".to_owned(),
-            "found a matrix of no known one",
+            "found a matrix without a model",
         ),
         (
             format!("bi-scale compare {BICLUSTERS} --sample 3"),
@@ -287,10 +287,7 @@ fn the_card_draws_what_the_host_draws() {
     let rows = bytes["precision"].as_array().expect("ways");
     assert_eq!(rows.len(), 10, "one fine, two coarse ones of four things, seams");
     for (options, said) in [
-        (
-            format!("bi-scale card {matrix} --model {COURT} --texture tiles"),
-            "expected biclusters, found a matrix alone",
-        ),
+        (format!("bi-scale card {matrix} --model {COURT} --texture tiles"), "expected biclusters, found a matrix only"),
         (format!("bi-scale card {biclusters} --model {COURT}"), "--texture <[MATERIAL=]B.npy>"),
         (
             format!("bi-scale card {biclusters} --model {COURT} --texture tiles --way colors"),

@@ -36,15 +36,15 @@ fn what_does_not_go_together_is_refused() {
     let (square, signal) = (root("fixtures/models/square.obj"), root("docs/examples/signal.csv"));
     for (arguments, words) in [
         (&["render", &transfer, "--model", &square][..], "expected transfer of a mesh with"),
-        (&["compress", &small, "--out", "y.npz"], "expected transfer, found clusters alone"),
+        (&["compress", &small, "--out", "y.npz"], "expected transfer, found clusters only"),
         (&["compress", &transfer, "--clusters", "1000", "--out", "y.npz"], "expected 1 to"),
         (
             &["compress", &transfer, "--vectors", "10", "--clusters", "2", "--out", "y.npz"],
             "expected at most 9 `--vectors`",
         ),
-        (&["error", &transfer, &transfer], "expected clusters, found transfer alone"),
+        (&["error", &transfer, &transfer], "expected clusters, found transfer only"),
         (&["error", &signal, &small], "expected 24 points of 3 numbers"),
-        (&["show", &model], "expected a .npz file, found another beginning"),
+        (&["show", &model], "expected a .npz file, found other first bytes"),
     ] {
         let said = refused_in(folder.path(), &[&["cpca"], arguments].concat());
         assert!(said.contains(words), "{arguments:?}: {said}");
@@ -93,7 +93,7 @@ fn cards_refuse_what_they_have_no_programs_for() {
         assert!(!folder.path().join("out").exists(), "{arguments:?}");
         said
     };
-    assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer alone"));
+    assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer only"));
     assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
 }
 

@@ -91,7 +91,7 @@ impl<'a> Parser<'a> {
                 }
             }
         }
-        self.end_list(good, "dcl", "one register a declaration");
+        self.end_list(good, "dcl", "one register per declaration");
     }
 
     fn declaration_hints(&self, token: &Token<'a>) -> Parsed<(Usage, bool, bool)> {

@@ -159,7 +159,7 @@ impl<'a> Parser<'a> {
             "#" => "there is no preprocessor: write numbers and registers out",
             "{" | "}" => "blocks are delimited by words: if_gt ... else ... endif",
             "," => "a comma stands between two operands only",
-            _ => "one instruction a line: mnemonic, destination, sources",
+            _ => "one instruction per line: mnemonic, destination, sources",
         };
         self.record(token.error(ErrorKind::UnexpectedToken, expected, help));
     }
@@ -199,7 +199,7 @@ impl<'a> Parser<'a> {
         } else if word::is_version(token.text) {
             self.record(token.error(
                 ErrorKind::RepeatedVersion,
-                "one version, in front",
+                "one version, at the start",
                 "put each program into a text of its own",
             ));
             self.skip_line();

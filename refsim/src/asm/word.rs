@@ -115,7 +115,7 @@ pub(super) fn mnemonic(token: &Token<'_>) -> Result<Mnemonic, SyntaxError> {
             token.span,
             format!("`{}` without a modifier", first.mnemonic),
             quote(token.text),
-            "shifts, `_sat` and `_pp` say what happens to a result, and there is none here",
+            "shifts, `_sat` and `_pp` modify a result, and there is none here",
         ));
     }
     Ok(mnemonic)

@@ -33,7 +33,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             _ => false,
         };
         if !fits {
-            let message = format!("`{register}` is declared as what it can not be in {version}");
+            let message = format!("the declaration does not fit `{register}` in {version}");
             let help = if vertex {
                 "vertex programs declare v# with a usage: dcl_position v0"
             } else {

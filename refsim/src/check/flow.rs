@@ -184,7 +184,7 @@ fn open(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
 
 fn dynamic_depth(context: &mut Context<'_>, walk: &Walk, instruction: &Instruction, more: u32) {
     let found = walk.blocks.iter().filter(|b| b.dynamic && !b.is_loop()).count() as u32 + more;
-    depth(context, Limit::DynamicFlowDepth, found, "flow that a computed value decides is", instruction.span);
+    depth(context, Limit::DynamicFlowDepth, found, "data-dependent flow control is", instruction.span);
 }
 
 /// V53, [`RuleId::NestingDepth`].
@@ -300,9 +300,9 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
                 .breach(
                     RuleId::DivergentGradient,
                     span(at),
-                    format!("`{name}` needs its neighbours, which may have parted"),
+                    format!("`{name}` takes a gradient where fragments may have diverged"),
                 )
-                .help("move it out of the flow that a computed value decides, or read with texldd");
+                .help("move it out of data-dependent flow control, or read with texldd");
         }
     }
 }
@@ -333,7 +333,7 @@ fn predicates(context: &mut Context<'_>) {
         let problem = if context.version != Version::Ps2A {
             Some(format!("{} has no predicates", context.version))
         } else if matches!(class, OpcodeClass::Flow | OpcodeClass::Marker) || instruction.opcode == Opcode::Setp {
-            Some(format!("`{}` stands under a predicate", instruction.opcode.info().mnemonic))
+            Some(format!("`{}` cannot have a predicate", instruction.opcode.info().mnemonic))
         } else if predicate.swizzle != Swizzle::IDENTITY && predicate.swizzle.replicated().is_none() {
             Some("the predicate is swizzled, expected p0 or one component of it".to_owned())
         } else {

@@ -84,7 +84,7 @@ fn depth(context: &mut Context<'_>) {
             if let Some(span) = read.or(written) {
                 context
                     .breach(RuleId::TexDepth, span, "`r5` is used after texdepth")
-                    .help("texdepth spends r5: pass its value on with texcrd before");
+                    .help("texdepth uses up r5: copy its value with texcrd first");
             }
         }
         if instruction.opcode != Opcode::TexDepth {

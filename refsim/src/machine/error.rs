@@ -50,10 +50,10 @@ pub enum MachineError {
     #[error("`{device}` has no {format} depth buffers (formats.depth); use one of {allowed}")]
     DepthFormat { device: String, format: DepthFormat, allowed: String },
     /// A `texture` or `target` is larger than the device allows.
-    #[error("{what} is {width}x{height}, `{device}` allows {limit} a side (limits.{key})")]
+    #[error("{what} is {width}x{height}, `{device}` allows {limit} per side (limits.{key})")]
     TooLarge { what: &'static str, device: String, width: u32, height: u32, limit: u32, key: &'static str },
     /// A volume texture is larger than the device allows.
-    #[error("volume texture is {width}x{height}x{depth}, `{device}` allows {limit} a side (limits.max_volume_size)")]
+    #[error("volume texture is {width}x{height}x{depth}, `{device}` allows {limit} per side (limits.max_volume_size)")]
     VolumeTooLarge { device: String, width: u32, height: u32, depth: u32, limit: u32 },
     /// The draw has neither colour target nor depth buffer.
     #[error("the draw has no target; bind a colour target or a depth buffer")]

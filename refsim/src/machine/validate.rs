@@ -167,7 +167,7 @@ fn check_streams(call: &DrawCall<'_>) -> Result<(), MachineError> {
         }
         let (needed, what) = match stream.step {
             StepRate::Vertex => (streams.vertex_count, "one a vertex"),
-            StepRate::Instance => (streams.instance_count, "one an instance"),
+            StepRate::Instance => (streams.instance_count, "one per instance"),
         };
         let found = stream.data.len();
         if found < needed {

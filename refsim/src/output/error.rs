@@ -17,7 +17,7 @@ pub enum OutputError {
     #[error("expected all targets of a draw to cover {expected:?}, found one of {width}x{height} pixels")]
     TargetSize { expected: Region, width: u32, height: u32 },
     /// A depth surface of invalid size.
-    #[error("expected a depth surface of 1 to 16384 pixels a side, found {width}x{height}")]
+    #[error("expected a depth surface of 1 to 16384 pixels per side, found {width}x{height}")]
     DepthExtent { width: u32, height: u32 },
     /// There is no depth format with that name.
     #[error("expected a depth format as `d16`, `d24`, `d32`, `d32f` or `d24f`, found `{name}`")]

@@ -12,7 +12,8 @@ pub enum RasterError {
     UnsupportedPrimitive { primitive: Primitive },
     /// The viewport exceeds the range of the set-up arithmetic.
     #[error(
-        "expected a viewport of 1 to {most} pixels a side within {most} of the origin, found {width}x{height} at ({x}, {y})"
+        "expected a viewport of 1 to {most} pixels per side within {most} of the origin, found {width}x{height} \
+         at ({x}, {y})"
     )]
     Viewport { most: u32, x: i32, y: i32, width: u32, height: u32 },
     /// The position grid is too fine.

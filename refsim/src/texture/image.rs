@@ -387,9 +387,9 @@ fn check_extents(kind: TextureKind, width: u32, height: u32, depth: u32) -> Resu
     let range = 1..=MAX_TEXELS;
     let (fits, expected) = match kind {
         TextureKind::D1 => (height == 1 && depth == 1, "1 to 16384 x 1 x 1 texels"),
-        TextureKind::D2 | TextureKind::Rectangle => (depth == 1, "1 to 16384 texels a side and depth 1"),
-        TextureKind::Cube => (width == height && depth == 1, "square faces of 1 to 16384 texels a side and depth 1"),
-        TextureKind::Volume => (true, "1 to 16384 texels a side"),
+        TextureKind::D2 | TextureKind::Rectangle => (depth == 1, "1 to 16384 texels per side and depth 1"),
+        TextureKind::Cube => (width == height && depth == 1, "square faces of 1 to 16384 texels per side and depth 1"),
+        TextureKind::Volume => (true, "1 to 16384 texels per side"),
     };
     if fits && [width, height, depth].iter().all(|e| range.contains(e)) {
         return Ok(());

@@ -6,7 +6,7 @@
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum TimingError {
     /// The device does not state a figure that the model needs.
-    #[error("`{device}` has no figure `{figure}`, so it has no time; use one of the cards that have it: {have}")]
+    #[error("`{device}` has no figure `{figure}`, so it has no timing; use one of the cards that have it: {have}")]
     Missing { device: String, figure: &'static str, have: String },
     /// No scalable figure has this name.
     #[error("`{key}` is no guess of `{device}`; its guesses are: {known}")]

@@ -17,7 +17,7 @@ Examples:
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --way colors --size 64x48
       on the Radeon 9800, colors of vertices interpolated as its authors did
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --sweep --size 64x48
-      bits of representatives, weights and maps, arithmetic; what of it shows, and what compression costs
+      the error of fewer bits in representatives, weights, maps and arithmetic, and of compression
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/all_frequency.md explains all of it.";

@@ -24,9 +24,9 @@ Examples:
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
       segment by segment, linear, coded in 16 bits
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --json --out small.npz
-      in fewer bits; every segment's error for machines
+      in fewer bits; every segment's error as JSON
 
-Transfer is nowhere stored whole: that of a segment is computed, compressed and coded before the next.";
+The whole transfer is never stored: each segment is computed, compressed and coded before the next.";
 
 /// Compress transfer segment by segment, and code it
 #[derive(Debug, clap::Args)]
@@ -53,7 +53,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u8).range(2..=16))]
     bits: u8,
 
-    /// Keep finished segments in this folder, and take those that it has; one with other work is refused
+    /// Store finished segments in this folder and reuse those in it; a folder of another run is refused
     #[arg(long, value_name = "FOLDER", conflicts_with = "part")]
     resume: Option<PathBuf>,
 
@@ -68,15 +68,13 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.signal, &args.model)?;
     let Some(maps) = &file.visibility else {
-        let what = format!("{}: expected visibility, found coded transfer alone", args.signal.display());
+        let what = format!("{}: expected visibility, found coded transfer only", args.signal.display());
         return Err(Problem::usage(what, "name a file that `crossbar all-frequency precompute` wrote").into());
     };
     let numbers = 4 * 256 * file.reflectance.terms() as u64;
     if u64::from(args.vectors) > numbers / 4 {
         let what = format!("expected at most {} `--vectors`, found {}", numbers / 4, args.vectors);
-        return Err(
-            Problem::usage(what, "a vertex has no more numbers in a segment: more approximate nothing better").into()
-        );
+        return Err(Problem::usage(what, "a vertex has no more numbers in a segment; more vectors do not help").into());
     }
     let options = SegmentOptions {
         points_per_cluster: args.points_per_cluster as usize,

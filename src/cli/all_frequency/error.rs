@@ -17,7 +17,7 @@ Examples:
   crossbar all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj
       squared error of all vertices, and the largest
   crossbar all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj --json
-      the same for machines";
+      the same as JSON";
 
 /// Compare coded transfer with the original, which is computed again: error of each vertex, and the largest
 #[derive(Debug, clap::Args)]

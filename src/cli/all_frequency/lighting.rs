@@ -34,14 +34,14 @@ enum ByArg {
     Area,
 }
 
-/// Take light into Haar wavelets over a cube, and leave the most important coefficients
+/// Transform light into Haar wavelets over a cube, and keep the most important coefficients
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
     light: DistantLightArg,
 
-    /// Squares that have a Haar transform each
+    /// Number of squares of the cube, each with its own Haar transform
     #[arg(long, value_name = "N", default_value = "24", value_parser = variants::<Segmentation>())]
     segments: Segmentation,
 

@@ -17,7 +17,7 @@ Examples:
   crossbar all-frequency factor --brdf cook-torrance
       reflectance as a sum of products of a function of view and one of light
   crossbar all-frequency lighting --light sky:1,-1,1 --keep 800
-      light as Haar wavelets, and what 800 of them keep
+      light as Haar wavelets, and the energy in 800 of them
   crossbar all-frequency precompute docs/examples/step.obj --out step.npz
       what every vertex sees
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz

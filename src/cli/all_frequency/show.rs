@@ -14,11 +14,11 @@ Examples:
   crossbar all-frequency show docs/examples/step_all_small.npz
       what is coded, in how many bytes
   crossbar all-frequency show docs/examples/step_all.npz --json
-      what the vertices see, for machines
+      what the vertices see, as JSON
 
 The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
-/// Show what a .npz file holds: visibility, coded segments
+/// Show the contents of a .npz file: visibility, coded segments
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

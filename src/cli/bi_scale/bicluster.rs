@@ -20,9 +20,9 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
   crossbar bi-scale bicluster docs/examples/quarters.mtx --out biclusters.npz
-      what is written is for `crossbar bi-scale multiply`
+      writes them to a file that `crossbar bi-scale multiply` reads
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
-      figures for machines
+      the figures as JSON
 
 The sum of the biclusters equals the matrix bit for bit where its values are multiples of a power of two that 32 bits \
 hold; of other values residuals are rounded to double precision. Products in single precision, on host and cards, round \
@@ -44,7 +44,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let BiScaleFile { meaning, matrix, .. } = load(&args.file)?;
     let matrix = matrix.ok_or_else(|| {
-        let what = format!("{}: expected a matrix, found biclusters alone", args.file.display());
+        let what = format!("{}: expected a matrix, found biclusters only", args.file.display());
         Problem::usage(what, "name the file that they were made from")
     })?;
     let start = Instant::now();

@@ -17,7 +17,7 @@ Examples:
   crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --repeat 4 --size 64x48
       on the GeForce GTX 280: light times biclusters, then a bidirectional texture pass by pass
   crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --sweep --size 64x48
-      light, local light, textures and targets made coarse one after the other: what shows
+      the error of coarser light, local light, textures and targets, one at a time
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/bi_scale.md explains all of it.";
@@ -60,7 +60,7 @@ impl StudyArgs for Args {
         let (TransferOfModel { file, model, vertices, light: directions }, texture_of) =
             textures.transfer(&self.file, name)?;
         let Some(biclusters) = file.biclusters else {
-            let what = format!("{}: expected biclusters, found a matrix alone", self.file.display());
+            let what = format!("{}: expected biclusters, found a matrix only", self.file.display());
             return Err(Problem::usage(what, "`crossbar bi-scale bicluster` makes them").into());
         };
         let repeat = textures.patches.repeat as f32;

@@ -23,10 +23,10 @@ Examples:
   crossbar bi-scale compare docs/examples/step_biclusters.npz --clusters 4 --vectors 2 --sample 300
       bytes and errors of compressed rows, clusters of rows, wavelets and harmonics beside biclusters
   crossbar bi-scale compare docs/examples/step_biclusters.npz --model docs/examples/step.obj --light disk:1,0,2:5 --clusters 4 --sample 300 --json
-      what is rotated into frames of vertices too; figures for machines
+      also methods that rotate light into frames of vertices; the figures as JSON
 
 Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
-docs/papers/bi_scale.md says how each way is made.";
+docs/papers/bi_scale.md describes each method.";
 
 /// Order of spherical harmonics, the paper's.
 const HARMONICS_ORDER: usize = 5;

@@ -41,7 +41,7 @@ pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>)
 /// The vertices of the model that a file was made from.
 pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMeaning>) -> miette::Result<Vertices> {
     let mesh = meaning.map(|meaning| meaning.mesh).ok_or_else(|| {
-        let what = format!("{}: expected transfer of a model, found a matrix of no known one", file.display());
+        let what = format!("{}: expected transfer of a model, found a matrix without a model", file.display());
         Problem::usage(what, "leave `--model` out, or name what `crossbar bi-scale precompute` wrote")
     })?;
     let vertices = vertices(&load_model(model, mesh.tangents)?, mesh.tangents)?;

@@ -22,9 +22,9 @@ Examples:
   crossbar bi-scale multiply docs/examples/step_biclusters.npz --light sky:1,-1,1 --csv local.csv
       light that reaches each local direction of each vertex, by biclusters (Algorithm 2)
   crossbar bi-scale multiply docs/examples/step_biclusters.npz --light red-and-blue --json
-      another light; figures for machines
+      another light; the figures as JSON
 
-Of a matrix the product is taken row by row, in double precision; of biclusters in single precision, which rounds values \
+A matrix is multiplied row by row in double precision, biclusters in single precision, which rounds values \
 that it does not hold.";
 
 /// Multiply light with transfer: the light that reaches each local direction of each vertex

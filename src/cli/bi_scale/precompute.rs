@@ -45,7 +45,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
     directions: u8,
 
-    /// Take normals anew from the triangles, smooth over edges up to this angle in degrees; `crossbar bi-scale render`
+    /// Recompute normals from the triangles, smooth over edges up to this angle in degrees; `crossbar bi-scale render`
     /// needs the same [default: the model's own normals]
     #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
     crease: Option<f64>,

@@ -15,7 +15,7 @@ Examples:
   crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture floor=tiles --texture bricks --repeat 4 --texture-size 8 --texture-views 4 --size 64x48
       textures by material, under a clear sky with a sun
   crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --repeat 4 --texture-size 8 --texture-views 4 --reference --size 8x6
-      held against a picture by rays, the error told apart by causes: milliseconds per pixel
+      compared with a ray-traced picture, with the error by cause: takes milliseconds per pixel
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Local light is interpolated over triangles, on the host.";
 
@@ -30,7 +30,7 @@ pub(super) struct Args {
     #[command(flatten)]
     textures: TextureArgs,
 
-    /// Draw a picture by rays too, and tell the error apart by its causes; takes milliseconds per pixel. All textures
+    /// Also ray-trace the picture, and split the error by cause; takes milliseconds per pixel. All textures
     /// must be patches
     #[arg(long)]
     reference: bool,

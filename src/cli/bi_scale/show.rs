@@ -20,13 +20,13 @@ Examples:
   crossbar bi-scale show docs/examples/court_biclusters.npz
       values, and biclusters by size
   crossbar bi-scale show docs/examples/quarters.mtx --json
-      any sparse matrix, for machines
+      any sparse matrix, as JSON
   crossbar bi-scale show docs/examples/step_biclusters.npz --matrix step.mtx
       the matrix that the biclusters sum to
 
 `crossbar bi-scale multiply --csv` writes the light that reaches all local directions.";
 
-/// Show what a matrix or a .npz file of biclusters holds: values, sizes of biclusters
+/// Show the contents of a matrix or of a .npz file of biclusters: values, sizes of biclusters
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

@@ -20,10 +20,10 @@ Examples:
   crossbar bi-scale texture mail --texels 16 --directions 4 --views 4 --out mail.npy --sheet mail.png
       rings of wire, seen from 16 views and lit from 16 directions; a picture of those lit from each
   crossbar bi-scale texture bumps --texels 16 --directions 4 --views 4 --out bumps.npy --json
-      figures for machines
+      the figures as JSON
 
 The file is an array of NumPy's of the shape (views, lights, size, size, 3): docs/papers/bi_scale.md says what its numbers are. \
-Those that others measured or computed are read by `crossbar bi-scale render --texture` if they have this shape.";
+`crossbar bi-scale render --texture` also reads textures from elsewhere if they have this shape.";
 
 /// Make a bidirectional texture of a patch of heights: its response by place, view and light
 #[derive(Debug, clap::Args)]

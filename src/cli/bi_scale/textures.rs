@@ -20,7 +20,7 @@ use crate::transfer::file::require_mesh;
 /// How patches are sampled, and where they lie.
 #[derive(Debug, clap::Args)]
 pub(super) struct PatchArgs {
-    /// How often a texture repeats where texture coordinates grow by 1
+    /// Repetitions of a texture per unit of texture coordinates
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
     pub(super) repeat: f64,
 
@@ -45,7 +45,7 @@ impl PatchArgs {
     pub(super) fn require_patch(&self) -> Result<(), Problem> {
         let of_patches =
             [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];
-        given::refuse(of_patches, "textures of patches, found files alone", "leave it out: a file has its own size")
+        given::refuse(of_patches, "textures of patches, found files only", "leave it out: a file has its own size")
     }
 
     /// A texture by its file, or that of a patch by its name, sampled in a transfer's local directions.
@@ -89,7 +89,7 @@ impl TransferOfModel {
     pub(super) fn load(path: &Path, name: &Path, crease: Option<f64>) -> miette::Result<Self> {
         let file = load_bi_scale(path)?;
         let Some(meaning) = file.meaning else {
-            let what = format!("{}: expected transfer of a mesh, found a matrix of something else", path.display());
+            let what = format!("{}: expected transfer of a mesh, found another matrix", path.display());
             return Err(Problem::usage(what, "name what `crossbar bi-scale precompute` wrote").into());
         };
         let model = load_creased(name, meaning.mesh.tangents, crease)?;

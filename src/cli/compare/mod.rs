@@ -17,10 +17,10 @@ Examples:
   crossbar compare fixtures/cases/transform.toml --right-format fp32    # exit code 1
       the device's own number format against single precision
   crossbar compare fixtures/cases/transform.toml --right-switch rounding=rtz --pixel 2,2
-      two answers to an open question, followed at one pixel whether or not what is drawn there differs
+      two settings of an open switch, compared step by step at one pixel even if its stored values are equal
 
-Sides are compared by what the draw leaves: every stored bit of targets and depth buffer, and the counts. Where they \
-differ, the first differing pixel is followed on both sides to the first pass, stage, instruction and component. \
+Sides are compared by the results of the draw: every stored bit of targets and depth buffer, and the counts. Where \
+they differ, the first differing pixel is followed on both sides to the first pass, stage, instruction and component. \
 docs/compare.md says what is compared how, and what an ULP is between two formats.
 
 Exit codes: 0 the sides are equal, 1 they differ, 2 the case cannot be run.";

@@ -83,7 +83,7 @@ impl ShownComparison<'_> {
             ))?;
             if !side.setup.left_out.is_empty() {
                 out.line(format_args!(
-                    "       without what this device does not have: {}",
+                    "       switches ignored, which this device lacks: {}",
                     side.setup.left_out.join(", ")
                 ))?;
             }
@@ -113,8 +113,8 @@ impl ShownComparison<'_> {
         if self.0.comparison.equal() {
             let steps = match followed[0] {
                 0 => String::new(),
-                1 => ", and everything written at the pixel".to_owned(),
-                n => format!(", and everything written at {n} pixels"),
+                1 => ", and every value written at the pixel".to_owned(),
+                n => format!(", and every value written at {n} pixels"),
             };
             return format!("equal: every stored bit of {pixels} pixels, every count{steps}");
         }
@@ -123,7 +123,7 @@ impl ShownComparison<'_> {
             text.push_str(", and counts");
         }
         if followed[0] > 1 {
-            text.push_str(&format!("; something written differs at {} of {} pixels", followed[1], followed[0]));
+            text.push_str(&format!("; written values differ at {} of {} pixels", followed[1], followed[0]));
         }
         text
     }
@@ -133,7 +133,7 @@ impl ShownComparison<'_> {
         let place = format!("first difference: draw {} `{}`", first.draw, self.0.draw_name());
         let Some(difference) = &first.difference else {
             out.line(format_args!("{place}, pixel {x}, {y}"))?;
-            out.line("no step on the way of its fragments differs: the draw of a side departs from its own trace")?;
+            out.line("no traced step differs: on one side the draw disagrees with its own trace")?;
             return Ok(());
         };
         let [left, right] = difference.passes;

@@ -16,11 +16,11 @@ use crate::study::prt::OnCard;
 const EXAMPLES: &str = "\
 Examples:
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
-      on the Radeon 9700: picture, how far it is off the host's, modelled time of a frame
+      on the Radeon 9700: picture, its difference from the host's, modelled time of a frame
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --device r350 --size 64x48
       on the Radeon 9800
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --sweep --size 64x48
-      weights, maps, arithmetic and targets made coarse one after the other: what shows
+      the error of coarser weights, maps, arithmetic and targets, one at a time
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv. \
 docs/papers/cpca.md explains all of it.";

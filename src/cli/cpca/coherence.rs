@@ -22,13 +22,13 @@ pub(super) struct CoherenceArgs {
     #[arg(long, value_name = "MODEL")]
     model: Option<PathBuf>,
 
-    /// Move vertices to clusters of their neighbours, so that fewer triangles are drawn more than once, for at most
-    /// this share of the squared error in addition: 0 or more, 0.05 to 0.1 in the paper
+    /// Move vertices to clusters of their neighbours, so that fewer triangles are drawn more than once, if that
+    /// increases the squared error by at most this share: 0 or more, 0.05 to 0.1 in the paper
     #[arg(long, value_name = "SHARE", value_parser = number::not_negative, requires = "model")]
     reclassify: Option<f64>,
 
-    /// Decide which clusters are drawn as one, at most so many, for all cards: 2 or more [default: `card` draws as many
-    /// as its registers hold]
+    /// Group clusters to be drawn as one, at most this many per group, for all cards: 2 or more [default: `card` draws
+    /// as many as its registers hold]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..), requires = "model")]
     supercluster_size: Option<u32>,
 }

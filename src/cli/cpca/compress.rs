@@ -23,9 +23,9 @@ Examples:
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
       each vertex as the mean of its cluster and three weighted vectors
   crossbar cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --method adaptive --json --out small.npz
-      vectors redistributed among the clusters; every step's error for machines
+      vectors redistributed among the clusters; every step's error as JSON
   crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.npz
-      a signal of one's own, a line of numbers per point
+      a signal of your own, a line of numbers per point
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.npz
       fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
 
@@ -52,7 +52,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N")]
     vectors: Option<u32>,
 
-    /// By which measure points are shared out to clusters [default: iterative]
+    /// How points are assigned to clusters [default: iterative]
     #[arg(long, value_name = "HOW", value_parser = variants::<CpcaMethod>())]
     method: Option<CpcaMethod>,
 
@@ -118,9 +118,10 @@ impl Args {
         let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
         let (clusters, vectors) = (self.clusters.unwrap_or(256), self.vectors.unwrap_or(most.min(8)));
         if vectors > most {
-            let what =
-                format!("expected at most {most} `--vectors`, the lesser of points and their numbers, found {vectors}");
-            return Err(Problem::usage(what, "more vectors than that approximate nothing better").into());
+            let what = format!(
+                "expected at most {most} `--vectors`, the lesser of points and numbers per point, found {vectors}"
+            );
+            return Err(Problem::usage(what, "more vectors do not help").into());
         }
         Ok(CpcaOptions {
             clusters: clusters as usize,

@@ -16,7 +16,7 @@ Examples:
   crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz
       squared error of all vertices, the largest, and how many have how much
   crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz --json
-      the same for machines";
+      the same as JSON";
 
 /// Compare a compressed signal with the original: error of each point, largest, histogram
 #[derive(Debug, clap::Args)]

@@ -46,7 +46,7 @@ pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
     match file.meaning {
         PrtMeaning::Transfer { light_order, .. } => Ok(light_order as usize),
         PrtMeaning::Numbers { .. } => Err(Problem::usage(
-            "expected transfer, found numbers without a meaning",
+            "expected transfer, found a signal that is not transfer",
             "compress a file that `crossbar cpca precompute` wrote",
         )),
     }
@@ -62,7 +62,7 @@ pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
 /// The clusters of a file, taken out of it.
 pub(super) fn clusters_of(file: &mut PrtFile, path: &Path) -> miette::Result<Clustering> {
     Ok(file.clustering.take().ok_or_else(|| {
-        let what = format!("{}: expected clusters, found transfer alone", path.display());
+        let what = format!("{}: expected clusters, found transfer only", path.display());
         Problem::usage(what, "`crossbar cpca compress` makes them")
     })?)
 }

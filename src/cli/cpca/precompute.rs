@@ -44,7 +44,7 @@ const INCIDENT_ORDER: usize = 5;
 /// The solid angle below which vertices that scatter count as one point, in steradians.
 const SOLID_ANGLE: f64 = 0.05;
 
-/// Compute what each vertex of a model makes of distant light
+/// Precompute how each vertex of a model transfers distant light
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
@@ -71,11 +71,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "BRDF")]
     brdf: Option<BrdfArg>,
 
-    /// A published medium below the surface, whose scattered light is added: see `crossbar materials`
+    /// A published medium below the surface, which adds scattered light: see `crossbar materials`
     #[arg(long, value_name = "NAME", requires = "mm_per_unit")]
     material: Option<String>,
 
-    /// Millimeters of a unit of the model, for --material
+    /// Millimeters per unit of the model, for --material
     #[arg(long, value_name = "MM", value_parser = number::positive, requires = "material")]
     mm_per_unit: Option<f64>,
 
@@ -88,12 +88,12 @@ pub(super) struct Args {
     #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
     tangents: TangentsArg,
 
-    /// Size of the rule of directions over each hemisphere, 18 to 255. From 40 on D / 2 + 1 rings of D + 2 directions
+    /// Size D of the quadrature over each hemisphere, 18 to 255. From 40 on D / 2 + 1 rings of D + 2 directions
     /// of different heights; below, rings of D + 1 directions, each ring of one height
     #[arg(long, value_name = "D", default_value_t = 44, value_parser = clap::value_parser!(u16).range(18..=255))]
     degree: u16,
 
-    /// How often light is reflected on its way, beyond the reflection towards the eye
+    /// Bounces: interreflections before the reflection towards the eye
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
     bounces: u32,
 

@@ -16,14 +16,14 @@ Examples:
   crossbar cpca show docs/examples/step_small.npz
       the header, and the clusters with their spectra
   crossbar cpca show docs/examples/step.npz --json
-      the header of uncompressed transfer, for machines
+      the header of uncompressed transfer, as JSON
 
 The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;
 
-/// Show what a .npz file holds: header, clusters with spectra
+/// Show the contents of a .npz file: header, clusters with spectra
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

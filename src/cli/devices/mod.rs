@@ -23,17 +23,17 @@ Examples:
   crossbar devices r200
       all figures of the Radeon 8500 with sources, and the open questions as switches
   crossbar devices ideal-fp24 --json
-      an unlimited card with 24-bit floats, for machines
+      an unlimited card with 24-bit floats, as JSON
   crossbar devices --adapters
       the GPUs of this computer that the wgpu executor can use";
 
-/// Show the device profiles: limits, and every figure with its source and how sure it is
+/// Show the device profiles: limits, and every figure with its source and confidence
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A device, or ideal-FORMAT; all devices if left out
     name: Option<String>,
-    /// The GPU adapters of this computer instead
+    /// List the GPU adapters of this computer instead
     #[arg(long, conflicts_with = "name")]
     adapters: bool,
 }
@@ -77,8 +77,8 @@ fn all(out: &mut Out) -> miette::Result<()> {
     }
     out.table(&table)?;
     out.line("")?;
-    out.line("Besides these there is ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:")?;
-    out.line("no limits, no time. `crossbar devices NAME` shows every figure of a device with its source.")?;
+    out.line("There is also ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:")?;
+    out.line("no limits and no timing. `crossbar devices NAME` shows every figure of a device with its source.")?;
     Ok(())
 }
 

@@ -10,7 +10,7 @@ pub(super) fn list(_: &mut Out) -> miette::Result<()> {
 /// Why not.
 pub(in crate::cli) fn missing() -> Problem {
     Problem::usage(
-        "this build knows no GPU adapters: the feature `wgpu` is off",
+        "this build has no GPU support: the feature `wgpu` is off",
         "build with `cargo build --release --features wgpu`",
     )
 }

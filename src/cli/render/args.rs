@@ -15,7 +15,7 @@ use crate::renderer::Lens;
 const EXAMPLES: &str = "\
 Examples:
   crossbar render docs/examples/teapot.obj --out out/teapot
-      picture.png (shaded), layers.exr (depth and triangle of each pixel), framed by itself, in exact arithmetic;
+      picture.png (shaded), layers.exr (depth and triangle of each pixel), framed automatically, in exact arithmetic;
       index.html shows the picture and says how it was made
   crossbar render docs/examples/teapot.obj --device r200 --size 256x256 --eye 0,-10,4 --target 0,0,1 --out out/leaky
       the same on a Radeon 8500
@@ -24,7 +24,7 @@ Examples:
   crossbar render teapot-room --caster engine --device r300 --executor batch
       after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
 
-/// Make a picture of a mesh or a scene: picture.png, and depth and triangle of each pixel
+/// Render a mesh or a scene: picture.png, and depth and triangle of each pixel
 ///
 /// An OBJ, PLY, STL or glTF file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or
 /// from a scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the
@@ -92,7 +92,7 @@ impl Renderer {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Light")]
 pub(super) struct LightArgs {
-    /// How light is found [default for scenes by name: whitted]
+    /// Rendering method [default for scenes by name: whitted]
     #[arg(long, value_enum, value_name = "R")]
     pub(super) renderer: Option<Renderer>,
 
@@ -100,7 +100,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
-    /// The most surfaces that light meets between lamp and eye, but for eye rays [default: 8]
+    /// Maximum number of surfaces on a path from lamp to eye; not for eye rays [default: 8]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1024))]
     pub(super) depth: Option<u32>,
 
@@ -112,23 +112,23 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
 
-    /// Factor of radiance in picture.png; 1 is white [default: 1]
+    /// Exposure: factor on radiance in picture.png, where 1 is white [default: 1]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
 
-    /// A lens: its radius, and the distance at which all is sharp
+    /// Lens: its radius and the distance of focus
     #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
     pub(super) lens: Option<Lens>,
 
-    /// Photons for each map of photon mapping [default: 100000]
+    /// Photons per map in photon mapping [default: 100000]
     #[arg(long, value_name = "N")]
     pub(super) photons: Option<u32>,
 
-    /// Gather rays of each hit of photon mapping; 0 shows the map itself [default: 16]
+    /// Gather rays per hit in photon mapping; 0 shows the map itself [default: 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
     pub(super) gather: Option<u32>,
 
-    /// Caster of rays, which finds first hits [default: host]
+    /// Ray caster that finds first hits [default: host]
     #[arg(long, value_enum, value_name = "C")]
     pub(super) caster: Option<CasterArg>,
 }

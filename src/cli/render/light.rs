@@ -88,7 +88,7 @@ fn check_lights(renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
         true => "use `--renderer distributed`, `path` or `photon`, which its emitters light",
         false => "use `--renderer eye`, which brings its own lamp",
     };
-    if dark { Err(Problem::usage("the scene has no lights that this renderer knows", help)) } else { Ok(()) }
+    if dark { Err(Problem::usage("the scene has no lights that this renderer supports", help)) } else { Ok(()) }
 }
 
 fn trace(

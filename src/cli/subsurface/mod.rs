@@ -19,7 +19,7 @@ use light::{LightArg, coefficient, lighting};
 const EXAMPLES: &str = "\
 Examples:
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --all-pairs yes
-      a stand-in for the paper's head with 16 fixed links per texel, beside all pairs of texels, as one page
+      a stand-in for the paper's head with 16 fixed links per texel, compared with all pairs of texels, as one page
   crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice fixed --choice adaptive --links 4,16,64 --channels rgb --all-pairs yes
       both choices of links, and how the error falls with their number
   crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32

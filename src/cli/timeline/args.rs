@@ -15,14 +15,15 @@ Examples:
   crossbar timeline --eye-rays 64x64 --device r200 --readback async --double-buffer --perfetto out.json
       the Ray Engine's crossbar on the teapot, as a trace for https://ui.perfetto.dev or chrome://tracing
   crossbar timeline fixtures/cases/modulate.toml --timing pipeline --sensitivity
-      and what each guessed figure does to the total, halved and doubled
+      and the effect on the total if a guessed figure is halved or doubled
 
-The model `rates` knows a fill rate and the rates of the bus (equation 11 of the Ray Engine paper), and commands cost it nothing; \
-`pipeline` knows clocks of the units, memory traffic and latencies, and what a command costs the host. Both put the same log on \
-the time axis; the log is the same for every executor. Read-backs forced to be asynchronous are never waited for: what comes \
-out is what asynchrony could gain at most. With both models the trace is of `pipeline`. docs/timing.md explains all of it.
+The model `rates` has a fill rate and the rates of the bus (equation 11 of the Ray Engine paper), and commands are \
+free; `pipeline` has clocks of the units, memory traffic, latencies and the cost of a command on the host. Both put \
+the same log on the time axis; the log is the same for every executor. With `--readback async` no read-back is waited \
+for: the result is a lower bound on the time. With both models, the trace is that of `pipeline`. docs/timing.md \
+explains all of it.
 
-Exit codes: 0 done, 2 the case cannot be run, or the device has no time.";
+Exit codes: 0 done, 2 the case cannot be run, or the device has no timing.";
 
 /// Model the time of a run on a card: cost of each draw, busy and waiting units, the critical path
 #[derive(Debug, clap::Args)]
@@ -32,7 +33,7 @@ pub(in crate::cli) struct Args {
     #[arg(required_unless_present = "eye_rays", conflicts_with = "eye_rays")]
     pub(super) case: Option<PathBuf>,
 
-    /// Instead of a case: the Ray Engine's crossbar with so many eye rays, bucket after bucket on one card
+    /// Instead of a case: the Ray Engine's crossbar with this many eye rays, bucket after bucket on one card
     #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
     pub(super) eye_rays: Option<Size>,
 
@@ -44,7 +45,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
-    /// The model of time
+    /// The timing model
     #[arg(long, default_value = "both", value_parser = models())]
     pub(super) timing: &'static [Level],
 
@@ -60,7 +61,7 @@ pub(in crate::cli) struct Args {
     #[arg(long)]
     pub(super) cache: bool,
 
-    /// Halve and double each guessed figure, and show what it does to the total
+    /// Halve and double each guessed figure, and show the effect on the total
     #[arg(long)]
     pub(super) sensitivity: bool,
 
@@ -81,8 +82,8 @@ fn models() -> OneOf<&'static [Level]> {
 /// Modes of read-back, for `--readback`.
 fn readback() -> OneOf<ReadBackMode> {
     one_of([
-        ("sync", "It waits for all earlier work and the transfer", ReadBackMode::Synchronous),
-        ("async", "It goes on", ReadBackMode::Asynchronous),
+        ("sync", "The host waits for all earlier work and the transfer", ReadBackMode::Synchronous),
+        ("async", "The host continues", ReadBackMode::Asynchronous),
     ])
 }
 

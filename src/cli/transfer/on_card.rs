@@ -8,7 +8,7 @@ use crate::study::prt::CardSetting;
 /// The card, and what of it is varied.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct OnCardArgs {
-    /// Vary number formats, maps and targets, one after the other: what each of them costs
+    /// Vary number formats, maps and targets, one at a time, and show the error of each
     #[arg(long)]
     sweep: bool,
 

@@ -23,7 +23,7 @@ pub(in crate::cli) struct PictureArgs {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// Exposure: factor on radiance in pictures, where 1 is white [default: auto-exposure, the model at 18 % grey on
     /// average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     exposure: Option<f64>,

@@ -34,7 +34,7 @@ pub(super) fn too_long_error(what: &str, path: &Path, limit: u64) -> InputError 
 pub(super) fn syntax_error(place: impl Into<FilePlace>, expected: impl Display, found: impl Display) -> InputError {
     input_error!("crossbar::model::syntax" =>
         "expected {expected}, found {found}";
-        help "models are Wavefront OBJ, PLY, STL or glTF files: is the file one, and whole?")
+        help "models are Wavefront OBJ, PLY, STL or glTF files: is this one, and is it complete?")
     .at(place)
 }
 
@@ -48,7 +48,7 @@ pub(super) fn element_error(
 ) -> InputError {
     input_error!("crossbar::model::element" =>
         "{element} {index} (counted from 0): expected {expected}, found {found}";
-        help "is the file whole, and written as its header says?")
+        help "is the file complete, and written as its header says?")
     .at(place)
 }
 
@@ -74,10 +74,10 @@ pub(super) fn material_error(
 
 /// The parts do not make a mesh.
 pub(super) fn mesh_error(name: &Path, reason: InputError) -> InputError {
-    reason.coded("crossbar::model::mesh").with_help("mend the model in the program that wrote it").at(name)
+    reason.coded("crossbar::model::mesh").with_help("correct the model in the program that wrote it").at(name)
 }
 
 /// The parts do not make a scene.
 pub(super) fn scene_error(name: &Path, reason: InputError) -> InputError {
-    reason.coded("crossbar::model::scene").with_help("mend the model in the program that wrote it").at(name)
+    reason.coded("crossbar::model::scene").with_help("correct the model in the program that wrote it").at(name)
 }

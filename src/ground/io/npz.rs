@@ -37,7 +37,7 @@ impl<'a> NpzReader<'a> {
             .at(name)
         };
         if !bytes.starts_with(MAGIC) {
-            return Err(refused("expected a .npz file, found another beginning".to_owned()));
+            return Err(refused("expected a .npz file, found other first bytes".to_owned()));
         }
         let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(|error| refused(error.to_string()))?;
         // Bytes that belong to many members would be read as often.

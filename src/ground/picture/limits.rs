@@ -36,7 +36,7 @@ pub(super) fn limits() -> Limits {
 pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_bytes: u64) -> Result<(), InputError> {
     let bytes = width.saturating_mul(height).saturating_mul(channels as u64).saturating_mul(sample_bytes);
     ensure!(width.max(height) <= u64::from(MAX_SIDE) && bytes <= MAX_DECODED_BYTES, "crossbar::picture::size" =>
-        "expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found \
+        "expected a picture of at most {MAX_SIDE} pixels per side and {MAX_DECODED_BYTES} bytes decoded, found \
          {width}x{height} with {channels} channels");
     Ok(())
 }

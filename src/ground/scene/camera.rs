@@ -34,7 +34,7 @@ pub struct Camera {
 
 fn flat_error() -> InputError {
     input_error!(
-        "eye, target and up span no picture: expected a target other than the eye, and an up not \
+        "eye, target and up define no picture plane: expected a target other than the eye, and an up not \
          along the view"
     )
 }

@@ -46,7 +46,7 @@ impl View {
 }
 
 fn count_error(what: &'static str, triangles: usize, found: usize) -> InputError {
-    input_error!("expected {triangles} {what}, one a triangle, found {found}")
+    input_error!("expected {triangles} {what}, one per triangle, found {found}")
 }
 
 /// Triangles with materials, normals, lights and views.

@@ -72,7 +72,7 @@ impl PartSet {
                     "crossbar::part::input" =>
                     "{}: computed from another `{name}` than there is now: expected SHA-256 {expected}, found {found}",
                     path.display();
-                    help "bring back the file that the part was computed from, or compute all parts anew"
+                    help "restore the file that the part was computed from, or compute all parts again"
                 ));
             }
         }

@@ -179,5 +179,5 @@ fn diffuse(material: &crate::scene::Material) -> Result<([f64; 3], [f64; 3]), In
         Surface::Glass { .. } => "glass",
     };
     Err(input_error!("radiosity::patches" =>
-            "material `{}` is {found}, expected a diffuse surface: radiosity knows no other", material.name))
+            "material `{}` is {found}, expected a diffuse surface: radiosity supports no other", material.name))
 }

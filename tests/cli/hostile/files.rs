@@ -122,7 +122,7 @@ fn large_pictures_are_refused_by_their_headers() {
     let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));
     for (arguments, words) in [
         (&["diff", "huge.png", "huge.png"][..], "found 9000x9000 with 4 channels"),
-        (&["diff", "huge.png", "huge.png"], "16384 pixels a side"),
+        (&["diff", "huge.png", "huge.png"], "16384 pixels per side"),
         (&["bi-scale", "texture", "large.png", "--out", "b.npy"], "expected 1 to 1024 texels"),
         (&["diff", "cut.png", "cut.png"], "for the 7000x7000 pixels that its header says"),
     ] {

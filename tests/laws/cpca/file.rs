@@ -71,7 +71,7 @@ fn what_is_written_is_read_in_all_its_parts() {
         assert_eq!(load_prt(&path, file.mesh.as_ref()).expect("loaded"), file);
         match (&file.transfer, load_signal(&path).map(|(_, _, signal)| signal)) {
             (Some(transfer), Ok(signal)) => assert_eq!(&signal, transfer),
-            (None, Err(error)) => assert!(error.to_string().ends_with("expected transfer, found clusters alone")),
+            (None, Err(error)) => assert!(error.to_string().ends_with("expected transfer, found clusters only")),
             (_, other) => panic!("{other:?}"),
         }
     }
@@ -118,7 +118,7 @@ fn forged_metadata_are_refused_by_name() {
             assert!(error(&format!("\"{field}\":"), &format!("\"{field}\":{claim},\"x\":")).starts_with("a.npz: "));
         }
     }
-    assert_eq!(parsed(b"\x93NUMPY"), Err("a.npz: expected a .npz file, found another beginning".to_owned()));
+    assert_eq!(parsed(b"\x93NUMPY"), Err("a.npz: expected a .npz file, found other first bytes".to_owned()));
     assert!(parsed(MAGIC).expect_err("cut").starts_with("a.npz: "));
 }
 

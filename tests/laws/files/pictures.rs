@@ -212,7 +212,7 @@ fn what_is_wrong_is_said() {
     let huge = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n";
     assert_eq!(
         said(huge),
-        "expected a picture of at most 16384 pixels a side and 1073741824 bytes decoded, found 1000000x1000000 with 3 \
+        "expected a picture of at most 16384 pixels per side and 1073741824 bytes decoded, found 1000000x1000000 with 3 \
          channels"
     );
     let ids = Picture::new(1, 1).with("id", ChannelUnit::Id, Samples::Uint(vec![0])).expect("one sample");

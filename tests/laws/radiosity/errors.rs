@@ -31,7 +31,7 @@ fn scenes_that_make_no_patches() {
     assert!(Patches::new(&good, Subdivision::AtMost(MAX_PATCHES)).is_ok());
     let mirror = Material { surface: Surface::Mirror { reflectance: [1.0; 3] }, ..good.materials()[0].clone() };
     let mirror = Scene::new(good.mesh().clone(), vec![mirror], vec![0], Vec::new()).expect("a scene");
-    let expected = "material `white` is a mirror, expected a diffuse surface: radiosity knows no other";
+    let expected = "material `white` is a mirror, expected a diffuse surface: radiosity supports no other";
     assert_eq!(said(&mirror, one), expected);
 }
 

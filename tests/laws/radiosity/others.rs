@@ -102,7 +102,7 @@ fn built_scenes_and_models_of_ones_own_are_cut() {
     assert!((300..=400).contains(&cornell.list().len()), "{}", cornell.list().len());
     let room = Patches::new(&built::build("teapot-room").expect("a scene"), Subdivision::PerSide(1));
     let refused = room.expect_err("metal and glass").to_string();
-    assert!(refused.contains(", expected a diffuse surface: radiosity knows no other"), "{refused}");
+    assert!(refused.contains(", expected a diffuse surface: radiosity supports no other"), "{refused}");
     let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 5 2\n";
     let mesh = parse_obj(text, std::path::Path::new("a.obj")).expect("a model");
     let own = Scene::new(mesh, vec![Material::diffuse("grey", [0.5; 3])], vec![0; 3], Vec::new()).expect("a scene");

@@ -62,8 +62,8 @@ impl<'a> Parser<'a> {
     fn statement(&mut self) -> Parsed<()> {
         let token = self.cursor.next();
         if token.text == "OPTION" && self.options_over {
-            let help = "options stand before all other statements";
-            return Err(token.error(ErrorKind::UnexpectedToken, "a statement that is no option", help));
+            let help = "options come before all other statements";
+            return Err(token.error(ErrorKind::UnexpectedToken, "a statement other than an option", help));
         }
         self.options_over |= token.text != "OPTION";
         match token.text {
@@ -90,7 +90,7 @@ impl<'a> Parser<'a> {
                 if self.hint.replace(text).is_none_or(|before| before == text) {
                     return Ok(());
                 }
-                ("one precision hint".to_owned(), "a program asks for one of the two")
+                ("one precision hint".to_owned(), "a program can have one of the two")
             }
             text => match FogMode::from_name(text) {
                 Some(mode) => {
@@ -98,9 +98,9 @@ impl<'a> Parser<'a> {
                     if self.build.fog.replace(fog).is_none_or(|before| before.mode == mode) {
                         return Ok(());
                     }
-                    ("one fog option".to_owned(), "a program asks for one kind of fog")
+                    ("one fog option".to_owned(), "a program can have one kind of fog")
                 }
-                None => (all(), "other options change what a program means"),
+                None => (all(), "other options are not supported"),
             },
         };
         Err(token.error(ErrorKind::UnknownOption, expected, help))
@@ -126,7 +126,7 @@ impl<'a> Parser<'a> {
     /// `ATTRIB name = fragment.color`, `OUTPUT name = result.color`
     fn bound(&mut self, what: fn(&mut Self) -> Parsed<Register>) -> Parsed<()> {
         let name = self.new_name()?;
-        self.cursor.expect("=", "the name stands for something")?;
+        self.cursor.expect("=", "write `=` and what the name means")?;
         let start = self.cursor.peek().span.start;
         let register = what(self)?;
         if !is_written(register.file) {
@@ -149,7 +149,7 @@ impl<'a> Parser<'a> {
 
     fn alias(&mut self) -> Parsed<()> {
         let name = self.new_name()?;
-        self.cursor.expect("=", "the name stands for another")?;
+        self.cursor.expect("=", "write `=` and the other name")?;
         let token = self.cursor.next();
         let old = self.names.get(token.text).cloned().ok_or_else(|| unknown(token, "a name", "declare it first"))?;
         self.names.insert(name, old);
@@ -198,7 +198,7 @@ impl<'a> Parser<'a> {
     }
 
     fn comma(&mut self) -> Parsed<()> {
-        self.cursor.expect(",", "operands stand apart by commas")
+        self.cursor.expect(",", "operands are separated by commas")
     }
 
     /// `R0, x, -y, 0, 1`: the operand of `SWZ`: a register without swizzle, and a selector per component.
@@ -218,7 +218,7 @@ impl<'a> Parser<'a> {
             };
             if component < 4 && *letters.get_or_insert(set) != set {
                 let help = "the two sets of letters, xyzw and rgba, don't mix";
-                return Err(token.error(ErrorKind::Swizzle, "a letter of the set that the others are of", help));
+                return Err(token.error(ErrorKind::Swizzle, "a letter of the same set as the others", help));
             }
             *slot = component as u8;
         }

@@ -94,7 +94,7 @@ impl<'a> Parser<'a> {
                 return Err(unknown(place, "a number not below the first", "a range goes up"));
             }
         }
-        let help = if many { "close the brackets" } else { "close the brackets; a range belongs into an array" };
+        let help = if many { "close the brackets" } else { "close the brackets; a range needs an array" };
         self.cursor.expect("]", help)?;
         Ok((first, last))
     }
@@ -105,8 +105,8 @@ impl<'a> Parser<'a> {
         if token.kind == TokenKind::Word && !reserved(token) && !self.names.contains_key(token.text) {
             return Ok(token.text);
         }
-        let help = "names start with a letter, stand for one thing, and are no words of the language";
-        Err(token.error(ErrorKind::Name, "a name of its own", help))
+        let help = "names start with a letter, are declared once, and are not reserved words";
+        Err(token.error(ErrorKind::Name, "a new name", help))
     }
 
     /// `fragment.color.secondary`, `fragment.texcoord[1]`

@@ -19,7 +19,7 @@ impl<'a> Parser<'a> {
         let mut rows = self.state_items(false)?;
         match (rows.pop(), rows.pop()) {
             (Some(one), None) => Ok(one),
-            _ => Err(unknown(start, "one row of a matrix", "write `.row[0]`; a whole matrix belongs into an array")),
+            _ => Err(unknown(start, "one row of a matrix", "write `.row[0]`; a whole matrix needs an array")),
         }
     }
 

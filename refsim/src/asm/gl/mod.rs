@@ -45,7 +45,7 @@ pub(super) fn assemble(text: &str) -> Result<Program, AssembleErrors> {
             span,
             "`!!FP1.0` or `!!ARBfp1.0`",
             quote(&rest[..end]),
-            "these two of OpenGL's program languages are known",
+            "these two program languages of OpenGL are supported",
         )])),
     }
 }

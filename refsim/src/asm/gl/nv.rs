@@ -62,12 +62,12 @@ impl<'a> Parser<'a> {
         let name = self.cursor.next();
         if name.kind != TokenKind::Word || self.names.contains_key(name.text) || reserved(name.text) {
             let (expected, help) =
-                ("a name of its own", "names start with a letter, stand for one thing, and are no register");
+                ("a new name", "names start with a letter, are declared once, and are not registers");
             return Err(name.error(ErrorKind::Name, expected, help));
         }
         let value = match self.cursor.accept_mark("=") {
             true => operand::constant(&mut self.cursor)?,
-            false if fixed => return Err(self.cursor.unexpected("`=`", "a `DEFINE` has a value")),
+            false if fixed => return Err(self.cursor.unexpected("`=`", "a `DEFINE` needs a value")),
             false => [0; 4],
         };
         let name_of = match fixed {
@@ -99,7 +99,7 @@ impl<'a> Parser<'a> {
             // The image unit is the second operand here but follows coordinates and derivatives in the text.
             let count = usize::from(info.source_count(Version::Fp1_0).unwrap_or(1)) - usize::from(texture);
             for _ in 0..count {
-                self.cursor.expect(",", "operands stand apart by commas")?;
+                self.cursor.expect(",", "operands are separated by commas")?;
                 sources.push(self.source()?);
             }
             if texture {
@@ -132,7 +132,7 @@ impl<'a> Parser<'a> {
             return Err(token.error(
                 ErrorKind::Predicate,
                 format!("one of {names}"),
-                "a condition asks of the condition codes: `(GT.x)`",
+                "a condition tests the condition codes: `(GT.x)`",
             ));
         };
         let swizzle = operand::swizzle(&mut self.cursor)?;
@@ -149,7 +149,7 @@ impl<'a> Parser<'a> {
                 Err(token.error(
                     ErrorKind::UnknownRegister,
                     "R#, H#, RC, HC or o[...]",
-                    "the first operand is where the result goes",
+                    "the first operand is the destination",
                 ))
             })?,
         };

@@ -62,7 +62,7 @@ fn every_mistake_has_its_error() {
         machine.create_texture(volume(extents)).unwrap();
         extents[side] += 1;
         let expected = format!(
-            "volume texture is {}x{}x{}, `{}` allows {limit} a side (limits.max_volume_size)",
+            "volume texture is {}x{}x{}, `{}` allows {limit} per side (limits.max_volume_size)",
             extents[0],
             extents[1],
             extents[2],

@@ -36,7 +36,7 @@ pub(super) fn instances<'a>(document: &'a Document, name: &Path) -> Result<Vec<I
                 return Err(wrong(&node, "a mesh without a skin", "a skin; export the pose as triangles"));
             }
             if weights.iter().any(|&weight| weight != 0.0) {
-                return Err(wrong(&node, "morph targets of weight 0", "others; export the shape as triangles"));
+                return Err(wrong(&node, "morph targets of weight 0", "other weights; export the shape as triangles"));
             }
             found.push(Instance { mesh, to_scene });
         }

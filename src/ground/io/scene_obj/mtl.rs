@@ -229,7 +229,7 @@ fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNo
                 }
                 if let Some(channel) = (0..3).find(|&c| albedo[c] + specular[c] > 1.0 + ROUNDING) {
                     let sum = albedo[channel] + specular[channel];
-                    return Err(wrong("`Kd` + `Ks` of at most 1 a channel: lower one of the two", sum.to_string()));
+                    return Err(wrong("`Kd` + `Ks` of at most 1 per channel: lower one of the two", sum.to_string()));
                 }
                 Surface::Glossy { albedo, specular, exponent }
             }

@@ -44,7 +44,7 @@ fn what_makes_no_picture_is_refused() {
     for (target, up) in [([1.0; 3], [0.0, 0.0, 1.0]), ([1.0, 1.0, 2.0], [0.0, 0.0, 1.0]), ([0.0; 3], [0.0; 3])] {
         let error = camera(target, up, 0.5, 8).expect_err("no picture").to_string();
         assert!(
-            error.starts_with("eye, target and up span no picture: expected a target other than the eye"),
+            error.starts_with("eye, target and up define no picture plane: expected a target other than the eye"),
             "{error}"
         );
     }

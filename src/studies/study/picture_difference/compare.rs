@@ -25,7 +25,7 @@ pub struct DifferenceOptions {
     #[arg(long = "channel", value_name = "NAME")]
     pub channels: Vec<String>,
 
-    /// For SSIM, FLIP and the pictures: what linear light is multiplied by before a screen shows it; 1 is white.
+    /// For SSIM, FLIP and the pictures: factor on linear light before it is shown on a screen, where 1 is white.
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
     pub exposure: f64,
 
@@ -38,19 +38,19 @@ pub struct DifferenceOptions {
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub scale: Option<f64>,
 
-    /// The most that any channel's root mean square difference may be.
+    /// Largest root mean square difference allowed in a channel.
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     pub max_rmse: Option<f64>,
 
-    /// The most that any sample may differ by.
+    /// Largest difference allowed in a sample.
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     pub max_error: Option<f64>,
 
-    /// The most that FLIP may be in the mean.
+    /// Largest mean FLIP allowed.
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     pub max_flip: Option<f64>,
 
-    /// The least that SSIM may be.
+    /// Smallest SSIM allowed.
     #[arg(long, value_name = "X", value_parser = number::finite)]
     pub min_ssim: Option<f64>,
 }

@@ -95,5 +95,5 @@ impl<'a> Lit<'a> {
 /// Error of a signal that is not transfer.
 pub(super) fn no_transfer() -> StudyError {
     let help = "compress a file that `crossbar cpca precompute` wrote";
-    StudyError::new("crossbar::prt::meaning", "expected transfer, found numbers without a meaning").with_help(help)
+    StudyError::new("crossbar::prt::meaning", "expected transfer, found a signal that is not transfer").with_help(help)
 }

@@ -91,14 +91,14 @@ impl Rendering {
         let ratio = (squares(&mut difference.iter().copied()) / squares(&mut whole.iter().map(mean))).sqrt();
         let mut table = Table::new("Compressed against original", &["figure", "value"]);
         table.push([
-            "root mean square difference, of the picture's root mean square (%)".into(),
+            "root mean square difference, relative to the picture's root mean square (%)".into(),
             Cell::measured(100.0 * ratio),
         ]);
         table.push(["largest difference (radiance)".into(), Cell::measured(largest)]);
         if let Some(clustering) = &self.file.clustering {
             let error = CompressionError::new(original, clustering);
             table.push([
-                "squared error of transfer, of its squares (%)".into(),
+                "squared error of transfer, relative to its squares (%)".into(),
                 Cell::measured(100.0 * error.relative()),
             ]);
             let most = error.squared[error.largest()];
@@ -107,7 +107,7 @@ impl Rendering {
                     error.squared.iter().map(|squared| [(squared / most).sqrt(); 3]).collect();
                 let map: Vec<f64> =
                     seen.colors(&of_vertex, [f64::NAN; 3]).into_iter().map(|[value, ..]| value).collect();
-                let caption = "error of each vertex's transfer, of the largest; pale is large";
+                let caption = "error of each vertex's transfer, relative to the largest; pale is large";
                 let image = false_color::magnitude(self.view.camera.width(), &map);
                 pictures.push(NamedPicture::new("error", image, caption));
             }

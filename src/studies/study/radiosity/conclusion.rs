@@ -12,17 +12,17 @@ pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     let count = |of: fn(StopReason) -> bool| iterative().filter(|row| of(row.stopped)).count() as u64;
     found.tally(
         count(|stopped| stopped == StopReason::Tolerance),
-        ["way met the tolerance", "ways met the tolerance"],
+        ["method met the tolerance", "methods met the tolerance"],
         Tone::Good,
     );
     found.tally(
         count(|stopped| matches!(stopped, StopReason::Cycle(_))),
-        ["way ended in a cycle", "ways ended in a cycle"],
+        ["method ended in a cycle", "methods ended in a cycle"],
         Tone::Bad,
     );
     found.tally(
         count(|stopped| stopped == StopReason::Iterations),
-        ["way ran out of iterations", "ways ran out of iterations"],
+        ["method ran out of iterations", "methods ran out of iterations"],
         Tone::Neutral,
     );
 }
@@ -40,8 +40,8 @@ fn accuracy(rows: &[MethodRow]) -> Option<String> {
     let error = worst.error?;
     Some(match error.not_finite {
         0 => format!(
-            "{} is the least accurate: patches that do not shine, large and small alike, are {} on average, and the worst \
-             of them is off by {} of itself.",
+            "{} is the least accurate: non-emitting patches are {} on average, whatever their area; their \
+             largest relative error is {}.",
             worst.label,
             shade(error.bias),
             percent(error.relative_unlit),

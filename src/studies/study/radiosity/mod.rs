@@ -78,7 +78,7 @@ fn run(
 ) -> Result<Computed<RadiosityOutcome>, StudyError> {
     // Before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
-        let what = "expected a scene with a material that shines, found none";
+        let what = "expected a scene with a material that emits light, found none";
         return Err(
             StudyError::new("radiosity::dark", what).with_help("give a material an emission: `Ke` in an MTL file")
         );

@@ -18,16 +18,16 @@ use crate::study::StudyError;
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]
 pub struct RadiosityOptions {
-    /// Cut faces into at most so many patches in all.
+    /// Cut faces into at most this many patches in total.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub patches: u32,
 
-    /// Where form factors come from: unoccluded (as if nothing stood between any two patches), or rays or rays:N
-    /// (closed forms and contour integrals, times what N x N sample rays per pair find open, 3 x 3 by default).
+    /// How form factors are computed: unoccluded (all patches see each other), or rays or rays:N (closed forms and
+    /// contour integrals, times the visible fraction by N x N sample rays per pair, 3 x 3 by default).
     #[arg(long, value_name = "HOW", default_value = "rays")]
     pub factors: Factors,
 
-    /// Scale form factors so that those of each patch sum to 1, as in a closed room.
+    /// Scale the form factors of each patch to sum to 1, as in a closed room.
     #[arg(long)]
     pub enforce_closure: bool,
 
@@ -50,24 +50,24 @@ pub struct RadiosityOptions {
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     tolerance: Option<f64>,
 
-    /// The most iterations [default: 1000]
+    /// Maximum number of iterations [default: 1000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     iterations: Option<u32>,
 
-    /// After the first solution, the radiance of a material; may be repeated.
+    /// New radiance of a material, for a second solution; may be repeated.
     #[arg(long = "emit", value_name = "MATERIAL=R,G,B", value_parser = light_of)]
     emissions: Vec<MaterialColor>,
 
-    /// After the first solution, the reflectance of a material; may be repeated.
+    /// New reflectance of a material, for a second solution; may be repeated.
     #[arg(long = "paint", value_name = "MATERIAL=R,G,B", value_parser = paint_of)]
     paints: Vec<MaterialColor>,
 
-    /// Pictures of the first method on the card after so many iterations.
+    /// Pictures of the first method on the card after these numbers of iterations.
     #[arg(long = "picture-after", value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true,
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Vec<u32>,
 
-    /// Solve the room in so many patches too, on the card as it is and with each of its open switches turned.
+    /// Also solve the room with these numbers of patches, on the card as it is and with each open switch changed.
     #[arg(long = "sweep-patches", value_name = "N,N", value_delimiter = ',',
           value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub sweep: Vec<u32>,

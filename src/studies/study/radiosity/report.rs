@@ -79,7 +79,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     }
     found.table(FoundTable::from(relit).field("relit"));
     if has_rows(&sweep) {
-        found.heading("Other numbers of patches, other answers to open questions");
+        found.heading("Other numbers of patches and other settings of open switches");
         darkness.into_iter().for_each(|chart| found.chart(chart));
     }
     let first: Vec<usize> = outcome.sweep.iter().map(|row| row.same_as).collect();
@@ -89,17 +89,18 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     Ok(found)
 }
 
-const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures, which the bar below each \
-    shows. docs/studies/radiosity.md says why half precision darkens a room.";
+const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures; the \
+    bar below each picture shows it. docs/studies/radiosity.md says why half precision darkens a room.";
 
-const ENDS: &str = "An iteration in finitely many bits that never meets its tolerance comes back to a state that it was in before, and goes \
-    round from there on. States are compared bit for bit; the period is the smallest.";
+const ENDS: &str = "An iteration in finite precision that never meets its tolerance repeats an earlier state, and \
+    cycles from there on. States are compared bit for bit; the period is the smallest.";
 
-const ON_THE_CARD: &str = "Operations are counted as the paper does: two an element and channel, indexing left out. bandwidth_used is what an \
-    iteration moves to and from memory, of the most that the memory can.";
+const ON_THE_CARD: &str = "Operations are counted as in the paper: two per element and channel, without indexing. \
+    bandwidth_used is the memory traffic of an iteration as a share of what the memory can transfer in that time.";
 
-const SWEEP: &str = "A switch is an open question about the card; each is turned alone. Settings that find the same bits share a row. \
-    predicted_mean is what follows to first order from rounding every term of a sum to the sum's own step.";
+const SWEEP: &str = "A switch is an open question about the card; each is changed alone. Settings with the same bits \
+    share a row. predicted_mean is the first-order prediction if every term of a sum is rounded to the step of the \
+    sum.";
 
 /// False-color pictures of the error of each solution on the card, on one scale.
 fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPicture> {
@@ -232,8 +233,8 @@ fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
             None => lines.push(Series { label, points: vec![point] }),
         }
     }
-    let caption = "The mean error of what does not shine, in per cent of itself, without its sign.";
-    let names = ["Mean error of patches that do not shine, either way", "patches", "error, %"];
+    let caption = "The mean relative error of non-emitting patches, in per cent, without its sign.";
+    let names = ["Mean error of non-emitting patches", "patches", "error, %"];
     let scale = Scale::fitting(lines.iter().flat_map(|line| &line.points).map(|point| point.0));
     (!lines.is_empty()).then(|| logarithmic("sweep", names, (scale, lines), caption))
 }

@@ -52,7 +52,8 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
 fn methods(outcome: &RadiosityOutcome) -> Table {
     let columns = "way iterations stopped_by residual light_unaccounted largest_error largest_relative mean_relative";
     let mut table = Table::of(
-        "Ways of solving; errors against the direct solution: of the brightest patch, of each patch, and with its sign in the mean",
+        "Methods; errors against the direct solution: relative to the brightest patch, to each patch, \
+         and in the signed mean",
         columns,
     );
     for row in &outcome.rows {
@@ -74,7 +75,7 @@ fn methods(outcome: &RadiosityOutcome) -> Table {
 /// Table of the iterations on a card that reach no tolerance: their fixed point, or cycle of repeating states.
 fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns = "way ends entered_after period values_changing of_values largest_change_%";
-    let mut table = Table::of("What iterations on the card come to; changes from one iteration to the next", columns);
+    let mut table = Table::of("How iterations on the card end; changes from one iteration to the next", columns);
     let values = 3 * outcome.patches.list().len();
     for row in outcome.rows.iter().filter(|row| row.card.is_some()) {
         let ends = match row.stopped {
@@ -103,7 +104,7 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
 fn sweep(outcome: &RadiosityOutcome) -> Table {
     let columns = "patches way setting iterations stopped_by largest_error mean_relative predicted_mean";
     let mut table =
-        Table::of("Other numbers of patches, and each open switch of the card turned alone; errors as above", columns);
+        Table::of("Other numbers of patches, and each open switch of the card changed alone; errors as above", columns);
     for row in &outcome.sweep {
         table.push([
             row.patches.into(),

@@ -120,7 +120,7 @@ impl ProductOptions {
             }
             true if !profile.limits.float_mipmaps => {
                 return refused(format!(
-                    "`{device}` has {format} textures as rectangles alone (limits.float_mipmaps), which ps_2_0 cannot \
+                    "`{device}` has {format} textures as rectangles only (limits.float_mipmaps), which ps_2_0 cannot \
                      address; hold G in signed fractions"
                 ));
             }

@@ -82,7 +82,7 @@ impl Lists {
         let [width, height] = size;
         if width > limits.side {
             return Err(CardError::input(format!(
-                "{count} {what} need a texture of {width} x {height} texels; `{}` has textures of {} a side \
+                "{count} {what} need a texture of {width} x {height} texels; `{}` has textures of {} per side \
                  (limits.max_texture_size); take fewer",
                 limits.device, limits.side
             )));

@@ -67,7 +67,7 @@ fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(),
             let (lights, pitch) = (grid.lights, grid.pitch());
             Err(CardError::input(format!(
                 "{lights} x {lights} blocks of {pitch} x {pitch} texels in {layers} layers need a volume of {width} x \
-                 {height} x {layers}; `{device}` has volumes of {found} a side (limits.max_volume_size); take a \
+                 {height} x {layers}; `{device}` has volumes of {found} per side (limits.max_volume_size); take a \
                  smaller patch, or fewer directions"
             )))
         }

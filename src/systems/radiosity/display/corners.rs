@@ -96,7 +96,7 @@ fn mean(set: &[u32], radiosity: &[[f64; 3]]) -> [f64; 3] {
 /// # Panics
 /// If there is not one radiosity per patch.
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
-    assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
+    assert_eq!(patches.list().len(), radiosity.len(), "one radiosity per patch");
     let CornerSets { sets, of } = CornerSets::new(patches);
     let means: Vec<[f64; 3]> = sets.iter().map(|set| mean(set, radiosity)).collect();
     let corners = patches.list().iter().map(|patch| patch.corners().len());

@@ -184,7 +184,7 @@ fn what_does_not_fit_is_refused() {
     let half = ProductOptions { map_format: TexelFormat::Rgba16f, ..options };
     assert!(message("r350", 10, half).contains("limits.float_filtering"));
     let by_program = ProductOptions { filter: MapFilter::Program, ..half };
-    assert!(message("nv35", 10, by_program).contains("as rectangles alone"));
+    assert!(message("nv35", 10, by_program).contains("as rectangles only"));
     assert!(message("nv35", 10, options).contains("rgba16s"), "{}", message("nv35", 10, options));
     assert!(message("nv25", 10, options).contains("`nv25` refuses the product per pixel: it runs no `ps_2_0`"));
     let unsigned = ProductOptions { map_format: TexelFormat::Rgba16, ..options };

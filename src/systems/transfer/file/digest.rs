@@ -67,6 +67,6 @@ pub fn require_mesh(path: &Path, expected: &MeshDigest, found: Option<MeshDigest
     Err(input_error!("crossbar::prt::mesh" =>
         "expected transfer of a mesh with {expected}, found that of {}",
         found.map_or_else(|| "no mesh".to_owned(), |found| found.to_string());
-        help "name the model that it was made from, or make it anew with `precompute`")
+        help "name the model that it was computed from, or compute it again with `precompute`")
     .at(path))
 }

@@ -171,7 +171,10 @@ impl AllFrequencyRendering {
         let share = |a: &[[f64; 3]], b: &[[f64; 3]]| 100.0 * (apart(a, b) / squares(b)).sqrt();
         let mut table = Table::new("Coded against uncompressed", &["figure", "value"]);
         let pixels = share(drawn, &picture);
-        table.push(["root mean square of pixels' differences, of the picture's (%)".into(), Cell::measured(pixels)]);
+        table.push([
+            "root mean square of pixels' differences, relative to the picture's (%)".into(),
+            Cell::measured(pixels),
+        ]);
         let vertices = share(of_vertex, exact);
         table.push(["the same of vertices (%)".into(), Cell::measured(vertices)]);
         table.push(["largest difference of a pixel (radiance)".into(), Cell::measured(largest)]);

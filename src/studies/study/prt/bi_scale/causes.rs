@@ -134,21 +134,21 @@ pub(super) fn report(
         let image = false_color::signed(width, &signed(&step[0], &step[1]), scale);
         differences.push(NamedPicture::new(format!("cause-{}", name.0), image, caption));
     }
-    found.heading("Against a picture by rays");
+    found.heading("Compared with a ray-traced picture");
     let by_rays = rendering.view.picture(exact);
     let image = by_rays.display(exposure)?;
     found.keep_layers("reference", by_rays);
-    let caption = format!("transfer less rays: blue -{shown_scale}, white 0, red +{shown_scale}");
+    let caption = format!("transfer minus ray-traced: blue -{shown_scale}, white 0, red +{shown_scale}");
     let whole = false_color::signed(width, &signed(exact, drawn), scale);
     found.pictures(vec![
-        NamedPicture::new("reference", image, "by rays, every pixel for itself"),
+        NamedPicture::new("reference", image, "ray-traced, each pixel on its own"),
         NamedPicture::new("difference", whole, caption),
     ]);
-    let table = found_pictures.table("Error by cause, of the root mean square of the picture by rays");
+    let table = found_pictures.table("Error by cause, relative to the root mean square of the ray-traced picture");
     found.table(FoundTable::from(table).csv("causes").field("causes"));
     found.pictures(differences);
     found.conclusion(format!(
-        "Against a picture by rays the root mean square error is {} %.",
+        "Compared with the ray-traced picture, the root mean square error is {} %.",
         shown(found_pictures.apart(exact, drawn), Quantity::Measured)
     ));
     Ok(())

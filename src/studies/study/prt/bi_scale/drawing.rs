@@ -39,7 +39,7 @@ impl<'a> BiScaleDrawing<'a> {
                 return Err(StudyError::new("crossbar::prt::directions", what).with_help(help));
             }
             if rendering.reference && patch.is_none() {
-                let what = format!("{name}: expected a patch of heights to cast rays at, found samples alone");
+                let what = format!("{name}: expected a patch of heights to cast rays at, found samples only");
                 let help = "name a patch, such as `mail`, in place of a file";
                 return Err(StudyError::new("crossbar::prt::no_patch", what).with_help(help));
             }

@@ -38,6 +38,6 @@ pub struct SurfaceTexture {
 /// Error of a file that is a matrix of something else than a mesh.
 pub(super) fn no_mesh_transfer() -> StudyError {
     let help = "name what `crossbar bi-scale precompute` wrote, or its biclusters";
-    let what = "expected transfer of a mesh, found a matrix of something else";
+    let what = "expected transfer of a mesh, found another matrix";
     StudyError::new("crossbar::prt::meaning", what).with_help(help)
 }

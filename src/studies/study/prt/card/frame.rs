@@ -28,7 +28,7 @@ pub(super) fn times(time: &FrameTime) -> Table {
         ("frame to frame", time.frame),
         ("host at work", time.host),
         ("products on the host", time.products),
-        ("vertices on their way", time.uploads),
+        ("upload of vertices", time.uploads),
         ("state and constants", time.state),
         ("draws", time.draws),
     ];
@@ -40,5 +40,5 @@ pub(super) fn times(time: &FrameTime) -> Table {
 pub(super) fn rate(time: &FrameTime, card: &str) -> String {
     let rate = shown(time.per_second(), Quantity::Measured);
     let waits = time.bottleneck.map_or_else(String::new, |bottleneck| format!(", whose draws wait for {bottleneck}"));
-    format!("{card}: modelled {rate} frames a second{waits}")
+    format!("{card}: modelled {rate} frames per second{waits}")
 }

@@ -39,13 +39,13 @@ pub(super) fn report_sweep(variants: &[PictureVariant], explained: &'static str,
     let name = |variant: &PictureVariant| format!("{} {}", variant.axis, variant.choice);
     let hidden: Vec<String> = alone().filter(|variant| variant.errors.visible == 0.0).map(name).collect();
     found.conclusion(if hidden.is_empty() {
-        "Every change of the sweep shows.".to_owned()
+        "Every change of the sweep is visible.".to_owned()
     } else {
-        format!("Changes that show nowhere, each alone: {}.", hidden.join("; "))
+        format!("Changes that are visible in no pixel, each alone: {}.", hidden.join("; "))
     });
     if let Some(worst) = alone().max_by(|a, b| a.errors.off_255ths[0].total_cmp(&b.errors.off_255ths[0])) {
         let rms = shown(worst.errors.off_255ths[0], Quantity::Measured);
-        found.conclusion(format!("{} shows most: {rms} 255ths root mean square.", name(worst)));
+        found.conclusion(format!("The largest error is that of {}: {rms} 255ths root mean square.", name(worst)));
     }
     found.heading("What shows");
     found.explained_table(FoundTable::from(variants_table(variants)).csv("precision").field("precision"), explained);

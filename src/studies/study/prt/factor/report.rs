@@ -63,7 +63,7 @@ impl BrdfFactors {
         ));
         if let Some(row) = harmonic.iter().find(|row| row.errors.rms <= errors.rms) {
             found.conclusion(format!(
-                "Of spherical harmonics by integrals on both sides, {} functions (order {}) are the first as near: RMS {}.",
+                "Spherical harmonics by integrals on both sides need {} functions (order {}) to come as near: RMS {}.",
                 function_count(row.order),
                 row.order,
                 error(row.errors.rms)
@@ -73,14 +73,14 @@ impl BrdfFactors {
             let [kept, left] = pair.values.map(|value| shown(value, Quantity::Measured));
             found.conclusion(format!(
                 "Warning: terms {count} and {} are a pair of singular values, {kept} and {left}, and only one of them is \
-                 kept: the approximation prefers a direction that the reflectance does not.",
+                 kept: the approximation favors a direction that the reflectance does not.",
                 count + 1
             ));
         }
         if errors.negative > 0.0 {
             let least = shown(errors.least, Quantity::Measured);
             found.conclusion(format!(
-                "The approximation is below 0 at {} of these pairs, and {least} at the least.",
+                "The approximation is negative at {} of these pairs; its minimum is {least}.",
                 percent(errors.negative)
             ));
         }

@@ -59,7 +59,13 @@ pub(super) fn charts(found: &Factorization) -> Vec<NamedChart> {
         NamedChart { name: name.to_owned(), chart, caption: caption.to_owned() }
     };
     [
-        of("spectrum", "Singular values", "singular value", values, "All singular values that are told from 0."),
+        of(
+            "spectrum",
+            "Singular values",
+            "singular value",
+            values,
+            "All singular values that can be distinguished from 0.",
+        ),
         of(
             "error",
             "Error by terms",

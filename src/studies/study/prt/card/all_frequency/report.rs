@@ -20,11 +20,12 @@ use crate::study::prt::card::{PictureVariant, PixelErrors, frame};
 use crate::study::prt::{no_all_frequency_card, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 
-const SWEEP: &str = "Each row is one change of a picture that hardly rounds, in 255ths of white. \
-    Representatives and weights are coded again from the file's bits, with sums in double precision, and compared with the file's \
-    own code; all others are drawn into floats and compared with products in double precision of the same numbers.";
-const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and adds as \
-    fast as the frames of the paper's Table 1 say. A frame follows a frame, so that host and card work side by side.";
+const SWEEP: &str = "Each row changes one thing in a picture with negligible rounding, in 255ths of white. \
+    Representatives and weights are coded again from the file's bits, with sums in double precision, and compared with \
+    the file's own code; all others are drawn into floats and compared with products of the same numbers in double \
+    precision.";
+const TIME: &str = "Modelled, not measured: the pipeline model of the card, and a host whose speed follows from the \
+    frame rates of the paper's Table 1. Host and card work in parallel, frame after frame.";
 
 impl Study for AllFrequencyOnCard {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

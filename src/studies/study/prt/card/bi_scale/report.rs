@@ -19,10 +19,11 @@ use crate::study::prt::of_texels;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::light::Decimation;
 
-const SWEEP: &str = "Each row is one number format of fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
-    double precision of light multiplied in double precision. Fractions of 8 bits are of the largest number.";
-const TIME: &str = "Modelled, not measured: the pipeline model of the card, to which a texture read is as fast as its units can be. \
-    Local light stays on the card, as the paper's does; where the view changes alone it is used again.";
+const SWEEP: &str = "Each row has one number format of fewer bits, and single precision elsewhere. Errors are in \
+    255ths of white, against equation 3 and light multiplied in double precision. Fractions of 8 bits are relative to \
+    the largest number.";
+const TIME: &str = "Modelled, not measured, by the pipeline model of the card, in which texture reads run at the full \
+    rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is reused.";
 
 /// Times of a frame: the view changed alone, and light too; `None` where the card has none.
 type Times = Option<(FrameTime, FrameTime)>;
@@ -55,7 +56,7 @@ impl Study for BiScaleOnCard {
         if let Some(times) = self.times(&local, &drawn)? {
             let [view, both] = [&times.0, &times.1].map(|time| shown(time.per_second(), Quantity::Measured));
             found.conclusion(format!(
-                "{}: modelled {view} frames a second when the view changes alone, {both} when light changes too.",
+                "{}: modelled {view} frames per second when the view changes alone, {both} when light changes too.",
                 card.profile.title
             ));
             let log: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
@@ -112,7 +113,7 @@ fn table_of((view, both): &(FrameTime, FrameTime)) -> Table {
         ("frame to frame, the view changed alone", view.frame),
         ("frame to frame, light changed too", both.frame),
         ("draws of the display", view.draws),
-        ("light on its way", both.uploads),
+        ("upload of light", both.uploads),
         ("state and constants", both.state),
     ] {
         table.push([part.into(), Cell::measured(1e3 * time.seconds())]);

@@ -28,9 +28,11 @@ struct Choice {
     options: PrtCardOptions,
 }
 
-pub(super) const EXPLAINED: &str = "Each row is one change of a picture in single precision, with maps of 512 x 512 texels in floats and a target of floats, and \
-    is compared with it where pixels show the mesh. Visible: pixels of which a channel is off by more than one 255th. Targets of fractions clamp at 0 after each group of clusters, so that light taken away by one \
-    part of a triangle that another group brings is lost; `together` draws clusters in groups, `alone` one after the other.";
+pub(super) const EXPLAINED: &str = "Each row changes one thing in a picture in single precision, with maps of 512 x \
+    512 texels in floats and a target of floats, and is compared with that picture where pixels show the mesh. \
+    Visible: pixels of which a channel is off by more than one 255th. Targets of fractions clamp at 0 after each group \
+    of clusters: negative light is lost if the group that balances it is drawn later. `together` draws clusters in \
+    groups, `alone` one after the other.";
 
 /// The reference: single precision everywhere, maps of many texels in single precision, a float target.
 fn reference() -> Choice {

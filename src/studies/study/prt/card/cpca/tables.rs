@@ -6,9 +6,9 @@ use crate::cpca::on_card::model::TransferSize;
 use crate::report::Cell;
 use crate::study::prt::card::frame;
 
-pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and \
-    adds as fast as the paper's 2.9 frames a second of uncompressed transfer say. A frame follows a frame, so that host and card \
-    work side by side.";
+pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card, and a host whose speed follows \
+    from the paper's 2.9 frames per second of uncompressed transfer. Host and card work in parallel, frame after \
+    frame.";
 
 /// Sizes and counts: the columns of the paper's Table 1 with those that section 6.2 derives.
 pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> impl Iterator<Item = (&'static str, Cell)> {
