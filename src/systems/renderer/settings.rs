@@ -58,7 +58,7 @@ impl Settings {
     pub(super) fn checked(&self) -> Result<(), InputError> {
         let refuse = |what, found: String, expected| Err(settings_error(what, expected, found));
         if self.samples == 0 {
-            return refuse("samples a pixel", "0".to_owned(), "at least 1");
+            return refuse("samples per pixel", "0".to_owned(), "at least 1");
         }
         if self.depth > 1024 {
             return refuse("a depth", self.depth.to_string(), "at most 1024");
