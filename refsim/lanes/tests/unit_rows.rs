@@ -286,6 +286,13 @@ fn rows_of_the_vectors_are_as_defined() {
     }
 }
 
+#[test]
+fn rows_of_powers_of_two_are_as_defined() {
+    let powers: [u32; LANES] = std::array::from_fn(|k| (k as u32) << 23);
+    let codes = [Op::Rcp, Op::Rsq, Op::Log2, Op::Exp2].map(LaneCode::Plain);
+    FORMATS.iter().for_each(|format| compare(format, &[powers; OPERANDS], &codes, "powers of two"));
+}
+
 /// One operation on many operands is that of rows.
 #[test]
 fn single_operations_are_as_defined() {

@@ -62,8 +62,8 @@ fn compute<'a>(
     };
     let [ta, tb] = [element(0)?, element(1)?];
     let [a, b] = [codes(cells[types], ta, number)?, codes(cells[types + 1], tb, number)?];
-    // One number, in up to a word: bits above those of its type are ignored.
-    let word = u64::from_str_radix(cells[types + 2], 16).ok().filter(|_| cells[types + 2].len() <= 8);
+    // One number, in the digits of its type or as a word, in which bits above those of its type are ignored.
+    let word = u64::from_str_radix(cells[types + 2], 16).ok().filter(|_| cells[types + 2].len() == 8);
     let c = word.map_or_else(|| codes(cells[types + 2], unit.addend, number), |word| Ok(vec![word]))?;
     ensure!(c.len() == 1, "crossbar::alu::fields" => "line {number}: expected one number c, found {}", c.len());
     let scales = |at: usize| -> Result<Vec<u8>, InputError> {
@@ -73,6 +73,11 @@ fn compute<'a>(
     let [sa, sb] = [scales(3)?, scales(4)?];
     let a = Operand { element: ta, codes: &a, scales: &sa };
     let b = Operand { element: tb, codes: &b, scales: &sb };
+    let (digits, is_nan) = (unit.result.element.digits(), last.eq_ignore_ascii_case("nan"));
+    let is_word = last.len() == digits && last.bytes().all(|byte| byte.is_ascii_hexdigit());
+    ensure!(!verify || is_nan || is_word,
+        "crossbar::alu::hex" => "line {number}: expected a result of {digits} hexadecimal digits or `nan`, found `{}`",
+        shortened(last));
     unit.check(&a, &b).map_err(|error| input_error!("crossbar::alu::operands" => "line {number}: {error}"))?;
     Ok(Some((unit.dot(a, b, c[0]), last)))
 }

@@ -104,7 +104,7 @@ pub(super) struct Args {
     /// Lines carry expected results too, as testfloat_gen writes them: print every mismatch, then the count
     ///
     /// A line is operands, result and flags; the flags may be missing unless --flags asks for their comparison. Any NaN
-    /// matches any other.
+    /// matches any other; with --unit, `nan` matches any NaN.
     #[arg(long)]
     verify: bool,
 
@@ -146,6 +146,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(unit) = &args.unit {
         let others = [("--unit", args.op != AluOperation::Dot)];
         given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
+        // The parser lets these pass beside a unit, with which --device conflicts.
+        let of_device = [("--stage", args.stage.is_some()), ("--state", args.state.is_some())];
+        given::refuse(of_device, "`--device`", "leave it out: a matrix unit has one rule")?;
         return matrix::run(unit, args.verify, io::stdin().lock(), out);
     }
     let arithmetic = arithmetic(args)?;

@@ -8,8 +8,8 @@ use refsim::num::{DotOrder, Env, Flags, Format, block::BLOCK, block::BlockFormat
 
 use super::line::{fields, hex, other_fields, push_hex};
 use super::operation::VectorOperation;
-use super::stream::{TaskOutput, each_line};
-use crate::cli::{Out, OutputError};
+use super::stream::{TaskOutput, written};
+use crate::cli::Out;
 use crate::error::InputError;
 
 /// The operation on a line.

@@ -69,6 +69,19 @@ fn reciprocals_and_logarithms() {
         ],
     );
     assert_eq!(rows, 8126);
+    // The logarithm of 1 alone is exact: the table's first row has a constant, which 0.5 shows.
+    let facts = [
+        (Op::Rcp, 0x4040_0000, 0x3eaa_aaab),
+        (Op::Rcp, 0x3f80_0001, 0x3f7f_fffe),
+        (Op::Rsq, 0x4000_0000, 0x3f35_04f2),
+        (Op::Log2, 0x4040_0000, 0x3fca_e00d),
+        (Op::Log2, 0x3f80_0000, 0),
+        (Op::Log2, 0x3f00_0000, 0xbf7f_fffe),
+    ];
+    for (operation, x, expected) in facts {
+        let found = operation.evaluate(card, [x, 0, 0]).map(|outcome| outcome.bits);
+        assert_eq!(found, Some(expected), "{operation:?} {x:08x}");
+    }
 }
 
 #[test]

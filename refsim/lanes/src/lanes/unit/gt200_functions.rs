@@ -102,8 +102,8 @@ fn log2(x: u32) -> u32 {
     }
     let (m, e) = (x & MANTISSA, field(x));
     let (r, [a, b, c]) = (m & 0x1_ffff, GT200_LG2[(m >> 17) as usize]);
-    let fraction = match m {
-        0 => 0,
+    let fraction = match (m, e) {
+        (0, 127) => 0,
         _ => (a * (1 << 12) + b * i64::from(r) + 2 * c * i64::from(square(r)) + 13125) >> 2,
     };
     cut_complement(fraction + (i64::from(e) - 127) * (1 << 36), 36)

@@ -215,7 +215,7 @@ fn g_function(op: u32, x: u32) -> u32 {
             raw = select(raw, sign | N_INFINITY, field == 0);
         }
         case N_LOG2: {
-            let part = select(u_right(sum, 2u), vec2<u32>(), mantissa == 0u);
+            let part = select(u_right(sum, 2u), vec2<u32>(), mantissa == 0u && field == 127);
             raw = u_cut_signed(u_add(part, vec2<u32>(u32(whole) << 4u, 0u)), 36);
             raw = select(select(raw, N_INFINITY, field == 255), U_NAN, negative);
             raw = select(raw, U_SIGN | N_INFINITY, field == 0);
