@@ -133,9 +133,14 @@ impl<'a> Translator<'a> {
                     Meaning::Pointer { slot, offset: 0, length }
                 }
                 (AddressSpace::Handle, TypeInner::Sampler { comparison: false }) => Meaning::Sampler,
-                (AddressSpace::Handle, TypeInner::Image { dim: naga::ImageDimension::D2, arrayed: false, class })
-                    if matches!(class, naga::ImageClass::Sampled { kind: ScalarKind::Float, multi: false }) =>
-                {
+                (
+                    AddressSpace::Handle,
+                    TypeInner::Image {
+                        dim: naga::ImageDimension::D2,
+                        arrayed: false,
+                        class: naga::ImageClass::Sampled { kind: ScalarKind::Float, multi: false },
+                    },
+                ) => {
                     self.textures += 1;
                     Meaning::Texture(self.textures - 1)
                 }
