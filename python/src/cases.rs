@@ -55,6 +55,7 @@ impl Case {
             format: format.map(is_format).transpose().map_err(|error: FormatError| refused(&error))?,
             switches,
             step_budget,
+            ..Overrides::default()
         };
         let (read, name) = match folder {
             Some(folder) => {

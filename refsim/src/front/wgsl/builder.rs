@@ -1,6 +1,6 @@
 //! Writer of instructions on registers without number: each instruction writes a new one, with few exceptions.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::super::Refusal;
 use super::values::{Component, Value};
@@ -24,7 +24,7 @@ pub(super) struct Builder {
     pub(super) span: Span,
     /// `true` if the next instruction computes in f16.
     pub(super) half: bool,
-    gathered: HashMap<Value, (Register, Vec<u8>)>,
+    gathered: BTreeMap<Value, (Register, Vec<u8>)>,
     /// What the condition codes were last set by.
     codes: Value,
     registers: u16,
@@ -199,15 +199,10 @@ impl Builder {
     /// An operation: a result as wide as the widest operand.
     pub(super) fn op(&mut self, opcode: Opcode, operands: &[&[Component]]) -> Result<Value, Refusal> {
         let width = operands.iter().map(|operand| operand.len()).max().unwrap_or(1);
-        self.to_width(opcode, operands, width)
+        self.wide(opcode, operands, width)
     }
 
-    pub(super) fn to_width(
-        &mut self,
-        opcode: Opcode,
-        operands: &[&[Component]],
-        width: usize,
-    ) -> Result<Value, Refusal> {
+    pub(super) fn wide(&mut self, opcode: Opcode, operands: &[&[Component]], width: usize) -> Result<Value, Refusal> {
         let plain: Vec<_> = operands.iter().map(|operand| (*operand, Modifier::None)).collect();
         self.modified(opcode, &plain, width)
     }

@@ -83,8 +83,8 @@ impl Builder {
 
     pub(super) fn dot(&mut self, a: &[Component], b: &[Component]) -> Result {
         match a.len() {
-            3 => self.to_width(Opcode::Dp3, &[a, b], 1),
-            4 => self.to_width(Opcode::Dp4, &[a, b], 1),
+            3 => self.wide(Opcode::Dp3, &[a, b], 1),
+            4 => self.wide(Opcode::Dp4, &[a, b], 1),
             _ => {
                 let products = self.mul(a, b)?;
                 self.add(&products[..1], &products[products.len() - 1..])

@@ -1,6 +1,6 @@
 //! From registers without number to those of a program: what nobody reads is removed, and components are packed.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::super::Refusal;
 use crate::isa::{Instruction, Mask, Opcode, RegisterFile, Source, Span, Swizzle};
@@ -22,7 +22,7 @@ fn is_temporary(source: &Source) -> bool {
 
 /// Removes instructions whose results nobody reads.
 pub(super) fn without_unused(instructions: Vec<Instruction>) -> Vec<Instruction> {
-    let mut live: HashMap<u16, u8> = HashMap::new();
+    let mut live: BTreeMap<u16, u8> = BTreeMap::new();
     let mut codes = false;
     let mut kept = Vec::new();
     for instruction in instructions.into_iter().rev() {
@@ -66,7 +66,7 @@ struct PackedRegister {
 /// # Errors
 /// If they do not fit.
 pub(super) fn numbered(instructions: &mut [Instruction]) -> Result<(), Refusal> {
-    let (mut widths, mut last): (HashMap<u16, u32>, HashMap<u16, usize>) = (HashMap::new(), HashMap::new());
+    let (mut widths, mut last): (BTreeMap<u16, u32>, BTreeMap<u16, usize>) = (BTreeMap::new(), BTreeMap::new());
     for (at, instruction) in instructions.iter().enumerate() {
         if let Some(destination) = instruction.destination.filter(|d| d.register.file == RegisterFile::Temp) {
             let width = widths.entry(destination.register.index).or_default();
@@ -78,7 +78,7 @@ pub(super) fn numbered(instructions: &mut [Instruction]) -> Result<(), Refusal> 
         }
     }
     let mut taken = [0_u8; TEMPORARIES];
-    let mut windows: HashMap<u16, PackedRegister> = HashMap::new();
+    let mut windows: BTreeMap<u16, PackedRegister> = BTreeMap::new();
     for (at, instruction) in instructions.iter_mut().enumerate() {
         let read: Vec<u16> = instruction.sources.iter().filter(|s| is_temporary(s)).map(|s| s.register.index).collect();
         let written = instruction.destination.filter(|d| d.register.file == RegisterFile::Temp);

@@ -1,7 +1,7 @@
 //! Statements: every fragment executes all of them, and values are selected where paths meet. Loops are unrolled and
 //! functions put in line.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use naga::valid::FunctionInfo;
 use naga::{Block, Expression, Function, Handle, Span, Statement, SwitchValue};
@@ -26,7 +26,7 @@ impl<'a> Translator<'a> {
         arguments: Vec<Meaning>,
         depth: usize,
     ) -> Result<Value> {
-        let mut frame = Frame { function, info, arguments, locals: HashMap::new(), values: HashMap::new() };
+        let mut frame = Frame { function, info, arguments, locals: BTreeMap::new(), values: BTreeMap::new() };
         for (handle, local) in function.local_variables.iter() {
             let value = match local.init {
                 Some(init) => self.value(&mut frame, init)?,

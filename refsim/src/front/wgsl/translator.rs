@@ -1,6 +1,6 @@
 //! What is known while a module is translated: variables, exits, parameters.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{AddressSpace, Expression, Function, GlobalVariable, Handle, LocalVariable, Module, ScalarKind, TypeInner};
@@ -35,8 +35,8 @@ pub(super) struct Frame<'a> {
     pub(super) function: &'a Function,
     pub(super) info: &'a FunctionInfo,
     pub(super) arguments: Vec<Meaning>,
-    pub(super) locals: HashMap<Handle<LocalVariable>, usize>,
-    pub(super) values: HashMap<Handle<Expression>, Meaning>,
+    pub(super) locals: BTreeMap<Handle<LocalVariable>, usize>,
+    pub(super) values: BTreeMap<Handle<Expression>, Meaning>,
 }
 
 /// The values of all variables, by slot.
@@ -58,7 +58,7 @@ pub(super) struct Translator<'a> {
     pub(super) breaks: Vec<Exit>,
     pub(super) continues: Vec<Exit>,
     pub(super) returns: Vec<Exit>,
-    pub(super) globals: HashMap<Handle<GlobalVariable>, Meaning>,
+    pub(super) globals: BTreeMap<Handle<GlobalVariable>, Meaning>,
     slots: usize,
     textures: u16,
     work: usize,
@@ -82,7 +82,7 @@ impl<'a> Translator<'a> {
             breaks: Vec::new(),
             continues: Vec::new(),
             returns: Vec::new(),
-            globals: HashMap::new(),
+            globals: BTreeMap::new(),
             slots: 0,
             textures: 0,
             work: 0,
@@ -133,9 +133,14 @@ impl<'a> Translator<'a> {
                     Meaning::Pointer { slot, offset: 0, length }
                 }
                 (AddressSpace::Handle, TypeInner::Sampler { comparison: false }) => Meaning::Sampler,
-                (AddressSpace::Handle, TypeInner::Image { dim: naga::ImageDimension::D2, arrayed: false, class })
-                    if matches!(class, naga::ImageClass::Sampled { kind: ScalarKind::Float, multi: false }) =>
-                {
+                (
+                    AddressSpace::Handle,
+                    TypeInner::Image {
+                        dim: naga::ImageDimension::D2,
+                        arrayed: false,
+                        class: naga::ImageClass::Sampled { kind: ScalarKind::Float, multi: false },
+                    },
+                ) => {
                     self.textures += 1;
                     Meaning::Texture(self.textures - 1)
                 }

@@ -5,7 +5,7 @@ use naga::{ArraySize, Handle, Module, Scalar, ScalarKind, Type, TypeInner};
 use crate::isa::Register;
 
 /// One scalar of a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Component {
     /// A number of the text: the bits of an IEEE single, which holds every f16 too.
     Float(u32),
