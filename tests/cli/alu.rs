@@ -151,7 +151,7 @@ fn devices_without_a_measured_unit_compute_by_their_rules() {
         ("mul --device nv20 --stage geometry", "invalid value 'geometry'"),
         ("mul --device nv20 --format fp32", "cannot be used with"),
         ("mul", "--format <F>"),
-        ("mul --format fp32 --state ieee", "--device <D>"),
+        ("mul --format fp32 --state ieee", "`--stage` and `--state` are for `--device` only"),
         ("mul --device nv02", "nv20"),
         ("dp3 --device nv20", "line 1: expected 6 numbers (a.x a.y a.z b.x b.y b.z), found 2 fields"),
         ("dp3 --device nv20 --verify", "take neither `--verify` nor `--to`"),
@@ -327,6 +327,7 @@ fn matrix_units_take_the_vectors_as_they_are() {
         ("hopper-f16", "3C0 3C00 00000000"),
         ("hopper-f16", "3C00 3C003C00 00000000"),
         ("hopper-f16", "3C00 3C00"),
+        ("hopper-f16", "3C00 3C00 3C00"),
         ("hopper-fp8", "fp8 e4m3 38 38 00000000"),
         ("blackwell-f8f6f4", "e2m3 e2m3 40 40 00000000"),
         ("blackwell-nvf4", "1 1 00000000 38 3838"),
@@ -336,5 +337,9 @@ fn matrix_units_take_the_vectors_as_they_are() {
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{unit} {line}: {}", ran.stderr);
     }
     assert_eq!(alu("add --unit hopper-f16", "").code, Some(2));
+    for (arguments, input) in [("--state modern", ""), ("--stage pixel", ""), ("--verify", "3C00 3C00 00000000 3F8000")]
+    {
+        assert_eq!(alu(&format!("dot --unit hopper-f16 {arguments}"), input).code, Some(2), "{arguments}");
+    }
     assert_eq!(alu("add", "").code, Some(2));
 }

@@ -1,6 +1,14 @@
 //! Functions and statements against doubles of the host.
 
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the host's functions are compared within an error, whatever their last bit"
+)]
+
 use super::drawn::{SIDE, drawn};
+
+/// The value of an expression of `a` and `b`.
+type Value = fn(f64, f64) -> f64;
 
 /// `a` and `b` of a pixel, both exact in single precision: -2 to 2, and 1/4 to 3.
 fn inputs(index: usize) -> [f64; 2] {
@@ -34,7 +42,7 @@ fn smooth(low: f64, high: f64, x: f64) -> f64 {
 }
 
 pub(crate) fn functions_compute_their_formulas() {
-    type Row = (&'static str, f64, fn(f64, f64) -> f64);
+    type Row = (&'static str, f64, Value);
     let table: &[Row] = &[
         ("a / b", 2.0, |a, b| a / b),
         ("a % b", 8.0, |a, b| a - b * (a / b).trunc()),
@@ -98,7 +106,7 @@ fn half(x: f64) -> f64 {
 }
 
 pub(crate) fn half_precision_rounds_each_step() {
-    let rows: [(&str, fn(f64, f64) -> f64); 4] = [
+    let rows: [(&str, Value); 4] = [
         ("f32(f16(a) * f16(b) + 0.1h)", |a, b| half(half(half(a) * half(b)) + half(0.1))),
         ("f32(mix(f16(a), f16(b), 0.3h))", |a, b| {
             half(half(half(a) * half(1.0 - half(0.3))) + half(half(b) * half(0.3)))
@@ -112,7 +120,7 @@ pub(crate) fn half_precision_rounds_each_step() {
 }
 
 pub(crate) fn control_flow_keeps_the_values_of_each_fragment() {
-    let rows: [(&str, &str, fn(f64, f64) -> f64); 8] = [
+    let rows: [(&str, &str, Value); 8] = [
         (
             "fn f(a: f32, b: f32) -> f32 { if (a < 0.0) { return b; } if (b < 1.0) { return 7.0; } return a; }",
             "f(a, b)",

@@ -62,8 +62,9 @@ fn compute<'a>(
     };
     let [ta, tb] = [element(0)?, element(1)?];
     let [a, b] = [codes(cells[types], ta, number)?, codes(cells[types + 1], tb, number)?];
-    // One number, in the digits of its type or as a word, in which bits above those of its type are ignored.
-    let word = u64::from_str_radix(cells[types + 2], 16).ok().filter(|_| cells[types + 2].len() == 8);
+    // One number. That of a short type is in up to a word, whose bits above those of the type are ignored.
+    let (digits, is_short) = (cells[types + 2].len(), unit.addend.digits() < 8);
+    let word = u64::from_str_radix(cells[types + 2], 16).ok().filter(|_| digits == 8 || is_short && digits < 8);
     let c = word.map_or_else(|| codes(cells[types + 2], unit.addend, number), |word| Ok(vec![word]))?;
     ensure!(c.len() == 1, "crossbar::alu::fields" => "line {number}: expected one number c, found {}", c.len());
     let scales = |at: usize| -> Result<Vec<u8>, InputError> {

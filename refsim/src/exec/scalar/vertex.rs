@@ -36,7 +36,6 @@ impl<'a> VertexProgram<'a> {
 
     /// Executes the program on the attributes `v0` to `v15`, single-precision patterns; to the observer the vertex is
     /// lane 0. Also returns the instruction before which the vertex was stopped by the step budget, if it was.
-    /// 0. Gives also the instruction in front of which the vertex was cut off, if it was.
     pub fn run<O: Observer>(&self, attributes: &[[u32; 4]; 16], observer: &mut O) -> (VertexResult, Option<usize>) {
         let format = self.prepared.format;
         let mut run = Interpreter::new(&self.prepared, 0b0001, observer);
