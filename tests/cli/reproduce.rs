@@ -27,10 +27,10 @@ fn the_rows_are_these() {
     let ran = crossbar_in(folder.path(), &[&["reproduce", "--json", "--out", "found"], &quick[..]].concat(), "");
     assert_eq!(ran.code, Some(0), "a missed figure is no failure: {}", ran.stderr);
     let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-    assert_eq!(document["rows"].as_array().map(Vec::len), Some(7));
+    assert_eq!(document["rows"].as_array().map(Vec::len), Some(8));
     let tally = document["tally"].as_array().expect("a tally");
     let counted: u64 = tally.iter().filter_map(|row| row["rows"].as_u64()).sum();
-    assert_eq!(counted, 7, "every row has one verdict: {tally:?}");
+    assert_eq!(counted, 8, "every row has one verdict: {tally:?}");
     let file = |name: &str| std::fs::read_to_string(folder.path().join("found").join(name)).expect("it was written");
     assert!(file("index.html").contains("<svg") && file("ray-engine-figure-7-gamma-4.svg").starts_with("<svg"));
     let written: serde_json::Value = serde_json::from_str(&file("study.json")).expect("JSON");
