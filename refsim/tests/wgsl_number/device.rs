@@ -45,7 +45,12 @@ impl Item {
     fn expected(&self, formats: &[Format]) -> Option<u32> {
         let [a, b, c] = self.operands;
         let format = &formats[self.format];
+        let (unit, source) = (format.unit.is_card(), formats[self.source]);
         match self.operation {
+            // Programs copy the words of single floats into a unit of a card.
+            NumberOperation::Convert if unit && source.kind == SINGLE.kind && source.encoding == SINGLE.encoding => {
+                None
+            }
             NumberOperation::Convert => Some(ops::convert(&formats[self.source], format, a).bits),
             // Programs in units of cards do not use it.
             NumberOperation::Factor if format.unit.is_card() => None,
@@ -182,7 +187,9 @@ pub(crate) fn operands_that_cards_were_given(gpu: &Arc<Gpu>) {
     let step = by_form(150, 1);
     let rows = rows_of_cards();
     let mut items = Vec::new();
-    for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o) && !o.has_immediate()) {
+    // The second operand of Steps is a count, which cards were not given.
+    let with_numbers = |o: &NumberOperation| tried(*o) && !o.has_immediate() && *o != NumberOperation::Steps;
+    for operation in NumberOperation::ALL.into_iter().filter(with_numbers) {
         let item = |format, &operands: &[u32; 3]| Item { operation, format, source: format, operands };
         let of_format = |format| rows.iter().step_by(step).map(move |row| item(format, row));
         items.extend((0..formats.len()).flat_map(of_format));

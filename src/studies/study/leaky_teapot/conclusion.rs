@@ -4,7 +4,8 @@ use std::cmp::Reverse;
 
 use refsim::num::{Format, FormatKind, Rounding};
 
-use super::{FormatLimits, Holes, SHARED, Tally, TeapotRow};
+use super::outcome::SHARED;
+use super::{FormatLimits, Holes, Tally, TeapotRow};
 use crate::ray_engine::EdgeRule;
 use crate::report::digits::count;
 use crate::report::words::{counted, listed, percent};

@@ -18,6 +18,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use inside::Inside;
+use outcome::SHARED;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -36,8 +37,6 @@ use crate::study::StudyError;
 use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 
-/// Ending of the names of rows with shared edges.
-const SHARED: &str = "-shared-edges";
 /// Seed of the points on the edges.
 const SEED: u64 = 1;
 

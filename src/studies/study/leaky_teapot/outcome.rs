@@ -70,6 +70,9 @@ impl Parameters {
     }
 }
 
+/// Ending of the names of rows with shared edges.
+pub(super) const SHARED: &str = "-shared-edges";
+
 /// Counts of verdicts over a set of rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Tally {
