@@ -12,6 +12,13 @@ fn pieces(text: &str) -> Vec<&str> {
     text.split_inclusive(|c: char| !c.is_alphanumeric() && c != '_').collect()
 }
 
+/// The front end calls itself for each term.
+pub(crate) fn long_expressions_have_an_end() {
+    let terms = vec!["uv.x"; 40_000].join("-");
+    let text = format!("@fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {{ return vec4f({terms}); }}");
+    assert!(translate_wgsl(&text).is_err(), "no program is as long");
+}
+
 pub(crate) fn mutated_shaders_do_not_panic() {
     let profile = Profile::named("ideal-fp32").expect("an ideal device");
     let change = (any::<prop::sample::Index>(), any::<prop::sample::Index>(), 0_u8..4);

@@ -17,6 +17,7 @@ fn main() -> std::process::ExitCode {
         texts::translations_as_they_are,
         texts::what_is_refused_says_where_and_why,
         texts::places_are_those_of_the_text,
+        hostile::long_expressions_have_an_end,
         hostile::mutated_shaders_do_not_panic,
     ];
     #[cfg(feature = "wgpu")]

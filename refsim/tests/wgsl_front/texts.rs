@@ -42,6 +42,11 @@ pub(crate) fn what_is_refused_says_where_and_why() {
         (main("let x = uv.x + 1;").replace("+ 1", "+ true"), "uv.x + true", "Operation Add can't work with"),
         (main("var list = array<f32, 3>(); let x = list[i32(uv.x)];"), "list[i32(uv.x)]", "index that is known"),
         (main("var x = 0.0; while (x < uv.x) { x += 0.1; }"), "x", "a loop has no end that is known"),
+        (
+            main("").replace("@location(0) uv", "@location(0) @interpolate(flat) uv"),
+            "",
+            "interpolated with perspective",
+        ),
         (main("let x = bitcast<u32>(uv.x);"), "bitcast<u32>", "bitcast is not translated"),
         (main("let x = atan2(uv.x, uv.y);"), "atan2", "`atan2` is not translated"),
         (

@@ -9,10 +9,12 @@ mod translator;
 mod values;
 
 use std::collections::BTreeMap;
+use std::panic::resume_unwind;
+use std::thread;
 
 use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use naga::{Binding, BuiltIn, EntryPoint, Module, ShaderStage, Type};
+use naga::{Binding, BuiltIn, EntryPoint, Interpolation, Module, ShaderStage, Type};
 
 use super::Refusal;
 use crate::isa::{
@@ -27,7 +29,21 @@ const MAX_TEXT: usize = 1 << 18;
 /// What a text may use beyond the core of WGSL: f16, and `quantizeToF16`.
 const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16.union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
 
+/// Stack of the front end, in bytes: it calls itself for each term of an expression.
+const STACK: usize = 1 << 28;
+
 pub(super) fn translate(text: &str) -> Result<Program, Refusal> {
+    thread::scope(|scope| {
+        let work = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || translated(text));
+        match work.map(thread::ScopedJoinHandle::join) {
+            Ok(Ok(program)) => program,
+            Ok(Err(panic)) => resume_unwind(panic),
+            Err(_) => Err(Refusal::new("the system has no thread with room for the translation", Span::default())),
+        }
+    })
+}
+
+fn translated(text: &str) -> Result<Program, Refusal> {
     if text.len() > MAX_TEXT {
         return Err(Refusal::new(format!("the shader is longer than {MAX_TEXT} bytes"), Span::default()));
     }
@@ -93,6 +109,9 @@ impl Translator<'_> {
             return Ok(parts.collect::<Result<Vec<_>, _>>()?.concat());
         };
         let register = match binding {
+            Binding::Location { interpolation: Some(Interpolation::Flat | Interpolation::Linear), .. } => {
+                return self.builder.refuse("inputs are interpolated with perspective");
+            }
             Binding::Location { location: location @ 0..8, .. } => {
                 Register::new(RegisterFile::Texture, *location as u16)
             }
