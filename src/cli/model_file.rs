@@ -47,11 +47,8 @@ fn named_by(command: &Command) -> Option<&'static str> {
     NAMED_BY.into_iter().find(|name| command.get_arguments().any(|arg| arg.get_id() == *name))
 }
 
-/// Takes the options from a command line.
-///
-/// # Errors
-/// [`Problem::Usage`] if no model is named. The parser does not report that if a model excludes the option given
-/// instead.
+/// Takes the options from a command line. Fails with [`Problem::Usage`] if no model is named. The parser does not
+/// report that if a model excludes the option given instead.
 pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     // Matches cannot be asked which arguments exist: clap keeps the list with debug assertions only.
@@ -71,10 +68,7 @@ fn options() -> ModelOptions {
     OPTIONS.get().copied().unwrap_or_default()
 }
 
-/// Refuses the options for files that are not models.
-///
-/// # Errors
-/// [`Problem`] if any was given.
+/// Refuses the options for files that are not models. Fails with [`Problem`] if any was given.
 pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
     let ModelOptions { up, strict } = options();
     let asked = if up.is_some() { "`--model-up`" } else { "`--strict`" };

@@ -10,10 +10,7 @@ use super::Problem;
 /// The options whose value is the path of a file or folder that is written.
 const OUTPUTS: [&str; 5] = ["out", "csv", "matrix", "sheet", "perfetto"];
 
-/// Refuses two outputs with one path: one would overwrite the other.
-///
-/// # Errors
-/// [`Problem::Usage`].
+/// Refuses two outputs with one path: one would overwrite the other. Fails with [`Problem::Usage`].
 pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = obeyed(program, matches);
     let mut seen: Vec<(&str, PathBuf)> = Vec::new();

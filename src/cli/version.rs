@@ -23,10 +23,7 @@ pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
 });
 
 /// The program that computes a part: version and commit; or, if these do not identify its sources (a development build,
-/// modified sources), the SHA-256 of its file.
-///
-/// # Errors
-/// If the program's own file cannot be read.
+/// modified sources), the SHA-256 of its file. Fails if the program's own file cannot be read.
 pub(super) fn program() -> Result<String, InputError> {
     let version = env!("CARGO_PKG_VERSION");
     if !COMMIT.is_empty() && COMMIT.bytes().all(|byte| byte.is_ascii_hexdigit()) {

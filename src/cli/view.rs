@@ -117,10 +117,7 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Reads a picture.
-///
-/// # Errors
-/// The defect of the file.
+/// Reads a picture. Errors: the defect of the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
 }

@@ -31,10 +31,7 @@ pub fn by_register(
     (0..registers).map(|register| by_vertex.iter().map(|vertex| vertex[register]).collect()).collect()
 }
 
-/// Refuses attributes that overflow single precision.
-///
-/// # Errors
-/// [`CardError::Input`], which says `what` was expected.
+/// Refuses attributes that overflow single precision. Fails with [`CardError::Input`], which says `what` was expected.
 pub fn check_finite(what: &str, attributes: &[Attribute]) -> Result<(), CardError> {
     let mut numbers = attributes.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
     match numbers.find(|value| !value.is_finite()) {

@@ -7,10 +7,8 @@ use std::path::Path;
 use super::read_limited;
 use crate::error::{FilePlace, InputError, input_error};
 
-/// The whole of a file, which is a `what`, of at most `limit` bytes.
-///
-/// # Errors
-/// [`InputError`] for a file that cannot be opened or read, and for one that is longer.
+/// The whole of a file, which is a `what`, of at most `limit` bytes. Fails with [`InputError`] for a file that cannot
+/// be opened or read, and for one that is longer.
 pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>, InputError> {
     let read = read_limited(path, limit).map_err(|source| unreadable_error(what, path, source))?;
     read.ok_or_else(|| too_long_error(what, path, limit))

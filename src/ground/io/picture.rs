@@ -22,10 +22,8 @@ pub struct PictureFile {
 }
 
 impl PictureFile {
-    /// Reads a file; its first bytes determine the format, whatever its name.
-    ///
-    /// # Errors
-    /// [`InputError`], with the path, for what [`PictureSize::of`] refuses too.
+    /// Reads a file; its first bytes determine the format, whatever its name. Fails with [`InputError`], with the path,
+    /// for what [`PictureSize::of`] refuses too.
     pub fn open(path: &Path) -> Result<Self, InputError> {
         let bytes = read_file(path, "picture", MAX_BYTES)?;
         match PictureSize::of(&bytes) {

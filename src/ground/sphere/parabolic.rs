@@ -15,10 +15,7 @@ pub struct ParabolicMap {
 }
 
 impl ParabolicMap {
-    /// Creates a map with `side` texels along an edge; the paper has 32.
-    ///
-    /// # Panics
-    /// If there are none.
+    /// Creates a map with `side` texels along an edge; the paper has 32. Panics if there are none.
     pub const fn new(side: usize) -> Self {
         assert!(side > 0, "a texel along an edge");
         Self { side }

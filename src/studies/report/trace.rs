@@ -69,10 +69,7 @@ enum Event<'a> {
 }
 
 impl Trace {
-    /// Writes the file: slices in the order of time, one event per line.
-    ///
-    /// # Errors
-    /// Those of `out`.
+    /// Writes the file: slices in the order of time, one event per line. Errors: those of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{{\"displayTimeUnit\":\"ns\",\"otherData\":{},", Value::Object(self.about.clone()))?;
         write!(out, "\"traceEvents\":[")?;

@@ -38,19 +38,15 @@ pub struct SpentTime {
 
 impl KeptResults {
     /// Results of a command in a folder, which is made when the first of them is kept. They depend on the files that
-    /// were read until now. `clock` returns the time since a fixed moment.
-    ///
-    /// # Errors
-    /// For files that cannot be read a second time.
+    /// were read until now. `clock` returns the time since a fixed moment. Errors: for files that cannot be read a
+    /// second time.
     pub fn new(folder: PathBuf, command: SplitCommand, clock: fn() -> SpentTime) -> Result<Self, InputError> {
         let (inputs, taken, before) = (inputs_read()?, Cell::default(), Cell::default());
         Ok(Self { folder, command, inputs, clock, taken, start: clock(), before })
     }
 
-    /// Refuses a folder with results of other work, which would be lost.
-    ///
-    /// # Errors
-    /// Names the first such result; also for a path that is not a folder.
+    /// Refuses a folder with results of other work, which would be lost. Errors: names the first such result; also for
+    /// a path that is not a folder.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {
@@ -109,10 +105,8 @@ impl KeptResults {
     }
 
     /// Takes a result from the folder; computes and keeps it if it is missing, damaged, or of another command, program
-    /// or input. The result must depend only on the command and the name, which is a file name.
-    ///
-    /// # Errors
-    /// Those of `compute`, and if a result cannot be kept.
+    /// or input. The result must depend only on the command and the name, which is a file name. Errors: those of
+    /// `compute`, and if a result cannot be kept.
     pub fn get<T: Serialize + DeserializeOwned, E: From<InputError>>(
         &self,
         name: &str,
@@ -138,10 +132,7 @@ impl KeptResults {
         Ok(result)
     }
 
-    /// Removes the folder, when the work is done.
-    ///
-    /// # Errors
-    /// If it cannot be removed.
+    /// Removes the folder, when the work is done. Fails if it cannot be removed.
     pub fn remove(&self) -> Result<(), InputError> {
         match fs::remove_dir_all(&self.folder) {
             Err(source) if source.kind() != io::ErrorKind::NotFound => {

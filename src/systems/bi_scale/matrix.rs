@@ -33,13 +33,9 @@ pub(super) fn size_error(rows: usize, columns: usize) -> InputError {
 }
 
 impl SparseMatrix {
-    /// A matrix without rows yet, with `columns` columns and values in units of 2^-`fraction_bits`.
-    ///
-    /// # Errors
-    /// [`InputError`] for 0 columns, or more than 32 bits can count.
-    ///
-    /// # Panics
-    /// If `fraction_bits` exceeds [`EntryValues::MOST_FRACTION_BITS`].
+    /// A matrix without rows yet, with `columns` columns and values in units of 2^-`fraction_bits`. Fails with
+    /// [`InputError`] for 0 columns, or more than 32 bits can count. Panics if `fraction_bits` exceeds
+    /// [`EntryValues::MOST_FRACTION_BITS`].
     pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, InputError> {
         Self::of_values(columns, EntryValues::units(fraction_bits))
     }
@@ -96,10 +92,7 @@ impl SparseMatrix {
         Ok(sparse)
     }
 
-    /// Appends a row.
-    ///
-    /// # Errors
-    /// [`InputError`]; the matrix is then unchanged.
+    /// Appends a row. Fails with [`InputError`]; the matrix is then unchanged.
     pub fn push_row(&mut self, row: &[MatrixEntry]) -> Result<(), InputError> {
         let (number, columns) = (self.rows(), self.columns);
         if u32::try_from(number + 1).is_err() {
@@ -150,10 +143,7 @@ impl SparseMatrix {
         &self.values
     }
 
-    /// The number that an entry holds, exactly.
-    ///
-    /// # Panics
-    /// If the matrix can have no such entry.
+    /// The number that an entry holds, exactly. Panics if the matrix can have no such entry.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         self.values.value(entry)
@@ -164,10 +154,7 @@ impl SparseMatrix {
         self.entries.len()
     }
 
-    /// The entries of a row, with increasing columns.
-    ///
-    /// # Panics
-    /// If there is no such row.
+    /// The entries of a row, with increasing columns. Panics if there is no such row.
     pub fn row(&self, row: usize) -> &[MatrixEntry] {
         &self.entries[self.begins[row]..self.begins[row + 1]]
     }
@@ -212,10 +199,7 @@ impl EntryValues {
     /// The largest number of fraction bits of a unit: more than the difference of two f32 numbers in [0, 1] needs.
     pub const MOST_FRACTION_BITS: u32 = 30;
 
-    /// Whole numbers of 2^-`fraction_bits`.
-    ///
-    /// # Panics
-    /// If `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
+    /// Whole numbers of 2^-`fraction_bits`. Panics if `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
     pub fn units(fraction_bits: u32) -> Self {
         assert!(fraction_bits <= Self::MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
         Self { fraction_bits: Some(fraction_bits), unit: 1.0 / f64::from(1_u32 << fraction_bits), table: None }
@@ -248,10 +232,7 @@ impl EntryValues {
         self.table.as_ref().map(Vec::len)
     }
 
-    /// The number that an entry holds.
-    ///
-    /// # Panics
-    /// If the table has no such entry.
+    /// The number that an entry holds. Panics if the table has no such entry.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         match &self.table {

@@ -43,10 +43,8 @@ pub struct Compression {
     pub steps: Vec<CpcaStep>,
 }
 
-/// Compresses a signal. `observe` is called after each step.
-///
-/// # Errors
-/// [`CpcaError`] if the options do not fit the signal, or principal components cannot be computed.
+/// Compresses a signal. `observe` is called after each step. Fails with [`CpcaError`] if the options do not fit the
+/// signal, or principal components cannot be computed.
 pub fn compress(
     signal: &Signal,
     options: &CpcaOptions,

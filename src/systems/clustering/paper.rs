@@ -11,10 +11,7 @@ const NO_EIGENVALUE: f64 = 5.684_341_886_080_802e-14;
 /// Number of sweeps over all pairs of components.
 const SWEEPS: usize = 60;
 
-/// Compresses a signal.
-///
-/// # Errors
-/// [`CpcaError`] if the options do not fit the signal.
+/// Compresses a signal. Fails with [`CpcaError`] if the options do not fit the signal.
 pub fn compress(signal: &Signal, options: &CpcaOptions) -> Result<Clustering, CpcaError> {
     let start = options.start_points(signal)?;
     let mut plain = Plain {

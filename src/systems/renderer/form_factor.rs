@@ -27,10 +27,7 @@ pub struct FormFactor {
 
 /// Estimates the form factor from patch `a` to patch `b`, each a list of triangles of which the fronts count: the
 /// fraction of the light leaving `a` that arrives at `b`. Takes `samples` pairs of points; pairs that face away from
-/// each other cost no ray. 0 if either has no area.
-///
-/// # Errors
-/// [`CastError`] if the caster fails.
+/// each other cost no ray. 0 if either has no area. Fails with [`CastError`] if the caster fails.
 pub fn form_factor(
     scene: &Scene,
     a: &[u32],

@@ -27,10 +27,8 @@ pub struct Dipole {
 }
 
 impl Dipole {
-    /// The dipole of a medium, with the polynomial for the internal reflection.
-    ///
-    /// # Errors
-    /// [`InputError`]: see [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
+    /// The dipole of a medium, with the polynomial for the internal reflection. Fails with [`InputError`]: see
+    /// [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
     pub fn new(c: Coefficients, eta: f64) -> Result<Self, InputError> {
         c.check()?;
         check_eta(eta)?;

@@ -60,10 +60,7 @@ pub struct BasisWeights {
 }
 
 impl BasisWeights {
-    /// The weights of a fine direction, given by its number.
-    ///
-    /// # Panics
-    /// If there is no such direction.
+    /// The weights of a fine direction, given by its number. Panics if there is no such direction.
     pub fn of(width: BasisWidth, fine: usize) -> Self {
         assert!(fine < FINE_DIRECTIONS, "a fine direction, not {fine}");
         let [face, row, column] = face_row_column(fine, FINE_SIDE);
@@ -189,10 +186,8 @@ impl LinearBasis {
         self.width
     }
 
-    /// The fine directions in which a hat function of the segment is not 0, in order.
-    ///
-    /// # Panics
-    /// If there is no such segment.
+    /// The fine directions in which a hat function of the segment is not 0, in order. Panics if there is no such
+    /// segment.
     pub fn directions(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
         self.segments[segment].samples.iter().map(|sample| sample.fine as usize)
     }

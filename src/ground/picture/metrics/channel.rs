@@ -48,20 +48,15 @@ pub struct ChannelDifference {
 }
 
 /// Compares the channels of two pictures, or only those that `names` lists, in the order of the first picture. Where
-/// one side is sRGB-encoded and the other linear, the former is decoded.
-///
-/// # Errors
-/// [`InputError`] if the pictures have no samples to compare.
+/// one side is sRGB-encoded and the other linear, the former is decoded. Fails with [`InputError`] if the pictures have
+/// no samples to compare.
 pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec<ChannelDifference>, InputError> {
     let pairs = pairs(left, right, names)?;
     Ok(pairs.into_iter().map(|pair| difference(pair, left.width())).collect())
 }
 
 /// Computes second minus first, sample by sample: the difference of floats; for integers 1 where they differ, otherwise
-/// 0.
-///
-/// # Errors
-/// [`InputError`], as [`channels`].
+/// 0. Fails with [`InputError`], as [`channels`].
 pub fn signed_differences(
     left: &Picture,
     right: &Picture,

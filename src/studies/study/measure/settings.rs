@@ -55,11 +55,8 @@ struct CaseCounts {
 }
 
 impl Survey {
-    /// Draws every case under all settings of the switches that its measured pixels depend on.
-    ///
-    /// # Errors
-    /// If a case cannot be drawn on the device as it is, a pixel lies outside its target, or there are too many
-    /// settings.
+    /// Draws every case under all settings of the switches that its measured pixels depend on. Fails if a case cannot
+    /// be drawn on the device as it is, a pixel lies outside its target, or there are too many settings.
     pub(super) fn new(measure: &Measure, progress: &mut ProgressFn<'_>) -> Result<Self, StudyError> {
         let Measure { profile, cases, .. } = measure;
         let questions = questions(measure);

@@ -88,10 +88,8 @@ struct ChannelResponses {
 }
 
 impl Precomputation<'_> {
-    /// Traces the rays and computes the matrices.
-    ///
-    /// # Errors
-    /// If the mesh or a material does not suit the transfer, or its numbers exceed f32.
+    /// Traces the rays and computes the matrices. Fails if the mesh or a material does not suit the transfer, or its
+    /// numbers exceed f32.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
         let (rule, responses) = self.prepare()?;
         let found = self.of_range(0..self.vertices.len(), &rule, &responses, progress)?;
@@ -99,10 +97,8 @@ impl Precomputation<'_> {
     }
 
     /// The same, with the rays and matrices of direct light of all vertices, of those of a part, or of parts. Work that
-    /// needs all vertices is not split: bounces, and light that scatters below the surface.
-    ///
-    /// # Errors
-    /// Those of [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
+    /// needs all vertices is not split: bounces, and light that scatters below the surface. Errors: those of
+    /// [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,
         split: &SplitRun,

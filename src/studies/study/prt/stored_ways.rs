@@ -54,10 +54,8 @@ pub struct StoredWay {
 pub type LightChannels = Vec<Vec<f64>>;
 
 impl StoredComparison<'_> {
-    /// All ways under some lights, biclusters first. `visit` sees each when it is made.
-    ///
-    /// # Errors
-    /// [`InputError`]; values that do not fit into a layout of narrow numbers are left out.
+    /// All ways under some lights, biclusters first. `visit` sees each when it is made. Fails with [`InputError`];
+    /// values that do not fit into a layout of narrow numbers are left out.
     pub fn ways(
         &self,
         lights: &[LightChannels],

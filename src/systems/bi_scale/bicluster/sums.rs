@@ -26,11 +26,8 @@ impl BiclusterResidual {
 
 impl Biclustering {
     /// The sum of the biclusters: in units of the matrix exactly the original matrix, else the same except for the
-    /// rounding of residuals and of the sum.
-    ///
-    /// # Errors
-    /// [`InputError`] if a sum can be no value of a matrix, which happens for biclusters from elsewhere and
-    /// where residuals were dropped.
+    /// rounding of residuals and of the sum. Fails with [`InputError`] if a sum can be no value of a matrix, which
+    /// happens for biclusters from elsewhere and where residuals were dropped.
     pub fn sum(&self) -> Result<SparseMatrix, InputError> {
         let ([rows, columns], bits) = (self.matrix_size(), self.values().fraction_bits());
         let units = bits.map(EntryValues::units);
@@ -52,10 +49,7 @@ impl Biclustering {
     }
 
     /// How the sum differs from a matrix of the same size: not at all if the matrix is in units and nothing was
-    /// dropped.
-    ///
-    /// # Panics
-    /// If the sizes differ.
+    /// dropped. Panics if the sizes differ.
     pub fn residual(&self, matrix: &SparseMatrix) -> BiclusterResidual {
         assert_eq!(self.matrix_size(), [matrix.rows(), matrix.columns()], "the size of the matrix");
         let mut residual = BiclusterResidual::default();

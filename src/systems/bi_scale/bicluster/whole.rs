@@ -84,35 +84,23 @@ impl Biclustering {
         &self.values
     }
 
-    /// The number that a value of a column represents.
-    ///
-    /// # Panics
-    /// If there can be no such value.
+    /// The number that a value of a column represents. Panics if there can be no such value.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         self.values.value(entry)
     }
 
-    /// The rows of a bicluster, increasing.
-    ///
-    /// # Panics
-    /// If there is no such bicluster.
+    /// The rows of a bicluster, increasing. Panics if there is no such bicluster.
     pub fn rows_of(&self, bicluster: usize) -> &[u32] {
         &self.rows[self.row_begins[bicluster]..self.row_begins[bicluster + 1]]
     }
 
-    /// The columns of a bicluster with their values, increasing.
-    ///
-    /// # Panics
-    /// If there is no such bicluster.
+    /// The columns of a bicluster with their values, increasing. Panics if there is no such bicluster.
     pub fn columns_of(&self, bicluster: usize) -> &[MatrixEntry] {
         &self.columns[self.column_begins[bicluster]..self.column_begins[bicluster + 1]]
     }
 
-    /// One bicluster, copied.
-    ///
-    /// # Panics
-    /// If there is no such bicluster.
+    /// One bicluster, copied. Panics if there is no such bicluster.
     pub fn get(&self, bicluster: usize) -> Bicluster {
         Bicluster { rows: self.rows_of(bicluster).to_vec(), columns: self.columns_of(bicluster).to_vec() }
     }

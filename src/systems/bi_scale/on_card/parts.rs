@@ -101,10 +101,8 @@ impl LocalStream<'_> {
     }
 }
 
-/// The largest value of local light times a factor.
-///
-/// # Errors
-/// [`CardError::Input`] if single precision does not hold it.
+/// The largest value of local light times a factor. Fails with [`CardError::Input`] if single precision does not hold
+/// it.
 pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, CardError> {
     let numbers = local.as_flattened().iter();
     let found = numbers.fold(0.0_f64, |most, &value| most.max((factor * f64::from(value)).abs()));

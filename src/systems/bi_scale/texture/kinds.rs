@@ -36,10 +36,8 @@ impl PatchKind {
     /// All kinds.
     pub const ALL: [Self; 5] = [Self::Bumps, Self::Mail, Self::Tiles, Self::Bricks, Self::Weave];
 
-    /// The patch, with all heights multiplied by `relief`.
-    ///
-    /// # Panics
-    /// If `relief` is negative, not finite, or makes the patch deeper than [`HeightField::DEEPEST`].
+    /// The patch, with all heights multiplied by `relief`. Panics if `relief` is negative, not finite, or makes the
+    /// patch deeper than [`HeightField::DEEPEST`].
     pub fn patch(self, relief: f64) -> MesoPatch {
         assert!(relief >= 0.0, "a relief of 0 or more");
         let place: fn([f64; 2]) -> Place = match self {

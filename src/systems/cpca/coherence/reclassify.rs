@@ -22,10 +22,8 @@ pub struct Reclassified {
 
 /// Moves vertices to clusters of their neighbours (section 5): always the vertex with the greatest reduction of
 /// overdraw per increase of squared error, one without an increase first; the lowest among equals. Moves add at most
-/// `budget` times the initial squared error; one that would exceed it is skipped. The paper takes 0.05 to 0.1.
-///
-/// # Errors
-/// [`InputError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
+/// `budget` times the initial squared error; one that would exceed it is skipped. The paper takes 0.05 to 0.1. Fails
+/// with [`InputError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,

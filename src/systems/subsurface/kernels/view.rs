@@ -193,10 +193,8 @@ impl ViewKernel {
         LIGHT_PART.most_within([0, 1].map(|lights| instructions(&self.text(lights))), slots, constants)
     }
 
-    /// The program for so many lights by fragment, accepted by a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
+    /// The program for so many lights by fragment, accepted by a device. Fails with [`KernelError`] if it breaks a rule
+    /// of the device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.name();
         let name = if self.direct == DirectLight::ByFragment {

@@ -37,10 +37,8 @@ impl LinkBands {
         BAND.min(side as usize)
     }
 
-    /// The links of a range of bands; otherwise as [`Links::new`](super::Links::new).
-    ///
-    /// # Errors
-    /// As [`Links::new`](super::Links::new).
+    /// The links of a range of bands; otherwise as [`Links::new`](super::Links::new). Fails as
+    /// [`Links::new`](super::Links::new) does.
     pub fn new(
         surface: &SurfaceMoments,
         dipoles: &[Dipole],

@@ -76,10 +76,7 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// A texture, not yet rounded to its format.
-    ///
-    /// # Panics
-    /// If there is no such texture.
+    /// A texture, not yet rounded to its format. Panics if there is no such texture.
     pub fn texture(&self, index: usize) -> Texels {
         assert!(index < self.texture_count(), "there is no texture {index}");
         let side = self.links.side() as usize;

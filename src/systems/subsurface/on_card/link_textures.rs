@@ -33,10 +33,7 @@ impl LinkTextures {
     }
 
     /// For textures laid out like those of [`EncodedLinks`]: `count` links per texel, all to one level or (`None`) each
-    /// to its own.
-    ///
-    /// # Errors
-    /// [`CardError::Input`] for another number of textures or texels.
+    /// to its own. Fails with [`CardError::Input`] for another number of textures or texels.
     pub fn from_textures(
         side: u32,
         level: Option<u32>,

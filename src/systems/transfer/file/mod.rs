@@ -105,10 +105,7 @@ impl PrtMeaning {
     }
 }
 
-/// Cuts off so many values.
-///
-/// # Panics
-/// If there are fewer.
+/// Cuts off so many values. Panics if there are fewer.
 pub(crate) fn front<T: Clone>(values: &mut &[T], count: usize) -> Vec<T> {
     let (front, rest) = values.split_at(count);
     *values = rest;

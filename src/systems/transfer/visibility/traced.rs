@@ -119,10 +119,8 @@ impl VisibilityMaps {
     /// nothing are not cast.
     ///
     /// The maps take [`VISIBILITY_BYTES`](super::VISIBILITY_BYTES) per vertex; rays that wait to be cast at most 32
-    /// vertices times 98,304 directions times 30 bytes, 90 MB.
-    ///
-    /// # Errors
-    /// [`InputError`] for a vertex that does not exist; [`InputError`] if the caster fails.
+    /// vertices times 98,304 directions times 30 bytes, 90 MB. Fails with [`InputError`] for a vertex that does not
+    /// exist; [`InputError`] if the caster fails.
     pub fn trace_sampled(
         vertices: &Vertices,
         of: &[u32],

@@ -43,10 +43,7 @@ pub(super) struct SurfacePixel {
 
 impl TexturedSurface {
     /// A mesh, its vertices, a texture's number per triangle, and how often patches repeat where texture coordinates
-    /// grow by 1.
-    ///
-    /// # Errors
-    /// If the mesh has no texture coordinates, or there is not a texture per triangle.
+    /// grow by 1. Fails if the mesh has no texture coordinates, or there is not a texture per triangle.
     pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, StudyError> {
         if mesh.texcoords().is_none() {
             let what = "the model has no texture coordinates, which say where on it a patch lies";

@@ -244,10 +244,7 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
 }
 
 /// Compresses the diffuse bunny of Table 1, reduced, in pieces that are kept if requested. Returns the model as text,
-/// and whether its visibility was computed.
-///
-/// # Errors
-/// If the model cannot be compressed, or its pieces cannot be kept.
+/// and whether its visibility was computed. Fails if the model cannot be compressed, or its pieces cannot be kept.
 pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
     let (shared, seen) =
         (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));
