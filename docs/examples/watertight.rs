@@ -26,7 +26,7 @@ pub(crate) fn tables() -> String {
     out
 }
 
-/// Where a ray meets a triangle, by somebody's arithmetic.
+/// Intersection of a ray with a triangle, in the arithmetic under test.
 pub(crate) type TriangleTest = fn(&Ray, [[f32; 3]; 3]) -> Option<f32>;
 
 /// Who is asked.

@@ -106,7 +106,7 @@ impl InputError {
         self.0.code
     }
 
-    /// What the user can do.
+    /// Advice to the user.
     pub fn advice(&self) -> Option<&str> {
         self.0.help.as_deref()
     }

@@ -107,7 +107,7 @@ fn tell(path: &Path, notes: &[ModelNote]) {
         }
         let line = visible_line(&format!("warning: {note}")).into_owned();
         if told.insert(line.clone()) {
-            // Nothing is to be done if nobody reads this.
+            // A failed write is ignored.
             writeln!(std::io::stderr().lock(), "{line}").ok();
         }
     }

@@ -10,7 +10,7 @@ use crate::report::Table;
 use crate::report::layout::wrapped;
 use crate::report::visible::{visible, visible_json, visible_line};
 
-/// Where a command writes what it found.
+/// Output of a command's findings.
 #[derive(Debug)]
 pub struct Out {
     stdout: BufWriter<Stdout>,

@@ -38,7 +38,7 @@ pub(super) fn obeyed<'a>(program: &'a Command, matches: &'a ArgMatches) -> (&'a 
     inner.map_or((program, matches), |(command, inner)| obeyed(command, inner))
 }
 
-/// Where a file will stand, links followed; `None` for a device or pipe, which takes any number of outputs.
+/// Final path of a file, links followed; `None` for a device or pipe, which takes any number of outputs.
 fn place(path: &Path) -> Option<PathBuf> {
     if let Ok(whole) = path.canonicalize() {
         return (whole.is_file() || whole.is_dir()).then_some(whole);

@@ -21,8 +21,8 @@ pub(super) struct PartArgs {
 }
 
 impl PartArgs {
-    /// How the command's items are computed: all of them, those of the part, whose file is `out`, or none. Errors: for
-    /// an argument that is not UTF-8, or a program that cannot be told from others.
+    /// Mode of the command's items: all of them, only those of the part whose file is `out`, or none. Errors: for an
+    /// argument that is not UTF-8, or a program that cannot be told from others.
     pub(super) fn split(self, line: &CommandLine, out: &Path) -> Result<SplitRun, InputError> {
         match (&line.parts, self.part) {
             (Some(parts), _) => Ok(SplitRun::Merge(parts.clone())),

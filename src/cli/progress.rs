@@ -89,7 +89,7 @@ impl ProgressBar {
             self.announce(&long_work(&what, left, self.quicker));
         }
         if is_due {
-            // Nothing is to be done if nobody reads this.
+            // A failed write is ignored.
             writeln!(io::stderr().lock(), "{}", plain_line(&what, done, total, left)).ok();
         }
     }

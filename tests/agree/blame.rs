@@ -1,4 +1,4 @@
-//! Which instruction is to blame: both sides followed through the first pixel that differs.
+//! Finds the first differing instruction: both sides are traced through the first pixel that differs.
 
 use crate::executors::Executor;
 use crate::scene::{Case, Programs, Scene};

@@ -89,7 +89,7 @@ impl Program {
 impl Programs {
     fn read(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let read = |path: PathBuf| {
-            // Fixtures that are wrong on purpose are no business of executors.
+            // Executors do not get fixtures that are wrong on purpose.
             let text = std::fs::read_to_string(&path).ok()?;
             Program::new(path.strip_prefix(root()).unwrap_or(&path).display().to_string(), &text)
         };

@@ -148,7 +148,7 @@ fn group(shape: Shape, size: [u32; 2], each: usize, r: &mut Random, out: &mut Ve
             }
             v.colors = [r.vector(), r.vector()];
         } else if whole && r.one_in(2) {
-            // What a crossbar has: one set that says which pixel, all others constant.
+            // As in a crossbar: one set identifies the pixel, all others are constant.
             let (x, y) = CORNERS[corner % 4];
             v.texcoords[0] = [(x * 0.5 + 0.5).to_bits(), (y * -0.5 + 0.5).to_bits(), 0, 0x3f80_0000];
         }

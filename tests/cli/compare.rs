@@ -46,7 +46,7 @@ fn fixtures() -> std::path::PathBuf {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/cases")
 }
 
-/// A pixel program on a 4x4 target of singles, of which tests replace parts.
+/// A pixel program on a 4x4 target of singles; tests replace parts of it.
 const PLAIN: &str = r#"title = "plain"
 shader_model = "ps_2_a"
 format = "fp32"

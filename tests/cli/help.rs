@@ -50,7 +50,7 @@ fn every_command_has_an_example_and_speaks_json() {
     }
 }
 
-/// Which commit, where the program is not a development build, and which features.
+/// The commit, unless the program is a development build, and the features.
 #[test]
 fn version() {
     let ran = crossbar(&["--version"], "");

@@ -30,7 +30,7 @@ fn read(page: &str) -> String {
     std::fs::read_to_string(file(page)).expect("the page").replace('\r', "")
 }
 
-/// How many of the rules of a Radeon 8500 no source states.
+/// Number of rules of a Radeon 8500 that no source states.
 fn guesses() -> String {
     let figures = Profile::named("r200").expect("a card").figures();
     let rules: Vec<_> = figures.iter().filter(|row| row.key.starts_with("rules.")).collect();

@@ -70,7 +70,7 @@ impl From<&Rules> for SampleRules {
 pub(crate) enum SampledSource {
     /// A stored channel.
     Stored(Channel),
-    /// Not stored: the byte 0 or 255, whatever the texel.
+    /// Not stored: the byte 0 or 255 for every texel.
     Missing(u8),
 }
 

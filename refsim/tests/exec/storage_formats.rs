@@ -278,7 +278,7 @@ fn a_format_holds_what_conversion_there_and_back_keeps() {
     for wide in texts.iter().map(|text| format(text)) {
         for narrow in texts.iter().map(|text| format(text)) {
             let keeps = (0..=narrow.mask()).all(|bits| {
-                // What reads as zero is none of its numbers, and NaNs are one.
+                // Patterns that read as zero are not its numbers, and all NaNs count as one.
                 let number = ops::convert(&narrow, narrow, bits).bits;
                 let there = ops::convert(&narrow, wide, number);
                 there.flags.is_empty() && ops::convert(&wide, narrow, there.bits).bits == number

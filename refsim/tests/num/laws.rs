@@ -113,7 +113,7 @@ proptest! {
         prop_assert_eq!(ops::mul(f, a, b), ops::mul(f, b, a));
     }
 
-    /// A larger operand never gives a smaller result, whatever the rounding.
+    /// A larger operand never gives a smaller result, in any rounding.
     #[test]
     fn rounding_is_monotone(f in format().prop_filter("wraps", not_wrapping), a in pattern(), b in pattern(), c in pattern()) {
         if le(&f, a, b) {

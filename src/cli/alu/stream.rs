@@ -55,7 +55,7 @@ fn each_line(
         let whole = if got == 0 {
             buffer.len()
         } else {
-            // What was held has no line end in it.
+            // The buffered part has no line end.
             buffer[held..].iter().rposition(|&b| b == b'\n').map_or(0, |end| held + end + 1)
         };
         let lines: Vec<&[u8]> = buffer[..whole].split_inclusive(|&b| b == b'\n').collect();

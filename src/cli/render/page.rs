@@ -16,7 +16,7 @@ pub(super) fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Pictur
     found
 }
 
-/// How many pixels show something, and where the picture is.
+/// Number of covered pixels, and the path of the picture.
 pub(super) fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
     format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
 }

@@ -209,7 +209,7 @@ impl Atlas {
     }
 }
 
-/// Checks the side of an atlas, whatever its content.
+/// Checks the side of an atlas.
 pub fn require_side(side: u32) -> Result<(), InputError> {
     let fits = side.is_power_of_two() && side <= MAX_SIDE;
     ensure!(fits, "found an atlas of {side} x {side} texels, expected a side that is a power of two, up to {MAX_SIDE}");

@@ -21,7 +21,7 @@ pub fn vertex_streams<'a>(attributes: impl IntoIterator<Item = &'a Attribute>) -
     VertexStreams { vertex_count: streams.first().map_or(0, |first| first.data.len()), instance_count: 1, streams }
 }
 
-/// Attributes register by register, from those of each of `vertices` vertices.
+/// Attributes register by register, from the attributes of each of `vertices` vertices.
 pub fn by_register(
     registers: usize,
     vertices: usize,

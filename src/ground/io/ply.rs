@@ -41,7 +41,7 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
     let bytes = unmarked(bytes);
-    // As the description of the format has it; nobody writes it any more.
+    // As the format's description has it; modern writers do not use it.
     let line_end = if bytes.starts_with(b"ply\r") && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
     let (header, lines, data) = header(bytes, line_end, name)?;
     let has = |element: &str, property: &[&str]| {

@@ -40,7 +40,7 @@ pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     let soup = match claimed {
         Some(claimed) if claimed == length => binary(bytes, name)?,
         _ if is_text(bytes) => ascii(bytes, name)?,
-        // In text these bytes are no number of triangles.
+        // In a text file these bytes are not a count of triangles.
         Some(claimed) if bytes[..HEAD].contains(&0) => {
             if strict || claimed > length {
                 return syntax("as many bytes as its number of triangles takes", format!("{length} of {claimed}"));

@@ -130,7 +130,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
     Ok(picture)
 }
 
-/// Where the pixels of a layer are, and which a picture shows, in the coordinates of the file.
+/// Data window of a layer and display window, in the coordinates of the file.
 struct Windows {
     data: IntegerBounds,
     display: IntegerBounds,

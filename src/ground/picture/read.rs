@@ -53,7 +53,7 @@ impl PictureSize {
 impl Picture {
     /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
     /// linear): sRGB values, or linear ones where a gAMA or cICP chunk says how to decode them. Radiance HDR gives
-    /// linear values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file the first layer is
+    /// linear values, divided by the factors of its EXPOSURE and COLORCORR lines. The first layer of an EXR file is
     /// read, as large as the display window, with 0 outside the layer's pixels. Fails with [`InputError`], those of
     /// [`PictureSize::of`] before any pixel is decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, InputError> {

@@ -46,7 +46,7 @@ impl SplitCommand {
 pub struct PartHeader {
     /// The command.
     pub command: SplitCommand,
-    /// Which part of how many.
+    /// Number of the part, and the total number of parts.
     pub part: PartNumber,
     /// The SHA-256 of every file that was read, by its path as it was opened.
     pub inputs: BTreeMap<String, String>,

@@ -56,7 +56,7 @@ impl KeptResults {
         let mut paths = files.map(|file| Ok(file?.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
         paths.sort();
         for path in paths {
-            // What is no result is left alone, and a damaged one computed again.
+            // Other files are left alone, and damaged results are computed again.
             let Ok((header, _)) = PartHeader::read(&path) else { continue };
             if let Some([expected, found]) = self.difference(&header) {
                 let other = input_error!(
@@ -118,7 +118,7 @@ impl KeptResults {
             && found.is_of(&header)
             && let Ok(((spent, result), [])) = postcard::take_from_bytes::<(SpentTime, T)>(&bytes)
         {
-            // Of what is taken the last one knows the most.
+            // The last file taken has the most results.
             if spent.wall_s > self.before.get().wall_s {
                 self.before.set(spent);
             }

@@ -31,7 +31,7 @@ impl<T: Serialize + DeserializeOwned> Concatenate for Vec<T> {
     }
 }
 
-/// How a command's items are computed.
+/// Mode in which a command's items are computed.
 #[derive(Clone, Debug, Default)]
 pub enum SplitRun {
     /// All of them.
@@ -53,7 +53,7 @@ pub enum SplitRun {
 /// A part that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenPart {
-    /// Which part of how many.
+    /// Number of the part, and the total number of parts.
     pub part: PartNumber,
     /// The items that are split, in the plural.
     pub items: &'static str,

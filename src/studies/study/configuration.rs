@@ -22,7 +22,7 @@ impl Configuration {
     /// Creates the configuration of a device. Fails if there is no such device.
     pub fn device(name: &str) -> Result<Self, DeviceError> {
         let configuration = Self::of(&device_named(name)?);
-        // A card has one name, however it was asked for; device files are told apart by theirs.
+        // A card has one canonical name; device files are distinguished by theirs.
         let is_file = name.ends_with(".toml");
         Ok(if is_file { Self { label: file_name(name), ..configuration } } else { configuration })
     }

@@ -48,7 +48,7 @@ impl SparseMatrix {
         Ok(Self { columns, values, begins: vec![0], entries: Vec::new() })
     }
 
-    /// A matrix of real numbers: in the largest power-of-two unit of which all are multiples, if this has at most
+    /// A matrix of real numbers: in their largest common power-of-two unit, if this has at most
     /// [`EntryValues::MOST_FRACTION_BITS`] and 32 bits hold the multiples; else with a table. Zeros of either sign are
     /// left out.
     pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, InputError> {
@@ -171,7 +171,7 @@ fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
     let finest = f64::from(1_u32 << EntryValues::MOST_FRACTION_BITS);
     let mut fraction_bits = 0;
     for value in values.clone() {
-        // Exact: the factor is a power of two. What it takes to infinity is out of range in any unit.
+        // Exact: the factor is a power of two. Values that it makes infinite are out of range in any unit.
         let scaled = value * finest;
         if scaled.fract() != 0.0 {
             return None;
@@ -222,7 +222,7 @@ impl EntryValues {
         units.unwrap_or_else(|| Self::table(fraction_bits, numbers))
     }
 
-    /// Number of fraction bits of the unit of which all values of the matrix are multiples, if there is one.
+    /// Number of fraction bits of the common unit of all values, if there is one.
     pub fn fraction_bits(&self) -> Option<u32> {
         self.fraction_bits
     }

@@ -36,8 +36,8 @@ impl<const N: usize> Packed<N> {
         Self { length, components }
     }
 
-    /// The other way round: `count` vectors of which component j is number `at` of vector j of others. `part` writes
-    /// the numbers of vector j from `at` on that fit into its slice.
+    /// Transposed: component j of vector `at` is number `at` of vector j of the others. `part` writes the numbers of
+    /// vector j from `at` on that fit into its slice.
     pub(super) fn across(count: usize, length: usize, mut part: impl FnMut(usize, usize, &mut [f64])) -> Self {
         let mut components = vec![[0.0; N]; count.div_ceil(N) * length];
         for j in 0..length {
@@ -146,8 +146,8 @@ const MIN_PARALLEL: usize = 1 << 22;
 /// Points of a cluster whose products are kept, at most: 2 MiB.
 const MOST_KEPT: usize = 512;
 
-/// Inner products of a cluster's points, kept from one fit to the next, so that only those of new points are computed.
-/// Each is the same sum whatever the other points are, so that reuse changes no bits.
+/// Inner products of a cluster's points, kept from one fit to the next; only those of new points are computed. Each sum
+/// is independent of the other points, so that reuse changes no bits.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeptProducts {
     points: Vec<u32>,

@@ -107,7 +107,7 @@ impl CardSystem {
         Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
 
-    /// Computes one pass. `radiosity` is the result of the last iteration, `partial` that of the pass before, which
+    /// Computes one pass. `radiosity` is the result of the last iteration, `partial` that of the previous pass, which
     /// pass 0 does not read. Panics if a texture is too small, or there is no such pass.
     pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
         let from = pass * self.block;

@@ -55,7 +55,7 @@ impl Patches {
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
     }
 
-    /// How many patches a scene would be cut into, without the work that their open parts take.
+    /// Number of patches of a scene, without computing their open parts.
     pub fn count(scene: &Scene, subdivision: Subdivision) -> Result<usize, InputError> {
         Ok(steps(&faces_of(scene)?.0, subdivision)?.1)
     }

@@ -22,7 +22,7 @@ pub enum Form {
     Float,
 }
 
-/// How the edge that two triangles share is evaluated.
+/// Evaluation of an edge shared by two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeRule {
     /// As in the paper: each triangle tests the edge anew, from its own corner a. Rounding may put a ray outside both.
@@ -54,7 +54,7 @@ pub struct Kernel {
     pub vertex: CheckedProgram,
     /// Pixel program: intersection.
     pub pixel: CheckedProgram,
-    /// How its textures hold rays. Used by `ps_1_4` forms only.
+    /// Encoding of rays in its textures. Used by `ps_1_4` forms only.
     pub texels: RayTexels,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,

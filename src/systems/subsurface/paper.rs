@@ -203,7 +203,7 @@ impl<'a> Reference<'a> {
         let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length() / 2.0;
         let (mut sum, mut weights) = (0.0, 0.0);
         for [a, b, c] in self.triangles(from) {
-            // The rule of a square, one side of which is drawn together in a.
+            // The rule of a square with one side collapsed to a.
             for (s, s_weight) in FIVE {
                 for (t, t_weight) in FIVE {
                     let point = a + s * ((b - a) + t * (c - b));

@@ -75,7 +75,7 @@ impl BasisWeights {
         let beside = texel(face, [own[0], own[1] + towards_column]);
         let below = texel(face, [own[0] + towards_row, own[1]]);
         let across = texel(face, [own[0] + towards_row, own[1] + towards_column]);
-        // At a corner of the cube there is no fourth texel: each of the others gets a third of its weight.
+        // A corner of the cube has no fourth texel: each of the others gets a third of its weight.
         let third = if across.is_none() { a * b / 3.0 } else { 0.0 };
         found.add(texel(face, own), (1.0 - a) * (1.0 - b) + third);
         found.add(beside, a * (1.0 - b) + third);

@@ -1,5 +1,4 @@
-//! Where the rays of a vertex start, off all triangles on which it lies, even where it is not a corner of them; the rays,
-//! and what they hit.
+//! Ray origins of a vertex, offset from all triangles on which it lies, as a corner or not; the rays and their hits.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -21,8 +21,8 @@ fn balanced(tally: &WalkTally, walk: &PhotonWalk) {
     assert_eq!(tally.fates().iter().sum::<u64>(), walk.photons);
 }
 
-/// The mean path of light from everywhere in a body without absorption. Inside, radiance is eta^2 of that outside
-/// whatever the scattering, so the path is 4 V / S times eta^2 over the mean transmittance.
+/// The mean path of light from everywhere in a body without absorption. Inside, radiance is eta^2 of that outside for
+/// any scattering, so the path is 4 V / S times eta^2 over the mean transmittance.
 fn mean_path(volume_by_surface: f64, eta: f64) -> f64 {
     4.0 * volume_by_surface * eta * eta / mean_transmittance(eta)
 }

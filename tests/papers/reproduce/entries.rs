@@ -77,7 +77,7 @@ fn the_card_is_linear_and_the_host_is_not() {
     for line in [rgb, luminance] {
         let all = slopes(line);
         let last = all[all.len() - 1];
-        // From 512 patches on; below, what a draw costs by itself shows.
+        // From 512 patches on; below, the fixed cost of a draw shows.
         assert!(
             all[3..].iter().all(|slope| abs_diff_eq!(slope / last, 1.0, epsilon = 0.01)),
             "{}: {all:?}",

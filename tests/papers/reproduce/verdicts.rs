@@ -99,7 +99,7 @@ fn the_parts_of_the_tally_add_up() {
     assert_eq!(numbers(recorded), [of_tally().filter(|row| row.source != RowSource::Computed).count()]);
 }
 
-/// Numbers that are neither printed nor read off our own model can be told apart.
+/// Numbers that are neither printed nor read off our own model are marked.
 #[test]
 fn origins_are_said() {
     let implied = &row("subsurface/lookups-fixed").target;
@@ -140,7 +140,7 @@ fn timed_work_has_the_times_of_its_rows() {
     }
 }
 
-/// A bound that a card worth nothing would meet says nothing.
+/// A bound must fail for a card that brings nothing.
 #[test]
 fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
     let alone = &findings("ray-engine-table-3").rows[0];

@@ -1,4 +1,4 @@
-//! Which lane arithmetic a format gets.
+//! Selects the lane arithmetic of a format.
 
 use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, GENERAL, HOST, SINGLE};
@@ -154,7 +154,7 @@ impl AnyLane {
         with_any_lane!(self, |lane| { saturate(lane, raw) })
     }
 
-    /// How a slot's number is read.
+    /// Interpretation of a slot's bits as a number.
     pub fn reading(&self) -> Reading {
         with_any_lane!(self, |lane| { lane.reading() })
     }

@@ -328,7 +328,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     }
 
     fn exp2(&self, a: i32) -> i32 {
-        // Past the range there is no residue to take.
+        // Beyond the range no residue exists.
         if a >> self.frac >= self.int.cast_signed() && WRAP {
             return self.high;
         }

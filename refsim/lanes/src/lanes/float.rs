@@ -171,7 +171,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn round_single(&self, x: f32) -> f32 {
-        // Every single that is not flushed is a number of the format, whatever becomes of what overflows.
+        // Every single that is not flushed is a number of the format, for any rule of overflow.
         if PATH == HOST { self.single.flushed(x) } else { self.round_f64(f64::from(x)) }
     }
 

@@ -3,8 +3,7 @@
 
 use super::round::{AWAY, EVEN, UP, ZERO};
 
-/// How to divide by a power of two with rounding, the same way for every rounding: `(v + more + (v >> at & mask)) >>
-/// count`.
+/// Division by a power of two, by one formula for every rounding: `(v + more + (v >> at & mask)) >> count`.
 ///
 /// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
 /// - Nearest away is half a unit up, one less where `v` is negative.

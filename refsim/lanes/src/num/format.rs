@@ -14,7 +14,7 @@ use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 pub struct Format {
     /// The layout.
     pub kind: FormatKind,
-    /// Which patterns are infinities, NaN and zeros (floats).
+    /// Encoding of infinities, NaN and zeros (floats).
     pub encoding: Encoding,
     /// Direction in which inexact results are rounded.
     pub rounding: Rounding,
@@ -395,7 +395,7 @@ impl Format {
         }
     }
 
-    /// Returns `true` if the pattern is a subnormal float, whatever the denormal rule.
+    /// Returns `true` if the pattern is a subnormal float, under any denormal rule.
     #[inline]
     pub const fn is_subnormal(&self, bits: u32) -> bool {
         match self.kind {

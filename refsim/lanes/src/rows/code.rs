@@ -93,7 +93,7 @@ pub struct LaneOp {
     pub to: Slot,
     /// The operands `a`, `b`, `c`, or the factors of one product after the other.
     pub args: [Slot; OPERANDS],
-    /// `true` if a product with a zero factor is zero, whatever the other factor.
+    /// `true` if a product with a zero factor is zero, for any other factor.
     pub zero_wins: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Execution of lane operations, of which decoded programs consist.
+//! Execution of the lane operations of decoded programs.
 
 use super::apart::apart;
 use super::code::{LaneCode, LaneOp};

@@ -2,7 +2,7 @@
 //!
 //! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32
 //! pattern of the same number, which exists for every format of registers ([`Format::for_registers`]); NaN is always
-//! `0x7fc0_0000`. Formats that the unit of a card computes have its words, whatever they are.
+//! `0x7fc0_0000`. Formats that the unit of a card computes are stored as its words.
 
 use refsim_lanes::AnyLane;
 

@@ -25,7 +25,7 @@ pub(super) struct Builder {
     /// `true` if the next instruction computes in f16.
     pub(super) half: bool,
     gathered: BTreeMap<Value, (Register, Vec<u8>)>,
-    /// What the condition codes were last set by.
+    /// The instruction that last set the condition codes.
     codes: Value,
     registers: u16,
 }

@@ -25,7 +25,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// What an expression stands for, evaluated now if it was not yet.
+    /// Value of an expression, evaluated on first use.
     pub(super) fn entry(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Meaning> {
         match frame.values.get(&handle) {
             Some(entry) => Ok(entry.clone()),

@@ -35,7 +35,7 @@ pub struct ChannelDifference {
     pub differing: u64,
     /// Number of NaN samples in each picture.
     pub nan: [u64; 2],
-    /// Number of samples that differ and of which at least one is not finite.
+    /// Number of differing samples with at least one non-finite side.
     pub not_finite: u64,
     /// Root mean squared difference, over samples that are finite in both.
     pub rmse: f64,

@@ -1,8 +1,8 @@
 //! Bodies composed of rounded pieces that flow into each other, and their surfaces.
 //!
 //! A body is the set of points where a function is negative. Its surface is found by tetrahedra (six to a cell of a
-//! grid: Doi, Koide 1991), which is closed whatever the function, coarsened to the number of vertices that is wanted,
-//! and moved onto the zeros of the function.
+//! grid: Doi, Koide 1991), which is closed for any function, coarsened to the number of vertices that is wanted, and
+//! moved onto the zeros of the function.
 
 use std::collections::BTreeMap;
 

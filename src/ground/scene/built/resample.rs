@@ -188,7 +188,7 @@ struct Coarsening {
     triangles: Vec<[u32; 3]>,
     /// Triangles around each vertex.
     around: Vec<Vec<usize>>,
-    /// How often the edges of a vertex have changed.
+    /// Number of changes to the edges of a vertex.
     changes: Vec<u32>,
     /// Edges by length, with the changes of both ends at which this was theirs.
     shortest: BinaryHeap<Reverse<RankedEdge>>,

@@ -124,7 +124,7 @@ fn errors(title: &str, outcome: &ProductOutcome, skipped: usize) -> Table {
     table
 }
 
-/// Worst error over depth; none if there is no error at two depths.
+/// Worst error over depth; none without errors at two depths.
 fn chart(outcome: &ProductOutcome) -> Option<NamedChart> {
     let line = |row: &ProductRow| {
         let points = outcome.depths.iter().zip(&row.errors).map(|(&depth, errors)| (depth as f64, errors.worst));

@@ -85,7 +85,7 @@ fn descend(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> 
     remove_bits(formats, order, runs)
 }
 
-/// Narrows one instruction by bisection of one field, of which it has the most bits of `field`.
+/// Narrows one instruction by bisection of one field, starting from the bits of `field`.
 fn narrow(
     formats: &mut [FormatBits],
     place: usize,

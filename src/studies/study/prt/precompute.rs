@@ -61,7 +61,7 @@ pub struct Precomputation<'a> {
     /// The size of the rule of directions over each vertex's hemisphere: [`DirectionRule::spread`], whose heights are
     /// all different, from 40 on; below, [`DirectionRule::hemisphere`] of this degree.
     pub degree: usize,
-    /// How often light is reflected on its way.
+    /// Number of interreflections.
     pub bounces: Bounces,
     /// A medium below the surface, if there is one.
     pub scatterer: Option<Scatterer>,
@@ -80,7 +80,7 @@ pub struct Precomputed {
     pub bounces: Vec<Vec<f64>>,
 }
 
-/// How the materials of a channel answer light.
+/// Responses of the materials of a channel.
 struct ChannelResponses {
     of_materials: Vec<Response>,
     /// Light that passes into the medium below the surface, with its dipole.

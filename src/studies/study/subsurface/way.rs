@@ -73,7 +73,7 @@ pub(super) struct WayRow {
     pub(super) saturated: usize,
     /// The links' own error: the host's sum over them against all pairs.
     pub(super) links_error: Option<GatherError>,
-    /// How far its errors are from smooth among neighbouring texels, over B.
+    /// Roughness of its errors among neighbouring texels, relative to B.
     pub(super) seams: Option<f64>,
     /// The links' own error with means by number of texels.
     pub(super) plain_error: Option<GatherError>,

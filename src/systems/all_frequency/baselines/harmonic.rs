@@ -81,8 +81,7 @@ impl<'a> HarmonicTransfer<'a> {
         (0..self.subject.maps.len()).into_par_iter().map(of_map).collect()
     }
 
-    /// The matrix of a map's vertex times the light: coefficients of the radiance that arrives where nothing is in the
-    /// way.
+    /// The matrix of a map's vertex times the light: coefficients of the unoccluded incident radiance.
     fn arriving(&self, map: usize, incident: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut coefficients = vec![[0.0; 3]; function_count(self.order)];
         for (block, &word) in self.subject.maps.bits(map).iter().enumerate() {

@@ -108,7 +108,7 @@ impl ProductErrors {
     }
 }
 
-/// f at pairs of directions above the horizon, each of which represents a solid angle.
+/// f at pairs of directions above the horizon, each representing a solid angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HemisphereSamples {
     /// Directions of the views and of the lights.

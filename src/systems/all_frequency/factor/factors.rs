@@ -104,8 +104,7 @@ impl ProductFactors {
 /// of 32 x 32.
 pub const PAIR_DISTANCE: f64 = 1e-3;
 
-/// A pair of equal singular values of which one is kept and one is not: the terms then prefer a direction that f does
-/// not.
+/// A pair of equal singular values, one kept and one dropped: the terms then prefer a direction that f does not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitPair {
     /// The terms that are kept.

@@ -7,7 +7,7 @@ use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
 /// Numbers behind the integers of a search; 0 represents 0.
 pub(super) trait SearchNumbers {
-    /// The integer for the difference of two numbers; `None` if there is no integer left for it.
+    /// The integer for the difference of two numbers; `None` if no integer is left for it.
     fn difference(&mut self, value: i32, t: i32) -> Option<i32>;
 
     /// The order of two numbers.

@@ -5,7 +5,7 @@ use crate::bi_scale::matrix::{EntryValues, SparseMatrix};
 use crate::error::{InputError, ensure};
 use crate::io::CoordinateMatrix;
 
-/// How the sum of biclusters differs from a matrix.
+/// Difference between the sum of biclusters and a matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BiclusterResidual {
     /// Number of elements that differ.
@@ -48,8 +48,8 @@ impl Biclustering {
         Ok(sum.expect("finite numbers in a matrix of this size"))
     }
 
-    /// How the sum differs from a matrix of the same size: not at all if the matrix is in units and nothing was
-    /// dropped. Panics if the sizes differ.
+    /// Difference of the sum from a matrix of the same size; zero if the matrix is in units and nothing was dropped.
+    /// Panics if the sizes differ.
     pub fn residual(&self, matrix: &SparseMatrix) -> BiclusterResidual {
         assert_eq!(self.matrix_size(), [matrix.rows(), matrix.columns()], "the size of the matrix");
         let mut residual = BiclusterResidual::default();

@@ -130,7 +130,7 @@ pub struct TextureSampling {
     pub view: LocalDirections,
     /// The M directions of light.
     pub light: LocalDirections,
-    /// n x n points per texel, of which the mean is taken; with 1 its middle.
+    /// n x n points per texel, averaged; with 1 its middle.
     pub samples: usize,
 }
 

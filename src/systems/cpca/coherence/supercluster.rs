@@ -52,8 +52,8 @@ impl Superclusters {
         Ok(Self::merged(clustering, triangles, needed(clustering, registers)?, registers.limit))
     }
 
-    /// Likewise of `clusters` clusters at most, whatever they take: a size for all cards. Fails with [`InputError`] if
-    /// a triangle names a vertex without a cluster, or for a size of 0.
+    /// Superclusters of at most `clusters` clusters, with any number of registers: a size for all cards. Fails with
+    /// [`InputError`] if a triangle names a vertex without a cluster, or for a size of 0.
     pub fn of_size(clustering: &Clustering, triangles: &[[u32; 3]], clusters: usize) -> Result<Self, InputError> {
         check_triangles(triangles, clustering.points())?;
         ensure!(clusters != 0, "expected superclusters of at least 1 cluster, found 0");

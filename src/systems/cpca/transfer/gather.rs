@@ -138,7 +138,7 @@ impl<'a> TransferGather<'a> {
         }
     }
 
-    /// A matrix per vertex whose rays were traced, each computed by itself.
+    /// A matrix per vertex whose rays were traced, each computed independently.
     fn each(&self, compute: impl Fn(usize, &mut [f32]) + Sync) -> Vec<f32> {
         let range = self.rays.range();
         let mut values = vec![0.0; range.len() * self.size()];

@@ -57,8 +57,8 @@ impl Transfer {
         Self::with_bounces(vertices, rays, responses, light_order, (direct, bounces))
     }
 
-    /// The matrices of direct light at the vertices of a range, those whose rays were traced: each is computed by
-    /// itself, and the same for every range. Concatenated, row by row.
+    /// The matrices of direct light at the vertices of a range, those whose rays were traced; each is computed
+    /// independently, with the same result for every range. Concatenated, row by row.
     pub fn direct(
         vertices: &Vertices,
         rays: &TracedRays,

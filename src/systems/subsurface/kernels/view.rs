@@ -1,7 +1,7 @@
 //! Pass 3 (4.2.4): the fragment programs that draw the model.
 //!
-//! - TEX0: two places in the atlas, xy and zw, of which the smaller by component is the fragment's; TEX1: the face's
-//!   bounds in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
+//! - TEX0: two places in the atlas, xy and zw; their component-wise minimum is the fragment's; TEX1: the face's bounds
+//!   in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
 //! - sampler 0: scattered irradiance, a rectangle; sampler 1: transmittances by cosine, 1-D.
 //! - `p[0]`: from scattered irradiance times transmittance (exact: half of it) to the picture, in w the smallest
 //!   squared distance to a light. `p[1]`: eye, in w the smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta;

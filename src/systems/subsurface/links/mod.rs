@@ -94,7 +94,7 @@ impl Links {
         self.side
     }
 
-    /// How the links were chosen.
+    /// Choice of the links.
     pub fn choice(&self) -> LinkChoice {
         self.choice
     }

@@ -139,8 +139,8 @@ impl OutlineSide {
         Self { start: a, along: (b - a).normalize_or_zero(), length: a.distance(b) }
     }
 
-    /// Where a line from a point along a vector is nearest to the side, in lengths of that vector; no number if the two
-    /// are parallel.
+    /// Parameter at which a line from a point along a vector is nearest to the side, in lengths of that vector; NaN if
+    /// the two are parallel.
     fn nearest(&self, from: DVec3, vector: DVec3) -> f64 {
         let (offset, squared) = (self.start - from, vector.length_squared());
         let [along, across] = [self.along.dot(vector), offset.dot(vector)];

@@ -20,8 +20,8 @@ pub struct LinkTextures {
 }
 
 impl LinkTextures {
-    /// Of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times area; with
-    /// [`MeanWeighting::Count`] texels of levels count by their number.
+    /// Weighting of the means of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times
+    /// area; with [`MeanWeighting::Count`] texels of levels count by their number.
     pub fn new(links: &Links, surface: &SurfaceMoments, weighting: MeanWeighting) -> Self {
         let encoded = EncodedLinks::new(links, surface, weighting);
         let level = match links.choice() {

@@ -176,8 +176,8 @@ impl SubsurfaceCard {
         Ok(Texels::read_back(self.view.machine(), self.gather.scattered())?)
     }
 
-    /// How many channels of texels of the radiosity map are at its largest value, so that light may have been cut off.
-    /// Fails with [`CardError::Draw`].
+    /// Number of channels in the radiosity map at its largest value, where light may have been clamped. Fails with
+    /// [`CardError::Draw`].
     pub fn saturated(&self) -> Result<usize, CardError> {
         let largest = self.options.map.largest();
         let map = self.read_map()?;

@@ -58,7 +58,7 @@ impl SegmentCensus {
     }
 }
 
-/// The segments of which no fine direction lies above the horizon of a unit normal, a bit each from the lowest up.
+/// The segments without a fine direction above the horizon of a unit normal, one bit each from the lowest up.
 pub fn segments_below_horizon(normal: DVec3, hats: &LinearBasis) -> u32 {
     let directions = FineDirections::get().directions();
     let is_above = |fine: usize| normal.dot(directions[fine]) > 0.0;

@@ -65,7 +65,7 @@ pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 pub struct VisibilityCounts {
     /// Directions above the horizon of their vertex's normal.
     pub above: u64,
-    /// How many of these directions are behind all triangles on which the vertex lies.
+    /// Number of these directions behind all triangles on which the vertex lies.
     pub below_triangles: u64,
     /// Directions in which a ray was cast; for all others the result is certain.
     pub traced: u64,

@@ -65,7 +65,7 @@ fn crossbar(device: (&str, &[(&str, &str)])) -> Crossbar {
     Crossbar::new(profile(device), ExecutorKind::Batch)
 }
 
-/// How many scenes a device sees.
+/// Number of scenes per device.
 fn scenes() -> u64 {
     by_form(60, 4000)
 }

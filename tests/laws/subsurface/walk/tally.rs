@@ -21,7 +21,7 @@ impl WalkEstimate {
         Self { mean, half_width: STUDENT * (squares / (count * (count - 1.0))).sqrt() }
     }
 
-    /// How many half widths `value` is away from the mean.
+    /// Distance of `value` from the mean in half widths.
     pub(crate) fn distance(self, value: f64) -> f64 {
         (value - self.mean).abs() / self.half_width
     }

@@ -15,13 +15,13 @@ const LEAST: f64 = f64::from_bits((1023 - 126) << 52) * (1.0 - f64::from_bits((1
 /// The state of the unit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gt200 {
-    /// Sums and products are rounded toward zero, those of MAD never.
+    /// Sums and products are rounded toward zero, except in MAD.
     toward_zero: bool,
     zero_wins: bool,
     pub(super) tables: &'static Tables<128, 3>,
 }
 
-/// Returns `true` if a conversion makes zeros of what is below `2^-33`, whatever the rounding: GT200's to half floats.
+/// Returns `true` if a conversion flushes magnitudes below `2^-33` in every rounding: GT200's to half floats.
 pub(crate) fn drops_small_halves(from: &Format, to: &Format) -> bool {
     matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins) && to.kind == Format::FP16.kind
 }

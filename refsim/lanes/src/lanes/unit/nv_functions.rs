@@ -143,7 +143,7 @@ impl Nv {
             _ => {}
         }
         let f = u64::from(significand(x));
-        // In units of 2^(e - 150), those of numbers below 1 as of 1.
+        // In units of 2^(e - 150); numbers below 1 have the unit of 1.
         let units = if e < 127 { f.div_ceil(1 << (127 - e)) } else { f };
         let bits = 150 - e.max(127);
         let whole = 1u64 << bits;

@@ -1,4 +1,4 @@
-//! How far coded transfer is from the raw matrices.
+//! Error of coded transfer relative to the raw matrices.
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;

@@ -23,7 +23,7 @@ pub struct TexturedSurface {
     pub vertices: Vertices,
     /// The number of each triangle's texture.
     texture_of: Vec<u32>,
-    /// How often a patch repeats along an edge of the texture coordinates' square.
+    /// Repetitions of a patch along an edge of the unit square of texture coordinates.
     repeat: f64,
 }
 

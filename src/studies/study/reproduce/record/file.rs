@@ -75,7 +75,7 @@ impl EntryRecord {
         &self.entry
     }
 
-    /// How the record was made.
+    /// Provenance of the record.
     pub const fn made(&self) -> &RecordMade {
         &self.made
     }
