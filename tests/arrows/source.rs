@@ -152,7 +152,6 @@ impl Crate {
         named.filter(move |named| named.path[0] == prefix).filter_map(|named| named.path.get(1).map(String::as_str))
     }
 
-    /// The paths that a module names, from the crate's root.
     pub(crate) fn paths<'a>(&'a self, module: &'a [String]) -> impl Iterator<Item = Names> {
         self.modules[module].named.iter().filter_map(move |named| self.absolute(module, &named.path, 9))
     }

@@ -26,7 +26,6 @@ pub(crate) fn options(command: &clap::Command) -> Vec<(String, bool)> {
     own.filter(|(name, _)| !GLOBAL.contains(&name.as_str()) && name != "--help" && name != "--version").collect()
 }
 
-/// The command of a command line.
 pub(crate) fn command_of<'a>(line: &str, commands: &'a [(String, clap::Command)]) -> &'a (String, clap::Command) {
     let is_of = |name: &str| line.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
     commands.iter().find(|(name, _)| is_of(name)).unwrap_or_else(|| panic!("no command in `{line}`"))

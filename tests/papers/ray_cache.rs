@@ -76,7 +76,6 @@ fn buckets_are_as_full_as_the_paper_says_and_merge_as_little() {
     assert!((1.0..1.6).contains(&shuffled.levels), "typically a single level: {}", shuffled.levels);
 }
 
-/// Picoseconds of all draws of a log.
 fn drawing(device: &str, log: &[Event]) -> u64 {
     let model = Model::new(Level::Pipeline, &Profile::named(device).expect("a card")).expect("a model");
     let cost = |event: &Event| match event {

@@ -77,7 +77,6 @@ impl Memory {
         self.depths.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
-    /// Downloads targets that are newer on the GPU.
     #[cfg(feature = "wgpu")]
     pub(super) fn download_newer(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
         for &id in targets {

@@ -149,7 +149,6 @@ impl SampleRules {
         std::array::from_fn(|i| if matches!(texel[i], SampledComponent::Byte { .. }) { bytes[i] } else { texel[i] })
     }
 
-    /// A component from the bits of its channel.
     fn component(&self, channel: Channel, bits: u32) -> SampledComponent {
         let byte = match (channel.bits, self.texel_values) {
             _ if matches!(channel.class, ChannelClass::Float(_)) => None,

@@ -114,7 +114,6 @@ proptest! {
         prop_assert_eq!(read.to_device_file(&[&program]), text);
     }
 
-    /// Any text is read or refused.
     #[test]
     fn any_text_is_read_or_refused(text in "(device|format|programs|switches|[a-z0-9.=\"\\[\\]\n ]){0,40}") {
         if let Err(error) = Profile::from_device_file(&text) {

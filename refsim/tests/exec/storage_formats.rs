@@ -304,7 +304,6 @@ fn device_files_have_formats_of_storages_and_sums() {
     assert!(message("device = \"r200\"\n[storage]\nsamples = \"fp16\"").contains("unknown field `samples`"));
 }
 
-/// Formats that a program never uses are found.
 #[test]
 fn storages_that_a_program_does_not_use_are_found() {
     let unused = |text: &str| {

@@ -19,7 +19,6 @@ impl Values {
         self.0.push(Value { measured, drawn, right });
     }
 
-    /// Adds a code that must be the measured one.
     pub(crate) fn add_code(&mut self, measured: u8, drawn: u8) {
         self.add_grey(measured, drawn, measured == drawn);
     }

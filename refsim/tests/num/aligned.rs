@@ -102,7 +102,6 @@ fn enough_bits_make_the_exact_sum() {
     });
 }
 
-/// With enough bits a dot product is the exact sum of rounded products.
 #[test]
 fn aligned_dot_products_sum_rounded_products() {
     let rounds = by_form(1_000, 50_000);

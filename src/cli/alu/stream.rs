@@ -18,7 +18,6 @@ use crate::error::{InputError, input_error};
 
 /// Number of bytes per read.
 const READ: usize = 1 << 20;
-/// Lines of one task.
 const TASK_LINES: usize = 4096;
 
 /// Output for consecutive lines, and the first error, after which nothing was read.

@@ -200,7 +200,6 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// The next line that is not empty.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         while !self.rest.is_empty() {
             let end = self.rest.iter().position(|&byte| byte == self.line_end).unwrap_or(self.rest.len());
@@ -235,7 +234,6 @@ fn with_digits(line: &str) -> Cow<'_, str> {
     if plain.is_empty() { line.into() } else { (plain + rest).into() }
 }
 
-/// A description of the expected element.
 fn expected(element: &ElementDef) -> String {
     let names: Vec<&str> = element.properties.keys().map(String::as_str).take(12).collect();
     let more = if element.properties.len() > names.len() { " ..." } else { "" };

@@ -81,7 +81,6 @@ impl ParabolicMap {
     }
 }
 
-/// Unit direction at s and t.
 fn direction_of([s, t]: [f64; 2]) -> DVec3 {
     let square = s * s + t * t;
     DVec3::new(2.0 * s, 2.0 * t, 1.0 - square) / (1.0 + square)

@@ -17,7 +17,6 @@ fn fresnel_at_the_angles_that_have_a_name() {
     assert!(reflectance(0.8, 1.5) < 1.0);
 }
 
-/// Reflectance and transmittance sum to 1, into the medium and out of it.
 #[test]
 fn reflectance_and_transmittance_sum_to_1() {
     for eta in [1.0, 1.0 + 1e-9, 1.3, 1.5, 2.4, 1.0 / 1.3, 1.0 / 2.4] {

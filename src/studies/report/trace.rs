@@ -115,7 +115,6 @@ fn tid(lane: usize) -> u32 {
     u32::try_from(lane).unwrap_or(u32::MAX - 1).saturating_add(1)
 }
 
-/// The nanosecond that a picosecond lies in.
 fn nanosecond(picosecond: u64) -> u64 {
     picosecond / 1000
 }

@@ -150,7 +150,6 @@ fn require_writable(path: &Path) -> Result<(), InputError> {
     }
 }
 
-/// The results of all parts.
 fn merged<T: Concatenate>(parts: &PartSet, items: &'static str, count: usize) -> Result<T, InputError> {
     parts.check_inputs(&inputs_read()?)?;
     let mut whole: Option<T> = None;

@@ -48,7 +48,6 @@ impl<const N: usize> Packed<N> {
         Self { length, components }
     }
 
-    /// The groups of N vectors.
     pub(super) fn groups(&self) -> impl ExactSizeIterator<Item = &[[f64; N]]> {
         self.components.chunks_exact(self.length.max(1))
     }

@@ -35,7 +35,6 @@ impl RayOrigin {
     }
 }
 
-/// The origins of all vertices.
 pub(crate) fn origins(vertices: &Vertices, occluders: &Occluders) -> Vec<RayOrigin> {
     vertices.positions().par_iter().map(|&at| origin(wide(at), occluders)).collect()
 }

@@ -204,7 +204,6 @@ impl Vertices {
         self.tangents
     }
 
-    /// The corners of a triangle.
     pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.triangles[triangle as usize].map(|vertex| wide(self.positions[vertex as usize]))
     }

@@ -129,7 +129,6 @@ fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     sizes.iter().zip(&counts).map(|(sizes, counts)| sizes.iter().zip(counts).map(bound).collect()).collect()
 }
 
-/// A residual beyond the range of f64 is refused.
 #[test]
 fn residuals_beyond_doubles_are_refused() {
     let mut rows = vec![vec![f64::MAX, 0.1, 0.1, 0.1, 0.1]; 6];

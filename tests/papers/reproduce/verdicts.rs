@@ -44,7 +44,6 @@ fn contradictions_come_with_their_computations() {
     assert_eq!(counts, [[15, 4], [1, 4]]);
 }
 
-/// Rates are judged as rates.
 #[test]
 fn rates_have_the_bound_of_predictions() {
     let rates = all().filter(|row| ["Hz", "fps", "frames/s"].contains(&row.target.unit.as_str()));

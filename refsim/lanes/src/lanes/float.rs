@@ -133,7 +133,6 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
     }
 }
 
-/// The sign bit of a single.
 const SIGN_BIT: u32 = 1 << 31;
 
 impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {

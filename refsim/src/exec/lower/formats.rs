@@ -17,7 +17,6 @@ use crate::num::{Format, NumberOperation as Op, Overflow};
 pub(crate) struct Formats(Vec<Format>);
 
 impl Formats {
-    /// Formats of a pixel program.
     pub(crate) fn pixel(program: &Program, rules: &Rules) -> Self {
         let products = rules.accumulator.map(|_| PRODUCTS);
         let stored = rules.storage.iter().map(|(_, format)| format);
@@ -31,7 +30,6 @@ impl Formats {
         formats
     }
 
-    /// Formats of a vertex program.
     pub(crate) fn vertex(program: &Program, rules: &Rules) -> Self {
         Self::new(program, rules.vertex_format, None, [])
     }

@@ -97,7 +97,6 @@ impl<'a> Translator<'a> {
         self.program.version.stage() == Stage::Pixel
     }
 
-    /// Bump state of a stage.
     pub(crate) fn bump(&self, stage: u16) -> BumpStage {
         self.bindings.and_then(|b| b.bump.get(usize::from(stage)).copied()).unwrap_or_default()
     }
@@ -288,7 +287,6 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Translates an arithmetic instruction.
     pub(crate) fn arithmetic(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let k = self.arith(instruction);

@@ -79,7 +79,6 @@ impl<'a> Prepared<'a> {
         self.bindings.as_ref()?.samplers.get(stage)?.as_ref()
     }
 
-    /// Texture projection of a stage.
     pub(crate) fn projection(&self, stage: u16) -> Projection {
         self.bindings.as_ref().and_then(|b| b.projections.get(usize::from(stage))).copied().unwrap_or_default()
     }

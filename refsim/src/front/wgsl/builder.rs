@@ -225,7 +225,6 @@ impl Builder {
         Ok((0..4).map(|lane| Component::Place(register, lane)).collect())
     }
 
-    /// Writes an output register.
     pub(super) fn output(&mut self, register: Register, mask: u8, value: &[Component]) -> Result<(), Refusal> {
         self.half = false;
         let source = self.source(value, Modifier::None)?;

@@ -17,7 +17,6 @@ impl<'a> Translator<'a> {
         frame.info[handle].ty.inner_with(&self.module.types)
     }
 
-    /// The value of an expression.
     pub(super) fn value(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result {
         match self.entry(frame, handle)? {
             Meaning::Value(value) if !value.is_empty() => Ok(value),

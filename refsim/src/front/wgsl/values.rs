@@ -88,7 +88,6 @@ pub(super) fn is_half(scalar: Option<Scalar>) -> bool {
     scalar.is_some_and(|scalar| scalar.kind == ScalarKind::Float && scalar.width == 2)
 }
 
-/// The zero of a scalar type.
 pub(super) fn zero(scalar: &Scalar) -> Component {
     match scalar.kind {
         ScalarKind::Bool => Component::Bool(false),

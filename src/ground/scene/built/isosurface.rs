@@ -99,7 +99,6 @@ pub(super) struct RoundedBody {
 }
 
 impl RoundedBody {
-    /// Adds a piece.
     pub(super) fn add(&mut self, piece: RoundedPiece, width: f64) {
         self.steps.push((BodyStep::Add(piece, width), false));
     }

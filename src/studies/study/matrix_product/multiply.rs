@@ -8,7 +8,6 @@ use refsim::num::{Format, ops};
 use super::operands::MatrixInput;
 use crate::io::NumbersOrCodes;
 
-/// Rows of one task.
 const TASK_ROWS: usize = 8;
 
 /// The operands of a product in the types of a unit.

@@ -11,7 +11,6 @@ use crate::study::StudyError;
 
 /// Maximum number of addends that are printed; those that lose most.
 const MOST_ADDENDS: usize = 10;
-/// Lines of the chart, at most.
 const MOST_LINES: usize = 12;
 
 const ERRORS: &str = "Errors are shares of the reference's magnitude, element by element: worst is the largest, mean has the sign \

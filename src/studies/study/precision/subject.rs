@@ -224,7 +224,6 @@ pub(super) struct InstructionPlace {
 }
 
 impl InstructionPlace {
-    /// All its instructions.
     pub(super) fn instructions(&self) -> impl Iterator<Item = usize> + '_ {
         std::iter::once(self.at).chain(self.alike.iter().copied())
     }

@@ -8,9 +8,7 @@ use super::subject::FragmentResults;
 /// Error of an instruction's results, in units in the last place of its format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LocalError {
-    /// Median.
     pub(super) median: f64,
-    /// Largest.
     pub(super) largest: f64,
 }
 
@@ -32,7 +30,6 @@ fn exponent(value: f64) -> Option<i32> {
     Some(((value.to_bits() >> 52) & 0x7ff) as i32 - 1023)
 }
 
-/// Range of results.
 pub(super) fn range_of<'r>(results: impl IntoIterator<Item = &'r f64>) -> ResultRange {
     let mut range = ResultRange { exponents: None, not_finite: false };
     for value in results {

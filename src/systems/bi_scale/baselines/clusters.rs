@@ -50,7 +50,6 @@ impl RowClusterOptions {
 /// Bytes per number.
 const NUMBER: usize = 4;
 
-/// Bytes of a cluster index.
 fn name_bytes(clusters: usize) -> usize {
     if clusters > 256 { 2 } else { 1 }
 }

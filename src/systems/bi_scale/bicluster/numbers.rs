@@ -71,7 +71,6 @@ impl KnownNumbers {
         Some((known, rows))
     }
 
-    /// The number that an integer represents.
     pub(super) fn number(&self, integer: i32) -> f64 {
         self.numbers[integer as usize]
     }

@@ -67,7 +67,6 @@ impl TexturedMesh<'_> {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
 
-    /// The texture of a triangle.
     pub(super) fn texture(&self, triangle: u32) -> &BidirectionalTexture {
         &self.textures[self.texture_of[triangle as usize] as usize]
     }

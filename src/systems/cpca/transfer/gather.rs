@@ -160,7 +160,6 @@ fn above_horizon(local: DVec3) -> DVec3 {
     unit(local.with_z(0.0)).unwrap_or(DVec3::Z)
 }
 
-/// Adds a column times a row.
 fn add_product(sums: &mut [f64], column: &[f64], row: &[f64]) {
     for (sums, factor) in sums.chunks_exact_mut(row.len()).zip(column) {
         sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor * value);

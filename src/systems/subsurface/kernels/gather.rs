@@ -186,7 +186,6 @@ impl Writer {
         self.textures += 1;
     }
 
-    /// Reads the map.
     fn read_map(&mut self, at: &str) {
         let _ = writeln!(self.text, "TEX {}, {at}, TEX0, {};", self.register(TEXEL), self.kernel.map.target());
     }

@@ -206,6 +206,5 @@ impl ViewKernel {
     }
 }
 
-/// The part with direct light.
 const LIGHT_PART: LightKernel =
     LightKernel { kernel: KernelText { name: "direct light", text: LIGHTS }, prefix: "p[", first: 4, step: 4 };

@@ -193,13 +193,11 @@ fn root(surface: &SurfaceMoments) -> ClusterId {
     ClusterId { level: surface.level_count() - 1, y: 0, x: 0 }
 }
 
-/// The squares of a band of rows.
 fn squares(side: u32, band: usize) -> impl Iterator<Item = ClusterId> {
     let level = BLOCK_LEVEL.min(side.ilog2());
     (0..side >> level).map(move |x| ClusterId { level, y: band as u32, x })
 }
 
-/// Place of a texel in its band.
 fn place_in_band(side: u32, (x, y): (u32, u32)) -> usize {
     ((y % BAND as u32) * side + x) as usize
 }

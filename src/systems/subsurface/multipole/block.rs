@@ -212,7 +212,6 @@ impl<const N: usize> TexelFactors<'_, '_, N> {
         from_morton(self.texel)
     }
 
-    /// The cluster of a node.
     pub(in crate::subsurface) fn cluster(&self, node: usize) -> ClusterId {
         let Node { level, place, .. } = self.block.nodes[node];
         let (x, y) = from_morton(place as usize);

@@ -156,7 +156,6 @@ impl<const N: usize> DistanceTable<N> {
         }
     }
 
-    /// The left end of an interval.
     fn left_end(&self, interval: usize) -> f64 {
         f64::from_bits(((1.0_f64.to_bits() >> self.shift) + interval as u64) << self.shift)
     }

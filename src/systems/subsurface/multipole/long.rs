@@ -186,7 +186,6 @@ impl<const N: usize> Light<'_, N> {
         sum
     }
 
-    /// The mean light on a patch.
     fn mean(&self, patch: &TexelPatch) -> [f64; N] {
         let &TexelPatch { corner, e, f, is_triangle, .. } = patch;
         let normal = e.cross(f);

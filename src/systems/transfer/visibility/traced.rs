@@ -73,7 +73,6 @@ pub(super) fn above(frame: &LocalFrame, origin: &RayOrigin, sampling: Visibility
     (open.into_iter().map(|(fine, _)| fine).collect(), below.len() as u64)
 }
 
-/// Sets a bit of a map.
 pub(super) fn set(bits: &mut [u64], fine: u32) {
     bits[fine as usize / 64] |= 1 << (fine % 64);
 }
@@ -192,7 +191,6 @@ impl VisibilityMaps {
     }
 }
 
-/// Checks that all vertices exist.
 pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), InputError> {
     let unknown = of.iter().find(|&&vertex| vertex as usize >= vertices.len());
     let (what, expected) = ("a vertex's number", "one below the number of vertices");

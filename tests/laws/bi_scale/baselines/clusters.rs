@@ -80,7 +80,6 @@ fn rounds_begin_with_the_clusters_of_the_dense_signal() {
     }
 }
 
-/// The product is that of the represented rows.
 #[test]
 fn products_are_those_of_the_approximated_rows() {
     let (matrix, light) = (transfer().1, light(3));

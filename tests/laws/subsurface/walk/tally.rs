@@ -74,7 +74,6 @@ impl WalkTally {
         self.estimate(|batch| batch.left.iter().sum::<u64>() as f64)
     }
 
-    /// The fraction that left in a bin.
     pub(crate) fn fraction(&self, bin: usize) -> WalkEstimate {
         self.estimate(|batch| batch.left[bin] as f64)
     }

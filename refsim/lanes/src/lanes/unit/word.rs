@@ -8,7 +8,6 @@ use crate::lanes::toward;
 pub(super) const SIGN: u32 = 1 << 31;
 /// The exponent field; alone, infinity.
 pub(super) const FIELD: u32 = 0x7f80_0000;
-/// The mantissa.
 pub(super) const MANTISSA: u32 = 0x7f_ffff;
 /// 1.0.
 pub(super) const ONE: u32 = 0x3f80_0000;

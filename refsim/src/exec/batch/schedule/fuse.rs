@@ -26,7 +26,6 @@ impl Fused {
         Self { arith, code, args, zero_wins: false }
     }
 
-    /// The operands.
     pub(crate) fn operands(&self) -> &[NodeId] {
         &self.args[..self.code.arity()]
     }

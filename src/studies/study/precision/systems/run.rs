@@ -50,7 +50,6 @@ pub(super) trait SystemRun: fmt::Debug {
     }
 }
 
-/// Goal that a measure is at most a bound.
 pub(super) fn at_most(measure: &str, bound: f64) -> Goal {
     Goal { measure: measure.to_owned(), relation: GoalRelation::AtMost, bound }
 }
