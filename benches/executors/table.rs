@@ -1,4 +1,4 @@
-//! The tables of docs/performance.md: what criterion has written, and what is measured by turns (`devices`).
+//! The tables of docs/performance.md: criterion's results, and alternating measurements (`devices`).
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -78,7 +78,7 @@ pub(crate) fn study<R: Send + 'static>(
 pub(crate) fn aside<R: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> R + Send + 'static) -> PyResult<R> {
     let (sender, mut receiver) = mpsc::channel();
     thread::Builder::new().name("crossbar".to_owned()).spawn(move || {
-        // Nobody receives what was interrupted.
+        // The result of an interrupted call is discarded.
         let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
     })?;
     loop {

@@ -80,7 +80,7 @@ impl InputError {
         self
     }
 
-    /// Adds what to do.
+    /// Adds the advice.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());

@@ -132,7 +132,7 @@ pub(super) fn print(report: Report, json: bool) {
     write_report("Error", &suggested(report), json);
 }
 
-/// Writes a report to standard error: there is nowhere to complain if that fails.
+/// Writes a report to standard error; failures are ignored.
 fn write_report(severity: &str, report: &Report, json: bool) {
     let text = if json {
         let mut text = String::new();

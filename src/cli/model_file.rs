@@ -95,7 +95,7 @@ pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     Ok(scene)
 }
 
-/// Says on standard error what was changed in a model and what is odd about it, once for each.
+/// Reports the repairs and defects of a model on standard error, once each.
 fn tell(path: &Path, notes: &[ModelNote]) {
     static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);

@@ -15,7 +15,7 @@ pub(super) const COMMIT: &str = match option_env!("CROSSBAR_COMMIT") {
     None => "unknown commit",
 };
 
-/// The version, where the program comes from and what it was built with: `0.1.0 (8a205f4a1, features cli, wgpu)`.
+/// The version, the program's commit and features: `0.1.0 (8a205f4a1, features cli, wgpu)`.
 pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
     let optional = [("wgpu", cfg!(feature = "wgpu")), ("wgsl", cfg!(feature = "wgsl"))];
     let features = optional.iter().filter(|(_, has)| *has).fold("cli".to_owned(), |all, (name, _)| all + ", " + name);

@@ -179,7 +179,7 @@ impl ShaderText {
         is_wgsl(Path::new(self.name()))
     }
 
-    /// Assembles the text; WGSL is translated. Errors: all syntax errors; of WGSL the first thing without a
+    /// Assembles the text; WGSL is translated. Errors: all syntax errors; for WGSL the first construct without a
     /// translation.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
         if self.is_wgsl() {

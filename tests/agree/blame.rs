@@ -8,7 +8,7 @@ use refsim::isa::Program;
 use refsim::machine::FragmentTrace;
 use std::fmt::Write as _;
 
-/// A case and who draws it.
+/// A case and its executors.
 #[derive(Clone, Copy)]
 pub(crate) struct Side<'a> {
     pub(crate) case: &'a Case,

@@ -142,7 +142,7 @@ fn kinds(program: &CheckedProgram, r: &mut Random) -> Vec<(usize, TextureKind)> 
 pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Case {
     let (program, device) = programs.pair(seed);
     let profile = if device.starts_with("ideal") { rules::profile(device) } else { rules::card(device, r) };
-    // A switch can take back what the default allows.
+    // A switch can forbid a program that the default allows.
     let fits = build(&program.lines, &profile).is_ok();
     let profile = if fits { profile } else { rules::profile(device) };
     let checked = build(&program.lines, &profile).unwrap_or_else(|e| panic!("{} on {device}: {e}", program.file));

@@ -1,4 +1,4 @@
-//! Random geometry: what rasterisers meet, and what they would rather not.
+//! Random geometry: ordinary and extreme inputs of rasterisers.
 
 use crate::random::Random;
 use crate::scene::Scene;
@@ -125,7 +125,7 @@ fn fine(size: [u32; 2], each: usize, r: &mut Random) -> Vec<Vertex> {
     out
 }
 
-/// One primitive's vertices: they share what they do not vary.
+/// One primitive's vertices: they share the components that do not vary.
 fn group(shape: Shape, size: [u32; 2], each: usize, r: &mut Random, out: &mut Vec<Vertex>) {
     let whole = matches!(shape, Shape::Flat | Shape::Layers);
     let flat = if whole { !r.one_in(4) } else { r.one_in(3) };

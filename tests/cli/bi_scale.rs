@@ -124,7 +124,7 @@ fn picture(folder: &str, name: &str) -> Vec<[f32; 3]> {
     crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
 }
 
-/// The example that pictures are made of.
+/// The example of the pictures.
 #[test]
 fn the_court_has_its_transfer() {
     let folder = tempfile::tempdir().expect("a folder for the test");

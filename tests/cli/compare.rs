@@ -119,7 +119,7 @@ fn a_branch() {
     assert_eq!(found["left"]["source"]["text"], "mov oC0, r0");
 }
 
-/// A quad over the whole target whose `t0` is what fp16 takes 0.1 for.
+/// A quad over the whole target whose `t0` is 0.1 rounded to fp16.
 const QUAD: &str = r#"primitive = "quads"
 convention = "opengl"
 attributes = { t0 = [0.0999755859375, 0.0999755859375, 0.0999755859375, 0.0999755859375] }

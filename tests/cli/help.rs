@@ -1,4 +1,4 @@
-//! Help texts: what each of them must have. Their layout is clap's.
+//! Help texts: required parts of each. Their layout is clap's.
 
 use crate::{crossbar, tree};
 

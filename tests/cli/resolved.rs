@@ -1,4 +1,4 @@
-//! The command line that findings come from: defaults are filled in, and what changes nothing is left out.
+//! The command line that findings come from: defaults are filled in, and options without effect are left out.
 
 use crate::commands::copy_of_the_repository;
 use crate::crossbar_in;

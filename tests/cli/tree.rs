@@ -5,7 +5,7 @@ use clap::{Arg, ArgAction};
 /// Options that every command has.
 pub(crate) const GLOBAL: &[&str] = &["--json", "--threads", "--quiet"];
 
-/// Commands without verbs and the verbs of the others, by what is typed for them: `check`, `cpca render`.
+/// Commands without verbs and the verbs of the others, as typed: `check`, `cpca render`.
 pub(crate) fn commands() -> Vec<(String, clap::Command)> {
     fn walk(name: &str, command: &clap::Command, found: &mut Vec<(String, clap::Command)>) {
         let inner: Vec<&clap::Command> = command.get_subcommands().collect();

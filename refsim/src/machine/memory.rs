@@ -90,7 +90,7 @@ impl Memory {
         Ok(())
     }
 
-    /// Discards what the GPU drew into targets since [`Self::download_newer`].
+    /// Discards the GPU's draws into targets since [`Self::download_newer`].
     #[cfg(feature = "wgpu")]
     pub(super) fn discard_gpu_contents(
         &mut self,

@@ -135,7 +135,7 @@ proptest! {
                 _ => {}
             }
         }
-        // -1 is what wraps, which no color is.
+        // -1 wraps; no color is negative.
         prop_assume!(storage != Storage::Colors || !own.ends_with(":wrap"));
         if storage == Storage::Constants {
             host.float.iter_mut().for_each(|constant| *constant = constant.map(round));

@@ -159,7 +159,7 @@ fn cut_products_lose_bits_below_the_significand_and_nothing_else() {
 fn examples_of_cut_bits() {
     let f = Format::FP24.with_rounding(Rounding::TowardZero);
     let n = |text: &str| refsim::num::decimal::from_decimal(f, text).expect("a number").bits;
-    // One guard bit: what lies below half a unit of the largest addend is lost before the sum.
+    // One guard bit: bits below half a unit of the largest addend are lost before the sum.
     let sum = |bits: u8, addends: &[&str]| ops::sum_aligned(f, bits, &addends.iter().map(|t| n(t)).collect::<Vec<_>>());
     assert_eq!(sum(17, &["1", "-3.814697265625e-6"]).bits, n("1"), "2^-18 is gone");
     assert_ne!(sum(18, &["1", "-3.814697265625e-6"]).bits, n("1"));

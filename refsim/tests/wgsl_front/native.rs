@@ -12,7 +12,7 @@ use super::texts::EXAMPLES;
 /// small numbers is bright, has the largest difference on lavapipe: 2e-5.
 const TOLERANCE: f64 = 1e-4;
 
-/// A shader, its uniforms, and what stands for them in the native text.
+/// A shader, its uniforms, and their replacements in the native text.
 struct Row {
     name: &'static str,
     uniforms: Uniforms<'static>,

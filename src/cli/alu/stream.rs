@@ -29,7 +29,7 @@ pub(super) struct TaskOutput {
     error: Option<InputError>,
 }
 
-/// Calls `work` on tasks of consecutive lines, `take` on what they made, in the order of the lines.
+/// Calls `work` on tasks of consecutive lines, `take` on their results, in the order of the lines.
 fn each_line(
     mut input: impl Read,
     work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError> + Sync,
@@ -110,7 +110,7 @@ pub(super) fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut O
     written(input, out, work)
 }
 
-/// Writes what `work` makes of every line.
+/// Writes the result of `work` for every line.
 pub(super) fn written(
     input: impl Read,
     out: &mut Out,

@@ -121,7 +121,7 @@ pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
     table
 }
 
-/// The same for machines.
+/// The same as JSON.
 pub(super) fn values_document(values: &[(f64, u64)]) -> Vec<Value> {
     values.iter().map(|(value, count)| json!({ "value": value, "count": count })).collect()
 }

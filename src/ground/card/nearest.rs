@@ -5,7 +5,7 @@ use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::PixelCenter;
 use refsim::texture::TexelFormat;
 
-/// A color target with the depth buffer that decides what stays in it.
+/// A color target and its depth buffer.
 #[derive(Clone, Copy, Debug)]
 pub struct NearestTarget {
     /// The colors.

@@ -76,7 +76,7 @@ impl FullScreenPass<'_> {
     }
 }
 
-/// Two targets that passes write in turn, each pass reading what the one before wrote. Passes count from 0.
+/// Two targets that passes write in turn, each pass reading the output of the previous one. Passes count from 0.
 #[derive(Clone, Copy, Debug)]
 pub struct PingPong([TextureId; 2]);
 

@@ -21,7 +21,7 @@ pub(super) fn unreadable_error(what: &str, path: &Path, source: io::Error) -> In
     .with_source(source)
 }
 
-/// The file is longer than what is read.
+/// The file exceeds the size limit.
 pub(super) fn too_long_error(what: &str, path: &Path, limit: u64) -> InputError {
     input_error!("crossbar::file::too_long" =>
         "expected a {what} of at most {limit} bytes, found more"; help "name a smaller file")

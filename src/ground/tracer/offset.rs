@@ -1,7 +1,7 @@
 //! Offsets of ray ends from surfaces, so that no ray hits the triangle that it leaves or the one that it goes to.
 //!
-//! One policy for all that cast rays: points are lifted along the triangle's normal, to the side that the ray leaves
-//! by, at both ends of a segment. The distance depends on what is known of the point:
+//! One policy for all ray casters: points are lifted along the triangle's normal, to the side that the ray leaves by,
+//! at both ends of a segment. The distance depends on what is known of the point:
 //!
 //! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of what rounding can do to the ray's origin and to
 //!   the test of that triangle;

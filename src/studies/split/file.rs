@@ -131,12 +131,12 @@ impl PartHeader {
     }
 }
 
-/// The digests of all files that were read so far, by their paths. Errors: for what cannot be read a second time, and
-/// for names that are not UTF-8.
+/// The digests of all files that were read so far, by their paths. Fails for input that cannot be read a second time,
+/// and for names that are not UTF-8.
 pub(super) fn inputs_read() -> Result<BTreeMap<String, String>, InputError> {
     let digest = |path: std::path::PathBuf| {
         let name = path.to_str().ok_or_else(|| not_utf8(path.as_os_str()))?;
-        // Opening a pipe would wait for who writes to it.
+        // Opening a pipe would wait for its writer.
         ensure!(
             path.is_file(), "crossbar::part::input" =>
             "expected input from files, found {}, which cannot be read a second time", path.display();

@@ -94,7 +94,7 @@ impl KeptResults {
         self.taken.get()
     }
 
-    /// Time that this run has spent so far, and runs before it on what was taken from them.
+    /// Time of this run so far, plus that of earlier runs for reused results.
     pub fn spent(&self) -> SpentTime {
         let (now, start, before) = ((self.clock)(), self.start, self.before.get());
         let processor = now.processor_s.zip(start.processor_s).map(|(now, start)| now - start);

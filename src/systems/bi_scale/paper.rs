@@ -90,7 +90,7 @@ pub fn biclusters(matrix: &SparseMatrix, options: BiclusterOptions) -> Bicluster
         while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
             submatrix = better;
         }
-        // Lines 15 and 16: what is taken away is the bicluster, so that the residual stays.
+        // Lines 15 and 16: the bicluster is subtracted, so that the residual stays.
         for &row in &submatrix.rows {
             for (column, t) in &submatrix.columns {
                 let value = left[row][*column] - t;

@@ -65,7 +65,7 @@ pub(super) fn add_block<const N: usize>(rows: &[[f64; ROWS]], columns: &[[f64; N
         e = add_scaled(e, row[4], column);
         f = add_scaled(f, row[5], column);
     }
-    // Hidden, or what becomes of the sums may decide how they stand in registers.
+    // Hidden from the compiler: the use of the sums would change their registers.
     let sums = black_box([a, b, c, d, e, f]);
     for (into, sums) in into.iter_mut().zip(&sums) {
         *into = std::array::from_fn(|at| into[at] + sums[at]);

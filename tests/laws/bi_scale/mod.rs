@@ -92,7 +92,7 @@ fn quietly(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     bicluster(matrix, options, &mut |_| ()).expect("small values")
 }
 
-/// Hills that hide each other, and what they see.
+/// Hills that occlude each other, and their visibility.
 fn sight(log2_samples: u32, horizon: Horizon) -> (Vertices, VisibilityMaps) {
     let mesh = hills(3);
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");

@@ -195,7 +195,7 @@ fn digests_tell_meshes_apart() {
     let one = digest(&mesh, Tangents::Any);
     assert_eq!(digest(&mesh.clone(), Tangents::Any), one);
     assert!(others.iter().all(|other| digest(other, Tangents::Any) != one));
-    // Tangents count by what they are, not by their name alone.
+    // Tangents count by value, not by name alone.
     let textured = |slope: f32| {
         let texture = corners.iter().map(|&[x, y, _]| [x, y + slope * x]).collect();
         digest(&mesh.clone().with_texcoords(texture).expect("coordinates"), Tangents::Texture)

@@ -1,4 +1,4 @@
-//! Compression against plain loops, closed forms, and what must hold of every step.
+//! Compression against plain loops, closed forms, and properties of every step.
 
 use crate::environment::by_form;
 use crate::support::cluster_options;

@@ -121,7 +121,7 @@ fn calibration_hides_no_miss() {
     assert!(calibrated.all(|row| verdicts.contains(&row.verdict())));
 }
 
-/// What benches in modelled time measure is what rows compare.
+/// Benches in modelled time measure the same quantities as rows.
 #[test]
 fn timed_work_has_the_times_of_its_rows() {
     for work in timed()

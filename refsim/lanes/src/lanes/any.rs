@@ -122,7 +122,7 @@ impl AnyLane {
         &self.0
     }
 
-    /// A bit pattern of the format as a slot holds it.
+    /// Converts a bit pattern of the format into a slot's bits.
     pub fn decode(&self, bits: u32) -> u32 {
         fn decode<L: Lane>(lane: &L, bits: u32) -> u32 {
             L::store(lane.decode(bits))

@@ -39,7 +39,7 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     single: SingleRounder,
     double: DoubleRounder,
     short: ShortRounder,
-    /// The magnitude of what `1/0` and `log2 0` give.
+    /// Magnitude of the results of `1/0` and `log2 0`.
     pole: f32,
     /// The result if an operand is NaN or infinite: NaN, or 0 in formats without.
     nan: f32,

@@ -11,7 +11,7 @@ use super::round::{AWAY, EVEN, UP, ZERO};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shift {
     pub(super) count: u32,
-    /// Half a unit, and the mask of what is dropped; zero if nothing is.
+    /// Half a unit, and the mask of the dropped bits; zero if there are none.
     pub(super) half: i64,
     pub(super) dropped: i64,
     pub(super) more: i64,

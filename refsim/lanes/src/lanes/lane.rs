@@ -6,7 +6,7 @@ use super::layout::pow2;
 use super::reading::Reading;
 use crate::num::NumberOperation;
 
-/// A number as registers hold it: an integer or a float of the host.
+/// Representation of a number in registers: an integer or a float of the host.
 pub(crate) trait RegisterNumber: Copy + Default + Send + Sync + Debug + PartialOrd {
     /// The number with these host bits.
     fn from_bits(bits: u32) -> Self;

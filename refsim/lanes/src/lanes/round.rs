@@ -4,7 +4,7 @@
 use super::layout::pow2;
 use crate::num::{Denormals, Encoding, Format, Overflow, Rounding};
 
-/// The number of a rounding: what lanes have as a constant.
+/// The number of a rounding: a constant of the lanes.
 pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
     match rounding {
         Rounding::NearestEven => EVEN,

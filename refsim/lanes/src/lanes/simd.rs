@@ -46,8 +46,8 @@ impl SimdLevel {
         self == Self::Baseline
     }
 
-    /// Runs `work` compiled for this level, or for what the processor has of it. The closure, and what it calls, must
-    /// be `#[inline(always)]` to be compiled for the level at all.
+    /// Runs `work` compiled for this level, or for the supported part of it. The closure, and what it calls, must be
+    /// `#[inline(always)]` to be compiled for the level at all.
     #[inline(always)]
     pub fn run<R>(self, work: impl FnOnce() -> R) -> R {
         let work = match self {

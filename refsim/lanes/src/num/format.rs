@@ -171,7 +171,7 @@ impl Format {
         !matches!(self.kind, FormatKind::Float { .. })
     }
 
-    /// The odd part of what numbers are divided by: every number is an integer times a power of two, over this.
+    /// The odd part of the numbers' denominator: every number is an integer times a power of two, over this.
     /// `2^frac_bits - 1` in normalized formats, else 1.
     #[inline]
     pub const fn denominator(&self) -> u32 {

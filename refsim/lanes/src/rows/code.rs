@@ -17,7 +17,7 @@ pub enum LaneCode {
     Neighbors(bool),
     /// Copies `a` to the wide row.
     Widen,
-    /// The same for a half float, of a unit that makes none of small numbers.
+    /// The same for a half float, by a unit that flushes small numbers.
     WidenToHalf,
     /// Rounds the wide row to the destination.
     Narrow,

@@ -257,7 +257,7 @@ impl<'a> Translator<'a> {
         self.make.binary(Arith::Main, Op::Max, below, minus)
     }
 
-    /// Format of what instructions write to a register file, if not the file's.
+    /// Format of the values that instructions write to a register file, if not the file's.
     pub(crate) fn storage(&self, file: RegisterFile) -> Option<Format> {
         self.make.rules.storage.written(file).filter(|_| self.is_pixel())
     }

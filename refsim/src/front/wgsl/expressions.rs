@@ -32,7 +32,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Evaluates an expression, and keeps what it stands for.
+    /// Evaluates an expression, and keeps its value.
     pub(super) fn evaluate(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Meaning> {
         let span = place(frame.function.expressions.get_span(handle));
         self.step(span)?;

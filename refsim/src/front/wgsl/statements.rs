@@ -179,7 +179,8 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// Executes a block where two conditions hold; returns who is left at its end, and whether that is all.
+    /// Executes a block where two conditions hold; returns the mask of fragments left at its end, and whether all are
+    /// left.
     fn path(
         &mut self,
         frame: &mut Frame<'a>,

@@ -47,7 +47,7 @@ pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<(
     write_beside(&file, path, fill)
 }
 
-/// Hands over to a device or pipe at once what `fill` wrote.
+/// Writes the output of `fill` to a device or pipe at once.
 fn fill_device(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     let write = || {
         let mut bytes = Vec::new();

@@ -84,7 +84,7 @@ impl Folds {
 /// Step of a body's construction.
 #[derive(Clone, Copy, Debug)]
 enum BodyStep {
-    /// Adds a piece, with the width in which it flows into what is there.
+    /// Adds a piece, with the width of its blend into the body.
     Add(RoundedPiece, f64),
     /// Removes a piece in the same way.
     Carve(RoundedPiece, f64),
@@ -118,7 +118,7 @@ impl RoundedBody {
         self.steps.push((BodyStep::Carve(piece, width), true));
     }
 
-    /// Folds what is there.
+    /// Folds the body.
     pub(super) fn fold(&mut self, folds: Folds) {
         self.steps.push((BodyStep::Fold(folds), false));
     }

@@ -41,7 +41,7 @@ impl ClosedSurface {
         }
     }
 
-    /// The part with the most triangles: without what it encloses, and without splinters.
+    /// The part with the most triangles, without enclosed parts and splinters.
     pub(super) fn outermost(self) -> Self {
         let mut part: Vec<u32> = (0..self.positions.len() as u32).collect();
         let first = |part: &mut Vec<u32>, mut at: u32| {

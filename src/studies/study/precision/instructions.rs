@@ -42,7 +42,7 @@ fn loss(runs: &mut Runs<'_>, assignment: &Assignment) -> Result<f64, RunError> {
     Ok(runs.goal.loss(value, exact))
 }
 
-/// Finds what one instruction is to blame for.
+/// Computes the blame of one instruction.
 pub(super) fn blame(
     needs: &mut InstructionNeeds,
     place: usize,

@@ -232,7 +232,7 @@ impl FamilyOutcome {
         Ok(())
     }
 
-    /// Finds what each instruction needs, and the mixed formats.
+    /// Finds the bits that each instruction needs, and the mixed formats.
     fn run(&mut self, costs: &FormatCosts, runs: &mut Runs<'_>) -> Result<(), RunError> {
         let Some(minimum) = self.curve.minimum else { return Ok(()) };
         let order = self.share_blame(minimum, runs)?;

@@ -67,7 +67,7 @@ pub struct Precomputation<'a> {
     pub scatterer: Option<Scatterer>,
 }
 
-/// Transfer, and what was counted.
+/// Transfer, and its counts.
 #[derive(Debug)]
 pub struct Precomputed {
     /// The transfer.
@@ -76,7 +76,7 @@ pub struct Precomputed {
     pub directions: usize,
     /// Rays.
     pub counts: TransferCounts,
-    /// Per channel what each bounce added, as a share of the direct transfer.
+    /// Contribution of each bounce per channel, relative to the direct transfer.
     pub bounces: Vec<Vec<f64>>,
 }
 

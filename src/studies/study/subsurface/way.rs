@@ -1,4 +1,4 @@
-//! One way of gathering: links, the three passes, and what they cost.
+//! One method of gathering: links, the three passes, and their cost.
 
 use std::ops::Range;
 

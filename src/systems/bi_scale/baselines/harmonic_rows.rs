@@ -30,7 +30,7 @@ pub struct HarmonicRows {
     height: usize,
     /// Vertex by vertex, row by row, n^2 numbers per row.
     values: Vec<f32>,
-    /// Per local direction what each local harmonic gives it; only where both sides are in harmonics.
+    /// Weight of each local harmonic per local direction; only where both sides are in harmonics.
     cells: Vec<Vec<f64>>,
 }
 

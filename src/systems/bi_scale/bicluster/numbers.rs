@@ -27,7 +27,7 @@ pub(super) struct UnitNumbers {
 impl UnitNumbers {
     /// `drop` in the scale of the matrix.
     pub(super) fn new(drop: f64, fraction_bits: u32) -> Self {
-        // Saturates, and takes what is not a number for 0.
+        // Saturates; NaN becomes 0.
         Self { drop: (drop * f64::from(1_u32 << fraction_bits)) as u32 }
     }
 }

@@ -1,4 +1,4 @@
-//! Sums of biclusters, and what they leave of a matrix: exact in units of the matrix, else in f64.
+//! Sums of biclusters, and the residual of a matrix: exact in units of the matrix, else in f64.
 
 use super::Biclustering;
 use crate::bi_scale::matrix::{EntryValues, SparseMatrix};

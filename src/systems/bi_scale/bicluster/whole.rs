@@ -145,9 +145,9 @@ pub struct BiclusterOptions {
     pub seed: u64,
     /// True if rows and columns may also be deleted again (section IV-C: operations are insertions and deletions).
     pub deletion: bool,
-    /// Residuals of at most this magnitude are dropped, once per matrix element; 0 is lossless, and so is what is
-    /// negative or not a number. The sum of the biclusters then differs from the matrix by at most this in each element
-    /// (the paper's future work, section VII).
+    /// Residuals of at most this magnitude are dropped, once per matrix element; 0 is lossless, and so are negative
+    /// numbers and NaN. The sum of the biclusters then differs from the matrix by at most this in each element (the
+    /// paper's future work, section VII).
     pub drop: f64,
 }
 

@@ -72,7 +72,7 @@ pub(super) struct LocalStream<'a> {
     /// M times red, green and blue for each vertex.
     pub(super) local: &'a [[f32; 3]],
     pub(super) directions: usize,
-    /// Exposure, and what texels are to be multiplied by.
+    /// Exposure, and the factor of the texels.
     pub(super) factor: f64,
     /// The largest number times that.
     pub(super) largest: f64,

@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
         subspace.squared_error(self.signal.point(point), &mut self.residual)
     }
 
-    /// Makes moves within a limit of added error; gives their number and what they added.
+    /// Makes moves within a limit of added error; returns their number and the added error.
     fn run(&mut self, limit: f64) -> (usize, f64) {
         let mut heap: BinaryHeap<Move> = (0..self.of_point.len()).filter_map(|p| self.best_move(p)).collect();
         let (mut moved, mut added) = (0, 0.0);

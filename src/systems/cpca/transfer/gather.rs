@@ -103,8 +103,8 @@ impl<'a> TransferGather<'a> {
         sums
     }
 
-    /// One more reflection: what arrives from the front faces that a vertex sees, if `last` is their exit radiance in
-    /// a basis.
+    /// One more reflection: light that arrives from the front faces that a vertex sees, if `last` is their exit
+    /// radiance in a basis.
     pub(super) fn bounce(&self, last: &[f32], basis: &ExitBasis) -> Vec<f32> {
         self.each(|vertex, into| {
             let (material, frame) = (self.material(vertex), &self.vertices.frames()[vertex]);

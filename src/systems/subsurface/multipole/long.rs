@@ -269,7 +269,7 @@ struct Interval<const N: usize> {
     ends: [f64; 2],
     /// Values at the ends, the middle and between.
     values: [[f64; N]; 5],
-    /// The rule on halves, and what the change from the whole promises.
+    /// The rule on halves, and the error estimate from the change.
     integral: [f64; N],
     /// The change from the whole to halves.
     error: [f64; N],

@@ -202,7 +202,7 @@ impl SubsurfaceCard {
         self.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// Moves what the machine has recorded to a pass.
+    /// Moves the machine's recorded log to a pass.
     fn note(&mut self, pass: PassKind) {
         if let Some(log) = &mut self.log {
             log.extend(self.view.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));

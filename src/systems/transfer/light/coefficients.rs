@@ -108,7 +108,7 @@ pub enum TruncationPriority<'a> {
     Transfer(&'a [f64]),
 }
 
-/// A truncated light and what is left of it.
+/// A truncated light and the kept energy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightTruncation {
     /// The light, coefficients that were dropped set to 0.

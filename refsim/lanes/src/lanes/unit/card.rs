@@ -28,8 +28,9 @@ pub(crate) trait CardFunctions {
     fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
 }
 
-/// What differs from unit to unit. The quick versions are for loops of vector code: with their result they hand back
-/// what they met, by which it may be wrong. `FUSED` tells them that the host has fused multiply-add.
+/// Operations that differ between units. The quick versions are for loops of vector code: beside their result they
+/// return the range of magnitudes met, from which the caller sees whether it may be wrong. `FUSED` is `true` if the
+/// host has fused multiply-add.
 pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// True if comparisons set NaN where words have no order.
     const SETS_NAN: bool;

@@ -1,5 +1,6 @@
 //! The unit of GT200: sums and products of the host where these are exact or rounded once. The quick versions are for
-//! loops of vector code and say what they met, by which their results may be wrong.
+//! loops of vector code and return the range of magnitudes met, from which the caller sees whether their results may be
+//! wrong.
 
 use super::card::CardUnit;
 use super::tables::{GT200, Tables};
@@ -9,7 +10,7 @@ use crate::lanes::round::ZERO;
 use crate::lanes::toward;
 use crate::num::{Format, Rounding, Unit};
 
-/// `2^-126 (1 - 2^-25)`: what is below, rounded to 24 bits, is below the least normal number.
+/// `2^-126 (1 - 2^-25)`: smaller numbers, rounded to 24 bits, are below the least normal number.
 const LEAST: f64 = f64::from_bits((1023 - 126) << 52) * (1.0 - f64::from_bits((1023 - 25) << 52));
 
 /// The state of the unit.
@@ -26,7 +27,7 @@ pub(crate) fn drops_small_halves(from: &Format, to: &Format) -> bool {
     matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins) && to.kind == Format::FP16.kind
 }
 
-/// A number without what [`drops_small_halves`].
+/// A number after flushing as [`drops_small_halves`] requires.
 #[inline(always)]
 pub(crate) fn without_small(x: f64) -> f64 {
     let kept = if x.abs() < crate::lanes::layout::pow2(-33) { 0.0 } else { x };

@@ -1,7 +1,8 @@
 //! The vertex unit of NV20 to NV35: products cut to 24 bits, sums of aligned addends.
 //!
 //! [`Nv::mul`] and [`Nv::sum`] are right for all words. The quick versions are for loops of vector code. They compute
-//! in host floats, and say what they met, by which their results may be wrong.
+//! in host floats, and return the range of magnitudes met, from which the caller sees whether their results may be
+//! wrong.
 
 use super::card::CardUnit;
 use super::tables::{NV, Tables};

@@ -9,7 +9,7 @@ use crate::lanes::layout::pow2;
 use crate::num::NumberOperation as Op;
 use crate::num::unit::tables::{NV_EXP, NV_LOG, NV3X_EX2, NV3X_LG2};
 
-/// Doubles hold the integers that the steps of Newton's method are made of, but for one product.
+/// Doubles hold the integers of the steps of Newton's method exactly, except one product.
 impl CardFunctions for Nv {
     type Entry = [f64; 1];
 

@@ -1,4 +1,4 @@
-//! Types of operands, addends and results, and what the adders see of a number.
+//! Types of operands, addends and results, and the adders' view of a number.
 
 use crate::num::aligned::Addend;
 use crate::num::{

@@ -1,4 +1,4 @@
-//! Interface of a system to its subject, and what inputs share.
+//! Interface of a system to its subject, and code shared by inputs.
 
 use std::fmt;
 

@@ -54,7 +54,7 @@ pub struct SegmentedCompression<'a> {
     pub options: SegmentOptions,
     /// How they are coded.
     pub code: CodeOptions,
-    /// Where finished segments are kept, and taken from, and with what their names begin.
+    /// Folder of finished segments, and the prefix of their names.
     pub kept: Option<(&'a KeptResults, &'a str)>,
 }
 

@@ -1,4 +1,4 @@
-//! A rendering in progress: what its pixels show, and its textures laid out.
+//! A rendering in progress: visible surfaces of its pixels, and its textures.
 
 use glam::DMat3;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! A mesh whose triangles have textures, and what of it each pixel shows.
+//! A mesh with textured triangles, and the visible surface of each pixel.
 
 use glam::DVec3;
 use rayon::prelude::*;
