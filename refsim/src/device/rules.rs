@@ -53,7 +53,7 @@ rules! {
     /// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal
     /// bits.
     ///
-    /// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md has the table. Switches are
+    /// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md lists the switches. Switches are
     /// added as cards are measured: outside this crate, rules are those of a [`Profile`](super::Profile), changed field
     /// by field.
     Rules {
