@@ -53,9 +53,9 @@ rules! {
     /// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal
     /// bits.
     ///
-    /// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md lists the switches. Switches are
-    /// added as cards are measured: outside this crate, rules are those of a [`Profile`](super::Profile), changed field
-    /// by field.
+    /// Every field is a figure or a switch of the profile, under `rules.*` (docs/devices.md, "The switches"). Switches
+    /// are added as cards are measured: outside this crate, take the rules of a [`Profile`](super::Profile) and change
+    /// single fields.
     Rules {
         /// Pixel registers and pixel arithmetic.
         format: Format = "format",
