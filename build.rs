@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-/// What the program is made of: a change in it makes the commit a modified one.
+/// Sources of the program: a change in them marks the commit as modified.
 const SOURCES: [&str; 6] = ["build.rs", "Cargo.lock", "Cargo.toml", "refsim/Cargo.toml", "refsim/src", "src"];
 
 fn main() {
@@ -33,8 +33,7 @@ fn commit_of_package() -> Option<String> {
     hash.bytes().all(|byte| byte.is_ascii_hexdigit()).then(|| hash.to_owned())
 }
 
-/// The commit that is checked out, if this folder is the root of a repository: not that of a project which has a copy
-/// of this one.
+/// The commit that is checked out, if this folder is the root of a repository, not a copy inside another project.
 fn commit_of_repository() -> Option<String> {
     if !git(&["rev-parse", "--show-prefix"])?.is_empty() {
         return None;
@@ -42,7 +41,7 @@ fn commit_of_repository() -> Option<String> {
     let branch = git(&["symbolic-ref", "--quiet", "HEAD"]).unwrap_or_default();
     for file in ["HEAD", "packed-refs", branch.as_str()].into_iter().filter(|file| !file.is_empty()) {
         let path = git(&["rev-parse", "--git-path", file])?;
-        // What does not exist would always count as changed.
+        // Cargo counts a missing path as changed on every build.
         if Path::new(&path).exists() {
             println!("cargo::rerun-if-changed={path}");
         }
@@ -55,7 +54,7 @@ fn commit_of_repository() -> Option<String> {
     Some(if changes.is_empty() { commit } else { format!("{commit}, modified") })
 }
 
-/// What git says, in this folder; `None` if there is no git or it refuses.
+/// Output of git in this folder; `None` if git is missing or fails.
 fn git(arguments: &[&str]) -> Option<String> {
     let output = Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
     Some(String::from_utf8(output.stdout).ok()?.trim_end().to_owned())

@@ -6,7 +6,6 @@ use crossbar::io::NpzWriter;
 use zip::write::SimpleFileOptions;
 use zip::{ZipArchive, ZipWriter};
 
-/// Names and bytes of all members.
 pub(crate) fn members(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut zip = ZipArchive::new(Cursor::new(bytes)).expect("an archive");
     let member = |index| {
@@ -17,7 +16,6 @@ pub(crate) fn members(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     (0..ZipArchive::new(Cursor::new(bytes)).expect("an archive").len()).map(member).collect()
 }
 
-/// An archive of such members.
 pub(crate) fn archive(members: &[(String, Vec<u8>)]) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in members {
@@ -40,13 +38,11 @@ pub(crate) fn with_metadata(bytes: &[u8], change: impl FnOnce(&str) -> String) -
     with_member(bytes, "metadata.npy", |array| text_array(&change(text_of(array))))
 }
 
-/// The text of an array of bytes.
 pub(crate) fn text_of(array: &[u8]) -> &str {
     let header = usize::from(u16::from_le_bytes([array[8], array[9]]));
     std::str::from_utf8(&array[10 + header..]).expect("text")
 }
 
-/// Text as an array of bytes.
 pub(crate) fn text_array(text: &str) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut arrays = NpzWriter::new(&mut bytes);

@@ -1,5 +1,5 @@
-//! How fast the executors are, on the host: the Ray Engine's own programs, 256 rays against 256 triangles, and draws
-//! that are bound by one thing each; beside them, ray-triangle tests of other people's crates.
+//! Speed of the executors on the host: the Ray Engine's own programs, 256 rays against 256 triangles; draws with one
+//! bottleneck each; and ray-triangle tests of other people's crates.
 //!
 //! `cargo bench -p crossbar-benches --bench executors` measures, on two threads;
 //! `cargo bench -p crossbar-benches --bench executors -- --table` writes what was measured last into

@@ -1,4 +1,4 @@
-//! Draws that are bound by one thing each.
+//! Draws with one bottleneck each.
 //!
 //! `texture reads: 8 dependent, linear` and `triangles: 2 pixels each, blended` stand for a glossy frame of 512 x 512
 //! pixels on a mesh of 50,000 vertices. To beat: 1 s elapsed of `crossbar cpca card` on two threads.
@@ -20,7 +20,7 @@ const ONE: u32 = 0x3f80_0000;
 
 /// A draw in single precision.
 pub(crate) struct Scene {
-    /// As the table has it.
+    /// Name in the table.
     pub(crate) name: &'static str,
     side: u32,
     pixel: CheckedProgram,

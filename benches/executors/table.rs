@@ -1,4 +1,4 @@
-//! The tables of docs/performance.md: what criterion has written, and what is measured by turns (`devices`).
+//! The tables of docs/performance.md: criterion's results, and alternating measurements (`devices`).
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -16,7 +16,7 @@ const GOALS: [(&str, f64); 8] = [
     ("256 rays x 256 triangles, resident fp32", 390.0),
     ("256 rays x 256 triangles, resident fp16", 150.0),
     ("256 rays x 256 triangles, resident fp24", 100.0),
-    // With uploads they are no goals, but how far it is to them is worth seeing.
+    // Not goals for draws with uploads, but shown for comparison.
     ("256 rays x 256 triangles s3.12", 450.0),
     ("256 rays x 256 triangles fp32", 390.0),
     ("256 rays x 256 triangles fp16", 150.0),

@@ -39,7 +39,7 @@ pub(crate) fn run(criterion: &mut Criterion, mesh: &Mesh, rays: &RayBatch) {
     group.finish();
 }
 
-/// How many pairs meet.
+/// Number of pairs that intersect.
 fn hits<R, T>(rays: &[R], triangles: &[T], meet: impl Fn(&R, &T) -> bool) -> usize {
     let (rays, triangles) = (black_box(rays), black_box(triangles));
     triangles.iter().map(|triangle| rays.iter().filter(|ray| meet(ray, triangle)).count()).sum()

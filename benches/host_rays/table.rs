@@ -67,7 +67,7 @@ fn measure(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room, kind: Kind)
     tracers.iter().zip(seconds).map(|((who, _), seconds)| (*who, rays.len() as f64 / seconds / 1e6)).collect()
 }
 
-/// Our figure, and that of the fastest traversal of each crate.
+/// Our figure, and the fastest traversal of each crate.
 fn line(figures: &[(&'static str, f64)]) -> String {
     let ours = figures[0].1;
     let mut line = format!("| {ours:.2} |");

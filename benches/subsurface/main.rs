@@ -1,5 +1,5 @@
-//! How fast subsurface scattering is on the host: links of an atlas, and pass 2 on the batch executor beside a loop
-//! of f32.
+//! Speed of subsurface scattering on the host: links of an atlas, and pass 2 on the batch executor beside a loop of
+//! f32.
 //!
 //! Figures to beat: 16 fixed links per texel of 1024 x 1024 in the paper's 9 s on two threads; squares of texels
 //! together at least three times as fast as each texel by itself; pass 2 no slower than five times the loop. Ratios

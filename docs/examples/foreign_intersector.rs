@@ -21,7 +21,7 @@ fn main() {
 /// Somebody's intersector over a mesh: rays in, hits out.
 pub(crate) type Intersector<'a> = Box<dyn FnMut(&Ray) -> Option<Hit> + 'a>;
 
-/// Who is asked, and which sides of a triangle they see.
+/// Intersector under test, and the sides of a triangle that it sees.
 pub(crate) const LIBRARIES: [(&str, Sides); 4] =
     [("bvh 0.13", Sides::Front), ("obvhs 0.4", Sides::Both), ("parry3d 0.31", Sides::Both), ("crossbar", Sides::Both)];
 

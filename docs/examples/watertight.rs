@@ -26,10 +26,10 @@ pub(crate) fn tables() -> String {
     out
 }
 
-/// Where a ray meets a triangle, by somebody's arithmetic.
+/// Intersection of a ray with a triangle, in the arithmetic under test.
 pub(crate) type TriangleTest = fn(&Ray, [[f32; 3]; 3]) -> Option<f32>;
 
-/// Who is asked.
+/// Intersector under test.
 pub(crate) const TESTS: [(&str, TriangleTest); 2] = [("Woop", woop), ("Moeller-Trumbore", moeller_trumbore)];
 
 /// The first hit among all triangles.

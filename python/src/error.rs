@@ -11,7 +11,7 @@ pub(crate) fn value_error(sentence: impl Into<String>) -> PyErr {
     PyValueError::new_err(sentence.into())
 }
 
-/// An error of the library: its sentence, those of the errors that caused it and of those that it lists, and its help.
+/// An error of the library: its message, the messages of its causes and of listed errors, and its help.
 pub(crate) fn refused(error: &dyn Diagnostic) -> PyErr {
     let mut text = error.to_string();
     let mut cause: Option<&(dyn Error + 'static)> = error.source();

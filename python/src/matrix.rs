@@ -9,7 +9,7 @@ use refsim::num::matrix::{Element, MatrixError, MatrixUnit, Operand, UNITS};
 use crate::error::{refused, value_error};
 use crate::signals::{aside, fill};
 
-/// Name, chips, types, that of c, products of an instruction and of a block, bits kept, result, confidence, source.
+/// Name, chips, types, type of c, products of an instruction and of a block, bits kept, result, confidence, source.
 type Row = (
     &'static str,
     &'static str,

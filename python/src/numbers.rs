@@ -68,7 +68,6 @@ impl Computation {
         }
     }
 
-    /// Patterns to patterns.
     fn patterns(&mut self, operands: [&[u32]; 3], out: &mut [u32], start: usize) {
         match self {
             Self::Rows(rows) => rows.patterns(operands, out),

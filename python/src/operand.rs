@@ -22,7 +22,7 @@ impl<'a, T: Element + Copy> Operand<'a, T> {
         }
     }
 
-    /// `length` elements from `start` on, or the one; those of strided operands are collected in the buffer.
+    /// `length` elements from `start` on, or the single one; elements of strided operands are collected in the buffer.
     pub(crate) fn part<'b>(&'b self, start: usize, length: usize, buffer: &'b mut Vec<T>) -> &'b [T] {
         match self {
             Self::All(all) => all.get(start..start + length).unwrap_or_default(),

@@ -98,7 +98,7 @@ impl JudgedRay for Aimed {
     }
 }
 
-/// Hits that somebody found for some rays.
+/// Hits of the code under test, one per ray.
 struct FoundHits<'a> {
     rays: RayRows<'a>,
     triangles: &'a [i64],
@@ -134,7 +134,7 @@ impl<'a> FoundHits<'a> {
         Some(Aimed { ray: self.rays.get(place)?, aim })
     }
 
-    /// The hit: negative ids are none, ids beyond those of meshes are no triangles of any.
+    /// The hit: a negative id is a miss; an id beyond the mesh is an unknown triangle.
     fn hit(&self, place: usize) -> Option<Hit> {
         let triangle = *self.triangles.get(place)?;
         let t = *self.ts.get(place)?;

@@ -50,7 +50,7 @@ pub(crate) fn fill_quickly<T: Send, S>(
     fill(py, out, (TASK, 256), state, work)
 }
 
-/// How long Ctrl-C waits at most.
+/// Maximum delay of Ctrl-C.
 const POLL: Duration = Duration::from_millis(20);
 
 /// Runs a study on a thread of its own, without the lock. Ctrl-C returns at once, and ends the study at its next step.
@@ -73,11 +73,12 @@ pub(crate) fn study<R: Send + 'static>(
     result
 }
 
-/// Runs work on a thread of its own, without the lock. Ctrl-C returns at once; the work goes on to its end, for nobody.
+/// Runs work on a thread of its own, without the lock. Ctrl-C returns at once; the work continues to its end, and its
+/// result is discarded.
 pub(crate) fn aside<R: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> R + Send + 'static) -> PyResult<R> {
     let (sender, mut receiver) = mpsc::channel();
     thread::Builder::new().name("crossbar".to_owned()).spawn(move || {
-        // Nobody receives what was interrupted.
+        // The result of an interrupted call is discarded.
         let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
     })?;
     loop {

@@ -118,7 +118,7 @@ fn copy(profile: &Profile) -> CheckedProgram {
 
 /// Rules for products and sums; every format of the list twice.
 fn products_and_sums_agree(gpu: &Arc<Gpu>) {
-    // Each draw has a shader of its own, which a driver compiles for seconds. Formats take turns.
+    // Each draw has its own shader, which a driver compiles for seconds. Formats alternate.
     for seed in (0..24).step_by(by_form(5, 1)) {
         let profile = sums::profile(seed);
         let expected = sums::drawn(Machine::new(profile.clone(), ExecutorKind::Scalar), &profile, seed);

@@ -31,7 +31,6 @@ mod texels;
 use environment::by_form;
 use random::Random;
 
-/// The page.
 const PAGE: &str = include_str!("../../docs/numbers.md");
 
 /// Number of probes of a test: fifty times as many in the full form.

@@ -80,7 +80,7 @@ impl InputError {
         self
     }
 
-    /// Adds what to do.
+    /// Adds the advice.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
@@ -106,7 +106,7 @@ impl InputError {
         self.0.code
     }
 
-    /// What the user can do.
+    /// Advice to the user.
     pub fn advice(&self) -> Option<&str> {
         self.0.help.as_deref()
     }

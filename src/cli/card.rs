@@ -1,4 +1,4 @@
-//! `--device`, `--switch`, `--executor`: the card of a study, and who draws for it.
+//! `--device`, `--switch`, `--executor`: the card of a study, and its executor.
 
 use refsim::device::{DeviceError, Profile};
 use refsim::machine::Executor;

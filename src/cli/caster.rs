@@ -66,7 +66,7 @@ impl CasterChoice {
         }
     }
 
-    /// Builds what the caster needs of a mesh: the octree, and for the engine its GPU cells and the card.
+    /// Builds the caster's structures for a mesh: the octree, and for the engine its GPU cells and the card.
     pub(super) fn build(self, mesh: &Mesh, sides: Sides) -> miette::Result<OpenCaster<'_>> {
         Ok(match self {
             Self::Host => OpenCaster::Host(Box::new(HostTracer::new(mesh, sides))),

@@ -89,7 +89,7 @@ fn suggested(report: Report) -> Report {
         (Some(error), _) | (_, Some(CaseError::Device(error))) => error.clone(),
         _ => return report,
     };
-    // What the error was wrapped in stays around it.
+    // Wrappers of the error stay around it.
     let (outer, inner) = (report.to_string(), error.to_string());
     let suggestion = Report::from(Suggestion { error });
     if outer == inner { suggestion } else { suggestion.wrap_err(outer) }
@@ -132,7 +132,7 @@ pub(super) fn print(report: Report, json: bool) {
     write_report("Error", &suggested(report), json);
 }
 
-/// Writes a report to standard error: there is nowhere to complain if that fails.
+/// Writes a report to standard error; failures are ignored.
 fn write_report(severity: &str, report: &Report, json: bool) {
     let text = if json {
         let mut text = String::new();
@@ -172,7 +172,7 @@ pub(super) fn print_usage(
     if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
         return print(usage_problem(error).into(), true);
     }
-    // A closed pipe is no reason to complain.
+    // A closed pipe is not an error.
     if safe.iter().zip(arguments).all(|(safe, argument)| argument.to_str() == Some(safe)) {
         error.print().ok();
         return;

@@ -1,4 +1,4 @@
-//! The list of commands in `crossbar --help`, by what they are for.
+//! The list of commands in `crossbar --help`, by purpose.
 
 use clap::Command;
 

@@ -3,7 +3,7 @@
 #[cfg(unix)]
 use super::{Problem, error};
 
-/// How long the program waits for a reader of its last sentence.
+/// Time that the program waits for a reader of its last message.
 #[cfg(unix)]
 const LAST_WORDS: std::time::Duration = std::time::Duration::from_millis(500);
 
@@ -17,7 +17,7 @@ pub(super) fn clean_up_on_signals(json: bool) {
 
     let ignored = ignored_signals();
     let heeded = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
-    // Where signals cannot be caught, they end the program as ever.
+    // If signals cannot be caught, they end the program by default.
     let Ok(mut signals) = Signals::new(heeded) else { return };
     let wait = move || {
         for signal in &mut signals {
@@ -30,7 +30,7 @@ pub(super) fn clean_up_on_signals(json: bool) {
     std::thread::Builder::new().name("signals".to_owned()).stack_size(1 << 18).spawn(wait).ok();
 }
 
-/// Says that nothing was written, without waiting for a pipe that nobody empties.
+/// Reports that nothing was written, without waiting for a full pipe.
 #[cfg(unix)]
 fn say_what_is_lost(json: bool) {
     let (said, heard) = std::sync::mpsc::channel();

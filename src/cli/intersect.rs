@@ -172,12 +172,12 @@ fn findings(args: &Args, answer: &Answer) -> Findings {
     if args.time {
         let Answer { build_s, cast_s, .. } = answer;
         let rate = rate / 1e6;
-        // Nothing is to be done if nobody reads this.
+        // A failed write is ignored.
         writeln!(std::io::stderr().lock(), "time: {cast_s:.4} s to cast, {rate:.3} M rays/s; {build_s:.4} s to build")
             .ok();
     }
     if let Some(warning) = &answer.warning {
-        // Nothing is to be done if nobody reads this.
+        // A failed write is ignored.
         writeln!(std::io::stderr().lock(), "warning: {warning}").ok();
     }
     let mut found = Findings::new("First hits");

@@ -1,4 +1,4 @@
-//! `crossbar materials`: published media, and what the dipole makes of a medium.
+//! `crossbar materials`: published media, and the dipole's totals for a medium.
 
 use serde_json::{Value, json};
 

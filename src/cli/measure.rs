@@ -1,4 +1,4 @@
-//! `crossbar measure`: what a card drew, against every setting of a device's switches.
+//! `crossbar measure`: a card's pixels against every setting of a device's switches.
 
 use std::path::PathBuf;
 

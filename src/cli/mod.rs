@@ -174,7 +174,7 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
 pub fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
     if arguments.len() < 2 {
-        // Nothing is to be done if nobody reads this.
+        // A failed write is ignored.
         std::io::stderr().write_all(WELCOME.as_bytes()).ok();
         return ExitCode::from(BAD_INPUT);
     }
@@ -207,7 +207,7 @@ pub fn main() -> ExitCode {
         Ok(Verdict::Failed) => ExitCode::from(CHECK_FAILED),
         Err(report) if error::reader_left(&report) => ExitCode::SUCCESS,
         Err(report) => {
-            // What was found before the error comes first.
+            // Findings before the error come first.
             out.flush().ok();
             error::print(report, cli.json);
             ExitCode::from(BAD_INPUT)

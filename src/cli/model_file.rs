@@ -47,11 +47,8 @@ fn named_by(command: &Command) -> Option<&'static str> {
     NAMED_BY.into_iter().find(|name| command.get_arguments().any(|arg| arg.get_id() == *name))
 }
 
-/// Takes the options from a command line.
-///
-/// # Errors
-/// [`Problem::Usage`] if no model is named. The parser does not report that if a model excludes the option given
-/// instead.
+/// Takes the options from a command line. Fails with [`Problem::Usage`] if no model is named. The parser does not
+/// report that if a model excludes the option given instead.
 pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     // Matches cannot be asked which arguments exist: clap keeps the list with debug assertions only.
@@ -71,10 +68,7 @@ fn options() -> ModelOptions {
     OPTIONS.get().copied().unwrap_or_default()
 }
 
-/// Refuses the options for files that are not models.
-///
-/// # Errors
-/// [`Problem`] if any was given.
+/// Refuses the options for files that are not models. Fails with [`Problem`] if any was given.
 pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
     let ModelOptions { up, strict } = options();
     let asked = if up.is_some() { "`--model-up`" } else { "`--strict`" };
@@ -101,7 +95,7 @@ pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     Ok(scene)
 }
 
-/// Says on standard error what was changed in a model and what is odd about it, once for each.
+/// Reports the repairs and defects of a model on standard error, once each.
 fn tell(path: &Path, notes: &[ModelNote]) {
     static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
@@ -113,7 +107,7 @@ fn tell(path: &Path, notes: &[ModelNote]) {
         }
         let line = visible_line(&format!("warning: {note}")).into_owned();
         if told.insert(line.clone()) {
-            // Nothing is to be done if nobody reads this.
+            // A failed write is ignored.
             writeln!(std::io::stderr().lock(), "{line}").ok();
         }
     }

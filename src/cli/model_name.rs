@@ -20,7 +20,6 @@ pub(super) struct Model {
 }
 
 impl Model {
-    /// A mesh of one plain material.
     pub(super) fn plain(mesh: Mesh) -> Self {
         Self { material_of: vec![0; mesh.len()], materials: vec![Material::diffuse("plain", PLAIN)], mesh }
     }

@@ -10,7 +10,7 @@ use crate::report::Table;
 use crate::report::layout::wrapped;
 use crate::report::visible::{visible, visible_json, visible_line};
 
-/// Where a command writes what it found.
+/// Output of a command's findings.
 #[derive(Debug)]
 pub struct Out {
     stdout: BufWriter<Stdout>,
@@ -45,53 +45,37 @@ impl Out {
         self.outlive_reader = true;
     }
 
-    /// Writes text and ends its line; hidden characters in it are escaped, line ends stay.
-    ///
-    /// # Errors
-    /// If standard output cannot be written.
+    /// Writes text and ends its line; hidden characters in it are escaped, line ends stay. Fails if standard output
+    /// cannot be written.
     pub fn line(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
         Ok(writeln!(self, "{}", visible(&text.to_string()))?)
     }
 
-    /// Writes a sentence on lines of the terminal's width.
-    ///
-    /// # Errors
-    /// If standard output cannot be written.
+    /// Writes a sentence on lines of the terminal's width. Fails if standard output cannot be written.
     pub fn sentence(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
         self.line(wrapped(&visible_line(&text.to_string()), Self::width(), "  ").join("\n"))
     }
 
-    /// Writes a table without its title, no wider than the terminal, and which rows were folded in it.
-    ///
-    /// # Errors
-    /// If standard output cannot be written.
+    /// Writes a table without its title, no wider than the terminal, and which rows were folded in it. Fails if
+    /// standard output cannot be written.
     pub fn table(&mut self, table: &Table) -> Result<(), OutputError> {
         self.line(table.text_within(Self::width()))?;
         table.notes().into_iter().try_for_each(|note| self.sentence(note))
     }
 
-    /// Writes a table under its title.
-    ///
-    /// # Errors
-    /// If standard output cannot be written.
+    /// Writes a table under its title. Fails if standard output cannot be written.
     pub fn titled_table(&mut self, table: &Table) -> Result<(), OutputError> {
         self.sentence(table.title())?;
         self.table(table)
     }
 
-    /// Writes what a check found, in the form of an error.
-    ///
-    /// # Errors
-    /// If standard output cannot be written.
+    /// Writes what a check found, in the form of an error. Fails if standard output cannot be written.
     pub fn finding(&mut self, finding: &dyn Diagnostic) -> Result<(), OutputError> {
         let text = error::render_finding(finding);
         Ok(writeln!(self, "{text}")?)
     }
 
-    /// Writes `value` as indented JSON and ends the line.
-    ///
-    /// # Errors
-    /// If standard output cannot be written.
+    /// Writes `value` as indented JSON and ends the line. Fails if standard output cannot be written.
     pub fn document(&mut self, value: &impl Serialize) -> Result<(), OutputError> {
         let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
         Ok(writeln!(self, "{}", visible_json(&text))?)

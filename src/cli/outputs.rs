@@ -10,10 +10,7 @@ use super::Problem;
 /// The options whose value is the path of a file or folder that is written.
 const OUTPUTS: [&str; 5] = ["out", "csv", "matrix", "sheet", "perfetto"];
 
-/// Refuses two outputs with one path: one would overwrite the other.
-///
-/// # Errors
-/// [`Problem::Usage`].
+/// Refuses two outputs with one path: one would overwrite the other. Fails with [`Problem::Usage`].
 pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = obeyed(program, matches);
     let mut seen: Vec<(&str, PathBuf)> = Vec::new();
@@ -41,7 +38,7 @@ pub(super) fn obeyed<'a>(program: &'a Command, matches: &'a ArgMatches) -> (&'a 
     inner.map_or((program, matches), |(command, inner)| obeyed(command, inner))
 }
 
-/// Where a file will stand, links followed; `None` for a device or pipe, which takes any number of outputs.
+/// Final path of a file, links followed; `None` for a device or pipe, which takes any number of outputs.
 fn place(path: &Path) -> Option<PathBuf> {
     if let Ok(whole) = path.canonicalize() {
         return (whole.is_file() || whole.is_dir()).then_some(whole);

@@ -21,10 +21,8 @@ pub(super) struct PartArgs {
 }
 
 impl PartArgs {
-    /// How the command's items are computed: all of them, those of the part, whose file is `out`, or none.
-    ///
-    /// # Errors
-    /// For an argument that is not UTF-8, or a program that cannot be told from others.
+    /// Mode of the command's items: all of them, only those of the part whose file is `out`, or none. Errors: for an
+    /// argument that is not UTF-8, or a program that cannot be told from others.
     pub(super) fn split(self, line: &CommandLine, out: &Path) -> Result<SplitRun, InputError> {
         match (&line.parts, self.part) {
             (Some(parts), _) => Ok(SplitRun::Merge(parts.clone())),
@@ -34,10 +32,8 @@ impl PartArgs {
     }
 }
 
-/// The command whose results are kept in files.
-///
-/// # Errors
-/// For an argument that is not UTF-8, or a program that cannot be told from others.
+/// The command whose results are kept in files. Errors: for an argument that is not UTF-8, or a program that cannot be
+/// told from others.
 pub(super) fn command(line: &CommandLine) -> Result<SplitCommand, InputError> {
     let utf8 = |argument: &OsString| argument.to_str().map(str::to_owned).ok_or_else(|| not_utf8(argument));
     let arguments = line.arguments.iter().map(utf8).collect::<Result<_, _>>()?;

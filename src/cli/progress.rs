@@ -49,7 +49,7 @@ impl ProgressBar {
         Self { bar, is_plain, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
     }
 
-    /// Says what makes the work quicker, if it will take long: options, as in "a smaller `--size`".
+    /// Names options that make the work quicker, if it will take long: options, as in "a smaller `--size`".
     #[must_use]
     pub fn quicker(mut self, quicker: &'static str) -> Self {
         self.quicker = quicker;
@@ -89,7 +89,7 @@ impl ProgressBar {
             self.announce(&long_work(&what, left, self.quicker));
         }
         if is_due {
-            // Nothing is to be done if nobody reads this.
+            // A failed write is ignored.
             writeln!(io::stderr().lock(), "{}", plain_line(&what, done, total, left)).ok();
         }
     }

@@ -47,7 +47,7 @@ impl<'a> StudyFiles<'a> {
     }
 }
 
-/// Runs a study; `command_line` is what its findings come from.
+/// Runs a study; `command_line` is the command that reproduces its findings.
 pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let study = args.study()?;
     let StudyFiles { folder: out_folder, part, inputs } = args.files();
@@ -78,7 +78,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut 
     Ok(found.verdict())
 }
 
-/// Shows what a command without a page found: the document, or tables and lines.
+/// Shows the findings of a command without a page: the document, or tables and lines.
 pub(super) fn show(found: &Findings, out: &mut Out) -> miette::Result<Verdict> {
     if out.json() {
         out.document(&found.plain_document())?;
@@ -118,9 +118,9 @@ fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Resu
     Ok(())
 }
 
-/// The provenance with digests of the inputs; names of scenes and what comes through a pipe have none.
+/// The provenance with digests of the inputs; names of scenes and piped input have none.
 pub(super) fn with_inputs(mut provenance: Provenance, inputs: &[&Path]) -> Provenance {
-    // Opening a pipe would wait for who writes to it.
+    // Opening a pipe would wait for its writer.
     let digest = |path: &Path| sha256(path.is_file().then(|| File::open(path).ok())??).ok();
     let digested = inputs.iter().filter_map(|path| Some((path.display().to_string(), digest(path)?)));
     provenance.inputs = digested.collect();

@@ -4,7 +4,6 @@ use refsim::device::{DeviceError, Profile};
 
 use crate::case::device_named;
 
-/// A device with switches set.
 pub(super) fn device(name: &str, switches: &[(String, String)]) -> Result<Profile, DeviceError> {
     let mut profile = device_named(name)?;
     for (name, value) in switches {

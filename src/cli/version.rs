@@ -15,7 +15,7 @@ pub(super) const COMMIT: &str = match option_env!("CROSSBAR_COMMIT") {
     None => "unknown commit",
 };
 
-/// The version, where the program comes from and what it was built with: `0.1.0 (8a205f4a1, features cli, wgpu)`.
+/// The version, the program's commit and features: `0.1.0 (8a205f4a1, features cli, wgpu)`.
 pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
     let optional = [("wgpu", cfg!(feature = "wgpu")), ("wgsl", cfg!(feature = "wgsl"))];
     let features = optional.iter().filter(|(_, has)| *has).fold("cli".to_owned(), |all, (name, _)| all + ", " + name);
@@ -23,10 +23,7 @@ pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
 });
 
 /// The program that computes a part: version and commit; or, if these do not identify its sources (a development build,
-/// modified sources), the SHA-256 of its file.
-///
-/// # Errors
-/// If the program's own file cannot be read.
+/// modified sources), the SHA-256 of its file. Fails if the program's own file cannot be read.
 pub(super) fn program() -> Result<String, InputError> {
     let version = env!("CARGO_PKG_VERSION");
     if !COMMIT.is_empty() && COMMIT.bytes().all(|byte| byte.is_ascii_hexdigit()) {

@@ -24,7 +24,7 @@ pub(super) fn bad_format(error: FormatError) -> miette::Report {
         .into()
 }
 
-/// Where a camera stands, what it looks at, and what is up.
+/// Position of a camera, its target, and its up vector.
 pub(super) type Placement = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
 
 /// A camera; without an eye, one that looks down a little from the front and sees all of the mesh. Without a target
@@ -63,7 +63,7 @@ pub(super) fn framing(
     camera(eye, target)
 }
 
-/// The direction from what is seen to the eye, where nobody says another: from the front, and a little from above.
+/// Default direction from the target to the eye: from the front, and a little from above.
 const FRONT: [f64; 3] = [0.3, -0.8, 0.52];
 
 /// The part of half a picture's width or height that a model fills.
@@ -117,10 +117,7 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Reads a picture.
-///
-/// # Errors
-/// The defect of the file.
+/// Reads a picture. Errors: the defect of the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
 }

@@ -2,7 +2,7 @@
 
 use crate::report::digits::{Quantity, count, shown};
 
-/// A number of things, for a sentence: `177,694`.
+/// A count, for a sentence: `177,694`.
 pub(super) fn counted(number: usize) -> String {
     count(number as u64)
 }

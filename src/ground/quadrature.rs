@@ -58,10 +58,7 @@ pub const MAX_POINTS: usize = 1024;
 const NEWTON_STEPS: usize = 5;
 
 /// Computes the rule with 1 to [`MAX_POINTS`] points on [0, 1], by Newton's method on the roots of the Legendre
-/// polynomial.
-///
-/// # Panics
-/// If there are no points, or more than [`MAX_POINTS`].
+/// polynomial. Panics if there are no points, or more than [`MAX_POINTS`].
 pub fn gauss_legendre(points: usize) -> Vec<GaussPoint> {
     assert!((1..=MAX_POINTS).contains(&points), "1 to {MAX_POINTS} points");
     let polynomial = |x: f64| legendre_polynomials(x).nth(points).unwrap_or_default();

@@ -126,10 +126,7 @@ impl ShaderText {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }
 
-    /// Reads a shader file.
-    ///
-    /// # Errors
-    /// If it cannot be read, is not text or exceeds the limit of the assembler.
+    /// Reads a shader file. Fails if it cannot be read, is not text or exceeds the limit of the assembler.
     pub fn read(path: &Path) -> Result<Self, ShaderError> {
         let name = path.display().to_string();
         let unreadable = |source| ShaderError::Unreadable { name: name.clone(), source };
@@ -182,10 +179,8 @@ impl ShaderText {
         is_wgsl(Path::new(self.name()))
     }
 
-    /// Assembles the text; WGSL is translated.
-    ///
-    /// # Errors
-    /// All syntax errors; of WGSL the first thing without a translation.
+    /// Assembles the text; WGSL is translated. Errors: all syntax errors; for WGSL the first construct without a
+    /// translation.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
         if self.is_wgsl() {
             return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {
@@ -201,10 +196,7 @@ impl ShaderText {
         })
     }
 
-    /// Checks the text's program against its version and a device.
-    ///
-    /// # Errors
-    /// All violations.
+    /// Checks the text's program against its version and a device. Errors: all violations.
     pub fn check(&self, program: Program, profile: &Profile) -> Result<Checked<Program>, ShaderError> {
         check::check(program, profile).map_err(|report| ShaderError::Illegal {
             name: self.name().to_owned(),

@@ -1,4 +1,4 @@
-//! Which instruction is to blame: both sides followed through the first pixel that differs.
+//! Finds the first differing instruction: both sides are traced through the first pixel that differs.
 
 use crate::executors::Executor;
 use crate::scene::{Case, Programs, Scene};
@@ -8,7 +8,7 @@ use refsim::isa::Program;
 use refsim::machine::FragmentTrace;
 use std::fmt::Write as _;
 
-/// A case and who draws it.
+/// A case and its executors.
 #[derive(Clone, Copy)]
 pub(crate) struct Side<'a> {
     pub(crate) case: &'a Case,

@@ -89,7 +89,7 @@ impl Program {
 impl Programs {
     fn read(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let read = |path: PathBuf| {
-            // Fixtures that are wrong on purpose are no business of executors.
+            // Executors do not get fixtures that are wrong on purpose.
             let text = std::fs::read_to_string(&path).ok()?;
             Program::new(path.strip_prefix(root()).unwrap_or(&path).display().to_string(), &text)
         };
@@ -142,7 +142,7 @@ fn kinds(program: &CheckedProgram, r: &mut Random) -> Vec<(usize, TextureKind)> 
 pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Case {
     let (program, device) = programs.pair(seed);
     let profile = if device.starts_with("ideal") { rules::profile(device) } else { rules::card(device, r) };
-    // A switch can take back what the default allows.
+    // A switch can forbid a program that the default allows.
     let fits = build(&program.lines, &profile).is_ok();
     let profile = if fits { profile } else { rules::profile(device) };
     let checked = build(&program.lines, &profile).unwrap_or_else(|e| panic!("{} on {device}: {e}", program.file));

@@ -1,4 +1,4 @@
-//! Random geometry: what rasterisers meet, and what they would rather not.
+//! Random geometry: ordinary and extreme inputs of rasterisers.
 
 use crate::random::Random;
 use crate::scene::Scene;
@@ -125,7 +125,7 @@ fn fine(size: [u32; 2], each: usize, r: &mut Random) -> Vec<Vertex> {
     out
 }
 
-/// One primitive's vertices: they share what they do not vary.
+/// One primitive's vertices: they share the components that do not vary.
 fn group(shape: Shape, size: [u32; 2], each: usize, r: &mut Random, out: &mut Vec<Vertex>) {
     let whole = matches!(shape, Shape::Flat | Shape::Layers);
     let flat = if whole { !r.one_in(4) } else { r.one_in(3) };
@@ -148,7 +148,7 @@ fn group(shape: Shape, size: [u32; 2], each: usize, r: &mut Random, out: &mut Ve
             }
             v.colors = [r.vector(), r.vector()];
         } else if whole && r.one_in(2) {
-            // What a crossbar has: one set that says which pixel, all others constant.
+            // As in a crossbar: one set identifies the pixel, all others are constant.
             let (x, y) = CORNERS[corner % 4];
             v.texcoords[0] = [(x * 0.5 + 0.5).to_bits(), (y * -0.5 + 0.5).to_bits(), 0, 0x3f80_0000];
         }

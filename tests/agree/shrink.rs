@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// No longer than this: a half small case is better than none.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// The smallest case found that still `shows` what the first one does.
+/// The smallest case found that still `shows` the difference.
 pub(crate) fn shrink(case: &Case, shows: impl Fn(&Case) -> bool) -> Case {
     let end = Instant::now() + PATIENCE;
     let mut best = case.clone();
@@ -40,7 +40,7 @@ fn differs(a: &Case, b: &Case) -> bool {
     describe(&a.scene) != describe(&b.scene) || a.scene.textures.len() != b.scene.textures.len()
 }
 
-/// Candidate `n`: first the scene's parts, then instructions, the last ones first, then what hangs on them.
+/// Candidate `n`: first the scene's parts, then instructions, the last ones first, then their dependencies.
 fn candidate(case: &Case, n: usize) -> Option<Case> {
     let mut out = case.clone();
     let parts = PARTS.len();
@@ -108,7 +108,7 @@ fn end_of(lines: &[String], at: usize) -> Option<usize> {
     None
 }
 
-/// The line without what modifies it.
+/// The line without its modifiers.
 fn plainer(line: &str) -> String {
     let mut out = line.to_owned();
     for extra in ["_sat", "_pp", "_x2", "_x4", "_x8", "_d2", "_d4", "_d8", "_bx2", "_bias", "1-", "_centroid"] {

@@ -1,4 +1,4 @@
-//! Step budgets: executors agree on what fits a budget, and on what does not down to the instruction.
+//! Step budgets: executors agree on programs within a budget, and on the instruction that exceeds it.
 
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};

@@ -45,7 +45,6 @@ pub(crate) enum Kind {
     Cases,
 }
 
-/// A suite.
 #[derive(Clone, Debug)]
 pub(crate) struct Suite {
     pub(crate) name: String,
@@ -67,7 +66,6 @@ impl Suite {
         Random::named(&self.name, seed).next()
     }
 
-    /// The case of a seed.
     pub(crate) fn case(&self, seed: u64) -> Case {
         let mut random = Random::named(&self.name, seed);
         let r = &mut random;
@@ -137,7 +135,6 @@ pub(crate) fn first_throws(r: &mut Random) -> Version {
     r.of(&PIXEL[3..])
 }
 
-/// A random legal program.
 fn legal(version: Version, layout: &Layout, sizes: usize, profile: &Profile, r: &mut Random) -> Vec<String> {
     let start = r.below(sizes.max(1));
     let mut last = String::new();

@@ -28,7 +28,6 @@ fn on_gpu() -> Option<(&'static str, Executor)> {
     Some(("wgpu", Executor::Gpu { gpu }))
 }
 
-/// The bits of all texels.
 pub(crate) fn bits(texels: &Texels) -> Vec<[u32; 4]> {
     texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
 }

@@ -84,7 +84,8 @@ impl Crate {
         let texts = rust_files(&folder).into_iter().filter_map(|file| {
             let below = file.strip_prefix(&folder).expect("below the folder");
             let member = MEMBERS.iter().find_map(|member| below.strip_prefix(member).ok());
-            // The root of a member re-imports rooms of other members, which is no use of them; its tests are no room.
+            // The root of a member re-imports rooms of other members, which does not count as a use; its tests are not
+            // a room.
             let is_no_room = member.is_some_and(|below| below == Path::new("lib.rs") || below.starts_with("tests"));
             (!is_no_room).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
         });
@@ -151,7 +152,6 @@ impl Crate {
         named.filter(move |named| named.path[0] == prefix).filter_map(|named| named.path.get(1).map(String::as_str))
     }
 
-    /// The paths that a module names, from the crate's root.
     pub(crate) fn paths<'a>(&'a self, module: &'a [String]) -> impl Iterator<Item = Names> {
         self.modules[module].named.iter().filter_map(move |named| self.absolute(module, &named.path, 9))
     }
@@ -238,7 +238,7 @@ impl Reader<'_> {
         let mut at = 0;
         while at < tokens.len() {
             if let TokenTree::Group(group) = &tokens[at] {
-                // The path in `pub(in path)` is no use.
+                // The path in `pub(in path)` does not count as a use.
                 if at == 0 || word(at - 1).is_none_or(|word| word != "pub") {
                     self.tokens(group.stream(), is_macro, is_macro);
                 }

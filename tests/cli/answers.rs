@@ -24,7 +24,7 @@ pub(crate) fn document(arguments: &[&str]) -> Value {
     serde_json::from_str(&ran.stdout).expect("one JSON document")
 }
 
-/// The same of arguments in one line, none of which has a space.
+/// The same for arguments in one line, without spaces in them.
 pub(crate) fn document_of(line: &str) -> Value {
     document(&line.split_whitespace().collect::<Vec<_>>())
 }

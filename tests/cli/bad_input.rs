@@ -70,7 +70,6 @@ fn errors_for_machines() {
     assert_eq!(ran.code, Some(2));
 }
 
-/// A disk that is full is an error, not a panic.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk() {

@@ -124,7 +124,7 @@ fn picture(folder: &str, name: &str) -> Vec<[f32; 3]> {
     crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
 }
 
-/// The example that pictures are made of.
+/// The example of the pictures.
 #[test]
 fn the_court_has_its_transfer() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -274,7 +274,7 @@ fn the_card_draws_what_the_host_draws() {
     let fine = on_card("--device ideal-fp32");
     assert!(rms(&fine) < 2.0 && fine["time"].is_null(), "{}", rms(&fine));
     let with_one = picture(&out, "card");
-    // The floor has a texture of its own, of which the host's picture knows too.
+    // The floor has its own texture, in the host's picture too.
     let both = on_card("--texture floor=mail --device ideal-fp32");
     assert!(rms(&both) < 2.0, "{}", rms(&both));
     assert!(number(&both["sizes"][4]["number"]) == 2.0, "{}", both["sizes"]);

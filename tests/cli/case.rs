@@ -159,7 +159,7 @@ fn a_report_for_machines() {
     assert_eq!(report["passed"], true);
 }
 
-/// A small good case, of which tests replace a line.
+/// A small valid case; tests replace one of its lines.
 const SMALL: &str = r#"device = "r200"
 [pixel]
 source = "ps_1_4\nmov r0, c0"
@@ -301,7 +301,7 @@ fn files_that_are_no_case() {
 #[test]
 fn a_folder_that_cannot_be_written() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    // A file stands where the folder should: nobody, root included, can make one.
+    // A file has the folder's name, so that even root cannot create the folder.
     fs::write(folder.path().join("taken"), "a file").expect("a file");
     for out in ["taken", "taken/below"] {
         let ran = crossbar_in(folder.path(), &["run", &example("modulate"), "--out", out], "");

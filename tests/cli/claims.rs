@@ -28,7 +28,7 @@ struct GoodFile {
     read: fn(&[u8], &Path),
 }
 
-/// 2^32 of the smallest thing are 4 GiB; the readers have 1.5 of addresses, the program's own among them.
+/// 2^32 of the smallest elements are 4 GiB; the readers have 1.5 GiB of address space, the program's own among them.
 #[test]
 fn no_reader_takes_memory_on_the_word_of_a_file() {
     if std::env::var_os(LIMITED).is_some() {

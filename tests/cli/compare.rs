@@ -46,7 +46,7 @@ fn fixtures() -> std::path::PathBuf {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/cases")
 }
 
-/// A pixel program on a 4x4 target of singles, of which tests replace parts.
+/// A pixel program on a 4x4 target of singles; tests replace parts of it.
 const PLAIN: &str = r#"title = "plain"
 shader_model = "ps_2_a"
 format = "fp32"
@@ -119,7 +119,7 @@ fn a_branch() {
     assert_eq!(found["left"]["source"]["text"], "mov oC0, r0");
 }
 
-/// A quad over the whole target whose `t0` is what fp16 takes 0.1 for.
+/// A quad over the whole target whose `t0` is 0.1 rounded to fp16.
 const QUAD: &str = r#"primitive = "quads"
 convention = "opengl"
 attributes = { t0 = [0.0999755859375, 0.0999755859375, 0.0999755859375, 0.0999755859375] }

@@ -1,4 +1,4 @@
-//! docs/examples: the files that documentation and help name are what the library makes today.
+//! docs/examples: the files that documentation and help name equal the library's output.
 
 use crate::environment::writes_files;
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Help texts: what each of them must have. Their layout is clap's.
+//! Help texts: required parts of each. Their layout is clap's.
 
 use crate::{crossbar, tree};
 
@@ -50,7 +50,7 @@ fn every_command_has_an_example_and_speaks_json() {
     }
 }
 
-/// Which commit, where the program is not a development build, and which features.
+/// The commit, unless the program is a development build, and the features.
 #[test]
 fn version() {
     let ran = crossbar(&["--version"], "");

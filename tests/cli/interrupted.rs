@@ -122,7 +122,6 @@ fn long_work_is_announced() {
     }
 }
 
-/// A reader that never empties its pipe does not keep the program running.
 #[test]
 fn a_full_pipe_does_not_keep_the_program() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -75,7 +75,7 @@ fn stored_traces_are_those_of_the_cases() {
     }
 }
 
-/// Names and bits of what the page has stored of a pixel.
+/// Names and bits that the page has stored for a pixel.
 fn stored(variant: &Value, pixel: usize) -> Vec<[String; 2]> {
     let bytes = STANDARD.decode(variant["values"].as_str().expect("values")).expect("base64");
     let mut bytes = bytes.into_iter();

@@ -55,7 +55,7 @@ fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
 }
 
-/// The files that a command wrote, by path, and removes them: what begins with `out`.
+/// Collects and removes the files that a command wrote, by path: those that begin with `out`.
 fn written(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     fn take(path: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
         if path.is_file() {
@@ -280,7 +280,7 @@ fn a_full_disk_leaves_nothing() {
     assert_eq!(fs::read_dir(folder).expect("a folder").count(), before);
 }
 
-/// Every byte of a part matters: whichever is another is noticed.
+/// Every changed byte of a part is detected.
 #[test]
 fn damage_is_noticed_wherever_it_is() {
     let folder = two_parts();

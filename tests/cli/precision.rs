@@ -26,7 +26,7 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
         "fp32",
     ]);
     assert_eq!(compared.code, Some(0), "{}", compared.transcript());
-    // Formats of a program that has changed do nothing, which is said.
+    // Formats of a changed program have no effect, and a warning says so.
     let case = fs::read_to_string(root.path().join("docs/examples/lerp.toml")).expect("a case");
     let changed = case.replace("\"nv25\"", "\"out/mixed.toml\"");
     fs::write(root.path().join("same.toml"), &changed).expect("a file");

@@ -63,7 +63,7 @@ fn vertices_have_radiosities() {
     assert!(vertices[1..].iter().any(|row| row[6] == "4") && vertices[1..].iter().any(|row| row[6] == "1"));
 }
 
-/// Where nothing sees anything, every solver is done at once, and there is no curve to draw.
+/// If no patch sees another, every solver is done at once, without a curve to draw.
 #[test]
 fn a_flat_scene_has_no_residuals_to_draw() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -56,7 +56,7 @@ fn a_model_fills_the_picture() {
         let (_, depths) = layers.floats("Z").expect("a depth per pixel");
         let hit: Vec<usize> = (0..depths.len()).filter(|&at| depths[at].is_finite()).collect();
         let width = size[0] as usize;
-        // How much of each half of the picture is covered, from the middle to the farthest hit pixel's outer edge.
+        // Covered extent of each half of the picture, from the middle to the outer edge of the farthest hit pixel.
         let reach = |side: usize| {
             let place = |at: &usize| if side == 0 { at % width } else { at / width };
             let half = f64::from(size[side]) / 2.0;

@@ -1,4 +1,4 @@
-//! The command line that findings come from: defaults are filled in, and what changes nothing is left out.
+//! The command line that findings come from: defaults are filled in, and options without effect are left out.
 
 use crate::commands::copy_of_the_repository;
 use crate::crossbar_in;
@@ -31,7 +31,6 @@ fn defaults_are_filled_in_and_what_changes_nothing_is_left_out() {
     assert_eq!(resolved_line(line), format!("crossbar {line}"));
 }
 
-/// A resolved line is one that a shell reads, and resolves to itself.
 #[test]
 fn what_is_resolved_resolves_to_itself() {
     let quoted = "leaky-teapot --size 8x8 --rays-per-edge 0 --device";

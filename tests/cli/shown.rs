@@ -92,7 +92,7 @@ fn nothing_from_outside_acts_on_the_terminal() {
     nothing_hidden(&crossbar(&["alu", "sqrt", "--format", "fp16"], &format!("{HOSTILE}\n")), "standard input");
 }
 
-/// A program of `count` lines, each of which breaks a rule.
+/// A program of `count` lines that each break a rule.
 fn bad_lines(count: usize) -> String {
     format!("ps_1_4\n{}", "mov r0, c9\n".repeat(count))
 }

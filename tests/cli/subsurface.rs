@@ -113,7 +113,7 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     assert_eq!(rows.len(), 2 * 12, "twelve bins of each way");
     let of = |choice: &str| rows.iter().filter(|row| row["way"].starts_with(choice)).collect::<Vec<_>>();
     let (fixed, adaptive) = (of("fixed"), of("adaptive"));
-    // Both choices are the better one somewhere: that is what a mean over the sphere hides.
+    // Each choice is better somewhere, which a mean over the sphere hides.
     let nearer = |(one, other): (&&BTreeMap<String, String>, &&BTreeMap<String, String>)| {
         number(one, "links_rms_percent") < number(other, "links_rms_percent")
     };

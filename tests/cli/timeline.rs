@@ -116,7 +116,7 @@ fn the_texture_cache_on_request() {
         assert!(texels > 0 && texels >= half, "{row}");
         assert!(half >= same && same >= double && double >= distinct && distinct > 0, "{row}");
     }
-    // The same work, whichever model counts the cache misses.
+    // The same work under either model of cache misses.
     assert_eq!(sum(&estimated["models"][0]["draws"], "fragments"), sum(&simulated["models"][0]["draws"], "fragments"));
 }
 

@@ -88,7 +88,7 @@ fn the_wrong_option_is_named() {
     let mesh = in_project("fixtures/models/square.obj");
     let ran = crossbar_in(folder.path(), &["render", &mesh, "--tan-half-height", "0"], "");
     assert_eq!(ran.code, Some(2), "{}", ran.transcript());
-    // The eye that is derived from the tangent is infinite, but nobody gave it.
+    // The eye derived from the tangent is infinite, but was not given by the user.
     assert!(ran.stderr.contains("tangent") && !ran.stderr.contains("eye"), "{}", ran.stderr);
 }
 

@@ -5,7 +5,7 @@ use clap::{Arg, ArgAction};
 /// Options that every command has.
 pub(crate) const GLOBAL: &[&str] = &["--json", "--threads", "--quiet"];
 
-/// Commands without verbs and the verbs of the others, by what is typed for them: `check`, `cpca render`.
+/// Commands without verbs and the verbs of the others, as typed: `check`, `cpca render`.
 pub(crate) fn commands() -> Vec<(String, clap::Command)> {
     fn walk(name: &str, command: &clap::Command, found: &mut Vec<(String, clap::Command)>) {
         let inner: Vec<&clap::Command> = command.get_subcommands().collect();
@@ -26,7 +26,6 @@ pub(crate) fn options(command: &clap::Command) -> Vec<(String, bool)> {
     own.filter(|(name, _)| !GLOBAL.contains(&name.as_str()) && name != "--help" && name != "--version").collect()
 }
 
-/// The command of a command line.
 pub(crate) fn command_of<'a>(line: &str, commands: &'a [(String, clap::Command)]) -> &'a (String, clap::Command) {
     let is_of = |name: &str| line.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
     commands.iter().find(|(name, _)| is_of(name)).unwrap_or_else(|| panic!("no command in `{line}`"))

@@ -1,4 +1,4 @@
-//! Laws: what must hold of every input, by property tests and by formula.
+//! Laws: properties of every input, by property tests and by formula.
 
 mod all_frequency;
 #[path = "../archive.rs"]

@@ -30,7 +30,7 @@ fn read(page: &str) -> String {
     std::fs::read_to_string(file(page)).expect("the page").replace('\r', "")
 }
 
-/// How many of the rules of a Radeon 8500 no source states.
+/// Number of rules of a Radeon 8500 that no source states.
 fn guesses() -> String {
     let figures = Profile::named("r200").expect("a card").figures();
     let rules: Vec<_> = figures.iter().filter(|row| row.key.starts_with("rules.")).collect();
@@ -193,8 +193,8 @@ fn the_pages_say_what_the_program_prints() {
     }
 }
 
-/// README.md has no figure that nothing holds: its numbers stand between marks, or they are years, names, or one of
-/// these, each with what holds it.
+/// Every figure of README.md is checked: its numbers stand between marks, or they are years, names, or one of these,
+/// each with its test.
 #[test]
 fn every_figure_of_the_front_page_is_held() {
     let years_and_names = ["2002", "2003", "2004", "2011", "4", "8500"];

@@ -93,7 +93,7 @@ fn buckets_lose_nothing_that_the_whole_crossbar_finds() {
     assert_eq!(buckets, digest(&study(&parameters)), "the same triangles and the same t, to the bit");
 }
 
-/// FNV-1a over what a run gives a pixel.
+/// FNV-1a over the results of a run per pixel.
 fn digest(outcome: &TeapotOutcome) -> u64 {
     let mut h = 0xcbf2_9ce4_8422_2325_u64;
     for row in &outcome.rows {

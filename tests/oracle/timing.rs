@@ -1,4 +1,4 @@
-//! Golden clocks: what every kernel costs on every card that runs it. A change of a figure or of a formula shows here
+//! Golden clocks: the cost of every kernel on every card that runs it. A change of a figure or of a formula shows here
 //! first.
 
 use crate::pages::hold;

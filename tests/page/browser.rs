@@ -89,7 +89,6 @@ impl Browser {
         }
     }
 
-    /// Value of an expression of the page.
     pub(crate) fn value(&mut self, expression: &str) -> Value {
         let mut result = self.call("Runtime.evaluate", json!({ "expression": expression, "returnByValue": true }));
         result["result"]["value"].take()
@@ -109,7 +108,6 @@ impl Browser {
         }
     }
 
-    /// Opens a file.
     pub(crate) fn open(&mut self, file: &Path) {
         self.call("Page.navigate", json!({ "url": format!("file://{}", file.display()) }));
         self.wait("document.readyState === 'complete'");

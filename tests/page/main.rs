@@ -83,8 +83,8 @@ fn redrawn(browser: &mut Browser, act: impl FnOnce(&mut Browser)) -> (String, St
     (before, drawn(browser))
 }
 
-/// The short form draws one of the six fixed pictures, each of which takes SwiftShader ten seconds, runs four of fifteen
-/// traces, and changes the live view by its format alone.
+/// The short form draws one of the six fixed pictures (ten seconds each on SwiftShader), runs four of fifteen traces,
+/// and changes the live view by its format alone.
 fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     let (pictures, traces, page) = if is_full() { (6, 5 * 3, file.to_owned()) } else { (1, 1 + 3, shortened(file)) };
     let mut browser = Browser::start(name, true);
@@ -153,7 +153,7 @@ fn stepping_by_keys(browser: &mut Browser) {
     assert!(now(browser).1.contains("+cmp r0.a"), "{:?}", now(browser));
     browser.press("stepper", "Home", 36);
     assert_eq!(now(browser), ("0".to_owned(), String::new()), "an input register");
-    // What is written stands there three times: the emulator's, the GPU's, and the GPU's own floats.
+    // Written values stand there three times: the emulator's, the GPU's, and the GPU's own floats.
     let cells =
         browser.value("[...document.querySelectorAll('#written tr:first-child > *')].map((cell) => cell.textContent)");
     let cells: Vec<&str> = cells.as_array().into_iter().flatten().filter_map(Value::as_str).collect();

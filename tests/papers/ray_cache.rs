@@ -1,4 +1,4 @@
-//! Section 5.3: the ray cache's statistics, and what culling in the vertex program costs and saves.
+//! Section 5.3: the ray cache's statistics, and the cost and gain of culling in the vertex program.
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
@@ -45,7 +45,7 @@ fn engine<'a>(mesh: &'a Mesh, device: &str, parameters: EngineParameters) -> Ray
 struct Cache {
     /// The mean fill of its buckets, in [0, 1], with all rays in it.
     full: f64,
-    /// The same of the batches that left it.
+    /// The same for the batches that left it.
     batches: f64,
     /// Levels that went, for each batch after which any did.
     levels: f64,
@@ -76,7 +76,6 @@ fn buckets_are_as_full_as_the_paper_says_and_merge_as_little() {
     assert!((1.0..1.6).contains(&shuffled.levels), "typically a single level: {}", shuffled.levels);
 }
 
-/// Picoseconds of all draws of a log.
 fn drawing(device: &str, log: &[Event]) -> u64 {
     let model = Model::new(Level::Pipeline, &Profile::named(device).expect("a card")).expect("a model");
     let cost = |event: &Event| match event {

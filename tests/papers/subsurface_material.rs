@@ -1,4 +1,4 @@
-//! The published media: what their coefficients give against the diffuse reflectances printed beside them.
+//! The published media: totals from their coefficients against the printed diffuse reflectances.
 
 use crossbar::subsurface::materials::{FigureConfidence, MATERIALS, PublishedMaterial};
 use crossbar::subsurface::{Coefficients, Dipole};
@@ -60,7 +60,7 @@ fn half_a_unit(value: f64, digits: i32) -> f64 {
 
 #[test]
 fn rounded_coefficients_explain_no_more_than_these_differences() {
-    // Two digits of each coefficient are sure; what they leave open moves the total by this much.
+    // Two digits of each coefficient are sure; the others move the total by this much.
     let mut unexplained = Vec::new();
     for material in MATERIALS.iter().filter(|material| material.reflectance.is_some()) {
         for (c, s, a, printed, _) in channels(material) {

@@ -1,4 +1,4 @@
-//! Files and blocks of pages that are the program's own text: compared with it, or written by `INSTA_UPDATE=always`.
+//! Files and blocks of pages that the program generates: compared with it, or written by `INSTA_UPDATE=always`.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use std::fs;
@@ -6,12 +6,12 @@ use std::path::Path;
 
 use crate::environment::writes_files;
 
-/// Holds a file against what it should be, or writes it.
+/// Compares a file with its expected contents, or writes it.
 pub(crate) fn hold(path: &Path, expected: &str) {
     hold_bytes(path, expected.as_bytes());
 }
 
-/// The same of any bytes. Line ends of texts may be those of another system.
+/// The same for any bytes. Line ends of texts may differ by system.
 pub(crate) fn hold_bytes(path: &Path, expected: &[u8]) {
     if writes_files() {
         fs::write(path, expected).expect("it can be written");
@@ -28,8 +28,7 @@ pub(crate) fn hold_bytes(path: &Path, expected: &[u8]) {
     assert!(same, "{path} is out of date, INSTA_UPDATE=always cargo test writes it; expected, found: {other:?}");
 }
 
-/// The text with what stands between `<!-- KIND: NAME -->` and `<!-- /KIND -->` replaced by the text of `said` for the
-/// name.
+/// The text with each block between `<!-- KIND: NAME -->` and `<!-- /KIND -->` replaced by `said(NAME)`.
 pub(crate) fn filled(text: &str, kind: &str, said: impl Fn(&str) -> String) -> String {
     let (begin, end) = (format!("<!-- {kind}: "), format!("<!-- /{kind} -->"));
     let mut parts = text.split(&begin);

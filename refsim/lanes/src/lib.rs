@@ -1,6 +1,6 @@
 //! Number formats and the arithmetic in them: exact by definition ([`num`]), and in vector code of the host.
 //!
-//! The lower part of the emulator `refsim`, which re-exports what its users need as `refsim::num` and
+//! The lower part of the emulator `refsim`, which re-exports its public items as `refsim::num` and
 //! `refsim::exec::batch`. It is a separate package because it is most of the emulator's machine code: a change of the
 //! assembler, the checker or the machine recompiles none of it. Use `refsim` instead.
 //!

@@ -255,7 +255,7 @@ fn flushed_zeros_keep_their_sign_within_an_instruction_of_cdna2() {
     assert_eq!(dot(&unit, Element::BF16, &a, &b, 0), 0);
 }
 
-/// 1 + 8 * 2^-25 - 7 * 2^-24, which is 3f7ffffd: docs/matrix_units.md prints what the units make of it.
+/// 1 + 8 * 2^-25 - 7 * 2^-24, which is 3f7ffffd: docs/matrix_units.md prints the results of the units.
 #[test]
 fn one_sum_of_sixteen_tells_the_family_apart() {
     let sums = [

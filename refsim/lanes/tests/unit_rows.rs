@@ -293,7 +293,7 @@ fn rows_of_powers_of_two_are_as_defined() {
     FORMATS.iter().for_each(|format| compare(format, &[powers; OPERANDS], &codes, "powers of two"));
 }
 
-/// One operation on many operands is that of rows.
+/// One operation on many operands equals that on rows.
 #[test]
 fn single_operations_are_as_defined() {
     let mut words = Words(3);

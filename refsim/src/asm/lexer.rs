@@ -55,7 +55,6 @@ impl Token<'_> {
         }
     }
 
-    /// Error: the token is not the expected one.
     pub(super) fn error(&self, kind: ErrorKind, expected: impl Into<String>, help: impl Into<String>) -> SyntaxError {
         SyntaxError::new(kind, self.span, expected, self.found(), help)
     }

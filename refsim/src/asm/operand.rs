@@ -188,7 +188,6 @@ impl<'a> Parser<'a> {
         )
     }
 
-    /// Parses a source.
     pub(super) fn source(&mut self) -> Parsed<Source> {
         let start = self.peek().span.start;
         let prefix = match self.peek().kind {

@@ -29,7 +29,7 @@ pub(super) fn base(word: &str) -> &str {
     word.split('_').next().unwrap_or(word)
 }
 
-/// Returns `true` if the word can start a statement, whatever its suffixes.
+/// Returns `true` if the word can start a statement, with any suffixes.
 pub(super) fn starts_statement(word: &str) -> bool {
     let base = base(word);
     is_definition(word) || base.eq_ignore_ascii_case("dcl") || rows(base).next().is_some()

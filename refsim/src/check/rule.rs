@@ -39,7 +39,7 @@ macro_rules! rules {
 
 rules! {
     /// A rule of the checker, named after its violation or its subject. V01 to V46 are rules of Direct3D and the cards,
-    /// V47 to V59 are further requirements of the executors, and V60 on are OpenGL's. See docs/devices.md for examples.
+    /// V47 to V59 are further requirements of the executors, and V60 on are OpenGL's.
     RuleId:
     UnsupportedVersion V01 "the device runs the program's version";
     MisplacedDefinition V02 "constants are defined before the first instruction, once each";

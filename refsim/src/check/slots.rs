@@ -61,7 +61,7 @@ fn budget(context: &mut Context<'_>, phase: u8, limit: Limit, what: &str, slots:
     context.breach(RuleId::TooManyInstructions, span, message).label(label).exceeds(used, &allowed, advice);
 }
 
-/// Slots of an instruction in context: the second of a pair adds only what it costs more than the first, and in ps_2_x
+/// Slots of an instruction in context: the second of a pair adds only its cost beyond the first, and in ps_2_x
 /// predicates and cube maps cost extra.
 fn cost(context: &Context<'_>, index: usize, instruction: &Instruction) -> SlotCost {
     let version = context.version;

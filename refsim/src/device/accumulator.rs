@@ -24,8 +24,8 @@ pub(super) fn accumulates(accumulator: Format, operands: Format) -> bool {
 /// Returns `true` if rounding a number of [`PRODUCTS`] into a format rounds as the number that was rounded to odd.
 fn is_narrow(format: Format) -> bool {
     match format.kind {
-        // Under `:nvovf` products of 2^128 and more are told from the largest number; an exact sum of 0 has a sign of
-        // its own under `:rdn`.
+        // Under `:nvovf` products of 2^128 and more differ from the largest number; an exact sum of 0 is negative under
+        // `:rdn`.
         FormatKind::Float { man_bits, .. } => {
             man_bits <= 21 && format.overflow != Overflow::Nv30 && format.rounding != Rounding::Down
         }

@@ -128,7 +128,7 @@ impl Profile {
         for switch in &switched {
             same = same.and_then(|mut p| p.set_switch(&switch.name, &switch.current).ok().map(|()| p));
         }
-        // Where the switches do not say all about the registers, the format does.
+        // If the switches do not determine the registers, the format does.
         let of_file = (self.rules.storage, self.rules.accumulator);
         if same.is_none_or(|same| Rules { storage: of_file.0, accumulator: of_file.1, ..same.rules } != self.rules) {
             let _ = writeln!(text, "format = \"{}\"", self.rules.format);

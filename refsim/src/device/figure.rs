@@ -215,7 +215,7 @@ impl Section<'_> {
         words.ok_or_else(|| self.problem(key, "expected a list of names"))
     }
 
-    /// Removes and returns a list of named things; empty if the section lacks it.
+    /// Removes and returns a list of names; empty if the section lacks it.
     pub(super) fn named<T: Copy>(
         &mut self,
         key: &str,

@@ -22,7 +22,7 @@ pub struct SumRules {
 }
 
 impl SumRules {
-    /// Those of vertices and addresses, and of a format without a device: every product and every sum is rounded by the
+    /// Rules of vertices and addresses, and of a format without a device: every product and every sum is rounded by the
     /// format.
     pub const fn plain(format: Format) -> Self {
         let (add, mad, dot) = (AddMode::Rounded, MadMode::TwoRoundings, DotOrder::Sequential);
@@ -92,7 +92,7 @@ impl SumRules {
 
 impl Rules {
     /// The rules of products and sums in a format of pixel arithmetic; units of cards have their own. Fixed point has
-    /// neither exponents nor significands: there sums are rounded, and what would cut a product has two roundings.
+    /// neither exponents nor significands: there sums are rounded, and truncated products are rounded instead.
     pub fn sums_in(&self, format: Format) -> SumRules {
         if format.unit.is_card() {
             return SumRules::plain(format);

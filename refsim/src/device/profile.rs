@@ -18,8 +18,8 @@ use crate::texel::{DepthFormat, TexelFormat};
 
 const IDEAL: &str = include_str!("profiles/ideal.toml");
 
-/// Rules that [`Profile::set_switch`] set since the format was: those of the format, and those that need floats.
-/// Devices may be equal that came about in other ways.
+/// Rules that [`Profile::set_switch`] set after the format: rules of the format, and rules that need floats. Does not
+/// count in equality.
 #[derive(Clone, Debug, Default, Eq)]
 pub(super) struct StatedRules(pub(super) BTreeSet<String>);
 
@@ -210,7 +210,7 @@ impl Profile {
         new.set_format(format)?;
         let has_suffix = |rule: &str| text.split(':').skip(1).any(|suffix| sets_rule(format, rule, suffix));
         for switch in self.switches.iter().filter(|switch| self.stated.0.contains(&switch.name)) {
-            // The layout says what registers are counted in.
+            // The layout determines the unit of registers.
             if switch.name != "registers" && !has_suffix(&switch.name) {
                 new.set_switch(&switch.name, &switch.current)?;
             }

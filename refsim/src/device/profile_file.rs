@@ -78,7 +78,7 @@ impl RawProfile {
         Ok(rows)
     }
 
-    /// The rules of which several values are possible.
+    /// The rules with several possible values.
     pub(super) fn switches(&self) -> Vec<Switch> {
         let open = self.rules.iter().filter(|(_, figure)| !figure.values.is_empty());
         open.map(|(name, figure)| Switch {

@@ -226,7 +226,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// Where the vertex colours are clamped to [0, 1] first. Interpolated colours are clamped in any case.
+    /// The stage that first clamps vertex colours to [0, 1]. Interpolated colours are clamped in any case.
     ColorClamp {
         /// At every vertex, before interpolation. +NaN gives 1, and -NaN 0.
         Vertex = "vertex",

@@ -53,9 +53,9 @@ rules! {
     /// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal
     /// bits.
     ///
-    /// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md has the table. Switches are
-    /// added as cards are measured: outside this crate, rules are those of a [`Profile`](super::Profile), changed field
-    /// by field.
+    /// Every field is a figure or a switch of the profile, under `rules.*` (docs/devices.md, "The switches"). Switches
+    /// are added as cards are measured: outside this crate, take the rules of a [`Profile`](super::Profile) and change
+    /// single fields.
     Rules {
         /// Pixel registers and pixel arithmetic.
         format: Format = "format",
@@ -132,13 +132,13 @@ rules! {
 }
 
 impl Rules {
-    /// How a language computes `lrp`: OpenGL's state `t0 * t1 + (1 - t0) * t2` (GL_NV_fragment_program and
+    /// Computation of `lrp` by language: OpenGL's state `t0 * t1 + (1 - t0) * t2` (GL_NV_fragment_program and
     /// GL_ARB_fragment_program, sections on LRP); Direct3D leaves it to the card.
     pub fn lrp_in(&self, version: Version) -> LrpMode {
         if version.is_fragment_program() { LrpMode::TwoProducts } else { self.lrp }
     }
 
-    /// Whether MIN and MAX of a language are `a > b ? b : a` and `a > b ? a : b` in a format, where NaN is never the
+    /// `true` if MIN and MAX of a language are `a > b ? b : a` and `a > b ? a : b` in a format, where NaN is never the
     /// greater one (GL_ARB_fragment_program 3.11.5.16 and .17). NVIDIA's unit has a rule of its own in either language.
     pub fn compares_in(version: Version, format: &Format) -> bool {
         version == Version::ArbFp1_0 && format.specials == Specials::Ieee

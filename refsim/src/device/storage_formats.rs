@@ -1,4 +1,4 @@
-//! Number formats of what pixel programs store.
+//! Number formats of the values that pixel programs store.
 
 use super::instruction_formats::MAX_INSTRUCTION_FORMATS;
 use crate::isa::{Instruction, Program, RegisterFile, ResultKind};

@@ -100,7 +100,7 @@ pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
     }
     set_format_rule(&mut rules.format, name, value)?;
     if let Some(partial) = &mut rules.partial {
-        // fp16 of NV30 keeps its subnormals whatever fp32 does.
+        // fp16 of NV30 keeps its subnormals, independently of fp32.
         if name != "denormals" {
             set_format_rule(partial, name, value)?;
         }

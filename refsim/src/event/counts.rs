@@ -21,9 +21,9 @@ pub struct FragmentCounts {
     pub depth_failed: u64,
     /// Fragments that reached the targets.
     pub passed: u64,
-    /// Texture reads by sampler: one per texture instruction executed by a covered fragment, whatever the filter, and
-    /// with or without a bound texture. Fragments killed earlier in the program still read; lanes masked off by flow
-    /// control do not.
+    /// Texture reads by sampler: one per texture instruction executed by a covered fragment, with any filter, and with
+    /// or without a bound texture. Fragments killed earlier in the program still read; lanes masked off by flow control
+    /// do not.
     pub fetches: [u64; SAMPLERS],
 }
 
@@ -76,7 +76,7 @@ impl AddAssign for PrimitiveCounts {
 pub struct ByteCounts {
     /// Vertex data read.
     pub vertices: u64,
-    /// Texels read: one per fetch from a bound texture, whatever the filter.
+    /// Texels read: one per fetch from a bound texture, with any filter.
     pub textures: u64,
     /// Depth values read for the depth test.
     pub depth_read: u64,

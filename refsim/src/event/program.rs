@@ -76,8 +76,8 @@ pub struct FlowConstants<'a> {
 }
 
 impl ProgramWork {
-    /// Analyses a program. Loops are unrolled by their constants and calls are followed. Of a branch on a constant only
-    /// the branch taken counts; of a branch on a computed value both count, as on cards that use predication.
+    /// Analyses a program. Loops are unrolled by their constants and calls are followed. For a branch on a constant
+    /// only the branch taken counts; for a branch on a computed value both count, as on cards that use predication.
     pub fn new(program: &Program, constants: FlowConstants<'_>) -> Self {
         let times = executions(program, constants);
         let marker = program.phase_marker();

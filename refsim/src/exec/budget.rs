@@ -1,9 +1,9 @@
 //! The step budget: the maximum number of instructions executed per pixel or vertex.
 //!
-//! A step is one instruction executed by a lane, flow control included. A co-issued pair is one step, `phase` is no
-//! step. A lane that has used up its budget is stopped before its next instruction and executes nothing more. Its
-//! results are incomplete, so a fragment or vertex that is stopped is an error ([`Overrun`]). A stopped helper lane is
-//! not an error.
+//! A step is one instruction executed by a lane, flow control included. A co-issued pair is one step; `phase` counts 0.
+//! A lane that has used up its budget is stopped before its next instruction and executes nothing more. Its results are
+//! incomplete, so a fragment or vertex that is stopped is an error ([`Overrun`]). A stopped helper lane is not an
+//! error.
 //!
 //! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which terminate a program after a number of instructions
 //! "to prevent hangs"; docs/decisions/0011.

@@ -49,7 +49,7 @@ impl FragmentFormats {
     }
 }
 
-/// The components of a texel that a program of `version` reads as 0, whatever the sampler delivers: in `!!FP1.0` green
+/// The components of a texel that a program of `version` reads as 0, independently of the sampler: in `!!FP1.0` green
 /// and blue that a float format does not store, and all of an unbound sampler.
 ///
 /// Source: GL_NV_fragment_program, table X.5 and section 3.11.5.38. Other formats have no certain counterpart there and

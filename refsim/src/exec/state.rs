@@ -223,7 +223,7 @@ fn double(bits: u32) -> f64 {
     num::to_f64(&Format::FP32, bits)
 }
 
-/// Rounds to nearest even; NaN becomes the positive quiet one, whatever its sign on the host.
+/// Rounds to nearest even; NaN becomes the positive quiet one, with either sign on the host.
 fn single(value: f64) -> u32 {
     if value.is_nan() { 0x7fc0_0000 } else { (value as f32).to_bits() }
 }

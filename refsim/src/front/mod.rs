@@ -13,7 +13,7 @@ use crate::isa::Program;
 /// Uniforms become its parameters, `u.color` for example; texture `n` of the text, from 0, becomes image unit `n`.
 ///
 /// # Errors
-/// If the text is no WGSL, or uses what has no translation, with the place; without the feature `wgsl` always.
+/// If the text is not WGSL or uses a construct without translation, with the place; always without the feature `wgsl`.
 #[cfg(feature = "wgsl")]
 pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
     wgsl::translate(text)

@@ -6,7 +6,7 @@ use miette::{Diagnostic, SourceSpan};
 
 use crate::isa::Span;
 
-/// A text that cannot be translated: why, where, what to do.
+/// A text that cannot be translated: reason, place, advice.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[error("{message}")]
 #[diagnostic(code("front::wgsl"), help("{help}"))]

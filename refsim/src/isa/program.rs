@@ -172,7 +172,7 @@ impl ProgramResource {
         Self::Constant(vector.map(|bits| if bits == 1 << 31 { 0 } else { bits }))
     }
 
-    /// Returns the resource that a source register of a program stands for.
+    /// Returns the resource of a source register of a program.
     pub fn of_source(program: &Program, register: Register) -> Self {
         let literal = program.constants.iter().find(|d| d.register == register).map(|d| d.value);
         let parameter = program.parameters.iter().find(|p| p.register == register).map(|p| p.source);

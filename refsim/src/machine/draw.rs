@@ -156,7 +156,6 @@ impl<'a> DrawCall<'a> {
         self
     }
 
-    /// The state of the output stage.
     pub(super) fn output_state(&self) -> OutputState {
         OutputState { alpha: self.alpha_test, depth: self.depth, blend: self.blend, masks: self.masks }
     }

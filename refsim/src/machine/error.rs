@@ -25,7 +25,7 @@ impl std::fmt::Display for ProgramPlace {
     }
 }
 
-/// Error of a machine. Nothing has been changed unless a variant says otherwise.
+/// Error of a machine. The machine is unchanged unless a variant says otherwise.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]

@@ -25,7 +25,7 @@ pub enum Executor {
         /// The GPU.
         gpu: Arc<Gpu>,
     },
-    /// An executor with somebody who watches every draw of its machines.
+    /// An executor with a watcher of every draw of its machines.
     Watched {
         /// The executor.
         executor: Box<Executor>,

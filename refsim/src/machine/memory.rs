@@ -77,7 +77,6 @@ impl Memory {
         self.depths.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
-    /// Downloads targets that are newer on the GPU.
     #[cfg(feature = "wgpu")]
     pub(super) fn download_newer(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
         for &id in targets {
@@ -91,7 +90,7 @@ impl Memory {
         Ok(())
     }
 
-    /// Discards what the GPU drew into targets since [`Self::download_newer`].
+    /// Discards the GPU's draws into targets since [`Self::download_newer`].
     #[cfg(feature = "wgpu")]
     pub(super) fn discard_gpu_contents(
         &mut self,

@@ -95,7 +95,7 @@ impl EncodedProgram {
     }
 }
 
-/// Where a trace puts its data.
+/// Layout of a trace's data.
 pub(super) struct TraceLayout {
     pub(super) words: DrawWords,
     /// Copies of the targets with one row: a column per traced pixel, plus one for re-execution.

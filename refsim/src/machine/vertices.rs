@@ -158,7 +158,6 @@ impl<'a> VertexStage<'a> {
     }
 }
 
-/// The attributes of one vertex of one instance.
 fn attributes(streams: &VertexStreams<'_>, instance: usize, vertex: usize) -> [[u32; 4]; 16] {
     let mut out = [DEFAULT_ATTRIBUTE; 16];
     for stream in &streams.streams {

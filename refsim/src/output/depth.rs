@@ -24,7 +24,7 @@ impl DepthFormat {
         };
         let nearest = rounding == TargetRounding::Nearest;
         let unorm = |scale: u64| value::scaled_magnitude(significand, exponent, denominator, scale, nearest) as u32;
-        // Of a quotient, 32 bits and one that stands for the rest: more than the floats round at.
+        // 32 bits of the quotient and a sticky bit: more than the float formats keep.
         let (significand, exponent) = match u64::from(denominator) {
             1 => (significand, exponent),
             d => (((significand << 32) / d) | u64::from(!(significand << 32).is_multiple_of(d)), exponent - 32),

@@ -41,7 +41,7 @@ pub struct TriangleSetup {
     pub bounds: Region,
     /// `true` if the vertices are clockwise as seen with +y up.
     pub clockwise: bool,
-    /// Depth, in FP32 whatever the iterator format.
+    /// Depth, in FP32 with any iterator format.
     pub depth: Plane,
     /// `true` if the three depths are bit-equal.
     pub depth_constant: bool,

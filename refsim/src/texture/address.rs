@@ -73,7 +73,7 @@ pub fn nearest_index(mode: AddressMode, coordinate: u32, size: u32, scale: u32) 
 ///
 /// The position `coordinate * scale - 1/2` is rounded to `fraction_bits` (at most 12; nearest with halves up, or down);
 /// `None` is the border. With a weight of 0 the second texel does not contribute. Without fraction bits the first texel
-/// is the nearest one, whatever the rounding.
+/// is the nearest one, under any rounding.
 pub fn linear_taps(
     mode: AddressMode,
     coordinate: u32,

@@ -79,7 +79,6 @@ impl PartialEq for Stamp {
 
 impl Eq for Stamp {}
 
-/// The last stamp assigned.
 static LAST_STAMP: AtomicU64 = AtomicU64::new(0);
 
 impl Image {

@@ -197,7 +197,6 @@ impl<'a> SamplePlace<'a> {
         Some((index[2], index[1], index[0]))
     }
 
-    /// Value of a nearest read of a level.
     fn nearest_value(&self, rules: &SampleRules, level: u32) -> [u32; 4] {
         let texel = match self.nearest(level) {
             Some(at) => self.texel(rules, level, at),

@@ -70,7 +70,7 @@ impl From<&Rules> for SampleRules {
 pub(crate) enum SampledSource {
     /// A stored channel.
     Stored(Channel),
-    /// Not stored: the byte 0 or 255, whatever the texel.
+    /// Not stored: the byte 0 or 255 for every texel.
     Missing(u8),
 }
 
@@ -149,7 +149,6 @@ impl SampleRules {
         std::array::from_fn(|i| if matches!(texel[i], SampledComponent::Byte { .. }) { bytes[i] } else { texel[i] })
     }
 
-    /// A component from the bits of its channel.
     fn component(&self, channel: Channel, bits: u32) -> SampledComponent {
         let byte = match (channel.bits, self.texel_values) {
             _ if matches!(channel.class, ChannelClass::Float(_)) => None,

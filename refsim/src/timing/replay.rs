@@ -29,8 +29,8 @@ pub trait Costs {
 pub struct Options<'a> {
     /// Host cost of commands.
     pub queue: QueueFigures,
-    /// Overrides the mode of every read-back. Asynchronous read-backs in a log in which nobody waits for the data give
-    /// an upper bound on the gain from asynchrony.
+    /// Overrides the mode of every read-back. Asynchronous read-backs in a log that never waits for the data give an
+    /// upper bound on the gain from asynchrony.
     pub read_back: Option<ReadBackMode>,
     /// Gives every resource two copies: uploads and clears, which overwrite all of it, use the copy not used last.
     pub double_buffered: bool,

@@ -1,5 +1,5 @@
-//! Rows of lanes some of which leave the range of their format or come from its ends: the batch executor, which
-//! computes whole rows without checks and then repairs infinite results, against the scalar one.
+//! Rows with lanes that leave the range of their format or come from its ends: the batch executor, which computes whole
+//! rows without checks and then repairs infinite results, against the scalar one.
 
 use crate::random::Random;
 use refsim::asm::assemble;

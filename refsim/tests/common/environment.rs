@@ -9,7 +9,7 @@ pub(crate) fn is_full() -> bool {
     env::var_os("CROSSBAR_FULL").is_some_and(|value| !value.is_empty())
 }
 
-/// One of two parameters: that of the short form or that of the full one.
+/// The parameter of the short form or of the full form.
 pub(crate) fn by_form<T>(short: T, full: T) -> T {
     if is_full() { full } else { short }
 }

@@ -20,7 +20,6 @@ pub(crate) fn ready(program: Program, profile: &Profile) -> Result<CheckedProgra
     refsim::check::check(program, profile).map_err(|e| format!("{e:?}"))
 }
 
-/// An ideal device of a format.
 pub(crate) fn ideal(format: &str) -> Profile {
     Profile::named(&format!("ideal-{format}")).unwrap()
 }

@@ -37,10 +37,10 @@ fn length(text: &[u8]) -> usize {
     }
 }
 
-/// No text has two readings: a legal program is the same program with any space between its words, and without a space
-/// it is the same program or refused. The first line, which names the language, stays as it is.
+/// The grammar is unambiguous: changed white space gives the same program, and a removed space the same program or an
+/// error. The first line, which names the language, stays as it is.
 ///
-/// `gaps` are spaces and comments, of which `choose` takes one at every place, and one place that has none.
+/// `gaps` are spaces and comments; `choose` selects one per place, and one place without any.
 pub(crate) fn has_one_reading(text: &str, gaps: &[&str], mut choose: impl FnMut(usize) -> usize) {
     let expected = assemble(text).unwrap_or_else(|errors| panic!("{text}\n{errors:?}"));
     let (header, body) = text.split_once('\n').unwrap_or((text, ""));

@@ -158,7 +158,7 @@ fn switches_reach_the_formats() {
     r300.set_format(Format::FP16).unwrap();
     let denormals = r300.switches().iter().find(|s| s.name == "denormals").unwrap();
     assert_eq!(denormals.current, "keep");
-    // Floats cannot wrap, whatever the switch of the fixed-point card.
+    // Floats cannot wrap; the switch of the fixed-point card has no effect.
     let mut r200 = Profile::named("r200").unwrap();
     r200.set_format(Format::FP24).unwrap();
     assert!(matches!(r200.set_switch("overflow", "wrap"), Err(DeviceError::FormatRule { .. })));
@@ -266,7 +266,7 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }
 
-/// So whatever holds for a card holds for its variants, and arithmetic tests need not run on variants.
+/// So tests of a card's arithmetic need not run on its variants.
 #[test]
 fn variants_differ_from_their_card_in_rates_alone() {
     let variants = Profile::variant_names();

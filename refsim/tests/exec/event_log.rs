@@ -200,6 +200,6 @@ fn fixed_point_is_told_apart() {
     let program =
         work("!!FP1.0\nMULX H0, f[COL0], p[0];\nMULX H1, f[TEX0], p[0];\nADDH o[COLH], H0, H1;\nEND", &[], &[]);
     let fixed: Vec<bool> = program.phases[0].arithmetic.iter().map(|slot| slot.fixed).collect();
-    // Coordinates force full precision, whatever the suffix.
+    // Coordinates force full precision with any suffix.
     assert_eq!(fixed, [true, false, false]);
 }

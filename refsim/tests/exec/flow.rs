@@ -46,7 +46,7 @@ fn loops_count_and_break_by_lane() {
     let within = format!("rep i0\nadd r0, r0, c1\nif_gt r0.x, r1.x\nbreak\nendif\nendrep\nadd r0, r0, c3{END}");
     assert_eq!(lanes(&within), [4.0, 5.0, 6.0, 6.0], "lanes that left run on after the loop");
     let nested = format!("rep i0\nrep i0\nbreak_ge r0.x, r1.x\nadd r0, r0, c1\nendrep\nadd r0, r0, c1\nendrep{END}");
-    // The outer loop adds 1 a pass whatever the inner one did: 0: 1 2 3; 1: 1+1, +1, +1; 2: 2+1 ...; 3: 3+1 ...
+    // The outer loop adds 1 per pass, independently of the inner one: 0: 1 2 3; 1: 1+1, +1, +1; 2: 2+1 ...; 3: 3+1 ...
     assert_eq!(lanes(&nested), [3.0, 4.0, 5.0, 6.0]);
 }
 

@@ -114,7 +114,6 @@ proptest! {
         prop_assert_eq!(read.to_device_file(&[&program]), text);
     }
 
-    /// Any text is read or refused.
     #[test]
     fn any_text_is_read_or_refused(text in "(device|format|programs|switches|[a-z0-9.=\"\\[\\]\n ]){0,40}") {
         if let Err(error) = Profile::from_device_file(&text) {
@@ -139,7 +138,7 @@ fn each_instruction_rounds_to_its_own_format() {
     assert_eq!(run(&profile), 2f32.to_bits());
     assert!(profile.set_instruction_format(&program, 0, None));
     assert_eq!(run(&profile), 2.25f32.to_bits(), "1.21 and 1.1 are 1.25 and 1");
-    // Another program has none of it, whatever its comments and layout.
+    // Another program has none of it; comments and layout do not matter.
     assert_eq!(program.digest(), assemble(&text.replace("r0, t0", "r0,  t0")).unwrap().digest());
     assert_eq!(program.digest(), assemble(&text.replace("\nadd", " ; a comment\nadd")).unwrap().digest());
     assert_ne!(program.digest(), assemble(&text.replace("r0, t0, t0", "r0, t0, -t0")).unwrap().digest());

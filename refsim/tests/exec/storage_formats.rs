@@ -135,7 +135,7 @@ proptest! {
                 _ => {}
             }
         }
-        // -1 is what wraps, which no color is.
+        // -1 wraps; no color is negative.
         prop_assume!(storage != Storage::Colors || !own.ends_with(":wrap"));
         if storage == Storage::Constants {
             host.float.iter_mut().for_each(|constant| *constant = constant.map(round));
@@ -278,7 +278,7 @@ fn a_format_holds_what_conversion_there_and_back_keeps() {
     for wide in texts.iter().map(|text| format(text)) {
         for narrow in texts.iter().map(|text| format(text)) {
             let keeps = (0..=narrow.mask()).all(|bits| {
-                // What reads as zero is none of its numbers, and NaNs are one.
+                // Patterns that read as zero are not its numbers, and all NaNs count as one.
                 let number = ops::convert(&narrow, narrow, bits).bits;
                 let there = ops::convert(&narrow, wide, number);
                 there.flags.is_empty() && ops::convert(&wide, narrow, there.bits).bits == number
@@ -304,7 +304,6 @@ fn device_files_have_formats_of_storages_and_sums() {
     assert!(message("device = \"r200\"\n[storage]\nsamples = \"fp16\"").contains("unknown field `samples`"));
 }
 
-/// Formats that a program never uses are found.
 #[test]
 fn storages_that_a_program_does_not_use_are_found() {
     let unused = |text: &str| {

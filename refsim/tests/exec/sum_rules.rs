@@ -21,7 +21,7 @@ fn executors_agree_on_products_and_sums() {
     }
 }
 
-/// GT200 makes zeros of what is below 2^-33 on its way to half floats, whatever the rounding.
+/// GT200 flushes magnitudes below 2^-33 in conversions to half floats, in every rounding.
 #[test]
 fn executors_agree_on_half_floats_of_gt200() {
     for rounding in ["rne", "rtz", "rdn", "rup"] {
@@ -111,7 +111,7 @@ fn rules_of_exponents_are_refused_for_fixed_point() {
             assert!(matches!(&error, DeviceError::NeedsFloats { switch: name, .. } if name == switch), "{error}");
             assert_eq!(profile, before);
         }
-        // What was asked for does not go unsaid with another format either.
+        // Settings are not dropped silently with another format either.
         let mut profile = ideal("fp24");
         profile.set_switch(switch, value).unwrap();
         assert!(matches!(profile.replace_format("s3.12"), Err(DeviceError::NeedsFloats { .. })), "{switch}");

@@ -1,4 +1,4 @@
-//! Arithmetic of the combiners: what registers count in, and how results are rounded.
+//! Arithmetic of the combiners: the unit of registers, and the rounding of results.
 
 use super::draws::{COLUMNS, cell, codes, quads, rows};
 use super::rule::{Hypotheses, Rule};
@@ -57,7 +57,7 @@ fn grey(index: usize, [first, second]: [u8; 2]) -> [Vertex; 4] {
     cell(index).map(|corner| Vertex { colors, ..corner })
 }
 
-/// Draws cells with a program, colors v0 and v1, and a constant c0, all grey; returns what the cells show.
+/// Draws cells with a program, colors v0 and v1, and a constant c0, all grey; returns the colors of the cells.
 fn shown(device: &Profile, executor: &Executor, cells: &[(String, [u8; 2], u8)]) -> Vec<u8> {
     let mut machine = executor.machine(device.clone()).expect("a machine");
     let target = machine.create_target(TexelFormat::Bgra8, COLUMNS, rows(cells.len())).expect("a target");
@@ -79,7 +79,8 @@ fn shown(device: &Profile, executor: &Executor, cells: &[(String, [u8; 2], u8)])
         .collect()
 }
 
-/// `a*b + (1 - a)*c`. A row lists all factors within one code of the picture's; one of them must give what is shown.
+/// `a*b + (1 - a)*c`. A row lists all factors within one code of the picture's; one of them must give the measured
+/// color.
 fn lerps(device: &Profile, executor: &Executor) -> Values {
     let rows = table(LERPS);
     let factors = |row: &Row| -> Vec<u8> { row.text("a").split(';').map(|a| a.parse().expect("a code")).collect() };

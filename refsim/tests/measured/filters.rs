@@ -56,7 +56,7 @@ pub(crate) fn rules() -> Vec<Rule> {
 const LINEAR: SamplerState =
     SamplerState { min: Filter::Linear, mag: Filter::Linear, mip: MipFilter::Linear, ..SamplerState::NEAREST_CLAMP };
 
-/// Checks of 4 texels, in every level of its own color and dark.
+/// Checkerboards of 4 texels; each level has its own color, and dark.
 fn checked_levels() -> Image {
     const COLORS: [u32; 6] = [0xff_0000, 0xff_ffff, 0x00_ffff, 0xff_00ff, 0xff_ff00, 0x80_8080];
     let extents = [TEXELS, TEXELS, 1];

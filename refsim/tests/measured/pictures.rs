@@ -162,7 +162,7 @@ fn shown(hypotheses: &[(String, Values)]) -> Vec<usize> {
     groups.sort_by_key(Vec::len);
     let mut chosen = Vec::new();
     for (number, group) in groups.iter().enumerate() {
-        // What a small group leaves goes to the larger ones.
+        // Columns that a small group does not use go to the larger ones.
         let count = group.len().min((SHOWN - chosen.len()) / (groups.len() - number));
         chosen.extend((0..count).map(|i| group[i * group.len() / count]));
     }

@@ -29,7 +29,7 @@ pub(crate) struct Rule {
 /// A device's results for all measured values.
 pub(crate) type Redraw = fn(&Profile, &Executor) -> Values;
 
-/// An answer of a rule by its name, and what sets it.
+/// An answer of a rule by its name, and the setting for it.
 pub(crate) type RuleOption = (&'static str, fn(&mut Rules));
 
 /// The answers to a rule. The cards' own answer is that of their profile.

@@ -5,7 +5,7 @@
 pub(crate) struct Value {
     pub(crate) measured: [u8; 3],
     pub(crate) drawn: [u8; 3],
-    /// `true` if what was drawn is what was measured; both colors can be less than what was compared.
+    /// `true` if the drawn value equals the measured one; the colors can be only a part of the compared value.
     pub(crate) right: bool,
 }
 
@@ -19,7 +19,6 @@ impl Values {
         self.0.push(Value { measured, drawn, right });
     }
 
-    /// Adds a code that must be the measured one.
     pub(crate) fn add_code(&mut self, measured: u8, drawn: u8) {
         self.add_grey(measured, drawn, measured == drawn);
     }

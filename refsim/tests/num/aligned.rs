@@ -102,7 +102,6 @@ fn enough_bits_make_the_exact_sum() {
     });
 }
 
-/// With enough bits a dot product is the exact sum of rounded products.
 #[test]
 fn aligned_dot_products_sum_rounded_products() {
     let rounds = by_form(1_000, 50_000);
@@ -160,7 +159,7 @@ fn cut_products_lose_bits_below_the_significand_and_nothing_else() {
 fn examples_of_cut_bits() {
     let f = Format::FP24.with_rounding(Rounding::TowardZero);
     let n = |text: &str| refsim::num::decimal::from_decimal(f, text).expect("a number").bits;
-    // One guard bit: what lies below half a unit of the largest addend is lost before the sum.
+    // One guard bit: bits below half a unit of the largest addend are lost before the sum.
     let sum = |bits: u8, addends: &[&str]| ops::sum_aligned(f, bits, &addends.iter().map(|t| n(t)).collect::<Vec<_>>());
     assert_eq!(sum(17, &["1", "-3.814697265625e-6"]).bits, n("1"), "2^-18 is gone");
     assert_ne!(sum(18, &["1", "-3.814697265625e-6"]).bits, n("1"));

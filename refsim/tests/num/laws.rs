@@ -113,7 +113,7 @@ proptest! {
         prop_assert_eq!(ops::mul(f, a, b), ops::mul(f, b, a));
     }
 
-    /// A larger operand never gives a smaller result, whatever the rounding.
+    /// A larger operand never gives a smaller result, in any rounding.
     #[test]
     fn rounding_is_monotone(f in format().prop_filter("wraps", not_wrapping), a in pattern(), b in pattern(), c in pattern()) {
         if le(&f, a, b) {
@@ -156,7 +156,7 @@ proptest! {
         let wanted = moved(f, a);
         // Most normalized numbers have no last digit.
         let exact = f.denominator() == 1 || to_decimal_exact(&f, a).parse::<i32>().is_ok();
-        // To odd, what is not exact is an odd number.
+        // Rounded to odd, an inexact result is an odd number.
         prop_assume!(exact || f.rounding != Rounding::Odd);
         for text in [to_decimal(&f, a)].into_iter().chain(exact.then(|| to_decimal_exact(&f, a))) {
             prop_assert_eq!(from_decimal(f, &text).expect("a number").bits, wanted, "{}", text);

@@ -139,7 +139,7 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
 fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn(Q) -> Ordering) -> Outcome {
     let FormatKind::Float { exp_bits, man_bits } = f.kind else { unreachable!("a float") };
     let sign = if negative { f.sign_bit() } else { 0 };
-    // How many patterns of a sign are numbers, and those of whole exponent fields.
+    // Number of patterns per sign that are numbers, and of those in whole exponent fields.
     let (numbers, fields) = match f.encoding {
         Encoding::Ieee => (((1 << exp_bits) - 1) << man_bits, ((1 << exp_bits) - 1) << man_bits),
         Encoding::Finite if 1 + exp_bits + man_bits > 6 => {

@@ -226,7 +226,7 @@ impl Reference {
         let flags = self.nan(&[x, y]).map_or(Flags::empty(), |o| o.flags);
         let bits = match self.order(x, y) {
             None if self.f.specials == Specials::Nv => self.f.canonical_nan().unwrap_or(0),
-            // Of two zeros the maximum is the positive one, whose pattern is the smaller.
+            // The maximum of two zeros is the positive one, whose pattern is smaller.
             Some(Ordering::Equal) if self.f.specials == Specials::Nv => match first(Ordering::Equal) {
                 true => self.pass(a).min(self.pass(b)),
                 false => self.pass(a).max(self.pass(b)),

@@ -117,11 +117,11 @@ fn chance_is_the_fraction() {
     assert_eq!(ups(half, &|f| ops::div(f, 0x3c00, 0x4200).bits, 0x3555), 86);
     assert_eq!(ups(Format::S3_12, &|f| ops::div(f, 0x1000, 0x3000).bits, 0x0555), 86);
     assert_eq!(ups(single, &|f| ops::div(f, 0x3f80_0000, 0x4040_0000).bits, 0x3eaa_aaaa), 171);
-    // sqrt 2 in units of 2^-12: 5792.6187, of which 0.6187 * 256 = 158.4.
+    // sqrt 2 in units of 2^-12 is 5792.6187; 0.6187 * 256 = 158.4.
     assert_eq!(ups(Format::S3_12, &|f| ops::sqrt(f, 0x2000).bits, 5792), 159);
     // 2.75 to an integer.
     assert_eq!(ups(single, &|f| ops::round_to_int(f, 0x4030_0000).bits, 0x4000_0000), 192);
-    // What is exact stays.
+    // Exact numbers stay.
     assert_eq!(ups(single, &|f| ops::add(f, 0x3f80_0000, 0x3f80_0000).bits, 0x4000_0000), 0);
 }
 

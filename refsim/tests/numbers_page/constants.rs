@@ -35,7 +35,7 @@ fn constants_are_stored_as_the_page_says() {
         let before_2_0 = version == "ps_1_4";
         let end = if before_2_0 { "" } else { "mov oC0, r0" };
         let program = checked(&format!("{version}\nmov r0, c0\n{end}"), &profile);
-        // All bytes, and what lies between two.
+        // All bytes, and numbers between two of them.
         let codes = (0..128).map(|quad: u16| [0, 1, 2, 3].map(|i| f32::from(4 * quad + i) / 510.0));
         let random: Vec<[f32; 4]> = (0..probes(60)).map(|_| std::array::from_fn(|_| r.single())).collect();
         for values in random.into_iter().chain(codes) {

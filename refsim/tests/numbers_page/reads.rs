@@ -58,7 +58,6 @@ fn level(t: &[[f32; 4]; 4], lane: usize, bits: u32) -> f32 {
     half_logarithm(if a.is_nan() || b.is_nan() { f32::NAN } else { a.max(b) }, bits)
 }
 
-/// Rounds a level to the grid.
 fn on_grid(level: f32, bits: u32) -> f32 {
     let steps = (1 << bits) as f32;
     match level {

@@ -81,7 +81,6 @@ proptest! {
         }
     }
 
-    /// An ideal device allows every program that a card allows.
     #[test]
     fn ideal_devices_allow_whatever_a_card_allows(program in crate::programs::program(), device in 0..DEVICES.len() - 1) {
         let card = Profile::named(DEVICES[device]).unwrap();

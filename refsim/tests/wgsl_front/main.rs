@@ -1,4 +1,4 @@
-//! Shaders in WGSL: what they become, what they compute, and what is refused.
+//! Shaders in WGSL: translation, results, refusals.
 
 #[path = "../common/adapter.rs"]
 mod adapter;

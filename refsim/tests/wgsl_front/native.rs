@@ -8,11 +8,11 @@ use refsim::machine::Executor;
 use super::drawn::{SIDE, Uniforms, drawn, drawn_by};
 use super::texts::EXAMPLES;
 
-/// How far a component may be off. What WGSL allows differs by function and argument; of these shaders GGX, whose
-/// quotient of small numbers is bright, has the largest difference on lavapipe: 2e-5.
+/// Tolerance per component. WGSL's bounds differ by function and argument; among these shaders GGX, whose quotient of
+/// small numbers is bright, has the largest difference on lavapipe: 2e-5.
 const TOLERANCE: f64 = 1e-4;
 
-/// A shader, its uniforms, and what stands for them in the native text.
+/// A shader, its uniforms, and their replacements in the native text.
 struct Row {
     name: &'static str,
     uniforms: Uniforms<'static>,

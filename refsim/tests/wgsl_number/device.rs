@@ -14,7 +14,7 @@ use crate::operands::{cards, edges, formats, pattern};
 use crate::random::Random;
 use crate::reference::reference;
 
-/// Format of operands of step operations, whatever the format of the result.
+/// Format of the operands of step operations, for any format of the result.
 const SINGLE: Format = Format::FP32;
 
 /// The library, extended by a text with the given entry point.

@@ -47,7 +47,6 @@ pub(crate) fn pattern(words: &mut Random, format: &Format, edges: &[u32]) -> u32
     bits & format.mask()
 }
 
-/// The formats of cards' units.
 pub(crate) fn cards() -> Vec<Format> {
     let names = Unit::CARDS.iter().map(|(name, _)| *name).chain(["gt200:rtz", "gt200-zero-wins:rtz"]);
     names.map(|name| format!("e8m23:{name}").parse().expect("a format")).collect()

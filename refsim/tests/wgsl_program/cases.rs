@@ -33,7 +33,6 @@ pub(crate) const FORMATS: [&str; 17] = [
     "e3m2fn",
 ];
 
-/// An ideal device of a format.
 pub(crate) fn ideal(format: &str) -> Profile {
     static KNOWN: LazyLock<Mutex<BTreeMap<String, Profile>>> = LazyLock::new(Mutex::default);
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);

@@ -29,7 +29,7 @@ pub struct Device {
     pub format: Option<String>,
 }
 
-/// A program and what to do with it.
+/// A program and the requested action.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Request {
     /// The program.

@@ -11,7 +11,7 @@ fn reach(corners: &[DVec3]) -> f64 {
     3_f64.sqrt() * f64::from(f32::EPSILON) / 2.0 * largest
 }
 
-/// Returns `true` if a triangle has an area whatever the rounding of its corners was. Corners that were on a line are
+/// Returns `true` if a triangle has an area for every possible rounding of its corners. Corners that were on a line are
 /// now within their reach of it, so that the least height of the triangle is at most twice that.
 pub fn has_certain_area(triangle: &[[f32; 3]; 3]) -> bool {
     let corners @ [a, b, c] = triangle.map(wide);

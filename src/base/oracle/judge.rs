@@ -53,7 +53,7 @@ impl<'a> Oracle<'a> {
     }
 
     /// Judges the hit of one ray, which is the one numbered `place` and has an aim if known; returns the exact first
-    /// hit, and what is wrong with the one found.
+    /// hit, and the error of the hit found.
     #[must_use]
     pub fn judge_one(
         &self,

@@ -1,4 +1,4 @@
-//! `crossbar all-frequency error`: the raw matrices again, beside what was coded.
+//! `crossbar all-frequency error`: the raw matrices again, compared with the coded transfer.
 
 use std::path::PathBuf;
 

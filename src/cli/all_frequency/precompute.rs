@@ -1,4 +1,4 @@
-//! `crossbar all-frequency precompute`: what the vertices of a model see.
+//! `crossbar all-frequency precompute`: visibility at the vertices of a model.
 
 use std::path::{Path, PathBuf};
 

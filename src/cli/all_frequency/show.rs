@@ -1,4 +1,4 @@
-//! `crossbar all-frequency show`: what is in a `.npz` file of transfer for all frequencies.
+//! `crossbar all-frequency show`: contents of a `.npz` file of transfer for all frequencies.
 
 use std::path::PathBuf;
 

@@ -44,7 +44,6 @@ pub(super) struct AluArithmetic {
 }
 
 impl AluArithmetic {
-    /// That of a format.
     pub(super) fn of_format(format: Format) -> Self {
         Self { format, sums: None }
     }

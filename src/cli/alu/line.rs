@@ -18,13 +18,13 @@ pub(super) fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|byte| byte.is_ascii_whitespace() || *byte == b',').filter(|field| !field.is_empty())
 }
 
-/// How the fields of a line are read.
+/// Parser of the fields of a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineFormat {
     operands: usize,
     operand_width: u32,
     result_width: u32,
-    /// How many fields may follow the operands, least and most.
+    /// Minimum and maximum number of fields after the operands.
     after: (usize, usize),
 }
 

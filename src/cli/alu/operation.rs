@@ -99,7 +99,7 @@ impl AluOperation {
         NAMED.iter().find(|(operation, ..)| *operation == self).map_or("", |&(_, name, _)| name)
     }
 
-    /// How many operands it takes, 1 to 3; 0 of operations that take lines of any number ([`super::row`]).
+    /// Number of operands, 1 to 3; 0 for operations on lines of any length ([`super::row`]).
     pub(super) const fn operands(self) -> usize {
         match self {
             Self::Table(operation) => operation.operands(),

@@ -139,7 +139,7 @@ impl RowUnit {
     }
 }
 
-/// Writes what is made of every line.
+/// Writes the result of every line.
 pub(super) fn run(unit: &RowUnit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<()> {
     let json = out.json();
     let work = |part: &mut TaskOutput, text: &[u8], number: u64| {

@@ -18,7 +18,6 @@ use crate::error::{InputError, input_error};
 
 /// Number of bytes per read.
 const READ: usize = 1 << 20;
-/// Lines of one task.
 const TASK_LINES: usize = 4096;
 
 /// Output for consecutive lines, and the first error, after which nothing was read.
@@ -30,7 +29,7 @@ pub(super) struct TaskOutput {
     error: Option<InputError>,
 }
 
-/// Calls `work` on tasks of consecutive lines, `take` on what they made, in the order of the lines.
+/// Calls `work` on tasks of consecutive lines, `take` on their results, in the order of the lines.
 fn each_line(
     mut input: impl Read,
     work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError> + Sync,
@@ -55,7 +54,7 @@ fn each_line(
         let whole = if got == 0 {
             buffer.len()
         } else {
-            // What was held has no line end in it.
+            // The buffered part has no line end.
             buffer[held..].iter().rposition(|&b| b == b'\n').map_or(0, |end| held + end + 1)
         };
         let lines: Vec<&[u8]> = buffer[..whole].split_inclusive(|&b| b == b'\n').collect();
@@ -111,7 +110,7 @@ pub(super) fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut O
     written(input, out, work)
 }
 
-/// Writes what `work` makes of every line.
+/// Writes the result of `work` for every line.
 pub(super) fn written(
     input: impl Read,
     out: &mut Out,

@@ -82,7 +82,6 @@ fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem>
     Err(Problem::usage(what, "name a smaller matrix"))
 }
 
-/// The light of a verb.
 pub(super) fn cube_of(light: &DistantLightArg, verb: &str) -> miette::Result<CubeLight> {
     let cube = light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     Ok(cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar bi-scale {verb} --help`")))?)
@@ -100,7 +99,6 @@ pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) ->
     .map_err(Problem::from)
 }
 
-/// Frequency of each value in a matrix.
 pub(super) fn value_counts(matrix: &SparseMatrix) -> Vec<(f64, u64)> {
     let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
     for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {
@@ -123,7 +121,7 @@ pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
     table
 }
 
-/// The same for machines.
+/// The same as JSON.
 pub(super) fn values_document(values: &[(f64, u64)]) -> Vec<Value> {
     values.iter().map(|(value, count)| json!({ "value": value, "count": count })).collect()
 }

@@ -1,4 +1,4 @@
-//! `crossbar bi-scale show`: what is in a matrix or its biclusters.
+//! `crossbar bi-scale show`: contents of a matrix or its biclusters.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -89,8 +89,8 @@ fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
     }
 }
 
-/// Biclusters by how many rows they have: up to 1, 3, 7, 15 and so on; with how many rows and columns they have
-/// together, and what they cost.
+/// Biclusters by how many rows they have: up to 1, 3, 7, 15 and so on; with their total rows and columns, and their
+/// cost.
 fn sizes(biclusters: &Biclustering) -> Vec<[u64; 5]> {
     let mut sizes: BTreeMap<u32, [u64; 5]> = BTreeMap::new();
     for number in 0..biclusters.len() {

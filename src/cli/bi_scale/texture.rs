@@ -111,7 +111,7 @@ fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
 fn sheet(texture: &BidirectionalTexture, view: usize) -> RgbImage {
     let (side, size) = (texture.light().side(), texture.size());
     let width = side * size;
-    // A white Lambert surface, lit along its normal, is white; what lobes make brighter is clipped.
+    // A white Lambert surface, lit along its normal, is white; brighter lobes are clipped.
     let scale = std::f64::consts::PI;
     let pixel = |at: usize| {
         let (x, y) = (at % width, width - 1 - at / width);

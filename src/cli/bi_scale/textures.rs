@@ -38,10 +38,7 @@ pub(super) struct PatchArgs {
 }
 
 impl PatchArgs {
-    /// Refuses options of patches where no texture is one.
-    ///
-    /// # Errors
-    /// [`Problem`] names the option.
+    /// Refuses options of patches where no texture is one. Fails with [`Problem`] names the option.
     pub(super) fn require_patch(&self) -> Result<(), Problem> {
         let of_patches =
             [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];

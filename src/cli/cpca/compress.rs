@@ -134,7 +134,7 @@ impl Args {
         })
     }
 
-    /// How the clusters were made, for the file: the values used, not the limits.
+    /// Provenance of the clusters for the file: the values used, not the limits.
     fn provenance(&self, options: &CpcaOptions, clustering: &Clustering, steps: &[CpcaStep]) -> String {
         let vectors = steps.last().map_or(options.vectors, |step| step.vectors);
         let mut parts = vec![

@@ -44,7 +44,6 @@ impl Default for RowsArg {
 }
 
 impl RowsArg {
-    /// The basis.
     pub(super) fn basis(self) -> ExitBasis {
         let whole = || ExitBasis::of_order(self.order);
         if self.is_whole { whole() } else { ExitBasis::without_1_0(self.order).unwrap_or_else(|_| whole()) }

@@ -1,4 +1,4 @@
-//! `crossbar cpca show`: what is in a `.npz` file of low-frequency transfer.
+//! `crossbar cpca show`: contents of a `.npz` file of low-frequency transfer.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -7,7 +7,7 @@ pub(super) fn list(_: &mut Out) -> miette::Result<()> {
     Err(missing().into())
 }
 
-/// Why not.
+/// The reason.
 pub(in crate::cli) fn missing() -> Problem {
     Problem::usage(
         "this build has no GPU support: the feature `wgpu` is off",

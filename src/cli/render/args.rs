@@ -56,7 +56,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     pub(super) out: PathBuf,
 
-    // Last, because its heading goes on to what follows.
+    // Last, because its heading also covers the options after it.
     #[command(flatten)]
     pub(super) light: LightArgs,
 }
@@ -139,7 +139,7 @@ impl LightArgs {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
     }
 
-    /// Refuses what a renderer has no use for; `None` is a mesh that is shaded without light.
+    /// Refuses options that a renderer does not use; `None` is a mesh that is shaded without light.
     pub(super) fn refuse_others(&self, renderer: Option<Renderer>) -> Result<(), Problem> {
         let is_photon = renderer == Some(Renderer::Photon);
         let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];

@@ -6,7 +6,6 @@ use crate::picture::{Picture, RgbImage};
 use crate::report::{Findings, NamedPicture};
 use crate::scene::Camera;
 
-/// The page of a picture with its numbers.
 pub(super) fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Picture, caption: &str) -> Findings {
     let mut found = Findings::new(format!("A picture of {}", args.scene.display()));
     found.taken_from(camera.world_to_camera());
@@ -16,7 +15,7 @@ pub(super) fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Pictur
     found
 }
 
-/// How many pixels show something, and where the picture is.
+/// Number of covered pixels, and the path of the picture.
 pub(super) fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
     format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
 }

@@ -13,7 +13,7 @@ use crate::{
 pub(super) struct ShownTrace<'a>(pub(super) Traced<'a>);
 
 impl ShownTrace<'_> {
-    /// Says that nothing covers the pixel, and what to do.
+    /// Reports that nothing covers the pixel, with advice.
     fn nothing(&self) -> String {
         let [x, y] = self.0.trace.pixel;
         let text = format!("no triangle of the draw covers pixel {x}, {y}");

@@ -83,7 +83,6 @@ fn change(from: Picoseconds, to: Picoseconds) -> Cell {
     percent(i128::from(to.0) - i128::from(from.0), from)
 }
 
-/// The draws of a log, each with its cost.
 fn costs<'a>(log: &'a [Event], timed: &'a TimedLog) -> impl Iterator<Item = (&'a DrawRecord, &'a DrawCost)> {
     log.iter().filter_map(record).zip(&timed.replay.draws)
 }

@@ -39,7 +39,7 @@ pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, m
     }
 }
 
-/// Reason why there is no transfer of a model.
+/// Reason why transfer of a model cannot be computed.
 pub(in crate::cli) fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "see this command's `--help`")
 }

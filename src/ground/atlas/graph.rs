@@ -21,7 +21,7 @@ pub(super) struct FaceLink {
     pub(super) edge: u32,
 }
 
-/// Faces with their links. The links of a face are those of `links` from its start to that of the next.
+/// Faces with their links. The links of a face are the part of `links` from its start to the next face's.
 #[derive(Debug, Clone)]
 pub(super) struct FaceGraph {
     faces: Vec<u32>,

@@ -98,10 +98,7 @@ impl Atlas {
         self.levels.get(level as usize).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the cluster under a texel of a level.
-    ///
-    /// # Panics
-    /// If there is no such level, column or row.
+    /// Returns the cluster under a texel of a level. Panics if there is no such level, column or row.
     pub fn cluster(&self, level: u32, x: u32, y: u32) -> &Cluster {
         let width = self.side >> level;
         assert!(x < width && y < width, "level {level} has {width} columns and rows, found {x}, {y}");
@@ -144,10 +141,7 @@ impl Atlas {
         self.surface.has_given_normals()
     }
 
-    /// Returns the corners of a face of the mesh.
-    ///
-    /// # Panics
-    /// If there is no such face.
+    /// Returns the corners of a face of the mesh. Panics if there is no such face.
     pub fn corners(&self, face: u32) -> [DVec3; 3] {
         self.surface.corners(face)
     }
@@ -215,7 +209,7 @@ impl Atlas {
     }
 }
 
-/// Checks the side of an atlas, whatever its content.
+/// Checks the side of an atlas.
 pub fn require_side(side: u32) -> Result<(), InputError> {
     let fits = side.is_power_of_two() && side <= MAX_SIDE;
     ensure!(fits, "found an atlas of {side} x {side} texels, expected a side that is a power of two, up to {MAX_SIDE}");

@@ -132,7 +132,7 @@ impl FacePlace {
     fn weights_of(&self, u: f64, v: f64, least: f64) -> [f64; 3] {
         let half = least / 2.0;
         let [b, c] = [u - half, v - half];
-        // u + v - least is the larger of the two where both are those of one point.
+        // u + v - least is the larger of the two if both belong to one point.
         self.by_index([1.0 - (u + v - least), b, c])
     }
 }

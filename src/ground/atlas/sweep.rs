@@ -1,4 +1,4 @@
-//! Splits of large clusters: an order of the faces of which every prefix is a candidate half.
+//! Splits of large clusters: an order of the faces; every prefix is a candidate half.
 //!
 //! Given two faces far apart, A and B, faces are ordered by the difference of their distances from A and from B. The
 //! predecessor of a face on the shortest path from A precedes it, and the one on the shortest path from B follows it,

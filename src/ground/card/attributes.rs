@@ -21,7 +21,7 @@ pub fn vertex_streams<'a>(attributes: impl IntoIterator<Item = &'a Attribute>) -
     VertexStreams { vertex_count: streams.first().map_or(0, |first| first.data.len()), instance_count: 1, streams }
 }
 
-/// Attributes register by register, from those of each of `vertices` vertices.
+/// Attributes register by register, from the attributes of each of `vertices` vertices.
 pub fn by_register(
     registers: usize,
     vertices: usize,
@@ -31,10 +31,7 @@ pub fn by_register(
     (0..registers).map(|register| by_vertex.iter().map(|vertex| vertex[register]).collect()).collect()
 }
 
-/// Refuses attributes that overflow single precision.
-///
-/// # Errors
-/// [`CardError::Input`], which says `what` was expected.
+/// Refuses attributes that overflow single precision. Fails with [`CardError::Input`], which says `what` was expected.
 pub fn check_finite(what: &str, attributes: &[Attribute]) -> Result<(), CardError> {
     let mut numbers = attributes.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
     match numbers.find(|value| !value.is_finite()) {

@@ -81,10 +81,8 @@ pub struct DepthPrograms {
 }
 
 impl DepthPrograms {
-    /// The programs, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if the device has neither vertex nor pixel programs.
+    /// The programs, checked for a device. Fails with [`KernelError`] if the device has neither vertex nor pixel
+    /// programs.
     pub fn new(profile: &Profile) -> Result<Self, KernelError> {
         Ok(Self { vertex: DEPTH.checked(profile)?, pixel: SHADE_COLOR.checked(profile)? })
     }
@@ -135,11 +133,8 @@ impl MeshDisplay {
     }
 
     /// The target after `draw`, which is 0 where nothing is drawn; and if `is_logged` the log of the draws, without the
-    /// read-back.
-    ///
-    /// # Errors
-    /// [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the card has no such target, and the
-    /// errors of `draw`.
+    /// read-back. Fails with [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the card has no
+    /// such target, and the errors of `draw`.
     pub fn show(
         &mut self,
         view: &MeshView,
@@ -203,10 +198,7 @@ impl<'a> MeshPass<'a> {
         self.rows().into_iter().chain([self.eye(1.0)]).collect()
     }
 
-    /// Draws the whole mesh into the depth buffer only.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// Draws the whole mesh into the depth buffer only. Fails with [`CardError::Draw`].
     pub fn draw_depth(&mut self, programs: &DepthPrograms, indices: &[u32]) -> Result<(), CardError> {
         self.draw(MeshDraw {
             vertex: (&programs.vertex, self.rows().to_vec()),
@@ -219,10 +211,7 @@ impl<'a> MeshPass<'a> {
         })
     }
 
-    /// Draws front faces: triangles whose corners appear counter-clockwise.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// Draws front faces: triangles whose corners appear counter-clockwise. Fails with [`CardError::Draw`].
     pub fn draw(&mut self, draw: MeshDraw<'_>) -> Result<(), CardError> {
         let MeshDraw { vertex: (program, vertex_constants), pixel: (pixel, pixel_constants), .. } = draw;
         let (vertex_constants, pixel_constants) = (constants(vertex_constants), constants(pixel_constants));

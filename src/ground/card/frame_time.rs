@@ -64,10 +64,7 @@ impl FrameTime {
     }
 }
 
-/// The modelled time of a frame from its log.
-///
-/// # Errors
-/// [`FrameTimeError`] if the device's rates are unknown.
+/// The modelled time of a frame from its log. Fails with [`FrameTimeError`] if the device's rates are unknown.
 pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<FrameTime, FrameTimeError> {
     let model = Model::new(Level::Pipeline, profile)?;
     let options = Options { host: Some(host), ..Options::of(Level::Pipeline) };

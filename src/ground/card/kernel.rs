@@ -49,18 +49,14 @@ macro_rules! kernels {
 pub use crate::kernels;
 
 impl KernelText {
-    /// The program, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if the text does not assemble, or breaks a rule of the device.
+    /// The program, checked for a device. Fails with [`KernelError`] if the text does not assemble, or breaks a rule of
+    /// the device.
     pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
         checked(profile, format!("`{}`", self.name), self.text)
     }
 
-    /// The text with its repeated part written out `texels` times, and the checked program.
-    ///
-    /// # Errors
-    /// As [`Self::checked`].
+    /// The text with its repeated part written out `texels` times, and the checked program. Fails as [`Self::checked`]
+    /// does.
     pub fn unrolled_and_checked(
         &self,
         profile: &Profile,
@@ -108,9 +104,7 @@ impl KernelText {
     }
 }
 
-/// Refuses a device that does not support all `versions`; `what` names the programs that need them.
-///
-/// # Errors
+/// Refuses a device that does not support all `versions`; `what` names the programs that need them. Fails with
 /// [`KernelError`], which lists the cards that support them.
 pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> Result<(), KernelError> {
     let runs = |profile: &Profile| versions.iter().all(|version| profile.limits.versions.contains(version));
@@ -124,10 +118,8 @@ pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> 
     Err(KernelError { kernel: what.to_owned(), device: profile.name.clone(), problem })
 }
 
-/// The version of vertex programs: vs_2_0 where the device has it, else vs_1_1.
-///
-/// # Errors
-/// [`KernelError`] if the device has neither.
+/// The version of vertex programs: vs_2_0 where the device has it, else vs_1_1. Fails with [`KernelError`] if the
+/// device has neither.
 pub fn vertex_version(profile: &Profile) -> Result<Version, KernelError> {
     let has_vs_2_0 = profile.limits.versions.contains(&Version::Vs2_0);
     let version = if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 };
@@ -179,10 +171,7 @@ pub trait WrittenKernel {
     /// The program's assembly text.
     fn text(&self) -> String;
 
-    /// The program, checked for a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
+    /// The program, checked for a device. Fails with [`KernelError`] if it breaks a rule of the device.
     fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
         checked(profile, format!("`{}`", self.name()), &self.text())
     }
@@ -193,10 +182,8 @@ pub trait WrittenKernel {
     }
 }
 
-/// A program text, checked for a device. `kernel` is its name in messages.
-///
-/// # Errors
-/// [`KernelError`] if the text does not assemble, or breaks a rule of the device.
+/// A program text, checked for a device. `kernel` is its name in messages. Fails with [`KernelError`] if the text does
+/// not assemble, or breaks a rule of the device.
 pub fn checked(profile: &Profile, kernel: String, text: &str) -> Result<CheckedProgram, KernelError> {
     let refused = |problem| KernelError { kernel, device: profile.name.clone(), problem };
     let program = match assemble(text) {

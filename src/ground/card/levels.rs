@@ -17,10 +17,7 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Targets for the levels below a texture of size `base`.
-    ///
-    /// # Errors
-    /// As [`new_target`].
+    /// Targets for the levels below a texture of size `base`. Fails as [`new_target`] does.
     pub fn new(machine: &mut Machine, format: TexelFormat, base: [usize; 2]) -> Result<Self, MachineError> {
         let sizes = std::iter::successors(Some(base), |&size| (size != [1, 1]).then(|| halved(size)));
         let targets = sizes.skip(1).map(|size| new_target(machine, format, size)).collect::<Result<_, _>>()?;
@@ -34,10 +31,7 @@ impl Levels {
 
     /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the point
     /// of that level under the fragment's center, in texels: the common corner of the four texels that the fragment
-    /// covers.
-    ///
-    /// # Errors
-    /// [`MachineError`] if the card refuses a draw.
+    /// covers. Fails with [`MachineError`] if the card refuses a draw.
     pub fn fill(
         &self,
         machine: &mut Machine,

@@ -5,7 +5,7 @@ use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::PixelCenter;
 use refsim::texture::TexelFormat;
 
-/// A color target with the depth buffer that decides what stays in it.
+/// A color target and its depth buffer.
 #[derive(Clone, Copy, Debug)]
 pub struct NearestTarget {
     /// The colors.
@@ -15,10 +15,8 @@ pub struct NearestTarget {
 }
 
 impl NearestTarget {
-    /// A target and a depth buffer of its size.
-    ///
-    /// # Errors
-    /// [`MachineError`] if the card has no such target or depth buffer.
+    /// A target and a depth buffer of its size. Fails with [`MachineError`] if the card has no such target or depth
+    /// buffer.
     pub fn new(
         machine: &mut Machine,
         color: TexelFormat,
@@ -29,10 +27,7 @@ impl NearestTarget {
         Ok(Self { color, depth: machine.create_depth(depth, width, height)? })
     }
 
-    /// Colors of 0, and the largest depth.
-    ///
-    /// # Errors
-    /// [`MachineError`] for another machine than the target's.
+    /// Colors of 0, and the largest depth. Fails with [`MachineError`] for another machine than the target's.
     pub fn clear(&self, machine: &mut Machine) -> Result<(), MachineError> {
         machine.clear_target(self.color, [0; 4])?;
         machine.clear_depth(self.depth, 1.0_f32.to_bits())
@@ -51,10 +46,8 @@ impl NearestTarget {
 pub(super) struct ViewTarget(Option<(NearestTarget, TexelFormat, [u32; 2])>);
 
 impl ViewTarget {
-    /// The target for a picture, with a depth buffer of 24 bits: the last one, if that is like it.
-    ///
-    /// # Errors
-    /// As [`NearestTarget::new`].
+    /// The target for a picture, with a depth buffer of 24 bits: the last one, if that is like it. Fails as
+    /// [`NearestTarget::new`] does.
     pub(super) fn of(
         &mut self,
         machine: &mut Machine,

@@ -49,10 +49,8 @@ pub struct FullScreenPass<'a> {
 }
 
 impl FullScreenPass<'_> {
-    /// Draws it, with the texture coordinates of [`full_screen_quad`].
-    ///
-    /// # Errors
-    /// [`MachineError`] if the card refuses the draw.
+    /// Draws it, with the texture coordinates of [`full_screen_quad`]. Fails with [`MachineError`] if the card refuses
+    /// the draw.
     pub fn draw<const SETS: usize>(
         &self,
         machine: &mut Machine,
@@ -70,25 +68,20 @@ impl FullScreenPass<'_> {
         machine.draw(&call)
     }
 
-    /// Draws it with one set of coordinates, TEX0, which counts `size` texels over the quad.
-    ///
-    /// # Errors
-    /// As [`Self::draw`].
+    /// Draws it with one set of coordinates, TEX0, which counts `size` texels over the quad. Fails as [`Self::draw`]
+    /// does.
     pub fn draw_counting(&self, machine: &mut Machine, size: [usize; 2]) -> Result<DrawEvents, MachineError> {
         let [width, height] = size.map(|side| side as f32);
         self.draw(machine, |u, v| [[u * width, v * height, 0.0, 1.0]])
     }
 }
 
-/// Two targets that passes write in turn, each pass reading what the one before wrote. Passes count from 0.
+/// Two targets that passes write in turn, each pass reading the output of the previous one. Passes count from 0.
 #[derive(Clone, Copy, Debug)]
 pub struct PingPong([TextureId; 2]);
 
 impl PingPong {
-    /// Two targets of zeros.
-    ///
-    /// # Errors
-    /// As [`new_target`].
+    /// Two targets of zeros. Fails as [`new_target`] does.
     pub fn new(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) -> Result<Self, MachineError> {
         Ok(Self([new_target(machine, format, size)?, new_target(machine, format, size)?]))
     }

@@ -20,13 +20,8 @@ pub struct SeenPixel {
 }
 
 /// The front face and barycentric weights at each pixel of a camera, row by row: from a draw in single precision with
-/// the device's positions of vertices. `None` where the background shows.
-///
-/// # Errors
-/// [`CardError::Draw`] for pictures that are too large.
-///
-/// # Panics
-/// If a triangle names a vertex that does not exist.
+/// the device's positions of vertices. `None` where the background shows. Fails with [`CardError::Draw`] for pictures
+/// that are too large. Panics if a triangle names a vertex that does not exist.
 pub fn seen_pixels(
     profile: &Profile,
     geometry: (&[[f32; 3]], &[[u32; 3]]),

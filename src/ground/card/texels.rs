@@ -27,10 +27,7 @@ impl Texels {
         Self { width: texels.len(), height: 1, texels }
     }
 
-    /// A row of texels.
-    ///
-    /// # Panics
-    /// If there is no such row.
+    /// A row of texels. Panics if there is no such row.
     pub fn row(&self, y: usize) -> &[[f32; 4]] {
         &self.texels[y * self.width..(y + 1) * self.width]
     }
@@ -40,10 +37,8 @@ impl Texels {
         self.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
     }
 
-    /// A rectangle texture, each value rounded once into the format.
-    ///
-    /// # Errors
-    /// If the extents are 0 or too large, or the texels do not fill them.
+    /// A rectangle texture, each value rounded once into the format. Fails if the extents are 0 or too large, or the
+    /// texels do not fill them.
     fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
         let extents = extents([self.width, self.height]);
         if format == TexelFormat::Rgba32f {
@@ -87,43 +82,32 @@ impl Texels {
         levels.map(of).collect()
     }
 
-    /// A new texture on a card with these texels.
-    ///
-    /// # Errors
-    /// [`MachineError`] if the texture is impossible, or the card does not support the format.
+    /// A new texture on a card with these texels. Fails with [`MachineError`] if the texture is impossible, or the card
+    /// does not support the format.
     pub fn upload(&self, machine: &mut Machine, format: TexelFormat) -> Result<TextureId, MachineError> {
         machine.create_texture(self.to_image(format)?)
     }
 
-    /// Replaces the contents of a texture.
-    ///
-    /// # Errors
-    /// [`MachineError`] if the texture has another size or format.
+    /// Replaces the contents of a texture. Fails with [`MachineError`] if the texture has another size or format.
     pub fn update(&self, machine: &mut Machine, texture: TextureId, format: TexelFormat) -> Result<(), MachineError> {
         machine.update_texture(texture, &self.to_image(format)?)
     }
 
-    /// Reads back the contents of a target, for which the host waits.
-    ///
-    /// # Errors
-    /// [`MachineError`] if the card has no such target.
+    /// Reads back the contents of a target, for which the host waits. Fails with [`MachineError`] if the card has no
+    /// such target.
     pub fn read_back(machine: &Machine, target: TextureId) -> Result<Self, MachineError> {
         Ok(Self::from_image(machine.read_back(target)?))
     }
 }
 
-/// A target filled with zeros that can be read as a texture.
-///
-/// # Errors
-/// [`MachineError`] if the extents are 0 or too large, or the card cannot draw into the format.
+/// A target filled with zeros that can be read as a texture. Fails with [`MachineError`] if the extents are 0 or too
+/// large, or the card cannot draw into the format.
 pub fn new_target(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) -> Result<TextureId, MachineError> {
     machine.create_target_from(Image::new(format, TextureKind::Rectangle, extents(size), 1)?)
 }
 
-/// A texture from texels in order, each number rounded once into the format.
-///
-/// # Errors
-/// [`MachineError`] if the texels do not fill the extents, or the card does not support the format.
+/// A texture from texels in order, each number rounded once into the format. Fails with [`MachineError`] if the texels
+/// do not fill the extents, or the card does not support the format.
 pub fn new_texture(
     machine: &mut Machine,
     format: TexelFormat,

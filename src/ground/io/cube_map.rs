@@ -17,21 +17,14 @@ pub const MAX_BYTES: u64 = 1 << 26;
 const HEADER: [&str; 6] = ["face", "row", "column", "r", "g", "b"];
 const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 
-/// Reads the texels of a cube map of a side from a file, by face, row and column.
-///
-/// # Errors
-/// [`InputError`], with the path, and the line where there is one.
+/// Reads the texels of a cube map of a side from a file, by face, row and column. Fails with [`InputError`], with the
+/// path, and the line where there is one.
 pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     parse_cube_table(&read_file(path, "table of light", MAX_BYTES)?, path, side)
 }
 
-/// Reads the texels of a cube map from bytes; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`], with the line where there is one.
-///
-/// # Panics
-/// If the side is 0.
+/// Reads the texels of a cube map from bytes; `name` is the file's name in messages. Fails with [`InputError`], with
+/// the line where there is one. Panics if the side is 0.
 pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     assert!(side > 0, "a texel along an edge");
     let place_of = |at: usize| [at / (side * side), at / side % side, at % side];
@@ -59,10 +52,7 @@ pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f
     Ok(texels.into_iter().map(|(radiance, _)| radiance).collect())
 }
 
-/// The table of a cube map's texels, in their order.
-///
-/// # Panics
-/// If there are not the texels of six faces of this side.
+/// The table of a cube map's texels, in their order. Panics if there are not the texels of six faces of this side.
 pub fn write_cube_table(texels: &[[f64; 3]], side: usize) -> String {
     assert_eq!(texels.len(), 6 * side * side, "six faces of side {side}");
     let mut text = HEADER.join(",") + "\n";

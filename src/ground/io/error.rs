@@ -7,10 +7,8 @@ use std::path::Path;
 use super::read_limited;
 use crate::error::{FilePlace, InputError, input_error};
 
-/// The whole of a file, which is a `what`, of at most `limit` bytes.
-///
-/// # Errors
-/// [`InputError`] for a file that cannot be opened or read, and for one that is longer.
+/// The whole of a file, which is a `what`, of at most `limit` bytes. Fails with [`InputError`] for a file that cannot
+/// be opened or read, and for one that is longer.
 pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>, InputError> {
     let read = read_limited(path, limit).map_err(|source| unreadable_error(what, path, source))?;
     read.ok_or_else(|| too_long_error(what, path, limit))
@@ -23,7 +21,7 @@ pub(super) fn unreadable_error(what: &str, path: &Path, source: io::Error) -> In
     .with_source(source)
 }
 
-/// The file is longer than what is read.
+/// The file exceeds the size limit.
 pub(super) fn too_long_error(what: &str, path: &Path, limit: u64) -> InputError {
     input_error!("crossbar::file::too_long" =>
         "expected a {what} of at most {limit} bytes, found more"; help "name a smaller file")

@@ -29,7 +29,6 @@ impl<C: Copy> Faces<C> {
         self.corners.push(corner);
     }
 
-    /// All corners.
     pub(super) fn corners(&self) -> &[C] {
         &self.corners
     }

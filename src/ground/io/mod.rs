@@ -73,7 +73,7 @@ fn open_unnoted(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
     Ok(Bounded { file, left }.take(limit.saturating_add(1)))
 }
 
-/// A file of which at most `left` bytes may be read.
+/// A file with a limit of `left` more bytes.
 #[derive(Debug)]
 pub(crate) struct Bounded {
     file: File,

@@ -60,29 +60,22 @@ pub struct ModelOptions {
     pub strict: bool,
 }
 
-/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs.
-///
-/// # Errors
-/// [`InputError`], with the path, and the line, element or part where there is one.
+/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs. Fails with [`InputError`], with the path, and the
+/// line, element or part where there is one.
 pub fn load_mesh(path: &Path) -> Result<Mesh, InputError> {
     let bytes = load_model(path)?;
     mesh_of(&bytes, ModelFormat::of(&bytes, path), path, true).map(|(mesh, _)| mesh)
 }
 
 /// Reads a scene without repairs: from an OBJ file and its material libraries, from a glTF file and its buffers, or
-/// from a PLY or STL file, which gets one grey material. It has no views and no point lights.
-///
-/// # Errors
+/// from a PLY or STL file, which gets one grey material. It has no views and no point lights. Fails with
 /// [`InputError`], with the path, and the line, element or part where there is one.
 pub fn load_scene(path: &Path) -> Result<Scene, InputError> {
     load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }
 
 /// [`load_mesh`] with options, and notes on the model: unless it is to stay as it is, triangles that face another way
-/// than their neighbours are turned round ([`Mesh::misoriented`]).
-///
-/// # Errors
-/// As [`load_mesh`].
+/// than their neighbours are turned round ([`Mesh::misoriented`]). Fails as [`load_mesh`] does.
 pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     let bytes = load_model(path)?;
     let format = ModelFormat::of(&bytes, path);
@@ -99,10 +92,7 @@ pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<M
 }
 
 /// [`load_scene`] with options, and notes on the model: unless it is to stay as it is, its triangles are repaired as by
-/// [`load_mesh_with`], and its materials as described in [`super::scene_obj::mtl`].
-///
-/// # Errors
-/// As [`load_scene`].
+/// [`load_mesh_with`], and its materials as described in [`super::scene_obj::mtl`]. Fails as [`load_scene`] does.
 pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), InputError> {
     let bytes = load_model(path)?;
     let format = ModelFormat::of(&bytes, path);

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::error::FilePlace;
 use crate::geom::polygon::PolygonFault;
 
-/// A repair or a defect of a model file of which the user should know.
+/// A repair or defect of a model file to report to the user.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]

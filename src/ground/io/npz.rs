@@ -20,7 +20,7 @@ use crate::error::{InputError, input_error};
 /// The first bytes of such a file.
 pub const MAGIC: &[u8] = b"PK\x03\x04";
 
-/// The arrays of a file, of which each is taken out once.
+/// The arrays of a file; each is taken out once.
 #[derive(Debug)]
 pub struct NpzReader<'a> {
     name: &'a Path,
@@ -86,10 +86,8 @@ impl<'a> NpzReader<'a> {
         Ok(self.take(field, &[length], &["|u1"])?.data)
     }
 
-    /// Takes out an array of integers of this shape, stored in any integer type of up to 32 bits, or in `<i8`.
-    ///
-    /// # Errors
-    /// [`InputError`]; also if a value is out of the range of `T`.
+    /// Takes out an array of integers of this shape, stored in any integer type of up to 32 bits, or in `<i8`. Fails
+    /// with [`InputError`]; also if a value is out of the range of `T`.
     pub fn integers<T: TryFrom<i64>>(&mut self, field: &str, shape: &[usize]) -> Result<Vec<T>, InputError> {
         let array = self.take(field, shape, &["|u1", "|i1", "<u2", "<i2", "<u4", "<i4", "<i8"])?;
         // Shifted up to 64 bits and down again, a negative number stays one.

@@ -48,10 +48,7 @@ fn not_finite(text: &str, too_large: NumberError) -> NumberError {
     if text.contains(|c: char| c.is_ascii_digit()) { too_large } else { NumberError::NotFinite }
 }
 
-/// A number rounded from double to single precision; NaN and infinities are kept.
-///
-/// # Errors
-/// [`NumberError::TooLarge`].
+/// A number rounded from double to single precision; NaN and infinities are kept. Fails with [`NumberError::TooLarge`].
 pub fn to_f32(number: f64) -> Result<f32, NumberError> {
     let rounded = number as f32;
     if number.is_finite() && rounded.is_infinite() { Err(NumberError::TooLarge) } else { Ok(rounded) }

@@ -60,10 +60,8 @@ impl TableNumber for f64 {
     }
 }
 
-/// Reads a comma-separated table from bytes; `name` is the file's name in messages.
-///
-/// # Errors
-/// [`InputError`], with the line where there is one.
+/// Reads a comma-separated table from bytes; `name` is the file's name in messages. Fails with [`InputError`], with the
+/// line where there is one.
 pub fn parse_number_table<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);

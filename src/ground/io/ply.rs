@@ -30,10 +30,8 @@ const NUMBERS: [&[&str]; 8] =
 /// Names of the used list of a face.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics.
-///
-/// # Errors
-/// [`InputError`], with the line or element where there is one.
+/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics. Fails with [`InputError`], with the
+/// line or element where there is one.
 pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_ply(bytes, name, true).map(|(mesh, _)| mesh)
 }
@@ -43,7 +41,7 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
     let bytes = unmarked(bytes);
-    // As the description of the format has it; nobody writes it any more.
+    // As the format's description has it; modern writers do not use it.
     let line_end = if bytes.starts_with(b"ply\r") && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
     let (header, lines, data) = header(bytes, line_end, name)?;
     let has = |element: &str, property: &[&str]| {
@@ -202,7 +200,6 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// The next line that is not empty.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         while !self.rest.is_empty() {
             let end = self.rest.iter().position(|&byte| byte == self.line_end).unwrap_or(self.rest.len());
@@ -237,7 +234,6 @@ fn with_digits(line: &str) -> Cow<'_, str> {
     if plain.is_empty() { line.into() } else { (plain + rest).into() }
 }
 
-/// A description of the expected element.
 fn expected(element: &ElementDef) -> String {
     let names: Vec<&str> = element.properties.keys().map(String::as_str).take(12).collect();
     let more = if element.properties.len() > names.len() { " ..." } else { "" };

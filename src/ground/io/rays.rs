@@ -30,10 +30,7 @@ fn header_error(name: &Path, found: &str) -> InputError {
     input_error!("expected the header `ox,oy,oz,dx,dy,dz`, found {found}").at(FilePlace::line(name, 1))
 }
 
-/// Reads rays from a file.
-///
-/// # Errors
-/// [`InputError`], with the path, and the line where there is one.
+/// Reads rays from a file. Fails with [`InputError`], with the path, and the line where there is one.
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, InputError> {
     let mut limited = open_limited(path, MAX_BYTES).map_err(|source| unreadable(path, source))?;
     let rays = read_rays(&mut limited, path);
@@ -45,9 +42,7 @@ fn unreadable(path: &Path, source: io::Error) -> InputError {
     unreadable_error("rays", path, source)
 }
 
-/// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid.
-///
-/// # Errors
+/// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid. Fails with
 /// [`InputError`], with the line where there is one.
 pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, InputError> {
     read_rays(bytes, name)

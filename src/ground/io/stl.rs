@@ -23,10 +23,7 @@ const TRIANGLE: usize = 50;
 type Corners = [[f32; 3]; 3];
 
 /// Reads a mesh from bytes; `name` is the file's name in messages. Never panics, and allocates memory in proportion to
-/// the file's length only.
-///
-/// # Errors
-/// [`InputError`], with the line or triangle where there is one.
+/// the file's length only. Fails with [`InputError`], with the line or triangle where there is one.
 pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_stl(bytes, name, true).map(|(mesh, _)| mesh)
 }
@@ -43,7 +40,7 @@ pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     let soup = match claimed {
         Some(claimed) if claimed == length => binary(bytes, name)?,
         _ if is_text(bytes) => ascii(bytes, name)?,
-        // In text these bytes are no number of triangles.
+        // In a text file these bytes are not a count of triangles.
         Some(claimed) if bytes[..HEAD].contains(&0) => {
             if strict || claimed > length {
                 return syntax("as many bytes as its number of triangles takes", format!("{length} of {claimed}"));

@@ -31,10 +31,7 @@ pub(super) fn singular(column: usize) -> InputError {
 }
 
 impl Lu {
-    /// Factors a matrix.
-    ///
-    /// # Panics
-    /// If the matrix is not square.
+    /// Factors a matrix. Panics if the matrix is not square.
     pub fn new(matrix: &Matrix) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");
         let size = matrix.row_count();
@@ -104,10 +101,7 @@ impl Lu {
         }
     }
 
-    /// Solves for the x for which the matrix times x is `right`.
-    ///
-    /// # Panics
-    /// If `right` does not have one element per row.
+    /// Solves for the x for which the matrix times x is `right`. Panics if `right` does not have one element per row.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
         assert_eq!(right.len(), self.size, "one element per row");
         let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();

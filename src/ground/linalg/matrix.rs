@@ -27,10 +27,8 @@ pub(super) fn count_error(rows: usize, columns: usize, values: usize) -> InputEr
 }
 
 impl Matrix {
-    /// Creates a matrix from rows, columns and values.
-    ///
-    /// # Errors
-    /// [`InputError`] if it is too large, or the number of values is wrong.
+    /// Creates a matrix from rows, columns and values. Fails with [`InputError`] if it is too large, or the number of
+    /// values is wrong.
     pub fn new([rows, columns]: [usize; 2], values: Vec<f64>) -> Result<Self, InputError> {
         if elements([rows, columns])? != values.len() {
             return Err(count_error(rows, columns, values.len()));
@@ -58,18 +56,12 @@ impl Matrix {
         self.rows == self.columns
     }
 
-    /// Returns a row.
-    ///
-    /// # Panics
-    /// If there is no such row.
+    /// Returns a row. Panics if there is no such row.
     pub fn row(&self, row: usize) -> &[f64] {
         &self.values[row * self.columns..(row + 1) * self.columns]
     }
 
-    /// Returns a mutable row.
-    ///
-    /// # Panics
-    /// If there is no such row.
+    /// Returns a mutable row. Panics if there is no such row.
     pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
         &mut self.values[row * self.columns..(row + 1) * self.columns]
     }
@@ -84,10 +76,7 @@ impl Matrix {
         self.values.par_chunks_exact_mut(self.columns.max(1))
     }
 
-    /// Iterates over mutable blocks of `count` rows; the last block may have fewer.
-    ///
-    /// # Panics
-    /// If `count` is 0.
+    /// Iterates over mutable blocks of `count` rows; the last block may have fewer. Panics if `count` is 0.
     pub fn row_blocks_mut(&mut self, count: usize) -> impl ExactSizeIterator<Item = &mut [f64]> {
         assert!(count > 0, "at least one row");
         self.values.chunks_mut(count * self.columns.max(1))
@@ -106,10 +95,8 @@ impl Matrix {
         self.values.par_chunks_exact(self.columns.max(1)).map(|row| dot(row, vector)).collect()
     }
 
-    /// Product with a matrix, one [`dot`] per element.
-    ///
-    /// # Panics
-    /// If the other does not have as many rows as this one has columns.
+    /// Product with a matrix, one [`dot`] per element. Panics if the other does not have as many rows as this one has
+    /// columns.
     pub fn product(&self, other: &Self) -> Result<Self, InputError> {
         assert_eq!(self.columns, other.rows, "as many rows as columns");
         let (mut product, columns) = (Self::zeros([self.rows, other.columns])?, other.transposed());

@@ -82,10 +82,7 @@ impl Picture {
         Self { width, height, channels: ["R", "G", "B"].into_iter().enumerate().map(channel).collect() }
     }
 
-    /// Adds a channel.
-    ///
-    /// # Errors
-    /// [`InputError`] unless it has one sample per pixel, and at least one.
+    /// Adds a channel. Fails with [`InputError`] unless it has one sample per pixel, and at least one.
     pub fn with(mut self, name: &str, unit: ChannelUnit, samples: Samples) -> Result<Self, InputError> {
         let (width, height, found) = (self.width, self.height, samples.len() as u64);
         let expected = u64::from(width) * u64::from(height);
@@ -119,10 +116,8 @@ impl Picture {
         })
     }
 
-    /// Returns linear red, green and blue per pixel; for a picture with only the channel `Y`, three times that.
-    ///
-    /// # Errors
-    /// [`InputError`] if it has neither.
+    /// Returns linear red, green and blue per pixel; for a picture with only the channel `Y`, three times that. Fails
+    /// with [`InputError`] if it has neither.
     pub fn linear(&self) -> Result<Vec<[f32; 3]>, InputError> {
         let found = || self.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ");
         let color = |names: [&str; 3]| Some([self.floats(names[0])?, self.floats(names[1])?, self.floats(names[2])?]);
@@ -136,10 +131,8 @@ impl Picture {
         Ok((0..pixels).map(|pixel| channels.map(|channel| linear(channel, pixel))).collect())
     }
 
-    /// Tone-maps to 8 bits: linear light times `exposure` through the sRGB curve, clipped at 1.
-    ///
-    /// # Errors
-    /// As [`Picture::linear`].
+    /// Tone-maps to 8 bits: linear light times `exposure` through the sRGB curve, clipped at 1. Fails as
+    /// [`Picture::linear`] does.
     pub fn display(&self, exposure: f64) -> Result<RgbImage, InputError> {
         let pixels = self.linear()?;
         let shown = pixels.iter().map(|pixel| pixel.map(|channel| display::encode(f64::from(channel) * exposure)));

@@ -18,18 +18,12 @@ use crate::error::InputError;
 use crate::picture::error::{decode_error, encode_error};
 
 /// Encodes a picture as an EXR file with its named channels, losslessly compressed. The same picture gives the same
-/// bytes.
-///
-/// # Errors
-/// [`InputError`] if it has no channels, or a name cannot be represented.
+/// bytes. Fails with [`InputError`] if it has no channels, or a name cannot be represented.
 pub fn exr(picture: &Picture) -> Result<Vec<u8>, InputError> {
     exr_with_notes(picture, &PictureNotes::default())
 }
 
-/// Like [`exr()`], with notes as attributes; characters beyond Latin-1 are escaped.
-///
-/// # Errors
-/// As [`exr()`].
+/// Like [`exr()`], with notes as attributes; characters beyond Latin-1 are escaped. Fails as [`exr()`] does.
 pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>, InputError> {
     let refused = |reason: String| encode_error(PictureFormat::Exr, reason);
     let channel = |channel: &PictureChannel| {
@@ -136,7 +130,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
     Ok(picture)
 }
 
-/// Where the pixels of a layer are, and which a picture shows, in the coordinates of the file.
+/// Data window of a layer and display window, in the coordinates of the file.
 struct Windows {
     data: IntegerBounds,
     display: IntegerBounds,

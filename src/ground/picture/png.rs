@@ -10,10 +10,8 @@ use super::notes::PictureNotes;
 use crate::error::InputError;
 use crate::picture::error::{encode_error, samples_error};
 
-/// Creates an image from its samples, pixel by pixel, rows from the top.
-///
-/// # Errors
-/// [`InputError`] if their number does not match the size, or there are none.
+/// Creates an image from its samples, pixel by pixel, rows from the top. Fails with [`InputError`] if their number does
+/// not match the size, or there are none.
 pub fn buffer<P: Pixel>(
     width: u32,
     height: u32,
@@ -36,10 +34,7 @@ pub fn rgb8(width: u32, height: u32, pixels: impl IntoIterator<Item = [u8; 3]>) 
     image
 }
 
-/// Encodes an image as a PNG file.
-///
-/// # Errors
-/// [`InputError`] if it has no pixels.
+/// Encodes an image as a PNG file. Fails with [`InputError`] if it has no pixels.
 pub fn png<P, C>(image: &ImageBuffer<P, C>) -> Result<Vec<u8>, InputError>
 where
     P: Pixel + PixelWithColorType,
@@ -52,10 +47,7 @@ where
     Ok(file.into_inner())
 }
 
-/// Encodes an image as a PNG file with notes as international text.
-///
-/// # Errors
-/// [`InputError`] if it has no pixels.
+/// Encodes an image as a PNG file with notes as international text. Fails with [`InputError`] if it has no pixels.
 pub fn png_with_notes(image: &RgbImage, notes: &PictureNotes) -> Result<Vec<u8>, InputError> {
     let mut file = Vec::new();
     let refused = |error: ::png::EncodingError| encode_error(PictureFormat::Png, error.to_string());

@@ -33,11 +33,8 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
 
 impl PictureSize {
     /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. For an EXR file it
-    /// is that of the largest layer.
-    ///
-    /// # Errors
-    /// [`InputError`] for a header that is broken, for more than the limits, and for more pixels than so many bytes
-    /// can stand for.
+    /// is that of the largest layer. Fails with [`InputError`] for a header that is broken, for more than the limits,
+    /// and for more pixels than so many bytes can stand for.
     pub fn of(bytes: &[u8]) -> Result<Self, InputError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::size(bytes),
@@ -56,11 +53,9 @@ impl PictureSize {
 impl Picture {
     /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
     /// linear): sRGB values, or linear ones where a gAMA or cICP chunk says how to decode them. Radiance HDR gives
-    /// linear values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file the first layer is
-    /// read, as large as the display window, with 0 outside the layer's pixels.
-    ///
-    /// # Errors
-    /// [`InputError`], those of [`PictureSize::of`] before any pixel is decoded.
+    /// linear values, divided by the factors of its EXPOSURE and COLORCORR lines. The first layer of an EXR file is
+    /// read, as large as the display window, with 0 outside the layer's pixels. Fails with [`InputError`], those of
+    /// [`PictureSize::of`] before any pixel is decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, InputError> {
         PictureSize::of(bytes)?;
         match format_of(bytes) {
@@ -81,9 +76,7 @@ impl Picture {
     }
 }
 
-/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, without decoding to light.
-///
-/// # Errors
+/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, without decoding to light. Fails with
 /// [`InputError`], those of [`PictureSize::of`] before any pixel is decoded.
 pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, InputError> {
     size_of(bytes, PictureFormat::Png)?;

@@ -41,10 +41,8 @@ fn flat_error() -> InputError {
 
 impl Camera {
     /// Creates a camera at `eye` that looks at `target`, with `up` upwards in the picture. `tan_half_height` is the
-    /// tangent of half the vertical field of view; pixels are square.
-    ///
-    /// # Errors
-    /// [`InputError`] for parameters out of range.
+    /// tangent of half the vertical field of view; pixels are square. Fails with [`InputError`] for parameters out of
+    /// range.
     pub fn new(
         eye: [f32; 3],
         target: [f32; 3],
@@ -80,10 +78,8 @@ impl Camera {
     }
 
     /// Creates the camera of the studies: a three-quarter view of the teapot from the front, a little from above, spout
-    /// to the right. The teapot fills a square picture.
-    ///
-    /// # Errors
-    /// [`InputError`] for a picture without pixels or beyond 2^30.
+    /// to the right. The teapot fills a square picture. Fails with [`InputError`] for a picture without pixels or
+    /// beyond 2^30.
     pub fn teapot(width: u32, height: u32) -> Result<Self, InputError> {
         Self::new([2.125, -5.625, 3.875], [0.625, 0.0, 1.3125], [0.0, 0.0, 1.0], 0.5625, width, height)
     }
@@ -122,10 +118,8 @@ impl Camera {
         narrow(self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5))
     }
 
-    /// Returns the ray through the centre of a pixel, unnormalised.
-    ///
-    /// # Panics
-    /// Never for pixels of the picture: their direction is finite and not zero.
+    /// Returns the ray through the centre of a pixel, unnormalised. Panics: never for pixels of the picture: their
+    /// direction is finite and not zero.
     pub fn ray(&self, x: u32, y: u32) -> Ray {
         Ray::new(self.eye, self.direction(x, y)).expect("a pixel's direction is finite and not zero")
     }

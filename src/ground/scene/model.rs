@@ -36,10 +36,8 @@ impl View {
         Self { name: name.into(), eye, target, up: [0.0, 0.0, 1.0], tan_half_height }
     }
 
-    /// Creates the camera of this view for a picture of `width` x `height` pixels.
-    ///
-    /// # Errors
-    /// [`InputError`] for parameters out of range.
+    /// Creates the camera of this view for a picture of `width` x `height` pixels. Fails with [`InputError`] for
+    /// parameters out of range.
     pub fn camera(&self, width: u32, height: u32) -> Result<Camera, InputError> {
         Camera::new(self.eye, self.target, self.up, self.tan_half_height, width, height)
     }
@@ -65,10 +63,8 @@ pub struct Scene {
 
 impl Scene {
     /// Creates a scene from triangles with one material each. `normals` are unit normals at each triangle's corners, or
-    /// zero for the triangle's own; an empty list makes all triangles flat.
-    ///
-    /// # Errors
-    /// [`InputError`] if the lists are inconsistent.
+    /// zero for the triangle's own; an empty list makes all triangles flat. Fails with [`InputError`] if the lists are
+    /// inconsistent.
     pub fn new(
         mesh: Mesh,
         materials: Vec<Material>,
@@ -104,10 +100,7 @@ impl Scene {
         &self.materials
     }
 
-    /// Returns the material of a triangle.
-    ///
-    /// # Panics
-    /// If there is no such triangle.
+    /// Returns the material of a triangle. Panics if there is no such triangle.
     pub fn material(&self, triangle: u32) -> &Material {
         &self.materials[self.material_of[triangle as usize] as usize]
     }

@@ -41,10 +41,7 @@ pub struct CubeMap {
 }
 
 impl CubeMap {
-    /// Creates a cube map with `side` texels along an edge.
-    ///
-    /// # Panics
-    /// If there are none.
+    /// Creates a cube map with `side` texels along an edge. Panics if there are none.
     pub const fn new(side: usize) -> Self {
         assert!(side > 0, "a texel along an edge");
         Self { side }
@@ -65,10 +62,7 @@ impl CubeMap {
         self.side == 0
     }
 
-    /// Returns the unit direction of a texel's center.
-    ///
-    /// # Panics
-    /// If there is no such face.
+    /// Returns the unit direction of a texel's center. Panics if there is no such face.
     pub fn direction(self, face: usize, column: usize, row: usize) -> DVec3 {
         CUBE_FACES[face].at([column, row].map(|at| (at as f64 + 0.5) / self.side as f64)).0
     }

@@ -12,13 +12,8 @@ use crate::quadrature::{GaussPoint, gauss_legendre};
 
 impl HarmonicLight {
     /// Projects a picture of the whole sphere, with constant radiance over each pixel. Its shape determines its layout.
-    /// Pixels that show no direction are not read.
-    ///
-    /// # Errors
-    /// [`InputError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// Pixels that show no direction are not read. Fails with [`InputError`] if no layout has the shape, there is no
+    /// color, or a pixel is NaN or infinite. Panics if the order is not 1 to 10.
     pub fn from_picture(order: usize, picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self::projected(project(&grid, order, &pixels)))
@@ -33,9 +28,7 @@ pub struct EnvironmentPicture {
 }
 
 impl EnvironmentPicture {
-    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read.
-    ///
-    /// # Errors
+    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read. Fails with
     /// [`InputError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
     pub fn new(picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;

@@ -43,19 +43,13 @@ pub(super) fn coupling(l: usize, m: usize) -> f64 {
     (((l * l - m * m) as f64) / (4.0 * (l * l) as f64 - 1.0)).sqrt()
 }
 
-/// Number of functions of an order, n^2.
-///
-/// # Panics
-/// If the order is not 1 to [`MAX_ORDER`].
+/// Number of functions of an order, n^2. Panics if the order is not 1 to [`MAX_ORDER`].
 pub fn function_count(order: usize) -> usize {
     assert!((1..=MAX_ORDER).contains(&order), "an order from 1 to {MAX_ORDER}, not {order}");
     order * order
 }
 
-/// Index of y_lm: l (l + 1) + m.
-///
-/// # Panics
-/// If |m| exceeds l.
+/// Index of y_lm: l (l + 1) + m. Panics if |m| exceeds l.
 pub fn function_index(l: usize, m: isize) -> usize {
     let index = (l * (l + 1)).checked_add_signed(m).filter(|_| m.unsigned_abs() <= l);
     index.expect("|m| at most l")
@@ -70,10 +64,8 @@ pub fn function_band(index: usize) -> (usize, isize) {
 }
 
 /// Evaluates the n^2 functions of an order at a unit direction, by index l (l + 1) + m. For m > 0, y_lm has the factor
-/// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m.
-///
-/// # Panics
-/// If the order is not 1 to [`MAX_ORDER`], or `into` has not n^2 values.
+/// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m. Panics if the order is not 1 to [`MAX_ORDER`], or `into` has not
+/// n^2 values.
 pub fn harmonics(order: usize, direction: DVec3, into: &mut [f64]) {
     assert_eq!(into.len(), function_count(order), "values of order {order}");
     let table = &*RECURRENCE;
@@ -93,10 +85,8 @@ pub fn harmonics(order: usize, direction: DVec3, into: &mut [f64]) {
     }
 }
 
-/// Evaluates the function with these coefficients at a direction.
-///
-/// # Panics
-/// If the number of coefficients is not a square of 1 to [`MAX_ORDER`].
+/// Evaluates the function with these coefficients at a direction. Panics if the number of coefficients is not a square
+/// of 1 to [`MAX_ORDER`].
 pub fn evaluate(coefficients: &[f64], direction: DVec3) -> f64 {
     let mut values = [0.0; MAX_ORDER * MAX_ORDER];
     let values = &mut values[..coefficients.len()];
@@ -104,10 +94,7 @@ pub fn evaluate(coefficients: &[f64], direction: DVec3) -> f64 {
     values.iter().zip(coefficients).map(|(y, c)| y * c).sum()
 }
 
-/// Order of a set of coefficients.
-///
-/// # Panics
-/// If their number is not a square of 1 to [`MAX_ORDER`].
+/// Order of a set of coefficients. Panics if their number is not a square of 1 to [`MAX_ORDER`].
 pub fn order_of(coefficients: &[f64]) -> usize {
     order_with(coefficients.len()).expect("n^2 coefficients")
 }

@@ -26,22 +26,14 @@ pub struct Hemisphere {
 }
 
 impl Hemisphere {
-    /// Builds the matrix of all n^2 functions of an order.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// Builds the matrix of all n^2 functions of an order. Panics if the order is not 1 to 10.
     pub fn new(order: usize) -> Self {
         Self::without(order, &[]).expect("nothing is dropped")
     }
 
     /// Builds the matrix of the functions of an order except for some, given by index: section 6.1 drops l = 1, m = 0,
-    /// index 2, of order 5.
-    ///
-    /// # Errors
-    /// [`InputError`] if a dropped function is unknown or named twice, or nothing is left.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// index 2, of order 5. Fails with [`InputError`] if a dropped function is unknown or named twice, or nothing is
+    /// left. Panics if the order is not 1 to 10.
     pub fn without(order: usize, dropped: &[usize]) -> Result<Self, InputError> {
         let count = function_count(order);
         let mut kept = vec![true; count];
@@ -118,9 +110,7 @@ impl Hemisphere {
     ///
     /// It works in the basis of A's eigenvectors, so that rounding errors are amplified only along those that hardly
     /// change the function on the hemisphere: its values there lose only the square root of the condition number.
-    ///
-    /// # Panics
-    /// If there is not one integral per function.
+    /// Panics if there is not one integral per function.
     pub fn least_squares(&self, b: &[f64]) -> Vec<f64> {
         assert_eq!(b.len(), self.functions.len(), "an integral per function");
         let mut coefficients = vec![0.0; b.len()];
@@ -136,10 +126,8 @@ impl Hemisphere {
         self.inverse.diagonal().into_iter().map(f64::recip).collect()
     }
 
-    /// Squared norm over the hemisphere of the function with these coefficients, c^T A c.
-    ///
-    /// # Panics
-    /// If there is not one coefficient per function.
+    /// Squared norm over the hemisphere of the function with these coefficients, c^T A c. Panics if there is not one
+    /// coefficient per function.
     pub fn energy(&self, coefficients: &[f64]) -> f64 {
         assert_eq!(coefficients.len(), self.functions.len(), "a coefficient per function");
         coefficients.iter().zip(self.gram.times(coefficients)).map(|(c, b)| c * b).sum()

@@ -26,10 +26,8 @@ impl HarmonicLight {
     /// Radiance around them.
     pub const RED_AND_BLUE_SURROUNDING: [f64; 3] = [0.15; 3];
 
-    /// Creates a light from coefficients by channel.
-    ///
-    /// # Errors
-    /// [`InputError`] unless all channels have the n^2 of an order.
+    /// Creates a light from coefficients by channel. Fails with [`InputError`] unless all channels have the n^2 of an
+    /// order.
     pub fn new(channels: [Vec<f64>; 3]) -> Result<Self, InputError> {
         let found = channels.each_ref().map(Vec::len);
         let fits = (1..=MAX_ORDER).any(|order| found == [order * order; 3]);
@@ -52,13 +50,8 @@ impl HarmonicLight {
         Ok(Self { channels: color.map(|channel| function.iter().map(|value| channel * value).collect()) })
     }
 
-    /// Creates a light with constant radiance.
-    ///
-    /// # Errors
-    /// [`InputError`] if a channel is not finite.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// Creates a light with constant radiance. Fails with [`InputError`] if a channel is not finite. Panics if the
+    /// order is not 1 to 10.
     pub fn constant(order: usize, radiance: [f64; 3]) -> Result<Self, InputError> {
         let mut function = vec![0.0; function_count(order)];
         function[0] = (4.0 * PI).sqrt();
@@ -66,13 +59,8 @@ impl HarmonicLight {
     }
 
     /// Creates a light with constant radiance from a disk around a direction of any length, with an angular radius of
-    /// `radius` radians; black elsewhere. In closed form.
-    ///
-    /// # Errors
-    /// [`InputError`] if the direction is zero, the radius is not above 0 and up to pi, or a channel is not finite.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// `radius` radians; black elsewhere. In closed form. Fails with [`InputError`] if the direction is zero, the
+    /// radius is not above 0 and up to pi, or a channel is not finite. Panics if the order is not 1 to 10.
     pub fn disk(order: usize, direction: DVec3, radius: f64, radiance: [f64; 3]) -> Result<Self, InputError> {
         if !(radius > 0.0 && radius <= PI) {
             return Err(input_error!("expected an angular radius above 0 and up to pi radians, found {radius}"));
@@ -86,10 +74,8 @@ impl HarmonicLight {
     }
 
     /// Creates a light of a red disk from +x and a blue one from -x, both from somewhat behind an object seen along +y,
-    /// in a dim white surrounding: similar to the light of Figure 7, which is not published.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// in a dim white surrounding: similar to the light of Figure 7, which is not published. Panics if the order is not
+    /// 1 to 10.
     pub fn red_and_blue(order: usize) -> Self {
         let [red, blue] = Self::RED_AND_BLUE_DISKS
             .map(|(towards, color)| Self::disk(order, towards, Self::RED_AND_BLUE_RADIUS, color));
@@ -125,10 +111,7 @@ impl HarmonicLight {
         Self { channels: [0, 1, 2].map(sum) }
     }
 
-    /// Rotates the light around the scene.
-    ///
-    /// # Panics
-    /// If the rotation is of another order.
+    /// Rotates the light around the scene. Panics if the rotation is of another order.
     #[must_use]
     pub fn rotated(&self, rotation: &HarmonicRotation) -> Self {
         let turned = |channel: &Vec<f64>| {

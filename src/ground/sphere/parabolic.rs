@@ -15,10 +15,7 @@ pub struct ParabolicMap {
 }
 
 impl ParabolicMap {
-    /// Creates a map with `side` texels along an edge; the paper has 32.
-    ///
-    /// # Panics
-    /// If there are none.
+    /// Creates a map with `side` texels along an edge; the paper has 32. Panics if there are none.
     pub const fn new(side: usize) -> Self {
         assert!(side > 0, "a texel along an edge");
         Self { side }
@@ -84,7 +81,6 @@ impl ParabolicMap {
     }
 }
 
-/// Unit direction at s and t.
 fn direction_of([s, t]: [f64; 2]) -> DVec3 {
     let square = s * s + t * t;
     DVec3::new(2.0 * s, 2.0 * t, 1.0 - square) / (1.0 + square)

@@ -46,10 +46,7 @@ impl HemisphereProjection {
         }
     }
 
-    /// Computes the n^2 coefficients of a function by a rule over the hemisphere.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// Computes the n^2 coefficients of a function by a rule over the hemisphere. Panics if the order is not 1 to 10.
     pub fn project(self, order: usize, rule: &DirectionRule, value: impl Fn(DVec3) -> f64) -> Vec<f64> {
         let mut b = match self {
             Self::ScaledOddReflection => rule.project(order, |v| v.z * value(v)),
@@ -69,13 +66,8 @@ impl HemisphereProjection {
 
     /// Computes the errors of projections to `order` of the functions spanned by the harmonics of `signal_order`.
     ///
-    /// With P the matrix of the projection, E_1 and E_2 of the paper are c^T Q c with Q = (P - I)^T A (P - I).
-    ///
-    /// # Errors
-    /// [`InputError`] if the eigenvalues do not converge.
-    ///
-    /// # Panics
-    /// If an order is not 1 to 10.
+    /// With P the matrix of the projection, E_1 and E_2 of the paper are c^T Q c with Q = (P - I)^T A (P - I). Fails
+    /// with [`InputError`] if the eigenvalues do not converge. Panics if an order is not 1 to 10.
     pub fn error(self, signal_order: usize, order: usize) -> Result<ProjectionErrors, InputError> {
         let rule = DirectionRule::hemisphere(signal_order + order - 1);
         let larger = signal_order.max(order);

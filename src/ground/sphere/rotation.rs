@@ -34,13 +34,8 @@ pub struct HarmonicRotation {
 }
 
 impl HarmonicRotation {
-    /// Creates the rotation of an order from a matrix R: (R f)(R v) = f(v).
-    ///
-    /// # Errors
-    /// [`InputError`] if the columns are not orthonormal, or the matrix is a reflection.
-    ///
-    /// # Panics
-    /// If the order is not 1 to [`MAX_ORDER`].
+    /// Creates the rotation of an order from a matrix R: (R f)(R v) = f(v). Fails with [`InputError`] if the columns
+    /// are not orthonormal, or the matrix is a reflection. Panics if the order is not 1 to [`MAX_ORDER`].
     pub fn new(order: usize, rotation: &DMat3) -> Result<Self, InputError> {
         check_rotation(rotation)?;
         let count = function_count(order);
@@ -67,19 +62,13 @@ impl HarmonicRotation {
         self.order
     }
 
-    /// Matrix of a band, with 2 l + 1 rows and columns, row by row.
-    ///
-    /// # Panics
-    /// If there is no such band.
+    /// Matrix of a band, with 2 l + 1 rows and columns, row by row. Panics if there is no such band.
     pub fn band(&self, l: usize) -> &[f64] {
         assert!(l < self.order, "a band of order {}", self.order);
         &self.bands[first_of_band(l)..first_of_band(l + 1)]
     }
 
-    /// Computes the coefficients of the rotated function.
-    ///
-    /// # Panics
-    /// If a slice does not have n^2 elements.
+    /// Computes the coefficients of the rotated function. Panics if a slice does not have n^2 elements.
     pub fn apply(&self, coefficients: &[f64], into: &mut [f64]) {
         let count = function_count(self.order);
         assert_eq!([coefficients.len(), into.len()], [count; 2], "coefficients of order {}", self.order);
@@ -123,10 +112,8 @@ fn rotation_rule(order: usize) -> RotationRule {
     rule
 }
 
-/// Checks that a matrix is a rotation.
-///
-/// # Errors
-/// [`InputError`] if the columns are not orthonormal to [`MAX_SKEW`], or the matrix is a reflection.
+/// Checks that a matrix is a rotation. Fails with [`InputError`] if the columns are not orthonormal to [`MAX_SKEW`], or
+/// the matrix is a reflection.
 pub fn check_rotation(rotation: &DMat3) -> Result<(), InputError> {
     for columns in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
         let found = rotation.col(columns[0]).dot(rotation.col(columns[1]));

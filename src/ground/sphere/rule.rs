@@ -27,18 +27,13 @@ pub struct DirectionRule {
 }
 
 impl DirectionRule {
-    /// Creates a rule over the sphere. Degree 2n - 2 integrates products of two functions of order n.
-    ///
-    /// # Panics
-    /// If the degree exceeds [`MAX_DEGREE`].
+    /// Creates a rule over the sphere. Degree 2n - 2 integrates products of two functions of order n. Panics if the
+    /// degree exceeds [`MAX_DEGREE`].
     pub fn sphere(degree: usize) -> Self {
         Self::between(-1.0, degree)
     }
 
-    /// Creates a rule over the hemisphere z >= 0.
-    ///
-    /// # Panics
-    /// If the degree exceeds [`MAX_DEGREE`].
+    /// Creates a rule over the hemisphere z >= 0. Panics if the degree exceeds [`MAX_DEGREE`].
     pub fn hemisphere(degree: usize) -> Self {
         Self::between(0.0, degree)
     }
@@ -51,9 +46,7 @@ impl DirectionRule {
     ///
     /// Each column integrates polynomials in z exactly. The part of azimuthal frequency m of a polynomial in x, y and z
     /// is a polynomial in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.
-    ///
-    /// # Panics
-    /// If the size exceeds [`MAX_DEGREE`].
+    /// Panics if the size exceeds [`MAX_DEGREE`].
     pub fn spread(size: usize, degree: usize) -> Self {
         assert!(size <= MAX_DEGREE, "a size of at most {MAX_DEGREE}, not {size}");
         let (rings, pairs) = (size / 2 + 1, size / 2 + 1);
@@ -130,10 +123,7 @@ impl DirectionRule {
 
     /// Computes the integrals of a function times each of the n^2 harmonics of an order: over the sphere its
     /// coefficients, over the hemisphere its zero-hemisphere projection. Exact for a polynomial f of degree d if the
-    /// rule's degree is at least d + n - 1.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10.
+    /// rule's degree is at least d + n - 1. Panics if the order is not 1 to 10.
     pub fn project(&self, order: usize, value: impl Fn(DVec3) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; function_count(order)];
         let [mut of_ring, mut y] = [sums.clone(), sums.clone()];

@@ -1,7 +1,7 @@
 //! Offsets of ray ends from surfaces, so that no ray hits the triangle that it leaves or the one that it goes to.
 //!
-//! One policy for all that cast rays: points are lifted along the triangle's normal, to the side that the ray leaves
-//! by, at both ends of a segment. The distance depends on what is known of the point:
+//! One policy for all ray casters: points are lifted along the triangle's normal, to the side that the ray leaves by,
+//! at both ends of a segment. The distance depends on what is known of the point:
 //!
 //! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of what rounding can do to the ray's origin and to
 //!   the test of that triangle;
@@ -65,10 +65,10 @@ impl SurfacePoint {
     /// to `reach` from the origin.
     ///
     /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most u times the
-    /// sum of its magnitudes, of which twice is taken. The test finds the side from n . ao. One rounding per component
-    /// of ao, ab and ac, three of the cross product and four of the dot product make at most (1 + 2 + 2 + 4) u of the
-    /// sum of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is
-    /// at most the triangle's size plus `reach`.
+    /// sum of its magnitudes; twice that is used. The test finds the side from n . ao. One rounding per component of
+    /// ao, ab and ac, three of the cross product and four of the dot product make at most (1 + 2 + 2 + 4) u of the sum
+    /// of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is at
+    /// most the triangle's size plus `reach`.
     #[must_use]
     pub fn clearance(&self, reach: f64) -> f64 {
         self.rounding * (2.0 * self.at.abs().element_sum() + 16.0 * self.thinness * (self.size + reach))

@@ -100,10 +100,7 @@ impl Binder<'_> {
 const MAX_BYTES: u64 = 1 << 20;
 
 /// The device of a name: one of [`Profile::named`], or a device file ([`Profile::from_device_file`]), whose name ends
-/// in `.toml`.
-///
-/// # Errors
-/// If there is no such device; [`DeviceError::File`] if the file cannot be read.
+/// in `.toml`. Fails if there is no such device; [`DeviceError::File`] if the file cannot be read.
 pub fn device_named(name: &str) -> Result<Profile, DeviceError> {
     if is_file(name) { read(Path::new(name), name) } else { Profile::named(name) }
 }

@@ -25,7 +25,6 @@ type FourRows = Exactly<FourNumbers, 4>;
 pub struct StateTable {
     /// Front material.
     material: Option<MaterialTable>,
-    /// Back material.
     back_material: Option<MaterialTable>,
     /// Lights, by number.
     #[serde(default)]

@@ -28,18 +28,13 @@ pub struct Loaded<'s> {
 }
 
 impl<'s> Loaded<'s> {
-    /// Uploads textures, creates and clears targets.
-    ///
-    /// # Errors
-    /// If the device cannot execute the case.
+    /// Uploads textures, creates and clears targets. Fails if the device cannot execute the case.
     pub fn new(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
         Self::on(executor.into().machine(setup.profile.clone())?, setup)
     }
 
-    /// Like [`Loaded::new`], on a machine that records its log and reports texel reads to the observer.
-    ///
-    /// # Errors
-    /// As [`Loaded::new`].
+    /// Like [`Loaded::new`], on a machine that records its log and reports texel reads to the observer. Fails as
+    /// [`Loaded::new`] does.
     pub fn recording(
         setup: &'s Setup,
         executor: impl Into<Executor>,
@@ -78,10 +73,7 @@ impl<'s> Loaded<'s> {
         Ok(Self { setup, machine, targets, depth, samplers, streams: streams(setup) })
     }
 
-    /// Draws.
-    ///
-    /// # Errors
-    /// If the device cannot execute the case.
+    /// Draws. Fails if the device cannot execute the case.
     pub fn draw(&mut self) -> Result<DrawEvents, CaseError> {
         // Borrows apart: the machine is mutable, the rest is read.
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
@@ -92,34 +84,25 @@ impl<'s> Loaded<'s> {
         draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers)
     }
 
-    /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`].
-    ///
-    /// # Errors
-    /// As [`Loaded::draw`], and if a pixel lies outside the targets.
+    /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`]. Errors: as [`Loaded::draw`], and
+    /// if a pixel lies outside the targets.
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         self.machine.trace_pixels(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// Encodes a trace of some pixels for another host of WebGPU: see [`Machine::trace_buffers`].
-    ///
-    /// # Errors
-    /// As [`Loaded::trace`].
+    /// Encodes a trace of some pixels for another host of WebGPU: see [`Machine::trace_buffers`]. Fails as
+    /// [`Loaded::trace`] does.
     pub fn trace_buffers(&self, pixels: &[(u32, u32)]) -> Result<TraceBuffers, CaseError> {
         self.machine.trace_buffers(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`].
-    ///
-    /// # Errors
-    /// As [`Loaded::draw`].
+    /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`]. Fails as [`Loaded::draw`]
+    /// does.
     pub fn corners(&self, instance: usize, triangle: usize) -> Result<Option<[Vertex; 3]>, CaseError> {
         self.machine.corners(&self.call(), instance, triangle).map_err(|error| placed(self.setup, error))
     }
 
-    /// Returns the color targets.
-    ///
-    /// # Errors
-    /// Never for a loaded case.
+    /// Returns the color targets. Errors: never for a loaded case.
     pub fn targets(&self) -> Result<Vec<&Image>, CaseError> {
         let surfaces: Result<_, MachineError> = self.targets.iter().map(|&id| self.machine.read_back(id)).collect();
         Ok(surfaces?)
@@ -130,10 +113,7 @@ impl<'s> Loaded<'s> {
         self.machine.take_log()
     }
 
-    /// Returns the depth buffer, if there is one.
-    ///
-    /// # Errors
-    /// Never for a loaded case.
+    /// Returns the depth buffer, if there is one. Errors: never for a loaded case.
     pub fn depth(&self) -> Result<Option<&DepthSurface>, CaseError> {
         Ok(self.depth.map(|id| self.machine.read_depth(id)).transpose()?)
     }

@@ -8,18 +8,13 @@ use refsim::{
 use super::{CaseError, Loaded, Setup};
 
 /// Draws the case as [`super::run`] does and returns the machine's log: textures up, targets cleared, the draw, targets
-/// and depth buffer back. It is the same for every executor.
-///
-/// # Errors
-/// If the device cannot execute the case.
+/// and depth buffer back. It is the same for every executor. Fails if the device cannot execute the case.
 pub fn log(setup: &Setup, executor: impl Into<Executor>) -> Result<Vec<Event>, CaseError> {
     log_of(Loaded::recording(setup, executor, None)?)
 }
 
-/// Like [`log`], with an observer of every texel read. Draws on the scalar executor, which is slow.
-///
-/// # Errors
-/// As [`log`].
+/// Like [`log`], with an observer of every texel read. Draws on the scalar executor, which is slow. Fails as [`log`]
+/// does.
 pub fn log_observed(setup: &Setup, observer: Box<dyn TexelObserver>) -> Result<Vec<Event>, CaseError> {
     log_of(Loaded::recording(setup, refsim::machine::ExecutorKind::Scalar, Some(observer))?)
 }

@@ -105,10 +105,7 @@ pub(super) fn event_counts(events: &DrawEvents) -> [(&'static str, u64); 15] {
     ]
 }
 
-/// Draws the case.
-///
-/// # Errors
-/// If the device cannot execute the case, or a picture cannot be encoded.
+/// Draws the case. Fails if the device cannot execute the case, or a picture cannot be encoded.
 pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, CaseError> {
     let mut loaded = Loaded::new(setup, executor)?;
     let events = loaded.draw()?;

@@ -85,18 +85,12 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// Reads a case and all files that it names.
-    ///
-    /// # Errors
-    /// [`CaseError`] for the first error in the case.
+    /// Reads a case and all files that it names. Fails with [`CaseError`] for the first error in the case.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         Self::read_with(path, &Overrides::default())
     }
 
-    /// Like [`Setup::read`], with replacements for the case's device settings.
-    ///
-    /// # Errors
-    /// As [`Setup::read`].
+    /// Like [`Setup::read`], with replacements for the case's device settings. Fails as [`Setup::read`] does.
     pub fn read_with(path: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         let unreadable =
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
@@ -112,10 +106,8 @@ impl Setup {
         Self::from_bytes_with(&path.display().to_string(), &bytes, folder, overrides)
     }
 
-    /// The same case on another device, for which its programs are checked again.
-    ///
-    /// # Errors
-    /// If a program breaks rules of the device.
+    /// The same case on another device, for which its programs are checked again. Fails if a program breaks rules of
+    /// the device.
     pub fn on_device(&self, profile: Profile) -> Result<Self, CaseError> {
         let pixel = self.pixel_text.check((*self.pixel).clone(), &profile)?;
         let vertex = match (&self.vertex, &self.vertex_text) {
@@ -125,18 +117,13 @@ impl Setup {
         Ok(Self { profile, pixel, vertex, ..self.clone() })
     }
 
-    /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`.
-    ///
-    /// # Errors
-    /// As [`Setup::read`].
+    /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`. Fails as
+    /// [`Setup::read`] does.
     pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
         Self::from_bytes_with(name, bytes, folder, &Overrides::default())
     }
 
-    /// Like [`Setup::from_bytes`], with replacements for the case's device settings.
-    ///
-    /// # Errors
-    /// As [`Setup::read`].
+    /// Like [`Setup::from_bytes`], with replacements for the case's device settings. Fails as [`Setup::read`] does.
     pub fn from_bytes_with(name: &str, bytes: &[u8], folder: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         if bytes.len() as u64 > MAX_BYTES {
             return Err(too_long().into());

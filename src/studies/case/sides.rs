@@ -84,10 +84,8 @@ impl Comparison {
     }
 }
 
-/// Runs a case on two sides and compares.
-///
-/// # Errors
-/// If a side cannot be executed, or the pixel of the scope lies outside the targets.
+/// Runs a case on two sides and compares. Fails if a side cannot be executed, or the pixel of the scope lies outside
+/// the targets.
 pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Comparison, CaseError> {
     let mut sides = [DrawnSide::new(left)?, DrawnSide::new(right)?];
     let events = [sides[0].draw()?, sides[1].draw()?];

@@ -46,7 +46,6 @@ pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Resu
     names.iter().map(|name| texel_format(binder, name, target.format.span())).collect()
 }
 
-/// Parses a texel format.
 pub(super) fn texel_format(
     binder: &Binder<'_>,
     name: &str,

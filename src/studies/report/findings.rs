@@ -32,7 +32,7 @@ impl Verdict {
 /// Part of a page; tables, charts and pictures are given by their indices in the findings.
 #[derive(Clone, Debug)]
 pub(super) enum Passage {
-    /// Text, and the counts of what stands below it.
+    /// Text, and the counts of its section.
     Heading(String, Vec<TallyEntry>),
     SummaryLines(Vec<SummaryLine>),
     Paragraph(String),
@@ -160,7 +160,7 @@ impl Findings {
         self.counted_heading(text, Vec::new());
     }
 
-    /// Appends a heading with the counts of what stands below it; the table of contents shows them too.
+    /// Appends a heading with the counts of its section; the table of contents shows them too.
     pub fn counted_heading(&mut self, text: impl Into<String>, tally: Vec<TallyEntry>) {
         self.text.push(Passage::Heading(text.into(), tally));
     }

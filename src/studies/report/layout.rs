@@ -28,7 +28,7 @@ pub(super) struct Column {
 }
 
 impl Column {
-    /// Creates a column of cells, of which numbers are marked.
+    /// Creates a column of cells with marked numbers.
     pub(super) fn new(heading: String, cells: Vec<(String, bool)>) -> Self {
         let cells = aligned(cells);
         // Blanks that align a number's point belong to the number.

@@ -33,12 +33,12 @@ impl Tone {
     }
 }
 
-/// Number of the things counted by a study that have the same outcome.
+/// Number of counted items with the same outcome.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TallyEntry {
     /// The number.
     pub count: u64,
-    /// Name of the things, in the number of the count: `row missed`, `rows missed`.
+    /// Noun for the items, singular or plural: `row missed`, `rows missed`.
     pub what: String,
     /// Evaluation of the outcome.
     pub tone: Tone,

@@ -149,10 +149,7 @@ impl Table {
     }
 
     /// Encodes the table as CSV with a header line of [`Table::keys`]; if any number has a mark, a last column `marked`
-    /// names the columns of such numbers, with semicolons between them.
-    ///
-    /// # Errors
-    /// If the encoder fails.
+    /// names the columns of such numbers, with semicolons between them. Fails if the encoder fails.
     pub fn csv(&self) -> Result<String, InputError> {
         let fail = |error: csv::Error| not_encoded("CSV", error);
         let mut writer = csv::Writer::from_writer(Vec::new());

@@ -69,10 +69,7 @@ enum Event<'a> {
 }
 
 impl Trace {
-    /// Writes the file: slices in the order of time, one event per line.
-    ///
-    /// # Errors
-    /// Those of `out`.
+    /// Writes the file: slices in the order of time, one event per line. Errors: those of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{{\"displayTimeUnit\":\"ns\",\"otherData\":{},", Value::Object(self.about.clone()))?;
         write!(out, "\"traceEvents\":[")?;
@@ -118,7 +115,6 @@ fn tid(lane: usize) -> u32 {
     u32::try_from(lane).unwrap_or(u32::MAX - 1).saturating_add(1)
 }
 
-/// The nanosecond that a picosecond lies in.
 fn nanosecond(picosecond: u64) -> u64 {
     picosecond / 1000
 }

@@ -46,7 +46,7 @@ impl SplitCommand {
 pub struct PartHeader {
     /// The command.
     pub command: SplitCommand,
-    /// Which part of how many.
+    /// Number of the part, and the total number of parts.
     pub part: PartNumber,
     /// The SHA-256 of every file that was read, by its path as it was opened.
     pub inputs: BTreeMap<String, String>,
@@ -91,10 +91,8 @@ impl PartHeader {
         Ok((head.len() + results.len() + DIGEST) as u64)
     }
 
-    /// Reads a part, and checks that it is whole: its header, and its results as they are encoded.
-    ///
-    /// # Errors
-    /// If it cannot be read, is not a part, or was changed.
+    /// Reads a part, and checks that it is whole: its header, and its results as they are encoded. Fails if it cannot
+    /// be read, is not a part, or was changed.
     pub(super) fn read(path: &Path) -> Result<(Self, Vec<u8>), InputError> {
         let mut bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
         let wrong = |found: String, help| InputError::new("crossbar::part::file", found).at(path).with_help(help);
@@ -133,14 +131,12 @@ impl PartHeader {
     }
 }
 
-/// The digests of all files that were read so far, by their paths.
-///
-/// # Errors
-/// For what cannot be read a second time, and for names that are not UTF-8.
+/// The digests of all files that were read so far, by their paths. Fails for input that cannot be read a second time,
+/// and for names that are not UTF-8.
 pub(super) fn inputs_read() -> Result<BTreeMap<String, String>, InputError> {
     let digest = |path: std::path::PathBuf| {
         let name = path.to_str().ok_or_else(|| not_utf8(path.as_os_str()))?;
-        // Opening a pipe would wait for who writes to it.
+        // Opening a pipe would wait for its writer.
         ensure!(
             path.is_file(), "crossbar::part::input" =>
             "expected input from files, found {}, which cannot be read a second time", path.display();

@@ -38,19 +38,15 @@ pub struct SpentTime {
 
 impl KeptResults {
     /// Results of a command in a folder, which is made when the first of them is kept. They depend on the files that
-    /// were read until now. `clock` returns the time since a fixed moment.
-    ///
-    /// # Errors
-    /// For files that cannot be read a second time.
+    /// were read until now. `clock` returns the time since a fixed moment. Errors: for files that cannot be read a
+    /// second time.
     pub fn new(folder: PathBuf, command: SplitCommand, clock: fn() -> SpentTime) -> Result<Self, InputError> {
         let (inputs, taken, before) = (inputs_read()?, Cell::default(), Cell::default());
         Ok(Self { folder, command, inputs, clock, taken, start: clock(), before })
     }
 
-    /// Refuses a folder with results of other work, which would be lost.
-    ///
-    /// # Errors
-    /// Names the first such result; also for a path that is not a folder.
+    /// Refuses a folder with results of other work, which would be lost. Errors: names the first such result; also for
+    /// a path that is not a folder.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {
@@ -60,7 +56,7 @@ impl KeptResults {
         let mut paths = files.map(|file| Ok(file?.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
         paths.sort();
         for path in paths {
-            // What is no result is left alone, and a damaged one computed again.
+            // Other files are left alone, and damaged results are computed again.
             let Ok((header, _)) = PartHeader::read(&path) else { continue };
             if let Some([expected, found]) = self.difference(&header) {
                 let other = input_error!(
@@ -98,7 +94,7 @@ impl KeptResults {
         self.taken.get()
     }
 
-    /// Time that this run has spent so far, and runs before it on what was taken from them.
+    /// Time of this run so far, plus that of earlier runs for reused results.
     pub fn spent(&self) -> SpentTime {
         let (now, start, before) = ((self.clock)(), self.start, self.before.get());
         let processor = now.processor_s.zip(start.processor_s).map(|(now, start)| now - start);
@@ -109,10 +105,8 @@ impl KeptResults {
     }
 
     /// Takes a result from the folder; computes and keeps it if it is missing, damaged, or of another command, program
-    /// or input. The result must depend only on the command and the name, which is a file name.
-    ///
-    /// # Errors
-    /// Those of `compute`, and if a result cannot be kept.
+    /// or input. The result must depend only on the command and the name, which is a file name. Errors: those of
+    /// `compute`, and if a result cannot be kept.
     pub fn get<T: Serialize + DeserializeOwned, E: From<InputError>>(
         &self,
         name: &str,
@@ -124,7 +118,7 @@ impl KeptResults {
             && found.is_of(&header)
             && let Ok(((spent, result), [])) = postcard::take_from_bytes::<(SpentTime, T)>(&bytes)
         {
-            // Of what is taken the last one knows the most.
+            // The last file taken has the most results.
             if spent.wall_s > self.before.get().wall_s {
                 self.before.set(spent);
             }
@@ -138,10 +132,7 @@ impl KeptResults {
         Ok(result)
     }
 
-    /// Removes the folder, when the work is done.
-    ///
-    /// # Errors
-    /// If it cannot be removed.
+    /// Removes the folder, when the work is done. Fails if it cannot be removed.
     pub fn remove(&self) -> Result<(), InputError> {
         match fs::remove_dir_all(&self.folder) {
             Err(source) if source.kind() != io::ErrorKind::NotFound => {

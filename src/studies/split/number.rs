@@ -1,4 +1,4 @@
-//! Which part of how many.
+//! Number of the part, and the total number of parts.
 
 use std::fmt;
 use std::ops::Range;

@@ -31,7 +31,7 @@ impl<T: Serialize + DeserializeOwned> Concatenate for Vec<T> {
     }
 }
 
-/// How a command's items are computed.
+/// Mode in which a command's items are computed.
 #[derive(Clone, Debug, Default)]
 pub enum SplitRun {
     /// All of them.
@@ -53,7 +53,7 @@ pub enum SplitRun {
 /// A part that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenPart {
-    /// Which part of how many.
+    /// Number of the part, and the total number of parts.
     pub part: PartNumber,
     /// The items that are split, in the plural.
     pub items: &'static str,
@@ -77,10 +77,7 @@ pub enum Computed<T> {
 }
 
 impl<T> Computed<T> {
-    /// Goes on with the results of all items.
-    ///
-    /// # Errors
-    /// Those of `then`.
+    /// Goes on with the results of all items. Errors: those of `then`.
     pub fn and_then<U, E>(self, then: impl FnOnce(T) -> Result<U, E>) -> Result<Computed<U>, E> {
         match self {
             Self::Whole(results) => then(results).map(Computed::Whole),
@@ -88,10 +85,7 @@ impl<T> Computed<T> {
         }
     }
 
-    /// Results of an ordinary run or of a merge.
-    ///
-    /// # Panics
-    /// If a part was computed.
+    /// Results of an ordinary run or of a merge. Panics if a part was computed.
     pub fn whole(self) -> T {
         match self {
             Self::Whole(results) => results,
@@ -101,10 +95,8 @@ impl<T> Computed<T> {
 }
 
 impl SplitRun {
-    /// [`Self::compute`] for commands that compute items as they need them: `None` in an ordinary run.
-    ///
-    /// # Errors
-    /// As [`Self::compute`].
+    /// [`Self::compute`] for commands that compute items as they need them: `None` in an ordinary run. Fails as
+    /// [`Self::compute`] does.
     pub fn known<T: Concatenate, E: From<InputError>>(
         &self,
         items: &'static str,
@@ -123,10 +115,8 @@ impl SplitRun {
     }
 
     /// Computes `count` items by `compute`, which takes a range of them; or those of a part, and writes them; or takes
-    /// all from parts. The result must depend only on the item and on earlier input. A command calls this once.
-    ///
-    /// # Errors
-    /// Those of `compute`, and if a part cannot be written or parts do not fit.
+    /// all from parts. The result must depend only on the item and on earlier input. A command calls this once. Errors:
+    /// those of `compute`, and if a part cannot be written or parts do not fit.
     pub fn compute<T: Concatenate, E: From<InputError>>(
         &self,
         items: &'static str,
@@ -160,7 +150,6 @@ fn require_writable(path: &Path) -> Result<(), InputError> {
     }
 }
 
-/// The results of all parts.
 fn merged<T: Concatenate>(parts: &PartSet, items: &'static str, count: usize) -> Result<T, InputError> {
     parts.check_inputs(&inputs_read()?)?;
     let mut whole: Option<T> = None;

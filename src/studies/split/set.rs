@@ -17,10 +17,7 @@ pub struct PartSet {
 
 impl PartSet {
     /// Opens the parts of a run, in any order, and checks that each is whole, that all are of `program` and of one
-    /// command, and that none is missing and none twice.
-    ///
-    /// # Errors
-    /// Names the files that do not fit.
+    /// command, and that none is missing and none twice. Errors: names the files that do not fit.
     pub fn open(paths: &[PathBuf], program: &str) -> Result<Self, InputError> {
         let mut parts: Vec<(PathBuf, PartHeader)> = Vec::with_capacity(paths.len());
         for path in paths {
@@ -57,10 +54,7 @@ impl PartSet {
         &self.parts
     }
 
-    /// Checks that every part was computed from the files that have now been read.
-    ///
-    /// # Errors
-    /// Names the part and the file.
+    /// Checks that every part was computed from the files that have now been read. Errors: names the part and the file.
     pub(super) fn check_inputs(&self, now: &BTreeMap<String, String>) -> Result<(), InputError> {
         for (path, header) in &self.parts {
             let names = header.inputs.keys().chain(now.keys());

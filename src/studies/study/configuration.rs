@@ -19,21 +19,16 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// Creates the configuration of a device.
-    ///
-    /// # Errors
-    /// If there is no such device.
+    /// Creates the configuration of a device. Fails if there is no such device.
     pub fn device(name: &str) -> Result<Self, DeviceError> {
         let configuration = Self::of(&device_named(name)?);
-        // A card has one name, however it was asked for; device files are told apart by theirs.
+        // A card has one canonical name; device files are distinguished by theirs.
         let is_file = name.ends_with(".toml");
         Ok(if is_file { Self { label: file_name(name), ..configuration } } else { configuration })
     }
 
-    /// Creates the configuration of a device without limits that computes in `format`.
-    ///
-    /// # Errors
-    /// If there is no such format.
+    /// Creates the configuration of a device without limits that computes in `format`. Fails if there is no such
+    /// format.
     pub fn format(format: &str) -> Result<Self, DeviceError> {
         let mut configuration = Self::device(&format!("ideal-{format}"))?;
         configuration.label = file_name(format);
@@ -41,10 +36,8 @@ impl Configuration {
     }
 
     /// Creates the configuration of a device with its format replaced by `format`. Settings of a device file stay
-    /// ([`Profile::replace_format`]).
-    ///
-    /// # Errors
-    /// If there is no such device or format, or the file's settings do not fit the format.
+    /// ([`Profile::replace_format`]). Fails if there is no such device or format, or the file's settings do not fit the
+    /// format.
     pub fn device_in_format(name: &str, format: &str) -> Result<Self, DeviceError> {
         let mut configuration = Self::device(name)?;
         configuration.profile.replace_format(format)?;
@@ -53,10 +46,8 @@ impl Configuration {
     }
 
     /// Returns the configuration of a device, then one configuration for each other value of each of its open switches,
-    /// with one switch changed at a time. Switches of generated mip levels are left out.
-    ///
-    /// # Errors
-    /// If there is no such device.
+    /// with one switch changed at a time. Switches of generated mip levels are left out. Fails if there is no such
+    /// device.
     pub fn device_under_each_switch(name: &str) -> Result<Vec<Self>, DeviceError> {
         Self::device(name)?.under_each_switch()
     }
@@ -67,10 +58,7 @@ impl Configuration {
     }
 
     /// Returns this configuration, and the same with each open switch of its device set to each other value, one at a
-    /// time; without those of generated mip levels.
-    ///
-    /// # Errors
-    /// If a switch rejects one of its own values.
+    /// time; without those of generated mip levels. Fails if a switch rejects one of its own values.
     pub fn under_each_switch(self) -> Result<Vec<Self>, DeviceError> {
         let mut all = vec![self.clone()];
         for switch in self.profile.switches().iter().filter(|s| !MIPMAP_SWITCHES.contains(&s.name.as_str())) {

@@ -9,7 +9,7 @@ use refsim::device::DeviceError;
 use crate::error::InputError;
 use crate::shader::ShaderError;
 
-/// Error of a study: its own sentence or a library's error, with a code for programs and what to do.
+/// Error of a study: its own sentence or a library's error, with a code for programs and advice.
 ///
 /// A library's error that is a diagnostic is shown unchanged. Others have a code that names the failed step of the
 /// study. [`Self::downcast_ref`] returns the library's error.
@@ -61,7 +61,7 @@ impl StudyError {
         Self(Box::new(ErrorParts { cause: Some(Cause::Diagnostic(Box::new(error))), ..ErrorParts::default() }))
     }
 
-    /// Adds what to do.
+    /// Adds the advice.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
@@ -107,7 +107,7 @@ impl fmt::Display for StudyError {
 impl Error for StudyError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         let cause = self.0.cause.as_ref()?.error();
-        // Without a sentence the cause is what is displayed, so that the chain starts behind it.
+        // Without a sentence the cause is displayed, and the chain starts after it.
         if self.0.sentence.is_some() { Some(cause) } else { cause.source() }
     }
 }

@@ -29,17 +29,12 @@ pub type ProgressFn<'a> = dyn FnMut(&str, u64, u64) + 'a;
 
 /// A question with its parameters.
 pub trait Study {
-    /// Runs the study.
-    ///
-    /// # Errors
-    /// If the input does not suit the study, or a library refuses it.
+    /// Runs the study. Fails if the input does not suit the study, or a library refuses it.
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError>;
 
     /// The same where the study's items can be split: of all of them, of those of a part, or out of parts. Without such
-    /// items, [`Self::findings`].
-    ///
-    /// # Errors
-    /// Those of [`Self::findings`], and [`InputError`](crate::error::InputError) of parts.
+    /// items, [`Self::findings`]. Errors: those of [`Self::findings`], and [`InputError`](crate::error::InputError) of
+    /// parts.
     fn findings_split(&self, _: &SplitRun, progress: &mut ProgressFn<'_>) -> Result<Computed<Findings>, StudyError> {
         self.findings(progress).map(Computed::Whole)
     }

@@ -82,7 +82,7 @@ fn work_that_was_stopped_goes_on() {
     kept("1", "a").remove().expect("nothing to remove");
 }
 
-/// The time of a continued run includes that of the runs before it until their last results, each once.
+/// The time of a continued run includes the time of earlier runs until their last results, each once.
 #[test]
 fn time_is_that_of_all_runs() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -122,7 +122,7 @@ fn a_damaged_result_is_computed_again() {
         fs::write(&path, &whole).expect("written");
         assert_eq!(get(8), 7);
     }
-    // Of another type.
+    // A result of another type.
     assert_eq!(kept.get("one", || Ok::<_, InputError>(String::from("anew"))).expect("a result"), "anew");
 }
 

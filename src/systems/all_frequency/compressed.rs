@@ -40,13 +40,8 @@ pub struct CompressedSegment {
 }
 
 impl CompressedSegment {
-    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` sees each step.
-    ///
-    /// # Errors
-    /// [`CpcaError`].
-    ///
-    /// # Panics
-    /// Without vertices per cluster, or if the signal does not have a point for each vertex.
+    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` sees each step. Panics:
+    /// without vertices per cluster, or if the signal does not have a point for each vertex.
     pub fn new(
         segment: usize,
         vertices: Vec<u32>,

@@ -183,18 +183,14 @@ fn coded(
     Ok(CodedTransfer { rows: terms, coefficients: COEFFICIENTS, vertices, options, segments })
 }
 
-/// Writes a file completely or not at all.
-///
-/// # Errors
-/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts contradict each other.
+/// Writes a file completely or not at all. Fails with [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the
+/// parts contradict each other.
 pub fn save_all_frequency(file: &AllFrequencyFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_all_frequency(file, out))
 }
 
-/// Writes the bytes of a file.
-///
-/// # Errors
-/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts contradict each other.
+/// Writes the bytes of a file. Errors: those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if
+/// the parts contradict each other.
 pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::Result<()> {
     let terms = file.reflectance.terms();
     if let Some(fault) = file.fault(terms) {

@@ -36,10 +36,7 @@ impl std::fmt::Debug for AllFrequencyReference<'_> {
 impl AllFrequencyReference<'_> {
     /// g_p(v), the radiance that a vertex sends towards `view` in its local frame (equation 1). `sees` returns whether
     /// light from a direction, given by face, row and column of 6 x 128 x 128, reaches the vertex; [`Self::sees`] is
-    /// the exact one.
-    ///
-    /// # Panics
-    /// If there is no such vertex.
+    /// the exact one. Panics if there is no such vertex.
     pub fn exit_radiance(&self, vertex: usize, view: DVec3, sees: impl Fn(usize, usize, usize) -> bool) -> f64 {
         let frame = &self.vertices.frames()[vertex];
         let mut sum = 0.0;
@@ -59,9 +56,7 @@ impl AllFrequencyReference<'_> {
     }
 
     /// True if a vertex sees the light in a direction: the direction lies above its horizon, and no triangle blocks it.
-    ///
-    /// # Panics
-    /// If there is no such vertex or face.
+    /// Panics if there is no such vertex or face.
     pub fn sees(&self, vertex: usize, [face, row, column]: [usize; 3]) -> bool {
         let direction = direction(face, row, column, FINE);
         let normal = self.vertices.frames()[vertex].normal();

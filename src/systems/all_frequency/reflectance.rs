@@ -25,10 +25,8 @@ impl Reflectance {
         }
     }
 
-    /// G at a direction of length 1 towards the viewer, in the local frame. There is nothing to see from below.
-    ///
-    /// # Panics
-    /// If there is not a place per term.
+    /// G at a direction of length 1 towards the viewer, in the local frame. There is nothing to see from below. Panics
+    /// if there is not a place per term.
     pub fn view(&self, direction: DVec3, into: &mut [f64]) {
         match self {
             _ if direction.z <= 0.0 => into.fill(0.0),
@@ -37,10 +35,7 @@ impl Reflectance {
         }
     }
 
-    /// F at a direction of length 1 towards the light, in the local frame.
-    ///
-    /// # Panics
-    /// If there is not a place per term.
+    /// F at a direction of length 1 towards the light, in the local frame. Panics if there is not a place per term.
     pub fn light(&self, direction: DVec3, into: &mut [f64]) {
         match self {
             Self::Diffuse => into[0] = direction.z.max(0.0),

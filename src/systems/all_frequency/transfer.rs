@@ -116,13 +116,9 @@ impl FactoredTransfer<'_> {
         (0..Segmentation::Quarters.count()).filter_map(|segment| self.segment(segment).transpose())
     }
 
-    /// One segment; `None` if no vertex sees any of it. The bits do not depend on the number of threads.
-    ///
-    /// # Errors
-    /// [`InputError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere.
-    ///
-    /// # Panics
-    /// If there is no such segment.
+    /// One segment; `None` if no vertex sees any of it. The bits do not depend on the number of threads. Fails with
+    /// [`InputError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere. Panics if there is
+    /// no such segment.
     pub fn segment(&self, segment: usize) -> Result<Option<TransferSegment>, InputError> {
         require(self.rows > 0, "the number of rows", "at least 1", 0.0)?;
         check(self.vertices, self.maps.vertices())?;
@@ -163,10 +159,7 @@ impl FactoredTransfer<'_> {
     }
 
     /// The raw transfer of a map's vertex for a segment (equation 10): row i and light texel j of the segment are
-    /// component 256 i + j.
-    ///
-    /// # Panics
-    /// If there is no such segment or map.
+    /// component 256 i + j. Panics if there is no such segment or map.
     pub fn raw(&self, segment: usize, map: usize) -> Vec<f64> {
         let mut scratch = Scratch::new(self.rows);
         self.gather(segment, map, &mut scratch);

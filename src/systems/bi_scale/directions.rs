@@ -23,10 +23,8 @@ impl LocalDirections {
     /// The largest number of cells along an edge, which gives 4096 directions.
     pub const MOST: usize = 64;
 
-    /// The directions of a square of `side` x `side` cells.
-    ///
-    /// # Errors
-    /// [`InputError`] unless there are 1 to [`Self::MOST`] along an edge.
+    /// The directions of a square of `side` x `side` cells. Fails with [`InputError`] unless there are 1 to
+    /// [`Self::MOST`] along an edge.
     pub fn new(side: usize) -> Result<Self, InputError> {
         ensure!(
             (1..=Self::MOST).contains(&side),

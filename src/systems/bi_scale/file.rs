@@ -205,18 +205,14 @@ fn read_biclusters(
     Ok(biclusters)
 }
 
-/// Writes a file completely or not at all.
-///
-/// # Errors
-/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts contradict each other.
+/// Writes a file completely or not at all. Fails with [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the
+/// parts contradict each other.
 pub fn save_bi_scale(file: &BiScaleFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_bi_scale(file, out))
 }
 
-/// Writes the bytes of a file.
-///
-/// # Errors
-/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts contradict each other.
+/// Writes the bytes of a file. Errors: those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if
+/// the parts contradict each other.
 pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()> {
     let Some(shape) = file.shapes().next().filter(|_| file.fault().is_none()) else {
         return Err(contradiction(file.fault().unwrap_or_default()));

@@ -33,13 +33,9 @@ pub(super) fn size_error(rows: usize, columns: usize) -> InputError {
 }
 
 impl SparseMatrix {
-    /// A matrix without rows yet, with `columns` columns and values in units of 2^-`fraction_bits`.
-    ///
-    /// # Errors
-    /// [`InputError`] for 0 columns, or more than 32 bits can count.
-    ///
-    /// # Panics
-    /// If `fraction_bits` exceeds [`EntryValues::MOST_FRACTION_BITS`].
+    /// A matrix without rows yet, with `columns` columns and values in units of 2^-`fraction_bits`. Fails with
+    /// [`InputError`] for 0 columns, or more than 32 bits can count. Panics if `fraction_bits` exceeds
+    /// [`EntryValues::MOST_FRACTION_BITS`].
     pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, InputError> {
         Self::of_values(columns, EntryValues::units(fraction_bits))
     }
@@ -52,7 +48,7 @@ impl SparseMatrix {
         Ok(Self { columns, values, begins: vec![0], entries: Vec::new() })
     }
 
-    /// A matrix of real numbers: in the largest power-of-two unit of which all are multiples, if this has at most
+    /// A matrix of real numbers: in their largest common power-of-two unit, if this has at most
     /// [`EntryValues::MOST_FRACTION_BITS`] and 32 bits hold the multiples; else with a table. Zeros of either sign are
     /// left out.
     pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, InputError> {
@@ -96,10 +92,7 @@ impl SparseMatrix {
         Ok(sparse)
     }
 
-    /// Appends a row.
-    ///
-    /// # Errors
-    /// [`InputError`]; the matrix is then unchanged.
+    /// Appends a row. Fails with [`InputError`]; the matrix is then unchanged.
     pub fn push_row(&mut self, row: &[MatrixEntry]) -> Result<(), InputError> {
         let (number, columns) = (self.rows(), self.columns);
         if u32::try_from(number + 1).is_err() {
@@ -150,10 +143,7 @@ impl SparseMatrix {
         &self.values
     }
 
-    /// The number that an entry holds, exactly.
-    ///
-    /// # Panics
-    /// If the matrix can have no such entry.
+    /// The number that an entry holds, exactly. Panics if the matrix can have no such entry.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         self.values.value(entry)
@@ -164,10 +154,7 @@ impl SparseMatrix {
         self.entries.len()
     }
 
-    /// The entries of a row, with increasing columns.
-    ///
-    /// # Panics
-    /// If there is no such row.
+    /// The entries of a row, with increasing columns. Panics if there is no such row.
     pub fn row(&self, row: usize) -> &[MatrixEntry] {
         &self.entries[self.begins[row]..self.begins[row + 1]]
     }
@@ -184,7 +171,7 @@ fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
     let finest = f64::from(1_u32 << EntryValues::MOST_FRACTION_BITS);
     let mut fraction_bits = 0;
     for value in values.clone() {
-        // Exact: the factor is a power of two. What it takes to infinity is out of range in any unit.
+        // Exact: the factor is a power of two. Values that it makes infinite are out of range in any unit.
         let scaled = value * finest;
         if scaled.fract() != 0.0 {
             return None;
@@ -212,10 +199,7 @@ impl EntryValues {
     /// The largest number of fraction bits of a unit: more than the difference of two f32 numbers in [0, 1] needs.
     pub const MOST_FRACTION_BITS: u32 = 30;
 
-    /// Whole numbers of 2^-`fraction_bits`.
-    ///
-    /// # Panics
-    /// If `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
+    /// Whole numbers of 2^-`fraction_bits`. Panics if `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
     pub fn units(fraction_bits: u32) -> Self {
         assert!(fraction_bits <= Self::MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
         Self { fraction_bits: Some(fraction_bits), unit: 1.0 / f64::from(1_u32 << fraction_bits), table: None }
@@ -238,7 +222,7 @@ impl EntryValues {
         units.unwrap_or_else(|| Self::table(fraction_bits, numbers))
     }
 
-    /// Number of fraction bits of the unit of which all values of the matrix are multiples, if there is one.
+    /// Number of fraction bits of the common unit of all values, if there is one.
     pub fn fraction_bits(&self) -> Option<u32> {
         self.fraction_bits
     }
@@ -248,10 +232,7 @@ impl EntryValues {
         self.table.as_ref().map(Vec::len)
     }
 
-    /// The number that an entry holds.
-    ///
-    /// # Panics
-    /// If the table has no such entry.
+    /// The number that an entry holds. Panics if the table has no such entry.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         match &self.table {

@@ -75,11 +75,8 @@ impl Submatrix {
     }
 }
 
-/// Algorithm 1 with every operation tried, each by equation 9. A row or column costs a look at all of the matrix, so this
-/// is for small ones.
-///
-/// # Panics
-/// If the largest residual to drop is negative or not finite.
+/// Algorithm 1 with every operation tried, each by equation 9. A row or column costs a look at all of the matrix, so
+/// this is for small ones. Panics if the largest residual to drop is negative or not finite.
 pub fn biclusters(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     let mut left = dense(matrix);
     assert!(options.drop >= 0.0, "a size");
@@ -93,7 +90,7 @@ pub fn biclusters(matrix: &SparseMatrix, options: BiclusterOptions) -> Bicluster
         while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
             submatrix = better;
         }
-        // Lines 15 and 16: what is taken away is the bicluster, so that the residual stays.
+        // Lines 15 and 16: the bicluster is subtracted, so that the residual stays.
         for &row in &submatrix.rows {
             for (column, t) in &submatrix.columns {
                 let value = left[row][*column] - t;
@@ -145,10 +142,7 @@ fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>], deletion: bool) -> O
     best
 }
 
-/// Algorithm 2 in f64, step by step.
-///
-/// # Panics
-/// If the light has not as many numbers as the matrix has columns.
+/// Algorithm 2 in f64, step by step. Panics if the light has not as many numbers as the matrix has columns.
 pub fn multiply(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
     let [rows, columns] = biclusters.matrix_size();
     assert_eq!(light.len(), columns, "as many numbers as columns");

@@ -13,10 +13,8 @@
 use super::bicluster::Biclustering;
 use super::matrix::SparseMatrix;
 
-/// L~ = T L from the matrix itself, in f64, columns increasing.
-///
-/// # Panics
-/// If the light has not as many numbers as the matrix has columns.
+/// L~ = T L from the matrix itself, in f64, columns increasing. Panics if the light has not as many numbers as the
+/// matrix has columns.
 pub fn by_rows(matrix: &SparseMatrix, light: &[f64]) -> Vec<f64> {
     assert_eq!(light.len(), matrix.columns(), "as many numbers as columns");
     let row = |row| {
@@ -84,10 +82,8 @@ impl Gather {
         Self { columns, column_begins, columns_of, rows, lengths, biclusters_of }
     }
 
-    /// Algorithm 2 in f32, for C lights or color channels in parallel.
-    ///
-    /// # Panics
-    /// If the light has not as many numbers as the matrix has columns.
+    /// Algorithm 2 in f32, for C lights or color channels in parallel. Panics if the light has not as many numbers as
+    /// the matrix has columns.
     pub fn multiply<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
         assert_eq!(light.len(), self.columns, "as many numbers as columns");
         let buffer = self.buffer(light);

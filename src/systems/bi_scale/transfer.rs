@@ -21,13 +21,8 @@ use crate::transfer::{LocalFrame, Vertices};
 /// Vertices whose rows are made together.
 const BLOCK: usize = 256;
 
-/// T of the vertices of some visibility maps, map by map.
-///
-/// # Errors
-/// [`InputError`] if there are more rows than 32 bits can name, or none.
-///
-/// # Panics
-/// If the maps are of other vertices.
+/// T of the vertices of some visibility maps, map by map. Fails with [`InputError`] if there are more rows than 32 bits
+/// can name, or none. Panics if the maps are of other vertices.
 pub fn transfer_matrix(
     vertices: &Vertices,
     maps: &VisibilityMaps,
@@ -83,10 +78,8 @@ pub fn side_by_side([red, green, blue]: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
     red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
 }
 
-/// L: radiance per texel times the texel's solid angle in steradians, which T leaves out.
-///
-/// # Panics
-/// If there is not one number per texel.
+/// L: radiance per texel times the texel's solid angle in steradians, which T leaves out. Panics if there is not one
+/// number per texel.
 pub fn light_vector(radiance: &[f64]) -> Vec<f64> {
     assert_eq!(radiance.len(), LIGHT_TEXELS, "radiance of each texel");
     let solid_angle = |texel: usize| {

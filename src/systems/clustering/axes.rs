@@ -75,7 +75,6 @@ impl Axes {
         Some(Self { center, axes, points, lengths })
     }
 
-    /// A subspace along the axes.
     pub(super) fn along(&self, subspace: &AffineSubspace, level: SimdLevel) -> AlongAxes {
         let mut vectors = Vec::new();
         for vector in subspace.vectors() {

@@ -43,10 +43,8 @@ pub struct Compression {
     pub steps: Vec<CpcaStep>,
 }
 
-/// Compresses a signal. `observe` is called after each step.
-///
-/// # Errors
-/// [`CpcaError`] if the options do not fit the signal, or principal components cannot be computed.
+/// Compresses a signal. `observe` is called after each step. Fails with [`CpcaError`] if the options do not fit the
+/// signal, or principal components cannot be computed.
 pub fn compress(
     signal: &Signal,
     options: &CpcaOptions,
@@ -219,8 +217,8 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
 }
 
 /// Per cluster the number of vectors that the budget allows. Vectors come by decreasing reduction of the squared error
-/// per point, D_i^2 / m_k; of equals the lower cluster's first. Each costs a weight per point of its cluster; what
-/// exceeds the budget is passed over.
+/// per point, D_i^2 / m_k; of equals the lower cluster's first. Each costs a weight per point of its cluster; vectors
+/// beyond the budget are skipped.
 pub(super) fn distribute(eigenvalues: &[Vec<f64>], sizes: &[usize], budget: usize) -> Vec<usize> {
     let mut ranked: Vec<(f64, usize)> = Vec::new();
     for (cluster, (values, &size)) in eigenvalues.iter().zip(sizes).enumerate() {

@@ -165,10 +165,7 @@ impl Clustering {
         &self.weights
     }
 
-    /// A point's weights, one per vector of its cluster.
-    ///
-    /// # Panics
-    /// If there is no such point.
+    /// A point's weights, one per vector of its cluster. Panics if there is no such point.
     pub fn weights(&self, point: usize) -> &[f64] {
         &self.weights[self.begins[point]..self.begins[point + 1]]
     }
@@ -186,18 +183,13 @@ impl Clustering {
         self.weights.len() + means + self.subspaces.iter().map(|s| s.vectors.len()).sum::<usize>()
     }
 
-    /// The approximation of a point: `dimension` numbers.
-    ///
-    /// # Panics
-    /// If there is no such point, or `into` has another length.
+    /// The approximation of a point: `dimension` numbers. Panics if there is no such point, or `into` has another
+    /// length.
     pub fn approximation(&self, point: usize, into: &mut [f64]) {
         self.subspaces[self.of_point[point] as usize].approximation(self.weights(point), into);
     }
 
-    /// The squared error of a point's approximation.
-    ///
-    /// # Panics
-    /// If the signal has another shape, or there is no such point.
+    /// The squared error of a point's approximation. Panics if the signal has another shape, or there is no such point.
     pub fn squared_error_of(&self, point: usize, signal: &Signal) -> f64 {
         let mut difference = vec![0.0; self.dimension];
         self.approximation(point, &mut difference);
@@ -206,10 +198,7 @@ impl Clustering {
         dot(&difference, &difference)
     }
 
-    /// The squared error of all points' approximations, summed: the paper's SE.
-    ///
-    /// # Panics
-    /// If the signal has another shape.
+    /// The squared error of all points' approximations, summed: the paper's SE. Panics if the signal has another shape.
     pub fn squared_error(&self, signal: &Signal) -> f64 {
         assert_eq!((signal.points(), signal.dimension()), (self.points(), self.dimension), "the signal's shape");
         signal.sum(|point| self.squared_error_of(point, signal))

@@ -1,6 +1,6 @@
-//! Clustered principal component analysis (the paper of system 4; systems 5 and 6 use it, too): points are assigned to clusters, each of which is approximated by an affine
-//! subspace, a mean and a few orthonormal vectors (sections 3.3 and 4 of the paper), or by vectors alone
-//! ([`CpcaForm::Linear`]).
+//! Clustered principal component analysis (the paper of system 4; systems 5 and 6 use it, too): points are assigned to
+//! clusters; each cluster is approximated by an affine subspace, a mean and a few orthonormal vectors (sections 3.3 and
+//! 4 of the paper), or by vectors alone ([`CpcaForm::Linear`]).
 //!
 //! | section | file |
 //! |---|---|

@@ -6,15 +6,12 @@ use super::{AffineSubspace, Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOpt
 
 /// Threshold relative to the squared distance from the mean, below which an error counts as 0.
 const NO_ERROR: f64 = 9.094_947_017_729_282e-13;
-/// Threshold relative to the largest eigenvalue, up to which there is no vector.
+/// Threshold relative to the largest eigenvalue; eigenvalues up to it get no vector.
 const NO_EIGENVALUE: f64 = 5.684_341_886_080_802e-14;
 /// Number of sweeps over all pairs of components.
 const SWEEPS: usize = 60;
 
-/// Compresses a signal.
-///
-/// # Errors
-/// [`CpcaError`] if the options do not fit the signal.
+/// Compresses a signal. Fails with [`CpcaError`] if the options do not fit the signal.
 pub fn compress(signal: &Signal, options: &CpcaOptions) -> Result<Clustering, CpcaError> {
     let start = options.start_points(signal)?;
     let mut plain = Plain {

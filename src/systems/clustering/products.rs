@@ -36,8 +36,8 @@ impl<const N: usize> Packed<N> {
         Self { length, components }
     }
 
-    /// The other way round: `count` vectors of which component j is number `at` of vector j of others. `part` writes
-    /// the numbers of vector j from `at` on that fit into its slice.
+    /// Transposed: component j of vector `at` is number `at` of vector j of the others. `part` writes the numbers of
+    /// vector j from `at` on that fit into its slice.
     pub(super) fn across(count: usize, length: usize, mut part: impl FnMut(usize, usize, &mut [f64])) -> Self {
         let mut components = vec![[0.0; N]; count.div_ceil(N) * length];
         for j in 0..length {
@@ -48,7 +48,6 @@ impl<const N: usize> Packed<N> {
         Self { length, components }
     }
 
-    /// The groups of N vectors.
     pub(super) fn groups(&self) -> impl ExactSizeIterator<Item = &[[f64; N]]> {
         self.components.chunks_exact(self.length.max(1))
     }
@@ -66,7 +65,7 @@ pub(super) fn add_block<const N: usize>(rows: &[[f64; ROWS]], columns: &[[f64; N
         e = add_scaled(e, row[4], column);
         f = add_scaled(f, row[5], column);
     }
-    // Hidden, or what becomes of the sums may decide how they stand in registers.
+    // Hidden from the compiler: the use of the sums would change their registers.
     let sums = black_box([a, b, c, d, e, f]);
     for (into, sums) in into.iter_mut().zip(&sums) {
         *into = std::array::from_fn(|at| into[at] + sums[at]);
@@ -146,8 +145,8 @@ const MIN_PARALLEL: usize = 1 << 22;
 /// Points of a cluster whose products are kept, at most: 2 MiB.
 const MOST_KEPT: usize = 512;
 
-/// Inner products of a cluster's points, kept from one fit to the next, so that only those of new points are computed.
-/// Each is the same sum whatever the other points are, so that reuse changes no bits.
+/// Inner products of a cluster's points, kept from one fit to the next; only those of new points are computed. Each sum
+/// is independent of the other points, so that reuse changes no bits.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeptProducts {
     points: Vec<u32>,

@@ -47,10 +47,7 @@ impl Signal {
         self.dimension
     }
 
-    /// The numbers of a point.
-    ///
-    /// # Panics
-    /// If there is no such point.
+    /// The numbers of a point. Panics if there is no such point.
     pub fn point(&self, point: usize) -> &[f32] {
         &self.values[point * self.dimension..][..self.dimension]
     }

@@ -107,11 +107,8 @@ impl CardSystem {
         Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
 
-    /// Computes one pass. `radiosity` is the result of the last iteration, `partial` that of the pass before, which
-    /// pass 0 does not read.
-    ///
-    /// # Panics
-    /// If a texture is too small, or there is no such pass.
+    /// Computes one pass. `radiosity` is the result of the last iteration, `partial` that of the previous pass, which
+    /// pass 0 does not read. Panics if a texture is too small, or there is no such pass.
     pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
         let from = pass * self.block;
         let to = (from + self.block).min(self.matrix.width);

@@ -112,10 +112,7 @@ pub fn from_rgb_vector(texels: &Texels) -> Vec<[f32; 3]> {
 }
 
 /// The product of two block-channel matrices in the order of reference 8, in f32: for each step k, `a.xxzz * b.xyxy`,
-/// then `a.yyww * b.zwzw`, each product and each sum rounded.
-///
-/// # Panics
-/// If the two differ in size.
+/// then `a.yyww * b.zwzw`, each product and each sum rounded. Panics if the two differ in size.
 pub fn block_channel_product(a: &Texels, b: &Texels) -> Texels {
     let half = a.width;
     assert_eq!([a.height, b.width, b.height], [half; 3], "two block-channel matrices of one size");

@@ -42,10 +42,8 @@ impl System {
         Ok(system)
     }
 
-    /// Replaces the reflectances. The matrix changes with them, the form factors do not.
-    ///
-    /// # Errors
-    /// [`InputError`]; the system is then unchanged.
+    /// Replaces the reflectances. The matrix changes with them, the form factors do not. Fails with [`InputError`]; the
+    /// system is then unchanged.
     pub fn set_reflectance(&mut self, reflectance: PerPatch) -> Result<(), InputError> {
         self.count("reflectances", &reflectance)?;
         if let Some((patch, value)) = first(&reflectance, |value| !(0.0..1.0).contains(&value)) {
@@ -57,10 +55,7 @@ impl System {
         Ok(())
     }
 
-    /// Replaces the emittances. The matrix does not change.
-    ///
-    /// # Errors
-    /// [`InputError`]; the system is then unchanged.
+    /// Replaces the emittances. The matrix does not change. Fails with [`InputError`]; the system is then unchanged.
     pub fn set_emittance(&mut self, emittance: PerPatch) -> Result<(), InputError> {
         self.count("emittances", &emittance)?;
         if let Some((patch, value)) = first(&emittance, |value| !(value >= 0.0 && value.is_finite())) {
@@ -92,18 +87,13 @@ impl System {
         &self.emittance
     }
 
-    /// Returns the right-hand side of equation 2 in a channel (0 red, 1 green, 2 blue).
-    ///
-    /// # Panics
-    /// For another channel.
+    /// Returns the right-hand side of equation 2 in a channel (0 red, 1 green, 2 blue). Panics: for another channel.
     pub fn right_hand_side(&self, channel: usize) -> Vec<f64> {
         self.emittance.iter().map(|e| e[channel]).collect()
     }
 
-    /// Computes the matrix of equation 2 in a channel: 1 on the diagonal, less reflectance times form factor.
-    ///
-    /// # Panics
-    /// For a channel above 2.
+    /// Computes the matrix of equation 2 in a channel: 1 on the diagonal, less reflectance times form factor. Panics:
+    /// for a channel above 2.
     pub fn matrix(&self, channel: usize) -> Matrix {
         let mut matrix = self.factors.matrix().clone();
         for (i, rho) in self.reflectance.iter().enumerate() {
@@ -131,10 +121,7 @@ impl System {
     }
 
     /// Solves all three channels; equal channels only once. `start` is the initial guess: the radiosities of an earlier
-    /// solution.
-    ///
-    /// # Errors
-    /// [`InputError`].
+    /// solution. Fails with [`InputError`].
     pub fn solve(
         &self,
         solver: Solver,
@@ -160,10 +147,7 @@ impl System {
     }
 
     /// Computes the mean square of the residual of equation 2, E - M B, in each channel: Figure 3's error. M is not
-    /// formed.
-    ///
-    /// # Panics
-    /// If there is not one radiosity per patch.
+    /// formed. Panics if there is not one radiosity per patch.
     pub fn residual(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         assert_eq!(radiosity.len(), self.factors.len(), "one radiosity per patch");
         [0, 1, 2].map(|c| {

@@ -40,9 +40,6 @@ pub struct Patches {
 impl Patches {
     /// Cuts a scene's faces. A face is a triangle, or two in a row of one material that make a flat convex
     /// quadrilateral.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, InputError> {
         let mesh = scene.mesh();
         let materials = scene.materials().iter().map(diffuse).collect::<Result<Vec<_>, _>>();
@@ -58,10 +55,7 @@ impl Patches {
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
     }
 
-    /// How many patches a scene would be cut into, without the work that their open parts take.
-    ///
-    /// # Errors
-    /// [`InputError`].
+    /// Number of patches of a scene, without computing their open parts.
     pub fn count(scene: &Scene, subdivision: Subdivision) -> Result<usize, InputError> {
         Ok(steps(&faces_of(scene)?.0, subdivision)?.1)
     }
@@ -76,10 +70,7 @@ impl Patches {
         &self.mesh
     }
 
-    /// Returns the face that a triangle of [`Patches::mesh`] is a part of.
-    ///
-    /// # Panics
-    /// If there is no such triangle.
+    /// Returns the face that a triangle of [`Patches::mesh`] is a part of. Panics if there is no such triangle.
     pub fn face_of(&self, triangle: u32) -> u32 {
         self.face_of[triangle as usize]
     }
@@ -90,19 +81,14 @@ impl Patches {
     }
 
     /// Returns the parts of a patch that no solid covers: the patch itself if nothing covers it, none if it is covered
-    /// altogether. Radiosities and form factors are means over them. The rule is in `open.rs`.
-    ///
-    /// # Panics
-    /// If there is no such patch.
+    /// altogether. Radiosities and form factors are means over them. The rule is in `open.rs`. Panics if there is no
+    /// such patch.
     pub fn open_parts(&self, patch: usize) -> &[Patch] {
         let whole = std::slice::from_ref(&self.list[patch]);
         self.open.get(&(patch as u32)).map_or(whole, Vec::as_slice)
     }
 
-    /// Area of the open parts of a patch.
-    ///
-    /// # Panics
-    /// If there is no such patch.
+    /// Area of the open parts of a patch. Panics if there is no such patch.
     pub fn open_area(&self, patch: usize) -> f64 {
         self.open_parts(patch).iter().map(Patch::area).sum()
     }

@@ -70,10 +70,8 @@ pub struct TimedIteration {
     pub mflops: f64,
 }
 
-/// Times an iteration of a system of `timing.patches` patches.
-///
-/// # Errors
-/// [`RateError`]: the card has no such programs or textures, or its rates are not known.
+/// Times an iteration of a system of `timing.patches` patches. Fails with [`RateError`]: the card has no such programs
+/// or textures, or its rates are not known.
 pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIteration, RateError> {
     let model = Model::new(Level::Pipeline, profile)?;
     let log = iteration_log(profile, timing)?;

@@ -94,10 +94,7 @@ impl Crossbar {
         self
     }
 
-    /// Rays that textures of bytes hold in place of these.
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
+    /// Rays that textures of bytes hold in place of these. Fails as [`Crossbar::intersect`] does.
     pub fn rays_in_bytes(&self, mesh: &Mesh, rays: &RayBatch) -> Result<RayBatch, EngineError> {
         let kernel = Kernel::with_byte_rays(&self.profile, Sides::Front)?;
         let units = Units::choose(kernel.numbers(&self.profile.rules), mesh, rays);
@@ -105,29 +102,21 @@ impl Crossbar {
         Ok(RayBatch::new(rays.width(), rays.height(), held)?)
     }
 
-    /// Intersects all rays with all triangles: section 3.3 of the paper.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the card has no program for it, or refuses the work.
+    /// Intersects all rays with all triangles: section 3.3 of the paper. Fails with [`EngineError`] if the card has no
+    /// program for it, or refuses the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
 
     /// Runs [`Crossbar::intersect`] and records the card's log, one bucket after the other, as on a card with one set
     /// of textures and targets. The hits are those of [`Crossbar::intersect`]; the log is the same for every executor
-    /// and number of threads.
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
+    /// and number of threads. Fails as [`Crossbar::intersect`] does.
     pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: None })
     }
 
     /// Runs [`Crossbar::intersect_recorded`] with an observer of texel reads per bucket. Draws on the scalar executor,
-    /// which is slow.
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
+    /// which is slow. Fails as [`Crossbar::intersect`] does.
     pub fn intersect_observed(
         &self,
         mesh: &Mesh,
@@ -139,10 +128,8 @@ impl Crossbar {
     }
 
     /// Runs one pass of rays of any origin against some triangles, given in ascending order, with or without culling in
-    /// the vertex program. Hits are bit-identical either way; culled quads produce no fragments.
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
+    /// the vertex program. Hits are bit-identical either way; culled quads produce no fragments. Fails as
+    /// [`Crossbar::intersect`] does.
     pub fn intersect_pass(
         &self,
         mesh: &Mesh,
@@ -165,10 +152,8 @@ impl Crossbar {
     }
 
     /// Creates a card that keeps these rays in its textures and these triangles in its vertex memory, for repeated
-    /// draws of every ray against every triangle, regardless of [`Crossbar::all_pairs`].
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
+    /// draws of every ray against every triangle, regardless of [`Crossbar::all_pairs`]. Fails as
+    /// [`Crossbar::intersect`] does.
     pub fn make_resident(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<ResidentCrossbar, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         check_count(mesh)?;
@@ -247,10 +232,8 @@ impl Crossbar {
         Ok(answer)
     }
 
-    /// Runs [`Crossbar::intersect`] on rays in any order and number, in batches of at most 65,536.
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
+    /// Runs [`Crossbar::intersect`] on rays in any order and number, in batches of at most 65,536. Fails as
+    /// [`Crossbar::intersect`] does.
     pub fn intersect_list(&self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> Result<Vec<Option<Hit>>, EngineError> {
         let mut hits = Vec::with_capacity(rays.len());
         for chunk in rays.chunks(LIST_BATCH) {
@@ -262,10 +245,7 @@ impl Crossbar {
     }
 
     /// Counts the triangles whose normal the card's format cannot represent, with these rays as one batch: their extent
-    /// determines the units.
-    ///
-    /// # Errors
-    /// As [`Crossbar::intersect`].
+    /// determines the units. Fails as [`Crossbar::intersect`] does.
     pub fn bits_left(&self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> Result<BitsLeft, EngineError> {
         let batch = RayBatch::from_list(rays);
         let kernel = self.kernel((batch.common_origin().is_some(), sides))?;

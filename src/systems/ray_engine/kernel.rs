@@ -22,7 +22,7 @@ pub enum Form {
     Float,
 }
 
-/// How the edge that two triangles share is evaluated.
+/// Evaluation of an edge shared by two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeRule {
     /// As in the paper: each triangle tests the edge anew, from its own corner a. Rounding may put a ray outside both.
@@ -54,7 +54,7 @@ pub struct Kernel {
     pub vertex: CheckedProgram,
     /// Pixel program: intersection.
     pub pixel: CheckedProgram,
-    /// How its textures hold rays. Used by `ps_1_4` forms only.
+    /// Encoding of rays in its textures. Used by `ps_1_4` forms only.
     pub texels: RayTexels,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
@@ -64,10 +64,8 @@ pub struct Kernel {
 
 impl Kernel {
     /// Chooses the program for a device: `ps_2_0` if supported, otherwise `ps_1_4`. A device without limits runs
-    /// `ps_1_4` in fixed-point formats, as the cards of the time did.
-    ///
-    /// # Errors
-    /// [`EngineError::NoKernel`] if the device runs neither.
+    /// `ps_1_4` in fixed-point formats, as the cards of the time did. Fails with [`EngineError::NoKernel`] if the
+    /// device runs neither.
     pub fn choose(profile: &Profile, one_origin: bool, sides: Sides) -> Result<Self, EngineError> {
         let versions = &profile.limits.versions;
         let has = |version| versions.contains(&version);
@@ -95,11 +93,8 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, texels)
     }
 
-    /// Chooses the program that evaluates each edge once.
-    ///
-    /// # Errors
-    /// [`EngineError::NoKernel`] if the device runs no intersection program, [`EngineError::NoSharedEdges`] if it runs
-    /// one for these rays, but not with shared edges.
+    /// Chooses the program that evaluates each edge once. Fails with [`EngineError::NoKernel`] if the device runs no
+    /// intersection program, [`EngineError::NoSharedEdges`] if it runs one for these rays, but not with shared edges.
     pub fn with_shared_edges(profile: &Profile, one_origin: bool, sides: Sides) -> Result<Self, EngineError> {
         let paper = Self::choose(profile, one_origin, sides)?;
         let front = sides == Sides::Front;
@@ -121,11 +116,8 @@ impl Kernel {
         Ok(Self { edges: EdgeRule::SharedEdges, ..shared })
     }
 
-    /// Chooses the program for rays in bytes, of any origin.
-    ///
-    /// # Errors
-    /// [`EngineError::NoByteRays`] where both faces can be hit, or the device stores rays as floats; that of
-    /// [`Self::choose`] if it runs no intersection program.
+    /// Chooses the program for rays in bytes, of any origin. Fails with [`EngineError::NoByteRays`] where both faces
+    /// can be hit, or the device stores rays as floats; that of [`Self::choose`] if it runs no intersection program.
     pub fn with_byte_rays(profile: &Profile, sides: Sides) -> Result<Self, EngineError> {
         match (Self::choose(profile, false, sides)?.form, sides) {
             (Form::AnyOrigin, Sides::Front) => {

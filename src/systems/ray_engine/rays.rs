@@ -20,10 +20,7 @@ pub struct RayBatch {
 }
 
 impl RayBatch {
-    /// Creates a batch of `width * height` rays, row by row.
-    ///
-    /// # Errors
-    /// [`InputError`] if there are more or fewer.
+    /// Creates a batch of `width * height` rays, row by row. Fails with [`InputError`] if there are more or fewer.
     pub fn new(width: u32, height: u32, rays: Vec<Ray>) -> Result<Self, InputError> {
         ensure!(rays.len() == width as usize * height as usize, "ray_engine::batch" =>
             "expected {width} x {height} rays for a batch of that size, found {}", rays.len());

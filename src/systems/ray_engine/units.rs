@@ -114,7 +114,7 @@ impl Units {
     }
 
     /// Scale of an edge that is evaluated once for both of its triangles: a power of two, from its two corners alone,
-    /// that brings E = d . (e x (o - p)) and what it is computed from into the range of the format.
+    /// that brings E = d . (e x (o - p)) and its operands into the range of the format.
     pub(super) fn shared_edge_scale(&self, p: [f32; 3], q: [f32; 3]) -> f64 {
         if !self.range.has_edge_scale() {
             return 1.0;

@@ -38,19 +38,15 @@ impl VertexCrossbar {
         Self { profile, executor: executor.into() }
     }
 
-    /// Intersects every ray with the front of every triangle.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the card refuses a program or the work.
+    /// Intersects every ray with the front of every triangle. Fails with [`EngineError`] if the card refuses a program
+    /// or the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch) -> Result<Answer, EngineError> {
         let mut machine = self.executor.machine(self.profile.clone())?;
         self.intersect_on(&mut machine, mesh, rays)
     }
 
-    /// Runs [`VertexCrossbar::intersect`] on the caller's machine, which may be recording.
-    ///
-    /// # Errors
-    /// As [`VertexCrossbar::intersect`].
+    /// Runs [`VertexCrossbar::intersect`] on the caller's machine, which may be recording. Fails as
+    /// [`VertexCrossbar::intersect`] does.
     pub fn intersect_on(&self, machine: &mut Machine, mesh: &Mesh, rays: &RayBatch) -> Result<Answer, EngineError> {
         let (vertex, pixel) = (kernels::VERTEX_TEST.checked(&self.profile)?, kernels::ID.checked(&self.profile)?);
         let size = [rays.width(), rays.height()];

@@ -18,10 +18,7 @@ const SECOND_RAY: u64 = 1 << 33;
 /// point lights if the scene has no emitters); a glossy lobe sends one ray into a sampled direction, for light from
 /// emitters and other surfaces; a mirror sends one ray; glass sends both of its rays at the first hit of an eye ray,
 /// otherwise one chosen at random. `settings.depth` is the maximum number of such rays in sequence. Diffuse
-/// interreflection is omitted.
-///
-/// # Errors
-/// [`InputError`] if a setting is out of range or the caster fails.
+/// interreflection is omitted. Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

@@ -13,10 +13,7 @@ use crate::tracer::Caster;
 
 /// Renders with eye rays only. A pixel is the surface's albedo (of mirrors and glass their reflectance or
 /// transmittance) times the cosine to the eye, plus its emission; a back face shows half of that, so that holes and
-/// flipped triangles are visible.
-///
-/// # Errors
-/// [`InputError`] if a setting is out of range or the caster fails.
+/// flipped triangles are visible. Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

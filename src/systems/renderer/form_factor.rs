@@ -25,12 +25,9 @@ pub struct FormFactor {
     pub variance: f64,
 }
 
-/// Estimates the form factor from patch `a` to patch `b`, each a list of triangles of which the fronts count: the
-/// fraction of the light leaving `a` that arrives at `b`. Takes `samples` pairs of points; pairs that face away from
-/// each other cost no ray. 0 if either has no area.
-///
-/// # Errors
-/// [`CastError`] if the caster fails.
+/// Estimates the form factor from patch `a` to patch `b`, each a list of front-facing triangles: the fraction of the
+/// light leaving `a` that arrives at `b`. Takes `samples` pairs of points; pairs that face away from each other cost no
+/// ray. 0 if either has no area. Fails with [`CastError`] if the caster fails.
 pub fn form_factor(
     scene: &Scene,
     a: &[u32],

@@ -10,10 +10,8 @@ use crate::tracer::offset::SINGLE;
 
 /// Converts to a picture with color in single precision (`R`, `G`, `B`), and for the first hit through the centre of
 /// each pixel: depth along the view (`Z`, infinite for a miss), shading normal (`N.X`, `N.Y`, `N.Z`), total reflectance
-/// or transmittance (`albedo.R`, `albedo.G`, `albedo.B`), and `triangle` (`u32::MAX` for a miss).
-///
-/// # Errors
-/// If the picture has no pixels, or more or less than the camera.
+/// or transmittance (`albedo.R`, `albedo.G`, `albedo.B`), and `triangle` (`u32::MAX` for a miss). Fails if the picture
+/// has no pixels, or more or less than the camera.
 pub fn layers(picture: &RenderedPicture, scene: &Scene, camera: &Camera) -> Result<Picture, InputError> {
     let color: Vec<[f32; 3]> = picture.color.iter().map(|color| color.map(|c| c as f32)).collect();
     let surface = |(ray, hit)| Surfel::new(scene, SINGLE, &ray, hit?);

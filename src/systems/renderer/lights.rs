@@ -125,7 +125,6 @@ impl<'a> Lights<'a> {
         if cosine > 0.0 { self.densities[entry] * offset.dot(offset) / cosine } else { 0.0 }
     }
 
-    /// Light from a point light at a surfel.
     pub(super) fn point(&self, surfel: &Surfel<'_>, light: usize) -> Option<LightSample> {
         let (position, intensity) = self.points[light];
         let offset = position - surfel.place.at;

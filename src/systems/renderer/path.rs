@@ -33,9 +33,7 @@ pub enum Direct {
 
 /// Renders by path tracing. `settings.depth` is the maximum number of surfaces between eye and light: 0 shows emitters
 /// alone, 1 adds direct light. After three hits paths are subject to Russian roulette, which does not change the mean.
-///
-/// # Errors
-/// [`InputError`] if a setting is out of range or the caster fails.
+/// Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

@@ -59,9 +59,9 @@ impl PhotonMap {
     }
 
     /// Returns the sum of `value` over the photons around a point per unit area: of the `nearest` photons within
-    /// `radius` that landed on a surface with a similar normal. Of the k photons found, the k-th determines the area,
-    /// pi r^2, and the k - 1 others the sum, which is unbiased for evenly spread photons. If fewer than `nearest` lie
-    /// within the radius, all of them count, over the area of the radius. `nearest` is at least 2.
+    /// `radius` that landed on a surface with a similar normal. The k-th photon found determines the area, pi r^2, and
+    /// the k - 1 others the sum, which is unbiased for evenly spread photons. If fewer than `nearest` lie within the
+    /// radius, all of them count, over the area of the radius. `nearest` is at least 2.
     pub fn density(
         &self,
         at: DVec3,

@@ -53,8 +53,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// # Errors
-    /// [`InputError`] names the first setting out of range.
+    /// Fails with [`InputError`] names the first setting out of range.
     pub(super) fn checked(&self) -> Result<(), InputError> {
         let refuse = |what, found: String, expected| Err(settings_error(what, expected, found));
         if self.samples == 0 {

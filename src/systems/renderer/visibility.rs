@@ -7,10 +7,7 @@ use crate::tracer::{CastError, Caster};
 
 /// Returns for each pair of points whether the open segment between them meets no triangle. The caller must offset
 /// points on surfaces to the intended side; [`super::form_factor`] does so itself. Coincident points see each other,
-/// and so do points whose direction f32 cannot represent.
-///
-/// # Errors
-/// [`CastError`] if the caster fails.
+/// and so do points whose direction f32 cannot represent. Fails with [`CastError`] if the caster fails.
 pub fn visibility(pairs: &[[[f32; 3]; 2]], caster: &mut dyn Caster) -> Result<Vec<bool>, CastError> {
     let rays: Vec<Option<Ray>> = pairs.iter().map(|&[from, to]| segment(from, to)).collect();
     let mut ignore = |_| {};

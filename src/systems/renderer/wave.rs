@@ -59,7 +59,6 @@ impl SampleRng {
 /// Ray in flight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathRay {
-    /// The ray.
     pub(super) ray: Ray,
     /// Its purpose.
     pub(super) kind: RayKind,

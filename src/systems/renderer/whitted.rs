@@ -19,10 +19,8 @@ const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
 /// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray, and
 /// by `settings.ambient`; mirrors and glass send further rays, at most `settings.depth` in sequence. Emitters are
-/// visible, directly and in mirrors, but do not illuminate.
-///
-/// # Errors
-/// [`InputError`] if a setting is out of range or the caster fails.
+/// visible, directly and in mirrors, but do not illuminate. Fails with [`InputError`] if a setting is out of range or
+/// the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

@@ -27,10 +27,8 @@ pub struct Dipole {
 }
 
 impl Dipole {
-    /// The dipole of a medium, with the polynomial for the internal reflection.
-    ///
-    /// # Errors
-    /// [`InputError`]: see [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
+    /// The dipole of a medium, with the polynomial for the internal reflection. Fails with [`InputError`]: see
+    /// [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
     pub fn new(c: Coefficients, eta: f64) -> Result<Self, InputError> {
         c.check()?;
         check_eta(eta)?;
@@ -146,8 +144,7 @@ impl Dipole {
         0.5 * self.alpha_prime() * (1.0 + exp(-4.0 / 3.0 * self.boundary * q)) * exp(-q)
     }
 
-    /// [`Self::total`] by quadrature of R_d, over a disc of 10^4 z_v, outside of which at most 10^-4 of it lies: that
-    /// rest is in closed form.
+    /// [`Self::total`] by quadrature of R_d, over a disc of 10^4 z_v; the rest, at most 10^-4, is in closed form.
     pub fn integrated_total(&self) -> f64 {
         let radius = 1e4 * self.z_v;
         graded_integral(radius, PANELS, |r| 2.0 * PI * r * self.r_d(r)) + self.beyond(radius)

@@ -1,4 +1,4 @@
-//! Equation 8 on the host, in f64: what enters the surface.
+//! Equation 8 on the host, in f64: the light that enters the surface.
 
 use std::f64::consts::PI;
 
@@ -55,11 +55,8 @@ pub struct DistantSource {
 }
 
 /// E of equation 8 per texel, row by row, for distant light with shadows: a ray from the middle of each texel towards
-/// each source tests whether the model itself is in the way. A source below the plane of the face is. The caster must
-/// see both sides of faces.
-///
-/// # Errors
-/// [`CastError`] if the caster fails.
+/// each source tests whether the model itself occludes the source. A source below the plane of the face is. The caster
+/// must see both sides of faces. Fails with [`CastError`] if the caster fails.
 pub fn distant_irradiance(
     atlas: &Atlas,
     sources: &[DistantSource],

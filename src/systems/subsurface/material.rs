@@ -29,9 +29,7 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// Checks that the coefficients make a medium: both finite, absorption at least 0, scattering above 0.
-    ///
-    /// # Errors
+    /// Checks that the coefficients make a medium: both finite, absorption at least 0, scattering above 0. Fails with
     /// [`InputError`] names the wrong figure.
     pub fn check(self) -> Result<(), InputError> {
         let scattering = ("reduced scattering coefficient", self.sigma_s_prime);
@@ -64,10 +62,8 @@ impl Coefficients {
     }
 }
 
-/// Checks that the dipole takes `eta` as an index of refraction.
-///
-/// # Errors
-/// [`InputError`] if it is not in [1, [`MAX_ETA`]].
+/// Checks that the dipole takes `eta` as an index of refraction. Fails with [`InputError`] if it is not in [1,
+/// [`MAX_ETA`]].
 pub(crate) fn check_eta(eta: f64) -> Result<(), InputError> {
     if !eta.is_finite() {
         return Err(not_finite_error("index of refraction", eta));
@@ -92,10 +88,7 @@ impl Material {
     /// Names of the channels, in their order.
     pub const CHANNELS: [&'static str; 3] = ["red", "green", "blue"];
 
-    /// A material out of checked figures.
-    ///
-    /// # Errors
-    /// [`InputError`] names the wrong figure and its channel.
+    /// A material out of checked figures. Fails with [`InputError`] names the wrong figure and its channel.
     pub fn new(name: impl Into<String>, channels: [Coefficients; 3], eta: f64) -> Result<Self, InputError> {
         check_eta(eta)?;
         for (channel, coefficients) in Self::CHANNELS.into_iter().zip(channels) {

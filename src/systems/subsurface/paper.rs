@@ -58,10 +58,8 @@ struct PartColumns {
 type WeightedPoint = (DVec3, f64);
 
 impl<'a> Reference<'a> {
-    /// For an atlas of a model with a scale.
-    ///
-    /// # Errors
-    /// [`InputError`] if the scale is not from [`MIN_MM_PER_UNIT`](super::multipole::MIN_MM_PER_UNIT) to
+    /// For an atlas of a model with a scale. Fails with [`InputError`] if the scale is not from
+    /// [`MIN_MM_PER_UNIT`](super::multipole::MIN_MM_PER_UNIT) to
     /// [`MAX_MM_PER_UNIT`](super::multipole::MAX_MM_PER_UNIT).
     pub fn new(atlas: &'a Atlas, mm_per_unit: f64, dipole: &Dipole) -> Result<Self, InputError> {
         check_scale(mm_per_unit)?;
@@ -76,19 +74,14 @@ impl<'a> Reference<'a> {
         Ok(Self { atlas, mm_per_unit, dipole: *dipole, r_d: DipoleSum::new(dipole), texels })
     }
 
-    /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9,
-    /// B_i = sum over j of F_ij E_j. `done` is called now and then with the number of rows done and of all.
-    ///
-    /// # Errors
-    /// [`InputError`] if there is not one irradiance per texel.
+    /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9, B_i = sum over j of F_ij
+    /// E_j. `done` is called now and then with the number of rows done and of all. Fails with [`InputError`] if there
+    /// is not one irradiance per texel.
     pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, InputError> {
         self.radiosity_of_rows(irradiance, 0..self.atlas.side() as usize, done)
     }
 
-    /// The radiosity of the texels of some rows; otherwise as [`Self::radiosity`].
-    ///
-    /// # Errors
-    /// As [`Self::radiosity`].
+    /// The radiosity of the texels of some rows; otherwise as [`Self::radiosity`]. Fails as [`Self::radiosity`] does.
     pub fn radiosity_of_rows(
         &self,
         irradiance: &[f64],
@@ -107,10 +100,8 @@ impl<'a> Reference<'a> {
         Ok(radiosity)
     }
 
-    /// F_ij of equation 10 for two texels, by index: 1 / A_i times the double integral of R_d over both parts.
-    ///
-    /// # Panics
-    /// If there is no such texel.
+    /// F_ij of equation 10 for two texels, by index: 1 / A_i times the double integral of R_d over both parts. Panics
+    /// if there is no such texel.
     pub fn factor(&self, i: usize, j: usize) -> f64 {
         let reach = self.texels.radius[i] + self.texels.radius[j];
         let distance = self.point(i).distance(self.point(j));
@@ -212,7 +203,7 @@ impl<'a> Reference<'a> {
         let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length() / 2.0;
         let (mut sum, mut weights) = (0.0, 0.0);
         for [a, b, c] in self.triangles(from) {
-            // The rule of a square, one side of which is drawn together in a.
+            // The rule of a square with one side collapsed to a.
             for (s, s_weight) in FIVE {
                 for (t, t_weight) in FIVE {
                     let point = a + s * ((b - a) + t * (c - b));

@@ -1,4 +1,4 @@
-//! Rays in two textures of bytes: the card meets what exact arithmetic meets of the rays that bytes hold.
+//! Rays in two textures of bytes: for rays that bytes represent exactly, the card hits what exact arithmetic hits.
 
 use crossbar_base::geom::Ray;
 use crossbar_base::geom::exact::{Sides, Tracer};

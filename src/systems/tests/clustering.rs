@@ -107,8 +107,7 @@ fn bounds_along_axes_exclude_no_best_cluster() {
     }
 }
 
-/// The subspace of a cluster has the same bits whatever its points were together with before: inner products that are
-/// kept from one fit to the next are those of a new one.
+/// The subspace of a cluster has the same bits for any earlier clustering: kept inner products equal new ones.
 #[test]
 fn the_way_to_a_partition_leaves_no_trace() {
     let signal = torus_signal(90, 100, 2);

@@ -100,7 +100,7 @@ fn without_triangles_nothing_is_hit() {
     assert_eq!(resident.intersect().expect("nothing to do").hits, [None, None]);
 }
 
-/// An id is a color of three bytes, of which none may be lost, and alpha is 0 where a ray misses.
+/// An id is a color of three bytes without loss, and alpha is 0 where a ray misses.
 #[test]
 fn every_id_comes_back_as_a_color() {
     let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -136,9 +136,9 @@ fn directions_go_to_their_faces() {
     let of_x = [2.0, 1.0, -1.0];
     let all = [&directions[..], &[of_x]].concat();
     assert_eq!(bucketed(&all, 8).0, [5, 4, 2, 1, 3, 0]);
-    // Of equal components the first counts: a second ray of +x makes its face the fullest.
+    // Among equal components the first counts: a second ray of +x makes its face the fullest.
     assert_eq!(bucketed(&[&all[..], &[[1.0; 3]]].concat(), 8).0, [5, 6, 4, 2, 1, 3, 0]);
-    // A direction is the point where it meets the face, whatever its length: equal points can not be split.
+    // A direction is the point where it meets the face, for any length: equal points can not be split.
     assert_eq!(bucketed(&[of_x, [4.0, 2.0, -2.0], [1.0, 0.5, -0.5]], 1).1, 0);
     assert_eq!(bucketed(&[of_x, [2.0, 1.0, 1.0]], 1).1, 1);
     assert_eq!(bucketed(&[of_x, [2.0, -1.0, -1.0]], 1).1, 1);

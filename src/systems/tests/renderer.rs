@@ -15,7 +15,6 @@ use crossbar_systems::renderer::sampling::{DiscreteDistribution, cosine, disk, l
 use crossbar_systems::renderer::{Settings, eye, whitted};
 use glam::DVec3;
 
-/// A scene of one white triangle.
 fn one_triangle(corners: [[f32; 3]; 3], normals: Vec<[[f32; 3]; 3]>) -> Scene {
     let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2]]).expect("a triangle");
     Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0], normals).expect("a scene")

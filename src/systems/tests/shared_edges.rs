@@ -1,5 +1,4 @@
-//! Kernels that evaluate each edge once: no ray is outside both triangles of an edge, whatever the format and its
-//! rounding.
+//! Kernels that evaluate each edge once: no ray is outside both triangles of an edge, in any format and rounding.
 
 use crossbar_base::geom::aimed::{aimed_at_edges, aimed_at_vertices};
 use crossbar_base::geom::exact::{Sides, Tracer};
@@ -155,7 +154,7 @@ fn no_ray_leaks_at_an_edge_of_a_model() {
     for (model, mesh, eye) in models() {
         let formats = FIXED.map(|format| (format, 1.0 / 256.0));
         let floats = [("fp16", 1.0 / 128.0), ("fp24", 1e-4), ("fp32", 1e-6)];
-        // Of the head, whose triangles are small, few edges are so far from all vertices that fp16 tells.
+        // The head has small triangles; few of its edges are far enough from all vertices for fp16.
         let is_traced = |format: &str| model == "teapot" || ["s3.12", "s3.12:rdn", "fp32"].contains(&format);
         for (format, margin) in formats.into_iter().chain(floats).filter(|(format, _)| is_traced(format)) {
             let [edges, vertices] = aimed(&mesh, eye, 2, margin);
@@ -184,7 +183,7 @@ fn unwelded_triangles_do_not_leak() {
     let mesh = teapot(4).expect("the teapot tessellates").welded();
     let [rays, _] = aimed(&mesh, eye, 2, 1.0 / 256.0);
     let positions: Vec<[f32; 3]> = mesh.iter_corners().flatten().collect();
-    // Of every other triangle the vertices are numbered the other way round.
+    // Every other triangle has its vertices in reverse order.
     let triangles = (0..mesh.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let unwelded = Mesh::new(positions, triangles).expect("a mesh");
     for format in ["s3.12:rdn", "fp32"] {

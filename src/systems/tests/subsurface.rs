@@ -206,7 +206,7 @@ fn moments_of_clusters_are_those_of_the_triangles_under_them() {
         };
         for level in 0..surface.level_count() {
             let width = side >> level;
-            // Of the largest atlas some clusters: Morton order has a bit for each level.
+            // Some clusters of the largest atlas: Morton order has a bit for each level.
             for place in (0..width * width).step_by(if side > 32 { 4099 } else { 1 }) {
                 let (y, x) = (place / width, place % width);
                 let rows = (y << level)..((y + 1) << level);

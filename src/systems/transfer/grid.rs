@@ -64,10 +64,7 @@ impl Segmentation {
         LIGHT_TEXELS / self.len()
     }
 
-    /// The segment of a light texel, and the texel's index in it, row by row.
-    ///
-    /// # Panics
-    /// If there is no such texel.
+    /// The segment of a light texel, and the texel's index in it, row by row. Panics if there is no such texel.
     pub fn place(self, texel: usize) -> [usize; 2] {
         assert!(texel < LIGHT_TEXELS, "a texel of the light, not {texel}");
         let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
@@ -76,10 +73,7 @@ impl Segmentation {
         [segment, row % side * side + column % side]
     }
 
-    /// The light texel at an index of a segment.
-    ///
-    /// # Panics
-    /// If there is no such segment or place.
+    /// The light texel at an index of a segment. Panics if there is no such segment or place.
     pub fn texel(self, segment: usize, place: usize) -> usize {
         assert!(segment < self.count() && place < self.len(), "a place of a segment, not {place} of {segment}");
         let (side, across) = (self.side(), LIGHT_SIDE / self.side());
@@ -121,10 +115,7 @@ impl FineDirections {
         Self::of(SUPERSAMPLES)
     }
 
-    /// With 1, 2 or 4 directions along an edge of a texel. Computed once each.
-    ///
-    /// # Panics
-    /// If `samples` is another number.
+    /// With 1, 2 or 4 directions along an edge of a texel. Computed once each. Panics if `samples` is another number.
     pub fn of(samples: usize) -> &'static Self {
         static ALL: [OnceLock<FineDirections>; 3] = [const { OnceLock::new() }; 3];
         assert!([1, 2, 4].contains(&samples), "1, 2 or 4 directions along an edge of a texel, not {samples}");

@@ -24,10 +24,8 @@ pub struct HaarSupport {
 }
 
 impl Haar {
-    /// The transform of squares with `side` numbers along an edge, a power of two.
-    ///
-    /// # Panics
-    /// If `side` is not a power of two.
+    /// The transform of squares with `side` numbers along an edge, a power of two. Panics if `side` is not a power of
+    /// two.
     pub fn new(side: usize) -> Self {
         assert!(side.is_power_of_two(), "a power of two along an edge, not {side}");
         Self { side, scratch: vec![0.0; side * side] }
@@ -38,10 +36,7 @@ impl Haar {
         self.side
     }
 
-    /// Takes a square, row by row, to its coefficients.
-    ///
-    /// # Panics
-    /// If it has another size.
+    /// Takes a square, row by row, to its coefficients. Panics if it has another size.
     pub fn forward(&mut self, square: &mut [f64]) {
         assert_eq!(square.len(), self.side * self.side, "a square of side {}", self.side);
         let mut half = self.side / 2;
@@ -62,10 +57,8 @@ impl Haar {
         }
     }
 
-    /// Takes coefficients to the square that they are of.
-    ///
-    /// # Panics
-    /// If there are more or fewer than the square has numbers.
+    /// Takes coefficients to the square that they are of. Panics if there are more or fewer than the square has
+    /// numbers.
     pub fn inverse(&mut self, coefficients: &mut [f64]) {
         assert_eq!(coefficients.len(), self.side * self.side, "a square of side {}", self.side);
         let mut half = 1;
@@ -92,10 +85,7 @@ impl Haar {
         [at, at + half, at + half * self.side, at + half * self.side + half]
     }
 
-    /// The support of a coefficient's basis function.
-    ///
-    /// # Panics
-    /// If there is no such coefficient.
+    /// The support of a coefficient's basis function. Panics if there is no such coefficient.
     pub fn support(&self, coefficient: usize) -> HaarSupport {
         assert!(coefficient < self.side * self.side, "a coefficient of a square of side {}", self.side);
         let [row, column] = [coefficient / self.side, coefficient % self.side];

@@ -60,10 +60,7 @@ pub struct BasisWeights {
 }
 
 impl BasisWeights {
-    /// The weights of a fine direction, given by its number.
-    ///
-    /// # Panics
-    /// If there is no such direction.
+    /// The weights of a fine direction, given by its number. Panics if there is no such direction.
     pub fn of(width: BasisWidth, fine: usize) -> Self {
         assert!(fine < FINE_DIRECTIONS, "a fine direction, not {fine}");
         let [face, row, column] = face_row_column(fine, FINE_SIDE);
@@ -78,7 +75,7 @@ impl BasisWeights {
         let beside = texel(face, [own[0], own[1] + towards_column]);
         let below = texel(face, [own[0] + towards_row, own[1]]);
         let across = texel(face, [own[0] + towards_row, own[1] + towards_column]);
-        // At a corner of the cube there is no fourth texel: each of the others gets a third of its weight.
+        // A corner of the cube has no fourth texel: each of the others gets a third of its weight.
         let third = if across.is_none() { a * b / 3.0 } else { 0.0 };
         found.add(texel(face, own), (1.0 - a) * (1.0 - b) + third);
         found.add(beside, a * (1.0 - b) + third);
@@ -189,10 +186,8 @@ impl LinearBasis {
         self.width
     }
 
-    /// The fine directions in which a hat function of the segment is not 0, in order.
-    ///
-    /// # Panics
-    /// If there is no such segment.
+    /// The fine directions in which a hat function of the segment is not 0, in order. Panics if there is no such
+    /// segment.
     pub fn directions(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
         self.segments[segment].samples.iter().map(|sample| sample.fine as usize)
     }

@@ -1,5 +1,4 @@
-//! Where the rays of a vertex start, off all triangles on which it lies, even where it is not a corner of them; the rays,
-//! and what they hit.
+//! Ray origins of a vertex, offset from all triangles on which it lies, as a corner or not; the rays and their hits.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -36,7 +35,6 @@ impl RayOrigin {
     }
 }
 
-/// The origins of all vertices.
 pub(crate) fn origins(vertices: &Vertices, occluders: &Occluders) -> Vec<RayOrigin> {
     vertices.positions().par_iter().map(|&at| origin(wide(at), occluders)).collect()
 }

@@ -84,18 +84,14 @@ impl Vertices {
     }
 
     /// The vertices of a mesh with one material. Normals are those of the mesh; without them, the mean over the
-    /// triangles at the same position, weighted by area.
-    ///
-    /// # Errors
-    /// [`InputError`] for a mesh without triangles, a vertex without a normal, or tangents that cannot be computed.
+    /// triangles at the same position, weighted by area. Fails with [`InputError`] for a mesh without triangles, a
+    /// vertex without a normal, or tangents that cannot be computed.
     pub fn new(mesh: &Mesh, tangents: Tangents) -> Result<Self, InputError> {
         Self::with_materials(mesh, &vec![0; mesh.len()], tangents)
     }
 
-    /// As [`Self::new`], with a material per triangle.
-    ///
-    /// # Errors
-    /// As [`Self::new`], and if there is not one material per triangle.
+    /// As [`Self::new`], with a material per triangle. Errors: as [`Self::new`], and if there is not one material per
+    /// triangle.
     pub fn with_materials(mesh: &Mesh, materials: &[u32], tangents: Tangents) -> Result<Self, InputError> {
         ensure!(!mesh.is_empty(), "crossbar::prt::precompute" =>
             "expected a mesh of at least one triangle, found none");
@@ -208,7 +204,6 @@ impl Vertices {
         self.tangents
     }
 
-    /// The corners of a triangle.
     pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.triangles[triangle as usize].map(|vertex| wide(self.positions[vertex as usize]))
     }

@@ -75,7 +75,7 @@ fn second_phase(
     for n in 0..if depth { 5 } else { 6 } {
         if !two || !r.one_in(3) {
             read(layout, r, lines, n, w, Some(&addresses), projections);
-            // A register loaded in this phase is no address within it.
+            // A register loaded in this phase cannot be an address within it.
             addresses.rgb[n] = false;
         }
     }

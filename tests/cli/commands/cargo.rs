@@ -80,7 +80,7 @@ pub(crate) fn fault(command: &CargoCommand) -> Option<String> {
             return say(format!("no feature `{feature}`"));
         }
     }
-    // Names of tests: words that are no option and no option's value, before and behind `--`.
+    // Names of tests: words that are neither options nor their values, before and after `--`.
     let is_value = |index: usize| index > 0 && own[index - 1].starts_with('-') && !is_flag(&own[index - 1]);
     let before = own.iter().enumerate().skip(1).filter(|(index, _)| !is_value(*index)).map(|(_, word)| word);
     let names = before.chain(handed_on.iter().skip(1)).filter(|word| !word.starts_with('-'));

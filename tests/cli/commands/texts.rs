@@ -156,7 +156,6 @@ fn lines_of_pages() -> Vec<Line> {
     pages().iter().flat_map(|(name, text)| lines_of_page(name, text)).collect()
 }
 
-/// All commands of the program.
 pub(crate) fn of_the_program() -> Vec<Command> {
     let mut lines = lines_of_pages();
     for name in std::iter::once(String::new()).chain(crate::help::names()) {

@@ -207,8 +207,8 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
         let is_page = ["index.html", "study.json"].iter().any(|page| name.ends_with(page));
         let bytes = if is_page { Vec::new() } else { fs::read(entry.path()).expect("a file") };
         let bytes = without_provenance(bytes);
-        // A CRC would be equal for all files that end with their own CRC. Of pictures, which name the options too, only
-        // the channels count.
+        // A CRC would be equal for all files that end with their own CRC. Only the channels of pictures count, which
+        // name the options too.
         let mut digest = DefaultHasher::new();
         match Picture::decode(&bytes) {
             Ok(picture) => format!("{:?}", picture.channels()).hash(&mut digest),

@@ -18,7 +18,7 @@ use super::{all, close, clutter, flat, observer, trace, vertices};
 
 const EYE: DVec3 = DVec3::new(1.5, -2.0, 2.5);
 
-/// Triangles in each other's light, and what each vertex sees.
+/// Triangles that shadow each other, and the visibility of each vertex.
 struct Clutter {
     vertices: Vertices,
     maps: VisibilityMaps,

@@ -72,7 +72,6 @@ fn a_constant_has_one_coefficient() {
     }
 }
 
-/// A row of transfer times the light is the same in texels, in 24 segments and in 6.
 #[test]
 fn transfer_times_light_is_the_same_in_every_basis() {
     let texels: Vec<[f64; 3]> = random(1, LIGHT_TEXELS).into_iter().map(|value| [value + 1.0, 0.0, 1.0]).collect();

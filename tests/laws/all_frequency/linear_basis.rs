@@ -106,7 +106,7 @@ fn segments_reach_half_a_texel_beyond_their_border() {
         let is_own = |fine: &usize| Segmentation::Quarters.place(light_texel(*fine))[0] == segment;
         assert!(own.len() == 64 * 64 && own.iter().all(is_own));
         let wide: Vec<usize> = two.directions(segment).collect();
-        // 68 x 68, of which the 2 x 2 beyond the cube's corner do not exist.
+        // 68 x 68, without the 2 x 2 beyond the cube's corner.
         assert_eq!(wide.len(), 68 * 68 - 4, "segment {segment}");
         assert!(wide.is_sorted() && own.iter().all(|fine| wide.binary_search(fine).is_ok()));
     }

@@ -1,4 +1,4 @@
-//! Which way the cube is turned: one bright texel, and who sees it. The table of docs/papers/all_frequency.md.
+//! Orientation of the cube: one bright texel, and the normals that see it. The table of docs/papers/all_frequency.md.
 
 use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::io::{parse_cube_table, write_cube_table};
@@ -49,7 +49,7 @@ fn seen(light: &HaarLight, normal: DVec3) -> f64 {
     products.sum()
 }
 
-/// A bright texel at a face's middle is seen most by who looks along the face's axis, and half of it by nobody else
+/// A bright texel at a face's middle lights most the normal along the face's axis, and no other normal half as much
 /// (four texels meet in the middle).
 #[test]
 fn a_texel_shines_from_its_face() {

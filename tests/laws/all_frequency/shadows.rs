@@ -1,4 +1,4 @@
-//! A model on its ground: who shadows whom.
+//! A model on its ground: mutual shadows.
 
 use crossbar::geom::teapot::teapot;
 use crossbar::scene::built::ground::{GROUND_SIDE, on_ground};

@@ -30,7 +30,7 @@ fn turned(mesh: &Mesh, turn: &DMat3) -> Mesh {
     mesh_turned.with_normals(all(mesh.normals().expect("normals"))).expect("normals")
 }
 
-/// Where a turn takes each texel of a cube.
+/// Image of each texel of a cube under a turn.
 fn places(turn: &DMat3, side: usize) -> Vec<usize> {
     let map = CubeMap::new(side);
     let direction = |at: usize| map.direction(at / (side * side), at % side, at / side % side);

@@ -152,7 +152,7 @@ fn bits_do_not_depend_on_threads() {
     assert!(of(2) == expected && of(5) == expected);
 }
 
-/// Segments hold the vertices that see any of them, others are left out, and raw transfer is what is transformed.
+/// Segments hold the vertices that see any of them, others are left out, and the transform is applied to raw transfer.
 #[test]
 fn empty_segments_are_left_out_and_counted() {
     let mesh = clutter(6, 12, 2.5);

@@ -1,4 +1,4 @@
-//! Odd meshes, odd sizes, and what must not matter.
+//! Unusual meshes and sizes, and invariances.
 
 use crate::support::{in_threads, soup};
 use crossbar::atlas::{Atlas, AtlasQuality, Census, MAX_SIDE};
@@ -74,7 +74,7 @@ fn oddities_are_counted() {
     assert!(AtlasQuality::of(&atlas).used < 1.0);
 }
 
-/// Sizes at the ends of what f32 holds.
+/// Sizes at the ends of f32.
 #[test]
 fn the_ends_of_f32_do_no_harm() {
     for size in [f32::MAX, 1e30, 1e-30, f32::MIN_POSITIVE, f32::from_bits(2), f32::from_bits(1)] {

@@ -110,7 +110,7 @@ proptest! {
     }
 }
 
-/// How far rounding may take the sum of biclusters from each number. An element v of n values t has residuals r_k =
+/// Bound on the rounding error of the sum of biclusters, per number. An element v of n values t has residuals r_k =
 /// r_(k-1) - t_k from r_0 = v, each rounded by at most u |r_k| with u = EPSILON / 2, the last of them 0; the error of
 /// their exact sum is the sum of these. Sums of the t add as many roundings, and no term exceeds S = |v| + sum |t| but
 /// for these: 2 n u S, and n + 2 in place of n for terms of second order.
@@ -129,7 +129,6 @@ fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     sizes.iter().zip(&counts).map(|(sizes, counts)| sizes.iter().zip(counts).map(bound).collect()).collect()
 }
 
-/// A residual beyond the range of f64 is refused.
 #[test]
 fn residuals_beyond_doubles_are_refused() {
     let mut rows = vec![vec![f64::MAX, 0.1, 0.1, 0.1, 0.1]; 6];
@@ -207,7 +206,7 @@ proptest! {
         prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
     }
 
-    /// Multiples of a power of two below 2^40 of it are subtracted without rounding, whatever the power.
+    /// Multiples of a power of two below 2^40 of it are subtracted without rounding, for any power.
     #[test]
     fn numbers_of_few_bits_come_back_exactly(
         rows in anything(), factor in 1..1_000_000_i32, power in -1000..900_i32, seed: u64, deletion: bool,

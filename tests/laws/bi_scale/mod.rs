@@ -17,7 +17,6 @@ use crossbar::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling
 use crossbar::transfer::{Tangents, Vertices};
 use proptest::prelude::*;
 
-/// A matrix of the values of its rows.
 fn matrix(rows: &[Vec<i32>], fraction_bits: u32) -> SparseMatrix {
     let mut matrix = SparseMatrix::new(rows[0].len(), fraction_bits).expect("columns");
     for row in rows {
@@ -28,7 +27,6 @@ fn matrix(rows: &[Vec<i32>], fraction_bits: u32) -> SparseMatrix {
     matrix
 }
 
-/// A matrix of real numbers.
 fn real_matrix(rows: &[Vec<f64>]) -> SparseMatrix {
     let entry = |row: usize| (0..).zip(&rows[row]).map(move |(column, &value)| (row as u32, column, value));
     let entries = (0..rows.len()).flat_map(entry).collect();
@@ -94,7 +92,7 @@ fn quietly(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     bicluster(matrix, options, &mut |_| ()).expect("small values")
 }
 
-/// Hills that hide each other, and what they see.
+/// Hills that occlude each other, and their visibility.
 fn sight(log2_samples: u32, horizon: Horizon) -> (Vertices, VisibilityMaps) {
     let mesh = hills(3);
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");

@@ -63,7 +63,7 @@ proptest! {
         prop_assert_eq!(paper::radiance(&texture, &twice, &pixel), found.map(|value| 2.0 * value));
     }
 
-    /// A texture that is the same everywhere gives its value times the light of the pixel, whatever place and view.
+    /// A texture that is the same everywhere gives its value times the light of the pixel, for any place and view.
     #[test]
     fn weights_sum_to_one(sizes in sizes(), pixel in pixel(), value in 0.1..3.0_f32) {
         let texture = texture(sizes, &[value]);
@@ -153,7 +153,7 @@ fn white_furnace_of_pixels() {
             let rung = |rung: TracedRung| by_rays[rung as usize][channel];
             assert_relative_eq!(rung(TracedRung::Exact), albedo, max_relative = 1e-3);
             assert_eq!(rung(TracedRung::Light), rung(TracedRung::Exact), "the same light");
-            // Nothing is in the way, so that all that changes is the rim of the horizon.
+            // No occluders, so that only the rim of the horizon changes.
             assert_relative_eq!(rung(TracedRung::Visibility), albedo, max_relative = 2e-3);
             assert_relative_eq!(rung(TracedRung::Directions), by_transfer[channel], max_relative = 1e-6);
             for last in [TracedRung::Views, TracedRung::Texture] {
@@ -182,7 +182,7 @@ fn rungs_come_together() {
 }
 
 /// At a sample of a texture, the middle of a texel towards one of its views, the only error is single precision; at the
-/// middle of a texel its texels alone cause no error, whatever the view.
+/// middle of a texel its texels alone cause no error, for any view.
 #[test]
 fn samples_cost_nothing() {
     let patch = PatchKind::Bricks.patch(1.0);

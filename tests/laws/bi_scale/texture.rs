@@ -123,7 +123,7 @@ proptest! {
         }
     }
 
-    /// A flat patch answers with its BRDF times the cosine, whatever is drawn of it, and the BRDF is reciprocal.
+    /// A flat patch responds with its BRDF times the cosine, with any samples, and the BRDF is reciprocal.
     #[test]
     fn flat_patches_are_their_material(
         place in place(), view in direction(), light in direction(), turns in 0.0..1.0_f64, side in 1..5_usize,

@@ -49,7 +49,7 @@ fn each_technique_draws_fewer_triangles_and_both_the_fewest() {
     let drawn = [before, moved.drawn[1], merged(&original), merged(&moved.clustering)].map(|d| mean(d, &triangles));
     assert!(drawn[1] < drawn[0] - 0.02 && drawn[2] < drawn[0] - 0.2, "{drawn:?}");
     assert!(drawn[3] < drawn[1] && drawn[3] < drawn[2], "{drawn:?}");
-    // What was added is within the budget, and is what it was said to be.
+    // The added error is within the budget, and equals the reported one.
     let (error, after) = (original.squared_error(&signal), moved.clustering.squared_error(&signal));
     assert!((after - error - moved.added_error).abs() < 1e-9 * error && after <= 1.05 * error, "{error} to {after}");
     assert_eq!(moved.clustering.subspaces(), original.subspaces(), "the basis stays");
@@ -195,7 +195,7 @@ fn digests_tell_meshes_apart() {
     let one = digest(&mesh, Tangents::Any);
     assert_eq!(digest(&mesh.clone(), Tangents::Any), one);
     assert!(others.iter().all(|other| digest(other, Tangents::Any) != one));
-    // Tangents count by what they are, not by their name alone.
+    // Tangents count by value, not by name alone.
     let textured = |slope: f32| {
         let texture = corners.iter().map(|&[x, y, _]| [x, y + slope * x]).collect();
         digest(&mesh.clone().with_texcoords(texture).expect("coordinates"), Tangents::Texture)

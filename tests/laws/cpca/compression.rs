@@ -1,4 +1,4 @@
-//! Compression against plain loops, closed forms, and what must hold of every step.
+//! Compression against plain loops, closed forms, and properties of every step.
 
 use crate::environment::by_form;
 use crate::support::cluster_options;
@@ -182,7 +182,7 @@ fn redistributed_vectors_stay_within_the_budget() {
     assert!(adaptive.all_weights().len() <= 3 * 900);
     let counts: Vec<usize> = adaptive.subspaces().iter().map(|subspace| subspace.len()).collect();
     assert!(counts.iter().any(|&count| count > 3) && counts.iter().any(|&count| count < 3), "{counts:?}");
-    // What is left of the budget is too little for one more vector of any cluster.
+    // The rest of the budget is too small for one more vector of any cluster.
     let left = 3 * 900 - adaptive.all_weights().len();
     for (cluster, subspace) in adaptive.subspaces().iter().enumerate() {
         let size = adaptive.of_point().iter().filter(|&&of| of as usize == cluster).count();

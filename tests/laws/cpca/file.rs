@@ -215,7 +215,6 @@ fn forged_arrays_are_refused_by_name() {
     assert!(parsed(&ordered).expect_err("refused").contains("superclusters: expected 0 to 0"));
 }
 
-/// The same bytes for any number of threads.
 #[test]
 fn bytes_do_not_depend_on_threads() {
     let of_threads = |threads| in_threads(threads, || bytes(&small()));

@@ -55,7 +55,7 @@ fn deep_nesting_does_not_overflow_the_stack() {
     }
 }
 
-/// Words and numbers, some of which mean something in a case.
+/// Words and numbers, some with a meaning in a case.
 const WORDS: &str = r#"0 -1 1e39 nan -inf 4294967295 4294967296 9223372036854775807 true [] [[]] {} """ "" "0x7fc00001"
 "rgba32f" "l6v5u5" "d32f" "ideal-s1.2:rtz" "ps_1_3" "vs_2_0" "cube" "volume" "linear" "automatic" "mirror" "less"
 "../.." "add.psa" "\u0000" [1] [0,0] [65536,65536] [1,2,3,4,5] é"#;

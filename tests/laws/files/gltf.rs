@@ -244,7 +244,7 @@ fn rare_but_legal_documents_are_read() {
     ] {
         assert_eq!(read(&with(&changes)), square, "{changes:?}");
     }
-    // 3.7.2.1: without positions a primitive is skipped; points and lines are no surface.
+    // 3.7.2.1: without positions a primitive is skipped; points and lines are not a surface.
     for skipped in [json!({ "attributes": { "NORMAL": 1 } }), json!({ "attributes": { "POSITION": 0 }, "mode": 1 })] {
         let mut all = document(json!([{ "mesh": 0 }]));
         all["meshes"][0]["primitives"].as_array_mut().expect("primitives").push(skipped);

@@ -76,7 +76,7 @@ proptest! {
     }
 }
 
-/// Wavefront's format: `vt u v w`, of which v and w are 0 by default.
+/// Wavefront's format: `vt u v w`; v and w are 0 by default.
 #[test]
 fn texture_coordinates_have_one_to_three_numbers() {
     let read = |coordinate: &str| {

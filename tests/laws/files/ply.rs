@@ -80,7 +80,7 @@ fn every_encoding_gives_the_same_mesh() {
         assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [4, 2, 1]], "{encoding}");
         assert_eq!(mesh.normals().map(|normals| normals[4]), Some([0.0, 0.6, 0.8]), "{encoding}");
         assert_eq!(mesh.texcoords().map(|uv| uv[1]), Some([1.5, 0.5]), "{encoding}");
-        // Unless it is to be taken as it is, a file may have more than it says.
+        // Without `--strict`, a file may have trailing data.
         let longer = [encoded(encoding), b"3 0 1 2".to_vec()].concat();
         let error = parse(&longer).expect_err("longer").to_string();
         assert_eq!(error, "m.ply: expected the end of the file after the last element, found 7 bytes more");

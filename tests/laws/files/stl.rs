@@ -59,7 +59,7 @@ fn stl_is_found_by_ending_and_content() {
         std::fs::write(&path, bytes).expect("written");
         assert_eq!(load_mesh(&path).expect("a mesh").iter_corners().collect::<Vec<_>>(), CORNERS, "{name}");
     }
-    // Unless it is to be taken as it is, a file may be longer than it says.
+    // Without `--strict`, a file may have trailing data.
     let longer = folder.path().join("longer.stl");
     std::fs::write(&longer, [binary(b"", 2), b"more".to_vec()].concat()).expect("written");
     let (mesh, notes) = load_mesh_with(&longer, ModelOptions::default()).expect("a mesh");
@@ -74,7 +74,7 @@ fn stl_is_found_by_ending_and_content() {
 }
 
 /// Forms that programs write and readers accept: several solids, no names or names in Latin-1, keywords in capitals,
-/// normals that are no numbers, blank lines, a byte order mark, lines that end in CR, everything in one line.
+/// normals of NaN, blank lines, a byte order mark, lines that end in CR, everything in one line.
 #[test]
 fn text_in_all_its_forms_gives_the_same_mesh() {
     let plain = String::from_utf8(ascii()).expect("text");

@@ -1,5 +1,4 @@
-//! Meshes and rays at the ends of what f32 holds: nobody panics, hangs or invents numbers; and zeros of both signs are
-//! one direction.
+//! Meshes and rays at the ends of f32: no panic, hang or invented number; and zeros of both signs are one direction.
 
 use crate::support::{profile, soup};
 use crossbar::geom::exact;

@@ -11,8 +11,8 @@ use refsim::machine::ExecutorKind;
 
 use super::cornell;
 
-/// How much too dark the closed Cornell box is in half floats: the mean relative error over patches that do not emit
-/// light; measured and predicted.
+/// Darkening of the closed Cornell box in half floats: the mean relative error over patches that do not emit light;
+/// measured and predicted.
 fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
     let system = cornell(patches);
     let truth = system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity();

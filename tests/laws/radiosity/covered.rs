@@ -85,7 +85,6 @@ fn estimate(values: &[f64]) -> [f64; 2] {
     [mean, (square / n).sqrt()]
 }
 
-/// The open area of the floor is its area without the feet.
 #[test]
 fn open_areas_are_what_the_feet_leave() {
     let scene = scene();

@@ -37,7 +37,7 @@ fn holds(patch: &Patch, point: DVec3) -> bool {
     (0..corners.len()).all(inside)
 }
 
-/// Which patch each point of the picture shows by exact hits, and where it is hit.
+/// Exact hit per point of the picture: the patch and the place on it.
 fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<(usize, DVec3)>> {
     let rays: Vec<Ray> = points.iter().map(|&point| ray(camera, point)).collect();
     let hits = nearest_all(patches.mesh(), &rays, Sides::Both);

@@ -37,7 +37,7 @@ fn what_is_emitted_is_absorbed_or_leaves() {
     let closed = cornell(250);
     let solution = closed.solve(Solver::Direct, &EXACT, None).expect("a solution").radiosity();
     assert!(closed.energy_balance_error(&solution).iter().all(|left| left.abs() < 1e-12 * emitted(&closed)));
-    // An open room balances as well: its row sums say what leaves.
+    // An open room balances as well: its row sums give the light that leaves.
     let scene = rooms::cornell(CornellBox { blocks: true, open: true });
     let patches = Patches::new(&scene, Subdivision::AtMost(250)).expect("patches");
     let seen =
@@ -71,7 +71,7 @@ fn light_can_change_and_the_last_solution_is_a_good_start() {
         let (far, size) = (distance(&anew.radiosity, &onwards.radiosity), distance(&anew.radiosity, &[0.0; 250]));
         assert!(far < 1e-6 * size, "{far} of {size}");
     }
-    // Light is linear, and so is what comes of it.
+    // Light is linear, and so are the radiosities.
     let doubled = before.channels[0].radiosity.iter().map(|b| 1.01 * b).collect::<Vec<_>>();
     assert!(distance(&doubled, &anew.channels[0].radiosity) < 1e-6 * distance(&doubled, &[0.0; 250]));
     // New paint: only the matrix is made again, and a darker room is darker.

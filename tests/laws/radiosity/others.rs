@@ -33,7 +33,8 @@ fn form_factors_agree_with_an_estimate_by_rays_alone() {
     let mut hidden = 0;
     for (i, j) in [(0, 8), (0, 14), (0, 15), (1, 2), (1, 16), (2, 18), (3, 12), (4, 17), (8, 19), (13, 19), (8, 23)] {
         let (i, j): (usize, usize) = (i % faces.len(), j % faces.len());
-        // Ours is the mean over what is open of a face, theirs over all of it: light from under a block gets nowhere.
+        // Ours is the mean over the open part of a face, theirs over all of it: light from under a block reaches
+        // nothing.
         let ours = factors.matrix().row(i)[j] * patches.open_area(i) / patches.list()[i].area();
         let theirs = form_factor(&scene, &faces[i], &faces[j], 6000, 7, &mut tracer).expect("rays");
         // Both are estimates; ours has a quarter of the samples, and less to estimate.

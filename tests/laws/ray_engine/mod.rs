@@ -1,4 +1,4 @@
-//! System 1: the hits are the same whatever the engine schedules, culls, reads back or runs on.
+//! System 1: hits do not depend on the engine's schedule, culling, read-back or executor.
 
 mod beams;
 mod culling;

@@ -1,4 +1,4 @@
-//! Renderers that estimate the same integral agree, pixel by pixel, within what chance allows.
+//! Renderers that estimate the same integral agree, pixel by pixel, within their standard errors.
 
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::{RayKind, RenderedPicture, Settings};
@@ -20,7 +20,7 @@ fn of_size(size: u32, scene: &Scene, settings: &Settings, direct: Direct) -> Ren
 
 /// Walks find the lamp seldom: it takes many samples of few pixels before a normal law holds for each.
 const FEW: u32 = 4;
-/// As many samples as 96 of each of 16 x 16 pixels.
+/// 96 samples for each of 16 x 16 pixels.
 const MANY: u32 = 96 * 16;
 
 /// Pixel by pixel, and the mean square of all deviations, which is 1 in the mean: its spread is about (2 / n)^(1/2),

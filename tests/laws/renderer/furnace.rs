@@ -48,7 +48,7 @@ fn all_walks_sum_to_emission_over_one_minus_albedo() {
     }
 }
 
-/// A convex thing in the middle of a bright nothing.
+/// A convex body in uniform light.
 fn floating(surface: Surface) -> Scene {
     let mut builder = Builder::default();
     builder.boxed([-0.5, -0.4, -0.3], [0.5, 0.4, 0.3], false, &of(surface));

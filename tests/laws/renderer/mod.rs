@@ -125,8 +125,8 @@ fn room_camera(width: u32, height: u32) -> Camera {
     Camera::new([0.2, -0.95, 1.1], [0.0, 0.3, 0.7], [0.0, 0.0, 1.0], 0.8, width, height).expect("a camera")
 }
 
-/// How many standard deviations a mean may lie off. By a normal law the error of one channel in 150,000 is larger; the
-/// seeds are fixed, so a test that passed once passes until something changes.
+/// Tolerance of a mean in standard deviations. By a normal law the error of one channel in 150,000 is larger; the seeds
+/// are fixed, so a test that passed once passes until something changes.
 const FAR: f64 = 4.5;
 
 /// Holds one pixel against what is expected of it.

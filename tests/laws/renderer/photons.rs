@@ -57,7 +57,7 @@ fn caustics_keep_their_energy() {
     assert_bias_below(0.03, &of(Surface::Glass { index: 1.5, transmittance: [1.0; 3] }), 6);
 }
 
-/// The map seen directly loses what of its disks hangs over edges.
+/// The directly visible map loses the parts of its disks beyond edges.
 #[test]
 fn the_map_itself_is_near() {
     assert_bias_below(0.05, &white(0.5), 0);

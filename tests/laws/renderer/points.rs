@@ -22,7 +22,7 @@ fn glossy(albedo: f32) -> crossbar::scene::Material {
     of(Surface::Glossy { albedo: [albedo; 3], specular: SPECULAR.map(|value| value as f32), exponent: EXPONENT })
 }
 
-/// A floor under a point light, and what else stands there.
+/// A floor under a point light, with further objects.
 fn floor(albedo: f32, beside: impl FnOnce(&mut Builder)) -> Scene {
     let mut builder = Builder::default();
     builder.quad([-3.0, -3.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], glossy(albedo));
@@ -69,7 +69,7 @@ fn every_renderer_shows_the_highlight_of_a_point_light() {
     }
 }
 
-/// On one flat floor photons add nothing to what distributed rays see: the pictures are the same.
+/// On one flat floor photons add nothing to distributed rays: the pictures are the same.
 #[test]
 fn photons_and_distributed_rays_agree_on_gloss_under_a_point_light() {
     let camera = Camera::new(EYE, [0.0; 3], [0.0, 0.0, 1.0], 0.6, 12, 12).expect("a camera");

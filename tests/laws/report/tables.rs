@@ -82,7 +82,6 @@ proptest! {
         }
     }
 
-    /// The decimal points of a column of numbers are below each other.
     #[test]
     fn points_are_below_each_other(numbers in proptest::collection::vec(-1e6..1e6_f64, 1..8)) {
         let mut table = Table::of("t", "what value");
@@ -93,7 +92,6 @@ proptest! {
         prop_assert!(places.windows(2).all(|two| two[0] == two[1]), "{}", text);
     }
 
-    /// A number as shown equals the number, to the digits shown.
     #[test]
     fn digits_are_those_of_the_number(x in -1e9..1e9_f64, power in -20_i32..3) {
         let x = x * power_of_ten(power);

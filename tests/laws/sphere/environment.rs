@@ -43,7 +43,7 @@ fn a_bright_texel_shines_from_its_axis() {
     }
 }
 
-/// Which way pictures run beside the axes: a texel right of and above the middle of each side of the view.
+/// Orientation of pictures around the axes: a texel right of and above the middle of each side of the view.
 #[test]
 fn pictures_are_not_mirrored() {
     for (layout, [width, height], [_, _, [column, row], ..]) in LABELLED {

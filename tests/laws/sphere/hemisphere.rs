@@ -132,7 +132,6 @@ proptest! {
         prop_assert!(distance(&found, &c) < 1e-9, "{:e}", distance(&found, &c));
     }
 
-    /// The residual of least squares is orthogonal to every basis function over the hemisphere.
     #[test]
     fn residuals_of_least_squares_are_orthogonal(c in coefficients(8)) {
         let rule = DirectionRule::hemisphere(14);

@@ -8,7 +8,7 @@ use crossbar::subsurface::multipole::Factors;
 
 use super::links_models::{atlas, figure_7, fine_tolerance, medium, sphere, surface, texels};
 
-/// The largest difference between the factors of links and those that a texel gathers by itself with a finer
+/// The largest difference between the factors of links and those that a texel gathers individually with a finer
 /// tolerance, each relative to the factor and 1e-5 of the light that the plane returns.
 fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64 {
     let surface = surface(&atlas(&sphere(6, 0.2), side), mm_per_unit);

@@ -23,7 +23,7 @@ use glam::DVec3;
 use super::links_models::{atlas, figure_7, medium, sphere, surface};
 
 const SIDE: u32 = 16;
-/// Where the reference begins to count a pair with its mean points, in sums of radii.
+/// Distance from which the reference uses mean points of a pair, in sums of radii.
 const NEAR: f64 = 5.0;
 
 /// The largest second and third derivatives of R_d at distances of `least` to `most`.
@@ -63,7 +63,7 @@ fn reference_error(dipole: &Dipole, from: (DVec3, f64, f64), to: (DVec3, f64, f6
     let [second, third] = derivatives(dipole, [(distance - reach).max(0.0), distance + reach]);
     let far = 0.5 * second * (from.2 * from.2 + to.2 * to.2);
     let near = 2.0 / 6.0 * third * reach * reach * reach;
-    // Which of the two the reference took may depend on rounding.
+    // The choice of the reference between the two may depend on rounding.
     let error = if (distance / (NEAR * reach) - 1.0).abs() < 1e-9 {
         far.max(near)
     } else if distance < NEAR * reach {

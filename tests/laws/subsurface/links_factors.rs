@@ -261,7 +261,7 @@ fn dense_media_return_the_planes_total() {
             assert_relative_eq!(factors.factor(texel, root(&surface))[0], dipole.total(), max_relative = 0.02);
         }
     }
-    // The other end: what is far smaller than the mean free path returns next to nothing.
+    // The other end: bodies far smaller than the mean free path return almost no light.
     let thin = medium(1e-30, 0.0);
     let factors = Factors::new(&surface, [thin], 0.01).expect("a tolerance");
     let [factor] = factors.factor([3, 3], root(&surface));

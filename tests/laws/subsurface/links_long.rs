@@ -114,7 +114,6 @@ fn long_texels_across_an_edge_have_equation_10() {
     }
 }
 
-/// Links of models of long texels under uniform light, against all pairs of texels.
 #[test]
 fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
     let adaptive = LinkChoice::Adaptive { count: 64 };

@@ -52,7 +52,7 @@ pub(super) fn atlas(size: f32) -> Atlas {
     Atlas::new(&cube(size), SIDE).expect("an atlas")
 }
 
-/// A link of every texel to itself, with the factor 1: what pass 2 writes is the map.
+/// A link of every texel to itself, with the factor 1: pass 2 writes the map.
 pub(super) fn to_itself() -> LinkTextures {
     let place = |at: usize| (at as f32 + 0.5) / SIDE as f32;
     let link = Texels::from_fn([SIDE as usize; 2], |x, y| [place(x), place(y), 1.0, 0.0]);

@@ -1,5 +1,5 @@
-//! Photons followed through a medium, against what is exactly true of them: counts balance, mean paths depend on
-//! volume and surface alone, half spaces have the albedo of Chandrasekhar's H function.
+//! Photons followed through a medium, against exact facts: counts balance, mean paths depend on volume and surface
+//! alone, half spaces have the albedo of Chandrasekhar's H function.
 
 use crate::environment::by_form;
 use approx::assert_relative_eq;
@@ -21,8 +21,8 @@ fn balanced(tally: &WalkTally, walk: &PhotonWalk) {
     assert_eq!(tally.fates().iter().sum::<u64>(), walk.photons);
 }
 
-/// The mean path of light from everywhere in a body without absorption. Inside, radiance is eta^2 of that outside
-/// whatever the scattering, so the path is 4 V / S times eta^2 over the mean transmittance.
+/// The mean path of light from everywhere in a body without absorption. Inside, radiance is eta^2 of that outside for
+/// any scattering, so the path is 4 V / S times eta^2 over the mean transmittance.
 fn mean_path(volume_by_surface: f64, eta: f64) -> f64 {
     4.0 * volume_by_surface * eta * eta / mean_transmittance(eta)
 }
@@ -67,7 +67,7 @@ fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
 }
 
 /// The dipole against the walk in a half space, as docs/papers/subsurface.md prints both: bounds of rings in mean free
-/// paths, what leaves in them after a million photons of another seed, and the dipole's part.
+/// paths, light that leaves in them after a million photons of another seed, and the dipole's share.
 #[test]
 fn the_dipole_is_as_far_off_as_the_page_says() {
     let walk = PhotonWalk { seed: 7, ..medium(2.21, 0.0012, 1.3, 20_000) };

@@ -53,7 +53,7 @@ fn said(name: &str) -> String {
     format!("\n\n{}\n", markdown(&table))
 }
 
-/// The page of what works and those of the papers.
+/// docs/status.md and the papers' pages.
 fn pages() -> Vec<String> {
     let folder = std::fs::read_dir(file("docs/papers")).expect("the papers' pages");
     let names = folder.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name in ASCII"));

@@ -28,8 +28,8 @@ fn the_equation_gives_every_printed_digit() {
     assert_eq!(verdicts, [print, print, drawn, drawn, drawn]);
 }
 
-/// The three experiments: what another reading of the rays on the card, another octree of the host alone and other
-/// costs of commands give.
+/// The three experiments: other readings of the rays on the card, other octrees of the host alone, and other costs of
+/// commands.
 #[test]
 fn what_the_paper_leaves_open_is_swept() {
     let columns = |id: &str, table: usize| findings(id).tables[table].headings().len() - 5;
@@ -77,7 +77,7 @@ fn the_card_is_linear_and_the_host_is_not() {
     for line in [rgb, luminance] {
         let all = slopes(line);
         let last = all[all.len() - 1];
-        // From 512 patches on; below, what a draw costs by itself shows.
+        // From 512 patches on; below, the fixed cost of a draw shows.
         assert!(
             all[3..].iter().all(|slope| abs_diff_eq!(slope / last, 1.0, epsilon = 0.01)),
             "{}: {all:?}",
@@ -93,7 +93,7 @@ fn the_card_is_linear_and_the_host_is_not() {
 fn lost_models_are_judged_by_order() {
     for id in ["cpca-figure-6", "cpca-figure-10", "cpca-figure-11", "cpca-table-1", "cpca-coherence"] {
         let found = findings(id);
-        // Frame rates, and what another card gains, follow from sizes and overdraw as printed.
+        // Frame rates, and the gain of another card, follow from printed sizes and overdraw.
         let rows = || found.rows.iter().filter(|row| !["Hz", "%"].contains(&row.target.unit.as_str()));
         assert!(rows().all(|row| matches!(row.bound, Bound::Order | Bound::AtLeast)), "{id}");
         assert!(rows().all(|row| row.target.value != 1.0 || row.bound == Bound::AtLeast), "{id}: 1 is no order");

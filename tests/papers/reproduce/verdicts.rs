@@ -44,7 +44,6 @@ fn contradictions_come_with_their_computations() {
     assert_eq!(counts, [[15, 4], [1, 4]]);
 }
 
-/// Rates are judged as rates.
 #[test]
 fn rates_have_the_bound_of_predictions() {
     let rates = all().filter(|row| ["Hz", "fps", "frames/s"].contains(&row.target.unit.as_str()));
@@ -99,7 +98,7 @@ fn the_parts_of_the_tally_add_up() {
     assert_eq!(numbers(recorded), [of_tally().filter(|row| row.source != RowSource::Computed).count()]);
 }
 
-/// Numbers that are neither printed nor read off our own model can be told apart.
+/// Numbers that are neither printed nor read off our own model are marked.
 #[test]
 fn origins_are_said() {
     let implied = &row("subsurface/lookups-fixed").target;
@@ -122,7 +121,7 @@ fn calibration_hides_no_miss() {
     assert!(calibrated.all(|row| verdicts.contains(&row.verdict())));
 }
 
-/// What benches in modelled time measure is what rows compare.
+/// Benches in modelled time measure the same quantities as rows.
 #[test]
 fn timed_work_has_the_times_of_its_rows() {
     for work in timed()
@@ -140,7 +139,7 @@ fn timed_work_has_the_times_of_its_rows() {
     }
 }
 
-/// A bound that a card worth nothing would meet says nothing.
+/// A bound must fail for a card that brings nothing.
 #[test]
 fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
     let alone = &findings("ray-engine-table-3").rows[0];

@@ -1,4 +1,4 @@
-//! Which lane arithmetic a format gets.
+//! Selects the lane arithmetic of a format.
 
 use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, GENERAL, HOST, SINGLE};
@@ -122,7 +122,7 @@ impl AnyLane {
         &self.0
     }
 
-    /// A bit pattern of the format as a slot holds it.
+    /// Converts a bit pattern of the format into a slot's bits.
     pub fn decode(&self, bits: u32) -> u32 {
         fn decode<L: Lane>(lane: &L, bits: u32) -> u32 {
             L::store(lane.decode(bits))
@@ -154,7 +154,7 @@ impl AnyLane {
         with_any_lane!(self, |lane| { saturate(lane, raw) })
     }
 
-    /// How a slot's number is read.
+    /// Interpretation of a slot's bits as a number.
     pub fn reading(&self) -> Reading {
         with_any_lane!(self, |lane| { lane.reading() })
     }

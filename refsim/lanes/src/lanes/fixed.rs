@@ -148,7 +148,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
 
     /// `magnitude / 2^guard` units, and a bit more if `sticky`, rounded and fitted; `guard` at least 2 with `sticky`.
     pub(super) fn finish(&self, negative: bool, magnitude: u128, guard: u32, sticky: bool) -> i32 {
-        // Two guard bits and the sticky bit beneath them say all; the rest folds into the last.
+        // Two guard bits and a sticky bit suffice; lower bits are folded into the sticky bit.
         let (kept, guard, sticky) = if guard > 3 {
             let drop = (guard - 3).min(127);
             (magnitude >> drop, 3, sticky || magnitude & ((1 << drop) - 1) != 0)
@@ -318,7 +318,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         if a <= 0 {
             return if a == 0 { self.high } else { 0 };
         }
-        // sqrt(2^3F / a) units; the guard bits fill what 127 bits leave, 16 at least.
+        // sqrt(2^3F / a) units; the guard bits take the rest of 127 bits, at least 16.
         let guard = (126 - 3 * self.frac) / 2;
         let (dividend, divisor) = (1u128 << (3 * self.frac + 2 * guard), a as u128);
         let square = dividend / divisor;
@@ -328,7 +328,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     }
 
     fn exp2(&self, a: i32) -> i32 {
-        // Past the range there is no residue to take.
+        // Beyond the range no residue exists.
         if a >> self.frac >= self.int.cast_signed() && WRAP {
             return self.high;
         }

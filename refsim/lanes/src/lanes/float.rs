@@ -39,7 +39,7 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     single: SingleRounder,
     double: DoubleRounder,
     short: ShortRounder,
-    /// The magnitude of what `1/0` and `log2 0` give.
+    /// Magnitude of the results of `1/0` and `log2 0`.
     pole: f32,
     /// The result if an operand is NaN or infinite: NaN, or 0 in formats without.
     nan: f32,
@@ -133,7 +133,6 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
     }
 }
 
-/// The sign bit of a single.
 const SIGN_BIT: u32 = 1 << 31;
 
 impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
@@ -171,7 +170,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn round_single(&self, x: f32) -> f32 {
-        // Every single that is not flushed is a number of the format, whatever becomes of what overflows.
+        // Every single that is not flushed is a number of the format, for any rule of overflow.
         if PATH == HOST { self.single.flushed(x) } else { self.round_f64(f64::from(x)) }
     }
 

@@ -25,14 +25,14 @@ pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 /// spare.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IeeeLane<const PATH: u8> {
-    /// The same arithmetic the long way: conversions, and whatever is rare.
+    /// The same arithmetic, slow and general: conversions and rare cases.
     general: FloatLane<DOUBLE, EVEN>,
     /// Host bits of the smallest normal number; as integers they compare faster than as floats.
     lowest: (u32, u64),
     /// Added to the exponent bits of a number makes one and a half times the number whose unit in the last place is the
     /// format's there.
     pivot: (u32, u64),
-    /// Carries what is larger than the format's largest number to infinity, and the rest not; and its reciprocal.
+    /// Factor that makes only numbers above the format's largest infinite; and its reciprocal.
     stretch: (f32, f64),
     shrink: (f32, f64),
 }
@@ -64,8 +64,8 @@ impl<const PATH: u8> IeeeLane<PATH> {
     /// Rounds a single precision number into the format.
     ///
     /// Half again of a power of two `2^(23-m)` times the binade is added and taken away: the sum stays in one binade
-    /// whatever the sign, and has the format's unit in its last place. A zero takes the sign of what became zero.
-    /// Infinities and NaN come through: their pivot is some finite number.
+    /// whatever the sign, and has the format's unit in its last place. A zero takes the sign of the number that became
+    /// zero. Infinities and NaN come through: their pivot is some finite number.
     #[inline(always)]
     fn narrow_single(&self, x: f32) -> f32 {
         let bits = x.to_bits();

@@ -3,8 +3,7 @@
 
 use super::round::{AWAY, EVEN, UP, ZERO};
 
-/// How to divide by a power of two with rounding, the same way for every rounding: `(v + more + (v >> at & mask)) >>
-/// count`.
+/// Division by a power of two, by one formula for every rounding: `(v + more + (v >> at & mask)) >> count`.
 ///
 /// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
 /// - Nearest away is half a unit up, one less where `v` is negative.
@@ -12,7 +11,7 @@ use super::round::{AWAY, EVEN, UP, ZERO};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shift {
     pub(super) count: u32,
-    /// Half a unit, and the mask of what is dropped; zero if nothing is.
+    /// Half a unit, and the mask of the dropped bits; zero if there are none.
     pub(super) half: i64,
     pub(super) dropped: i64,
     pub(super) more: i64,

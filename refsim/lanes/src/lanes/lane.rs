@@ -6,7 +6,7 @@ use super::layout::pow2;
 use super::reading::Reading;
 use crate::num::NumberOperation;
 
-/// A number as registers hold it: an integer or a float of the host.
+/// Representation of a number in registers: an integer or a float of the host.
 pub(crate) trait RegisterNumber: Copy + Default + Send + Sync + Debug + PartialOrd {
     /// The number with these host bits.
     fn from_bits(bits: u32) -> Self;
@@ -62,7 +62,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn load(raw: u32) -> Self::T {
         Self::T::from_bits(raw)
     }
-    /// The number as a slot holds it: its host bits, whatever the format.
+    /// The number as stored in a slot: its host bits, in any format.
     #[inline(always)]
     fn store(x: Self::T) -> u32 {
         x.to_bits()
@@ -77,7 +77,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn round_single(&self, x: f32) -> Self::T {
         self.round_f64(f64::from(x))
     }
-    /// How a slot's number is read.
+    /// Interpretation of a slot's bits as a number.
     fn reading(&self) -> Reading;
 
     /// True for the unit of a card, whose rows have separate loops.

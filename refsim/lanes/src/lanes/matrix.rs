@@ -54,7 +54,6 @@ struct Adder {
     bits: i32,
     /// Least exponent that addends are aligned to.
     least: i32,
-    /// Fraction bits of a product.
     product_fraction: i32,
     /// Fraction bits of a word, and how many of them results have.
     fraction: i32,

@@ -184,7 +184,7 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     fn exp2(&self, a: i32) -> i32 {
-        // Past the range there is no residue to take.
+        // Beyond the range no residue exists.
         if self.whole(a) >= self.int.cast_signed() && WRAP {
             return self.codes.by_zero(1);
         }

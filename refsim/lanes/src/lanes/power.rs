@@ -2,8 +2,8 @@
 //!
 //! Both are irrational wherever they aren't obviously exact (an integer exponent, a power of two), so the true value is
 //! never on a boundary between two roundings; the evaluations below are good to 2^-95 or better, and operands have at
-//! most 32 bits, of which no result comes nearer than about 2^-75 to a boundary unless chance has been unkind by a
-//! factor of a million. The full proof run compares every operand of every format of 16 bits.
+//! most 32 bits, and no result comes nearer than about 2^-75 to a boundary unless chance has been unkind by a factor of
+//! a million. The full proof run compares every operand of every format of 16 bits.
 
 use super::layout::pow2;
 

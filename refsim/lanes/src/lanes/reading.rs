@@ -4,7 +4,7 @@
 use super::row::{LANES, LaneRow};
 use super::simd::SimdLevel;
 
-/// How a slot's number is read.
+/// Interpretation of a slot's bits as a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
     /// Bits of a single of the host.
@@ -31,7 +31,7 @@ impl Reading {
         }
     }
 
-    /// Bits of the nearest single, of which NaN has one pattern.
+    /// Bits of the nearest single; NaN has one pattern.
     #[inline(always)]
     pub fn to_single(self, raw: u32) -> u32 {
         let x = self.to_f64(raw) as f32;
@@ -44,7 +44,7 @@ impl Reading {
     #[inline(always)]
     pub fn to_steps(self, raw: u32, scale: f64, half: f64) -> u32 {
         match self {
-            // What is subnormal does not reach a step.
+            // Subnormal magnitudes do not reach one step.
             Self::Float | Self::Word => {
                 let x = f64::from(f32::from_bits(raw));
                 let low = if x > 0.0 { x } else { 0.0 };

@@ -4,7 +4,7 @@
 use super::layout::pow2;
 use crate::num::{Denormals, Encoding, Format, Overflow, Rounding};
 
-/// The number of a rounding: what lanes have as a constant.
+/// The number of a rounding: a constant of the lanes.
 pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
     match rounding {
         Rounding::NearestEven => EVEN,
@@ -56,7 +56,7 @@ macro_rules! rounder {
                 let (emin, emax) = format.exponents();
                 let min_normal = pow2(emin) as $float;
                 let last = pow2(emax - i32::from(man_bits));
-                // The pattern behind the largest number of IEEE 754 is infinity's, that of a finite one NaN's.
+                // The pattern after the largest number is infinity in IEEE 754, NaN in finite formats.
                 let short = format.encoding == Encoding::Finite && format.canonical_nan().is_some();
                 let exact_max = pow2(emax) * 2.0 - if short { 2.0 } else { 1.0 } * last;
                 let max = exact_max as $float;
@@ -222,9 +222,9 @@ impl ShortRounder {
 
     /// Rounds a number that comes from numbers of the format; infinities and NaN pass.
     ///
-    /// In units of its binade it has eleven bits before the point, where the host rounds to an integer in the way asked
-    /// for. Half a unit is added without an error that matters: numbers of less than a unit come from products, which
-    /// have 22 bits.
+    /// In units of its binade it has eleven bits before the point, where the host rounds to an integer in the requested
+    /// direction. Half a unit is added without an error that matters: numbers of less than a unit come from products,
+    /// which have 22 bits.
     #[inline(always)]
     pub(crate) fn round(&self, rounding: u8, x: f32) -> f32 {
         let [lowest, highest] = self.binades;

@@ -1,10 +1,10 @@
-//! Which vector instructions of the host the batch executor uses. No level changes a bit; the narrower ones exist so
+//! Vector instruction sets of the host that the batch executor uses. No level changes a bit; the narrower ones exist so
 //! that this can be tested on one machine.
 
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
-/// A set of vector instructions, each level with those of the ones before it.
+/// A set of vector instructions; each level includes the previous ones.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SimdLevel {
@@ -46,8 +46,8 @@ impl SimdLevel {
         self == Self::Baseline
     }
 
-    /// Runs `work` compiled for this level, or for what the processor has of it. The closure, and what it calls, must
-    /// be `#[inline(always)]` to be compiled for the level at all.
+    /// Runs `work` compiled for this level, or for the supported part of it. The closure, and what it calls, must be
+    /// `#[inline(always)]` to be compiled for the level at all.
     #[inline(always)]
     pub fn run<R>(self, work: impl FnOnce() -> R) -> R {
         let work = match self {

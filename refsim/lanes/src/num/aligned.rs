@@ -33,8 +33,8 @@ pub struct AlignedSum {
     pub top: i32,
 }
 
-/// The exact sum of addends of which `bits` bits below the largest exponent are kept. The largest exponent is at least
-/// `least`, where there is one. The sum is handed back unrounded; who calls rounds or cuts it.
+/// The exact sum of addends, each truncated to `bits` bits below the largest exponent. The largest exponent is at least
+/// `least`, where there is one. The sum is not rounded; the caller rounds or cuts it.
 ///
 /// `bits` is at most 60, so that 2^32 addends cannot overflow. Without addends and without `least` the sum is 0, and
 /// the exponent too.

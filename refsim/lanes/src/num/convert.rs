@@ -21,7 +21,7 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     if to.format.unit.is_card() && from.kind == Format::FP32.kind && from.encoding == Encoding::Ieee {
         return Outcome::exact(bits);
     }
-    // GT200 makes no half float of what is below 2^-33, whatever the rounding.
+    // GT200 flushes magnitudes below 2^-33 to zero half floats in every rounding.
     if matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins)
         && to.format.kind == Format::FP16.kind
         && bits << 1 < (127 - 33) << 24

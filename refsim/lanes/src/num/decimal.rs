@@ -144,7 +144,7 @@ fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
         return from_parts(*env, negative, 0, -4 * FAR as i32, true);
     }
     let mut all = literal.digits.clone();
-    // Any further digit stands for those that were cut off.
+    // A further nonzero digit represents the digits cut off.
     all.extend(literal.more.then_some(1));
     let digits = BigUint::from_radix_be(&all, 10).unwrap_or_default();
     let scale = literal.point - count(&all);

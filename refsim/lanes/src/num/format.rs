@@ -14,7 +14,7 @@ use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 pub struct Format {
     /// The layout.
     pub kind: FormatKind,
-    /// Which patterns are infinities, NaN and zeros (floats).
+    /// Encoding of infinities, NaN and zeros (floats).
     pub encoding: Encoding,
     /// Direction in which inexact results are rounded.
     pub rounding: Rounding,
@@ -171,7 +171,7 @@ impl Format {
         !matches!(self.kind, FormatKind::Float { .. })
     }
 
-    /// The odd part of what numbers are divided by: every number is an integer times a power of two, over this.
+    /// The odd part of the numbers' denominator: every number is an integer times a power of two, over this.
     /// `2^frac_bits - 1` in normalized formats, else 1.
     #[inline]
     pub const fn denominator(&self) -> u32 {
@@ -395,7 +395,7 @@ impl Format {
         }
     }
 
-    /// Returns `true` if the pattern is a subnormal float, whatever the denormal rule.
+    /// Returns `true` if the pattern is a subnormal float, under any denormal rule.
     #[inline]
     pub const fn is_subnormal(&self, bits: u32) -> bool {
         match self.kind {

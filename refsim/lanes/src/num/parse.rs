@@ -212,7 +212,6 @@ fn split_counts(layout: &str, lead: char, mid: char) -> Option<(u8, u8)> {
     (digits(a) && digits(b)).then(|| (a.parse().unwrap_or(255), b.parse().unwrap_or(255)))
 }
 
-/// The rounding of a suffix.
 fn rounding(suffix: &str) -> Option<Rounding> {
     let all = Rounding::ALL.into_iter().chain([("rst", Rounding::Stochastic(0))]);
     all.into_iter().find(|(name, _)| *name == suffix).map(|(_, rounding)| rounding)

@@ -1,6 +1,6 @@
 //! The rules of a format: which patterns are what, and how an exact result becomes a number of it.
 
-/// Which patterns of a float are infinities, NaN and zeros.
+/// Encoding of infinities, NaN and zeros in a float.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Encoding {
     /// IEEE 754: the largest exponent field has infinity and NaN, the bias is `2^(X-1) - 1`. Fixed point has this too.

@@ -1,7 +1,7 @@
 //! Rows of the units of cards.
 //!
-//! What matters for speed is computed in loops of vector code. Where these met what may make results wrong (a special
-//! value, an end of the range), the lanes that it concerns are computed once more.
+//! Frequent operations are computed in loops of vector code. Lanes with a special value or a magnitude at the end of
+//! the range are then computed again.
 
 use super::apart::apart;
 use super::code::{LaneCode, LaneOp};
@@ -39,7 +39,7 @@ pub(super) fn run<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneO
     }
 }
 
-/// A function of `N` rows in vector code, and `slow` in lanes where what it met makes it wrong.
+/// A function of `N` rows in vector code, and `slow` in lanes where the vector result is wrong.
 #[inline(always)]
 fn checked<const N: usize>(
     rows: [&LaneRow; N],
@@ -102,7 +102,7 @@ fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32)
     }
 }
 
-/// A function of a row and of what is looked up for it in a table.
+/// A function of a row and of its entries in a table.
 #[inline(always)]
 fn with_table<E: Copy>(a: &LaneRow, out: &mut LaneRow, entry: impl Fn(u32) -> E, f: impl Fn(u32, E) -> u32) {
     let mut entries = [entry(0); LANES];

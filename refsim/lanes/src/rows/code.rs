@@ -17,7 +17,7 @@ pub enum LaneCode {
     Neighbors(bool),
     /// Copies `a` to the wide row.
     Widen,
-    /// The same for a half float, of a unit that makes none of small numbers.
+    /// The same for a half float, by a unit that flushes small numbers.
     WidenToHalf,
     /// Rounds the wide row to the destination.
     Narrow,
@@ -93,7 +93,7 @@ pub struct LaneOp {
     pub to: Slot,
     /// The operands `a`, `b`, `c`, or the factors of one product after the other.
     pub args: [Slot; OPERANDS],
-    /// `true` if a product with a zero factor is zero, whatever the other factor.
+    /// `true` if a product with a zero factor is zero, for any other factor.
     pub zero_wins: bool,
 }
 

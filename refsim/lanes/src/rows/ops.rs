@@ -1,4 +1,4 @@
-//! Execution of lane operations, of which decoded programs consist.
+//! Execution of the lane operations of decoded programs.
 
 use super::apart::apart;
 use super::code::{LaneCode, LaneOp};
@@ -17,7 +17,7 @@ pub fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     }
 }
 
-/// A function per arithmetic and level: one of all would be compiled slowly.
+/// A function per arithmetic and level: a single function for all compiles slowly.
 #[inline(never)]
 fn run_at<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     if L::CARD {

@@ -37,7 +37,7 @@ pub struct Slots {
     pub(super) scratch: Box<Aligned>,
     /// Uniform values of slots of constants and given values.
     pub(super) values: Vec<u32>,
-    /// `false` for slots of which only the uniform value is read.
+    /// `false` for slots whose row is never read, only the uniform value.
     as_rows: Vec<bool>,
     /// Doubles between two conversion steps.
     pub(super) wide: Box<[f64; LANES]>,
@@ -55,7 +55,7 @@ impl Slots {
         }
     }
 
-    /// Marks a slot of which only the uniform value is read, never the row.
+    /// Marks a slot whose row is never read, only the uniform value.
     pub fn without_row(&mut self, slot: Slot) {
         self.as_rows[usize::from(slot)] = false;
     }

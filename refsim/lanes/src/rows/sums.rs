@@ -85,11 +85,11 @@ fn aligned<const N: usize>(numbers: [f64; N], bits: u8, down: bool) -> f64 {
     for number in numbers {
         sum += (number * f64::from_bits(up)).trunc();
     }
-    // The sign of what cancels, and of zeros that don't have one sign.
+    // Sign of exact cancellation, and of sums of zeros with different signs.
     let none = signed_zero(down).to_bits();
     let zero = if largest == 0.0 { all & SIGN | signs & none } else { none };
     let scaled = if (sum == 0.0) | (largest == 0.0) { f64::from_bits(zero) } else { sum * f64::from_bits(unit) };
-    // Singles don't overflow here: what is not finite comes from an infinity or a NaN.
+    // Singles don't overflow here: non-finite results come from an infinity or a NaN.
     if plain.abs() < f64::INFINITY { scaled } else { plain }
 }
 

@@ -18,7 +18,6 @@ impl<'t> Row<'t> {
         if self.cells[index].is_empty() { self.cell(&repeated(column)) } else { self.cells[index] }
     }
 
-    /// The word of a column.
     pub(crate) fn word(&self, column: &str) -> u32 {
         u32::from_str_radix(self.cell(column), 16).expect("hexadecimal digits")
     }
@@ -89,7 +88,6 @@ pub(crate) fn columns<'c>(
     }
 }
 
-/// A function of words of one column.
 pub(crate) fn unary<'c>(column: &'c str, function: impl Fn(u32) -> u32 + 'c) -> impl Fn(&Row<'_>) -> String + 'c {
     move |row| digits(function(row.word(column)))
 }

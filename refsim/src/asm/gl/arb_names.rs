@@ -99,7 +99,6 @@ impl<'a> Parser<'a> {
         Ok((first, last))
     }
 
-    /// Parses a new name.
     pub(super) fn new_name(&mut self) -> Parsed<&'a str> {
         let token = self.cursor.next();
         if token.kind == TokenKind::Word && !reserved(token) && !self.names.contains_key(token.text) {

@@ -25,7 +25,7 @@ pub(super) struct Build {
 }
 
 impl Build {
-    /// Notes what the program declares or binds.
+    /// Records the program's declarations and bindings.
     pub(super) fn bind(&mut self, resource: ProgramResource, span: Span) {
         self.resources.entry(resource).or_insert(span);
     }

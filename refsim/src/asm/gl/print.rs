@@ -72,7 +72,6 @@ fn declarations(program: &Program, out: &mut String) {
     *out += &unused;
 }
 
-/// Name of a register in program text.
 pub(in super::super) fn register_name(program: &Program, register: &Register) -> String {
     let mut out = String::new();
     let arb = program.version == Version::ArbFp1_0;

@@ -14,7 +14,7 @@ pub(crate) struct LaneFormats {
 }
 
 impl LaneFormats {
-    /// Those of a program with these formats.
+    /// The arithmetics of a program with these formats.
     pub(crate) fn new(table: Formats, simd: SimdLevel) -> Self {
         let lanes = table.all().iter().copied().map(AnyLane::new).collect();
         Self { table, lanes, simd }

@@ -103,8 +103,8 @@ impl<'a> GraphBuilder<'a> {
             return a;
         }
         // Single precision represents every number of a format with up to 24 significant bits, so the round trip
-        // preserves the number, which also fits the format's wrapping variant. Of normalized numbers it has the
-        // nearest, from which only rounding to nearest leads back.
+        // preserves the number, which also fits the format's wrapping variant. It represents normalized numbers by the
+        // nearest single, from which only rounding to nearest leads back.
         let returns = |format: Format| match format.kind {
             FormatKind::Float { .. } => true,
             FormatKind::Fixed { .. } => format.width() <= 24,
@@ -114,7 +114,7 @@ impl<'a> GraphBuilder<'a> {
             && from == Arith::Single
             && (origin == to || (origin, to) == (Arith::Main, Arith::Wrapped))
             && returns(self.formats.format(origin))
-            // Of a card's words single precision keeps neither subnormals nor every NaN.
+            // Single precision keeps neither the subnormals nor every NaN of a card's words.
             && !self.graph.is_card(origin)
         {
             return number;

@@ -2,7 +2,7 @@
 //!
 //! A fixed-point number, normalized or not, is a sign-extended two's complement integer. A float is the binary32
 //! pattern of the same number, which exists for every format of registers ([`Format::for_registers`]); NaN is always
-//! `0x7fc0_0000`. Formats that the unit of a card computes have its words, whatever they are.
+//! `0x7fc0_0000`. Formats that the unit of a card computes are stored as its words.
 
 use refsim_lanes::AnyLane;
 
@@ -17,7 +17,6 @@ use crate::num::{Format, NumberOperation as Op, Overflow};
 pub(crate) struct Formats(Vec<Format>);
 
 impl Formats {
-    /// Formats of a pixel program.
     pub(crate) fn pixel(program: &Program, rules: &Rules) -> Self {
         let products = rules.accumulator.map(|_| PRODUCTS);
         let stored = rules.storage.iter().map(|(_, format)| format);
@@ -31,7 +30,6 @@ impl Formats {
         formats
     }
 
-    /// Formats of a vertex program.
     pub(crate) fn vertex(program: &Program, rules: &Rules) -> Self {
         Self::new(program, rules.vertex_format, None, [])
     }

@@ -295,7 +295,7 @@ impl Translator<'_> {
             return;
         }
         for i in destination.mask.components() {
-            // Depth is a scalar: one component, whatever the mask.
+            // Depth is a scalar: one component with any mask.
             let depth = file == RegisterFile::DepthOut;
             let place = if depth { (file, 0, 0) } else { (file, index, i as u8) };
             let zero = self.make.zero();

@@ -167,8 +167,8 @@ impl Graph {
     }
 
     /// The operation that converts single floats into the words of a card's unit, and its format; `None` for other
-    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. What a
-    /// vertex program reads are words.
+    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. Vertex
+    /// programs read words.
     pub(crate) fn copies(&self, from: Arith, to: Arith, number: NodeId) -> Option<(Arith, Op)> {
         let is_single = |format: &Format| format.kind == Format::FP32.kind && format.encoding == Encoding::Ieee;
         if !self.is_card(to) || !self.format(from).is_some_and(is_single) {

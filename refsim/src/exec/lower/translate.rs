@@ -97,7 +97,6 @@ impl<'a> Translator<'a> {
         self.program.version.stage() == Stage::Pixel
     }
 
-    /// Bump state of a stage.
     pub(crate) fn bump(&self, stage: u16) -> BumpStage {
         self.bindings.and_then(|b| b.bump.get(usize::from(stage)).copied()).unwrap_or_default()
     }
@@ -258,7 +257,7 @@ impl<'a> Translator<'a> {
         self.make.binary(Arith::Main, Op::Max, below, minus)
     }
 
-    /// Format of what instructions write to a register file, if not the file's.
+    /// Format of the values that instructions write to a register file, if not the file's.
     pub(crate) fn storage(&self, file: RegisterFile) -> Option<Format> {
         self.make.rules.storage.written(file).filter(|_| self.is_pixel())
     }
@@ -288,7 +287,6 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Translates an arithmetic instruction.
     pub(crate) fn arithmetic(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let k = self.arith(instruction);

@@ -14,7 +14,6 @@ use crate::texture::unbound;
 const S: Arith = Arith::Single;
 
 impl Translator<'_> {
-    /// Translates a texture instruction.
     pub(crate) fn texture(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         match instruction.opcode {

@@ -52,7 +52,6 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         }
     }
 
-    /// Bits of a component, unconverted.
     fn bits(&self, lane: usize, source: &Source, component: usize) -> u32 {
         self.fragment_value(lane, source)[usize::from(source.swizzle.0[component] & 3)]
     }

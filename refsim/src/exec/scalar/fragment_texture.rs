@@ -1,4 +1,4 @@
-//! Texture reads of OpenGL fragment programs. As in Direct3D's programs, addresses are single precision whatever the
+//! Texture reads of OpenGL fragment programs. As in Direct3D's programs, addresses are single precision with any
 //! register format; the texel is converted to full precision and then to the destination's.
 
 use super::interpreter::Interpreter;

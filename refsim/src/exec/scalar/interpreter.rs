@@ -200,7 +200,6 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         }
     }
 
-    /// Indices of the active lanes.
     pub(super) fn active_lanes(&self) -> impl Iterator<Item = usize> + use<'p, 'a, O> {
         let active = self.active;
         (0..LANES).filter(move |&lane| active >> lane & 1 == 1)

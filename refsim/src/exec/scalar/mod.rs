@@ -52,8 +52,8 @@ fn address_value(format: Format, opcode: Opcode, bits: u32) -> i32 {
             }
         }
         Unpacked::Finite { sign, sig, exp, den } => {
-            // An integer: bits below the point are zero. Where a normalized format ends before the next one, its end
-            // stands for it, and is cut off.
+            // An integer: bits below the point are zero. If a normalized format ends before the next integer, its end
+            // represents that integer, and is cut off.
             let sig = sig / u64::from(den);
             let magnitude = match exp {
                 0.. if sig == 0 => 0,

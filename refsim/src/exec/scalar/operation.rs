@@ -35,7 +35,7 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Mov => a,
         Add => each(mask, |i| alu.add(a[i], b[i])),
         Sub => each(mask, |i| alu.sub(a[i], b[i])),
-        // The operands are those of two lanes.
+        // The operands come from two lanes.
         Dsx | Dsy => each(mask, |i| alu.difference(a[i], b[i])),
         Mul => each(mask, |i| alu.mul(a[i], b[i])),
         Mad => each(mask, |i| alu.mad(a[i], b[i], c[i])),

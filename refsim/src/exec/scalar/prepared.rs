@@ -66,7 +66,7 @@ impl<'a> Prepared<'a> {
         if self.is_pixel() { Alu::new(self.rules, format) } else { Alu::vertex(self.rules, format) }
     }
 
-    /// Format of what instructions write to a register file, if not the register format.
+    /// Format of the values that instructions write to a register file, if not the register format.
     pub(crate) fn written(&self, file: RegisterFile) -> Option<Format> {
         self.rules.storage.written(file).filter(|_| self.is_pixel())
     }
@@ -79,7 +79,6 @@ impl<'a> Prepared<'a> {
         self.bindings.as_ref()?.samplers.get(stage)?.as_ref()
     }
 
-    /// Texture projection of a stage.
     pub(crate) fn projection(&self, stage: u16) -> Projection {
         self.bindings.as_ref().and_then(|b| b.projections.get(usize::from(stage))).copied().unwrap_or_default()
     }

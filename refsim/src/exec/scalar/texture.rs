@@ -1,4 +1,4 @@
-//! Texture instructions. Addresses are single precision whatever the register format: coordinates `t#` reach a sampler
+//! Texture instructions. Addresses are single precision with any register format: coordinates `t#` reach a sampler
 //! unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is single
 //! precision with one rounding per step and dot products in the device's order.
 

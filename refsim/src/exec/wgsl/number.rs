@@ -1,7 +1,7 @@
 //! Arithmetic in WGSL: the text of the number library, and the encoding of formats in words.
 //!
 //! It implements [`crate::num`]: the exact result, rounded once. It uses 32-bit integer arithmetic for every format, so
-//! its results are the same on every adapter that conforms to WGSL, whatever its floating point.
+//! its results are the same on every adapter that conforms to WGSL; its floating point has no effect.
 
 mod unit_tables;
 

@@ -148,7 +148,7 @@ impl Parts {
         }
     }
 
-    /// Adds what numbers of a format need.
+    /// Adds the parts that numbers of a format need.
     pub fn add_format(&mut self, format: &Format) {
         self.add_if(format.is_fixed(), "HAS_FIXED");
         self.add_if(format.denominator() != 1, "HAS_NORMALIZED");

@@ -1,5 +1,5 @@
 //! Pixel programs on GPUs. A checked program is encoded as words ([`Microcode`]) for a virtual machine written in WGSL
-//! ([`machine`]), of which a draw compiles the parts that it uses ([`super::parts`]).
+//! ([`machine`]); a draw compiles only the parts that it uses ([`super::parts`]).
 //!
 //! The machine is `fn shade()`, which operates on the variables and rows of [`super::INTERFACE`]. Inputs are
 //! single-precision patterns with canonical NaN. The module also needs the number library, the texture library, and

@@ -15,7 +15,7 @@ const MAX_INSTRUCTIONS: usize = 1 << 15;
 /// Numbers of a text four by four.
 type Literal = [Option<u32>; 4];
 
-/// The instructions so far, and what they share.
+/// The instructions so far, and their shared state.
 #[derive(Default)]
 pub(super) struct Builder {
     pub(super) instructions: Vec<Instruction>,
@@ -25,7 +25,7 @@ pub(super) struct Builder {
     /// `true` if the next instruction computes in f16.
     pub(super) half: bool,
     gathered: BTreeMap<Value, (Register, Vec<u8>)>,
-    /// What the condition codes were last set by.
+    /// The instruction that last set the condition codes.
     codes: Value,
     registers: u16,
 }
@@ -44,7 +44,7 @@ impl Builder {
         Err(Refusal::new(message, self.span))
     }
 
-    /// Refuses what takes too many steps.
+    /// Refuses programs with too many steps.
     pub(super) fn too_long<T>(&self) -> Result<T, Refusal> {
         let message = "the shader is too long with its loops unrolled, or a loop has no end that is known";
         Err(Refusal::new(message, self.span).help("bound loops by constants: `for (var i = 0; i < 16; i++)`"))
@@ -225,7 +225,6 @@ impl Builder {
         Ok((0..4).map(|lane| Component::Place(register, lane)).collect())
     }
 
-    /// Writes an output register.
     pub(super) fn output(&mut self, register: Register, mask: u8, value: &[Component]) -> Result<(), Refusal> {
         self.half = false;
         let source = self.source(value, Modifier::None)?;

@@ -17,7 +17,6 @@ impl<'a> Translator<'a> {
         frame.info[handle].ty.inner_with(&self.module.types)
     }
 
-    /// The value of an expression.
     pub(super) fn value(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result {
         match self.entry(frame, handle)? {
             Meaning::Value(value) if !value.is_empty() => Ok(value),
@@ -25,7 +24,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// What an expression stands for, evaluated now if it was not yet.
+    /// Value of an expression, evaluated on first use.
     pub(super) fn entry(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Meaning> {
         match frame.values.get(&handle) {
             Some(entry) => Ok(entry.clone()),
@@ -33,7 +32,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Evaluates an expression, and keeps what it stands for.
+    /// Evaluates an expression, and keeps its value.
     pub(super) fn evaluate(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Meaning> {
         let span = place(frame.function.expressions.get_span(handle));
         self.step(span)?;

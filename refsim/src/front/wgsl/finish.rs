@@ -1,4 +1,4 @@
-//! From registers without number to those of a program: what nobody reads is removed, and components are packed.
+//! Register allocation: removes unread results, and packs components into temporaries.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ fn is_temporary(source: &Source) -> bool {
     source.register.file == RegisterFile::Temp
 }
 
-/// Removes instructions whose results nobody reads.
+/// Removes instructions whose results are never read.
 pub(super) fn without_unused(instructions: Vec<Instruction>) -> Vec<Instruction> {
     let mut live: BTreeMap<u16, u8> = BTreeMap::new();
     let mut codes = false;
@@ -53,7 +53,7 @@ pub(super) fn without_unused(instructions: Vec<Instruction>) -> Vec<Instruction>
     kept
 }
 
-/// Where a register without number went: the temporary, and the component that its first one became.
+/// Allocation of a virtual register: the temporary, and the component of its first component.
 #[derive(Clone, Copy)]
 struct PackedRegister {
     register: u16,
@@ -127,7 +127,7 @@ fn free(taken: &[u8; TEMPORARIES], width: u32) -> Option<PackedRegister> {
 
 /// Rewrites an instruction for the windows of its registers.
 fn moved(instruction: &mut Instruction, to: Option<PackedRegister>, sources: &[Option<PackedRegister>]) {
-    // Operations of each lane by itself move with their destination.
+    // Component-wise operations move with their destination.
     let each = match instruction.opcode {
         Opcode::Dp3 | Opcode::Dp4 | Opcode::TexLd | Opcode::TexLdD => false,
         opcode => !opcode.is_scalar(),

@@ -26,7 +26,7 @@ use values::{Component, Value, scalars};
 /// Maximum length of a text, in bytes.
 const MAX_TEXT: usize = 1 << 18;
 
-/// What a text may use beyond the core of WGSL: f16, and `quantizeToF16`.
+/// Extensions of WGSL that a text may use: f16 and `quantizeToF16`.
 const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16.union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
 
 /// Stack of the front end, in bytes: it calls itself for each term of an expression.
@@ -80,7 +80,7 @@ fn parsed(text: &str) -> Result<Module, Refusal> {
     })
 }
 
-/// The place of a whole call, of which naga keeps the function's name alone.
+/// The place of a whole call; naga keeps only that of the function's name.
 fn with_arguments(text: &str, span: Span) -> Span {
     let rest = text.get(span.end as usize..).filter(|rest| rest.starts_with('(')).unwrap_or_default();
     let mut open = 0;
@@ -155,7 +155,7 @@ impl Translator<'_> {
             match binding {
                 Binding::Location { location: 0, blend_src: None, .. } if part.len() <= 4 => {
                     let mut color = part.to_vec();
-                    // What a color leaves out is black and opaque.
+                    // Components that a color leaves out are black and opaque.
                     color.extend((part.len()..4).map(|lane| Component::Float(if lane == 3 { 0x3f80_0000 } else { 0 })));
                     self.builder.output(Register::new(RegisterFile::ColorOut, 0), 0b1111, &color)?;
                 }

@@ -70,7 +70,7 @@ impl<'a> Translator<'a> {
             Statement::If { condition, accept, reject } => {
                 let at = place(frame.function.expressions.get_span(*condition));
                 let condition = self.value(frame, *condition)?[0];
-                // What is selected behind it belongs to the condition's place.
+                // Selections after it have the condition's place.
                 self.builder.span = at.unwrap_or(self.builder.span);
                 self.branch(frame, condition, [accept, reject], depth)
             }
@@ -179,7 +179,8 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// Executes a block where two conditions hold; returns who is left at its end, and whether that is all.
+    /// Executes a block where two conditions hold; returns the mask of fragments left at its end, and whether all are
+    /// left.
     fn path(
         &mut self,
         frame: &mut Frame<'a>,
@@ -247,7 +248,7 @@ impl<'a> Translator<'a> {
     fn resume(&mut self, Exit(exit): Exit, before: Component) {
         match exit {
             Some((left, variables)) => {
-                // Where nobody left further, all that came go on.
+                // If no fragment left an outer construct, all active fragments continue.
                 let left_further = [self.returns.last(), self.continues.last()];
                 let all = left_further.into_iter().flatten().all(|Exit(exit)| exit.is_none());
                 self.live = if all { before } else { left };

@@ -1,4 +1,4 @@
-//! What is known while a module is translated: variables, exits, parameters.
+//! State of a module's translation: variables, exits, parameters.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ const MAX_WORK: usize = 1 << 17;
 /// Maximum number of uniforms, counted in vectors.
 const MAX_PARAMETERS: usize = (FIRST_LITERAL - FIRST_NAMED) as usize - 2;
 
-/// What an expression stands for.
+/// Value of an expression.
 #[derive(Clone, Debug)]
 pub(super) enum Meaning {
     Value(Value),
@@ -52,7 +52,7 @@ pub(super) struct Translator<'a> {
     pub(super) builder: Builder,
     pub(super) parameters: Vec<Parameter>,
     pub(super) variables: Variables,
-    /// Which fragments execute the current statement.
+    /// Mask of the fragments that execute the current statement.
     pub(super) live: Component,
     pub(super) killed: Component,
     pub(super) breaks: Vec<Exit>,

@@ -25,7 +25,7 @@ pub(super) type Value = Vec<Component>;
 /// Maximum number of scalars in one value.
 const MAX_SCALARS: usize = 4096;
 
-/// The scalars of a type in order; `None` for types that are no such lists, and for very large ones.
+/// The scalars of a type in order; `None` for other types, and for very large ones.
 pub(super) fn scalars(module: &Module, inner: &TypeInner) -> Option<Vec<Scalar>> {
     let of = |handle: &Handle<Type>| scalars(module, &module.types[*handle].inner);
     let list = match inner {
@@ -52,7 +52,7 @@ pub(super) fn scalars(module: &Module, inner: &TypeInner) -> Option<Vec<Scalar>>
     Some(list)
 }
 
-/// Offset and length of element or member `index` in a value of the type; `None` if there is no such one.
+/// Offset and length of element or member `index` in a value of the type; `None` if the index is out of range.
 pub(super) fn part(module: &Module, inner: &TypeInner, index: usize) -> Option<(usize, usize)> {
     let count = |handle: Handle<Type>| Some(scalars(module, &module.types[handle].inner)?.len());
     match inner {
@@ -88,7 +88,6 @@ pub(super) fn is_half(scalar: Option<Scalar>) -> bool {
     scalar.is_some_and(|scalar| scalar.kind == ScalarKind::Float && scalar.width == 2)
 }
 
-/// The zero of a scalar type.
 pub(super) fn zero(scalar: &Scalar) -> Component {
     match scalar.kind {
         ScalarKind::Bool => Component::Bool(false),

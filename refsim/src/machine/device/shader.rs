@@ -10,7 +10,6 @@ use crate::machine::trace_layout::{EncodedProgram, VideoMemory};
 use crate::machine::{DrawCall, MachineError};
 use crate::texture::Image;
 
-/// Kernel that draws tiles.
 pub(super) const DRAW: Kernel = Kernel {
     entry: kernel::ENTRY,
     text: || kernel::text() + &program::machine() + program::NO_TRACE + &texture::library(),

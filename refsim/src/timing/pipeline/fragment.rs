@@ -74,7 +74,7 @@ fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
 /// time; the float unit is busy for `busy` clocks before. An operation is worth two multiplications, so operations move
 /// first.
 fn taken_over(work: &FragmentWork, busy: u64, units: u64) -> u64 {
-    // In multiplications, of which the units do `done` per clock.
+    // Counted in multiplications; the units do `done` per clock.
     let [operations, multiplications, done] =
         [work.operations, work.multiplications, units.saturating_mul(2)].map(u128::from);
     let meanwhile = done * u128::from(busy);

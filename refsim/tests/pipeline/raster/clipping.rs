@@ -52,7 +52,6 @@ proptest! {
         check(&v, convention, grid, Viewport { x, y, width, height, min_depth: depths[0], max_depth: depths[1] });
     }
 
-    /// Clipped triangles with a common edge share no pixel.
     #[test]
     fn clipped_neighbours_share_no_pixel(
         a in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0], b in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0],

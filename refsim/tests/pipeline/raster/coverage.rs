@@ -73,7 +73,6 @@ proptest! {
         }
     }
 
-    /// A mesh over the whole target covers each pixel exactly once.
     #[test]
     fn a_mesh_covers_each_pixel_once(
         jitter in prop::collection::vec(prop_oneof![(-1.2f32..1.2, -1.2f32..1.2), Just((0.0, 0.0)), Just((0.5, -0.5))], 80),

@@ -90,7 +90,7 @@ proptest! {
     }
 }
 
-/// Depth is linear in screen space whatever w, and exact at vertices on pixel centres.
+/// Depth is linear in screen space for any w, and exact at vertices on pixel centres.
 #[test]
 fn depth_is_linear_on_the_screen() {
     let mut v = [[-1.0f32, 1.0, 0.0], [1.0, 1.0, 0.5], [-1.0, -1.0, 1.0]].map(|[x, y, z]| {

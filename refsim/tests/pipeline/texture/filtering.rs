@@ -78,7 +78,6 @@ proptest! {
         prop_assert_eq!(found[0], want.to_bits());
     }
 
-    /// `fetch_nearest` equals `sample`.
     #[test]
     fn fetch_nearest_is_sample(data in prop::collection::vec(any::<u8>(), 6 * 3 * 4), u in any::<u32>(), v in any::<u32>(), mode in 0usize..4) {
         let image = Image::from_bytes(TexelFormat::Bgra8, TextureKind::D2, [6, 3, 1], 1, data).unwrap();

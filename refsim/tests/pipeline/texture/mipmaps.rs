@@ -127,7 +127,6 @@ fn every_format_and_long_thin_images() {
     }
 }
 
-/// A float level equals linear reads between texels.
 #[test]
 fn float_levels_are_linear_reads() {
     let minimum = SignedTexelMinimum::Clamp;

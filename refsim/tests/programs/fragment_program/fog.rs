@@ -66,7 +66,7 @@ fn colors_written_in_parts_are_fogged_as_one() {
     assert_eq!(color(text, &with(state), 0.5), [0.625, 0.625, 0.75, 0.25]);
 }
 
-/// A program of `count` instructions, the last of which writes the color.
+/// A program of `count` instructions; the last one writes the color.
 fn long(option: &str, count: usize) -> String {
     let body = "ADD R0, R0, R0;\n".repeat(count - 1);
     format!("!!ARBfp1.0\n{option}TEMP R0;\n{body}MOV result.color, R0;\nEND\n")

@@ -133,7 +133,7 @@ proptest! {
         }
     }
 
-    /// But for what it costs the host to begin to wait for a fence, which no synchronous program has.
+    /// Except for the host's cost of waiting for a fence, which a synchronous program does not have.
     #[test]
     fn asynchronous_is_never_slower(commands in program(), figures in figures()) {
         let figures = QueueFigures { finish_fence_ps: 0, ..figures };

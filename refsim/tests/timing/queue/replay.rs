@@ -15,7 +15,7 @@ use refsim::timing::{DrawCost, Picoseconds};
 
 use super::{cost, free, spans};
 
-/// One picosecond per byte on the buses and per state change; draws take what their vertices say.
+/// One picosecond per byte on the buses and per state change; draws take as long as their vertex count.
 struct Simple;
 
 impl Costs for Simple {

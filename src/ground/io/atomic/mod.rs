@@ -47,7 +47,7 @@ pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<(
     write_beside(&file, path, fill)
 }
 
-/// Hands over to a device or pipe at once what `fill` wrote.
+/// Writes the output of `fill` to a device or pipe at once.
 fn fill_device(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     let write = || {
         let mut bytes = Vec::new();
@@ -107,9 +107,7 @@ pub struct FileSet {
 }
 
 impl FileSet {
-    /// A set for `folder`. Made before long work, it finds out early that nothing can be written there.
-    ///
-    /// # Errors
+    /// A set for `folder`. Made before long work, it finds out early that nothing can be written there. Fails with
     /// [`WriteError::Folder`].
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
         let fail = |source| WriteError::Folder { path: folder.into(), source };
@@ -146,10 +144,8 @@ impl FileSet {
         Ok(staged)
     }
 
-    /// Writes the file `name` through `fill`.
-    ///
-    /// # Errors
-    /// [`WriteError::Name`] for a name that leaves the folder, [`WriteError::File`] when it cannot be written.
+    /// Writes the file `name` through `fill`. Fails with [`WriteError::Name`] for a name that leaves the folder,
+    /// [`WriteError::File`] when it cannot be written.
     pub fn write(
         &mut self,
         name: &Path,
@@ -161,10 +157,7 @@ impl FileSet {
 
     /// Moves all files to their places and returns these, in the order of staging. Likely failures (a file that was
     /// staged but not written, a path that is a folder, a subfolder that cannot be created) are checked before the
-    /// first rename.
-    ///
-    /// # Errors
-    /// [`WriteError`]; unless a rename itself fails, nothing has been moved then.
+    /// first rename. Fails with [`WriteError`]; unless a rename itself fails, nothing has been moved then.
     pub fn commit(self) -> Result<Vec<PathBuf>, WriteError> {
         let places: Vec<PathBuf> = self.names.iter().map(|name| self.folder.join(name)).collect();
         for (name, place) in self.names.iter().zip(&places) {

@@ -36,7 +36,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
     if !root.asset.version.starts_with("2.") {
         return Err(wrong("asset.version", "2.0", quoted(root.asset.version.as_bytes())));
     }
-    // A file that needs what a later version brought (glTF 2.0, section 3.2).
+    // A file that needs features of a later version (glTF 2.0, section 3.2).
     if let Some(least) = root.asset.min_version.as_ref().filter(|least| *least != "2.0" && !least.starts_with("1.")) {
         return Err(wrong("asset.minVersion", "2.0", quoted(least.as_bytes())));
     }

@@ -32,10 +32,8 @@ use geometry::Geometry;
 use material::Materials;
 
 /// Reads a scene from the bytes of a glTF file; `name` is the file's name in messages, and `beside` reads a file in the
-/// same folder. It has no views and no point lights. Never panics.
-///
-/// # Errors
-/// [`InputError`], with the part of the file, counted from 0 as the format does.
+/// same folder. It has no views and no point lights. Never panics. Fails with [`InputError`], with the part of the
+/// file, counted from 0 as the format does.
 pub fn parse_gltf(
     bytes: &[u8],
     name: &Path,

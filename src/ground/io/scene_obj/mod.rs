@@ -30,10 +30,7 @@ use crate::scene::Scene;
 use reader::SceneReader;
 
 /// Reads a scene from bytes; `name` is the file's name in messages, and `library` reads a material library. Never
-/// panics.
-///
-/// # Errors
-/// [`InputError`], with the line where there is one.
+/// panics. Fails with [`InputError`], with the line where there is one.
 pub fn parse_scene(
     bytes: &[u8],
     name: &Path,

@@ -179,7 +179,7 @@ impl MaterialNames {
     fn of(materials: &[Material]) -> Self {
         let (mut whole, mut plain) = (BTreeMap::new(), BTreeMap::new());
         for (place, material) in (0..).zip(materials) {
-            // Of two libraries with the same material, the first counts.
+            // If two libraries have the same material, the first counts.
             if let Entry::Vacant(vacant) = whole.entry(material.name.clone()) {
                 vacant.insert(place);
                 let same = plain.entry(without_comment(&material.name).to_owned());

@@ -6,10 +6,8 @@ use std::io::{self, Write};
 use crate::scene::{Color, Material, Scene, Surface};
 
 /// Writes the triangles with their normals and the names of their materials; `library` is the file that [`write_mtl`]
-/// fills.
-///
-/// # Errors
-/// Those of the writer; [`io::ErrorKind::InvalidInput`] where names of materials repeat, or cannot end a line.
+/// fills. Errors: those of the writer; [`io::ErrorKind::InvalidInput`] where names of materials repeat, or cannot end a
+/// line.
 pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Result<()> {
     check_names(scene.materials())?;
     writeln!(out, "mtllib {library}")?;
@@ -45,10 +43,8 @@ pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Res
     Ok(())
 }
 
-/// Writes the materials. A glossy one whose lobe is black reads back as diffuse, which it is.
-///
-/// # Errors
-/// As [`write_scene`].
+/// Writes the materials. A glossy one whose lobe is black reads back as diffuse, which it is. Fails as [`write_scene`]
+/// does.
 pub fn write_mtl(materials: &[Material], out: &mut dyn Write) -> io::Result<()> {
     check_names(materials)?;
     for material in materials {

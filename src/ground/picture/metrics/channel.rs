@@ -35,7 +35,7 @@ pub struct ChannelDifference {
     pub differing: u64,
     /// Number of NaN samples in each picture.
     pub nan: [u64; 2],
-    /// Number of samples that differ and of which at least one is not finite.
+    /// Number of differing samples with at least one non-finite side.
     pub not_finite: u64,
     /// Root mean squared difference, over samples that are finite in both.
     pub rmse: f64,
@@ -48,20 +48,15 @@ pub struct ChannelDifference {
 }
 
 /// Compares the channels of two pictures, or only those that `names` lists, in the order of the first picture. Where
-/// one side is sRGB-encoded and the other linear, the former is decoded.
-///
-/// # Errors
-/// [`InputError`] if the pictures have no samples to compare.
+/// one side is sRGB-encoded and the other linear, the former is decoded. Fails with [`InputError`] if the pictures have
+/// no samples to compare.
 pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec<ChannelDifference>, InputError> {
     let pairs = pairs(left, right, names)?;
     Ok(pairs.into_iter().map(|pair| difference(pair, left.width())).collect())
 }
 
 /// Computes second minus first, sample by sample: the difference of floats; for integers 1 where they differ, otherwise
-/// 0.
-///
-/// # Errors
-/// [`InputError`], as [`channels`].
+/// 0. Fails with [`InputError`], as [`channels`].
 pub fn signed_differences(
     left: &Picture,
     right: &Picture,

@@ -7,9 +7,7 @@ use crate::error::InputError;
 /// Rec. 709 luma weights of red, green and blue.
 pub(super) const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Computes second minus first, pixel by pixel, of the luminance times `exposure`, without clipping.
-///
-/// # Errors
+/// Computes second minus first, pixel by pixel, of the luminance times `exposure`, without clipping. Fails with
 /// [`InputError`] if a picture has neither `R`, `G` and `B` nor `Y`.
 pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -> Result<Vec<f64>, InputError> {
     let pairs = luminance(first)?.into_iter().zip(luminance(second)?);
@@ -17,10 +15,7 @@ pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -
 }
 
 /// Computes the differences of luminance relative to the first picture: -0.1 is a tenth darker. Where the first is
-/// black, 0 if the second is black too, otherwise not finite.
-///
-/// # Errors
-/// As [`luminance_differences`].
+/// black, 0 if the second is black too, otherwise not finite. Fails as [`luminance_differences`] does.
 pub fn relative_luminance_differences(first: &Picture, second: &Picture) -> Result<Vec<f64>, InputError> {
     let pairs = luminance(first)?.into_iter().zip(luminance(second)?);
     Ok(pairs.map(|(a, b)| if a == b { 0.0 } else { (b - a) / a }).collect())

@@ -2,10 +2,10 @@
 //! Table I): a chair and a temple. The original models are not available. The temple has only its outside, since the
 //! paper's has many non-zero values per vertex; our counts, which follow from that, are not evidence.
 //!
-//! Parts are flat or curved faces and tubes, of which every one is a grid of triangles with its own normals. Texture
-//! coordinates are lengths, 1 per unit, along the edges of a face. Where a tube closes, vertices are repeated, which
-//! have the same position, normal and tangent and count once. Units are those of the models: the chair is 1 high, the
-//! temple 2.4 wide.
+//! Parts are flat or curved faces and tubes; each is a grid of triangles with its own normals. Texture coordinates are
+//! lengths, 1 per unit, along the edges of a face. Where a tube closes, vertices are repeated, which have the same
+//! position, normal and tangent and count once. Units are those of the models: the chair is 1 high, the temple 2.4
+//! wide.
 
 use std::collections::BTreeSet;
 
@@ -96,8 +96,8 @@ impl FlatParts {
         corners.flat_map(|(corners, &material)| corners.map(|at| key(at, material))).collect::<BTreeSet<_>>().len()
     }
 
-    /// Builds the parts with the shortest edges that give at most this many vertices, of which some at the corners of
-    /// frames are the same; edge lengths are tried in steps of a hundredth, from the longest.
+    /// Builds the parts with the shortest edges that give at most this many vertices (some at the corners of frames
+    /// coincide); edge lengths are tried in steps of a hundredth, from the longest.
     fn finest(vertices: usize, build: fn(&mut Self)) -> Self {
         let of = |edge: f64| {
             let mut parts = Self { edge, ..Self::default() };
@@ -263,7 +263,7 @@ fn chair(parts: &mut FlatParts) {
         parts.tube(at(1.1 * x, 0.25, 0.0), at(x, 0.215, 0.4), [0.02, 0.028], frame);
         parts.tube(at(x, 0.215, 0.4), at(x, 0.26, 1.0), [0.028, 0.02], frame);
         parts.tube(at(x, -0.2, 0.2), at(x, 0.2, 0.2), [0.015, 0.015], frame);
-        // Arms, of which the upper side is bent.
+        // Arms with a bent upper side.
         parts.sides([x - 0.04, -0.27, 0.64], [x + 0.04, 0.2, 0.66], frame);
         parts.face(at(x - 0.04, 0.2, 0.64), at(0.08, 0.0, 0.0), at(0.0, -0.47, 0.0), frame);
         let sides = [at(0.08, 0.0, 0.0), at(0.0, 0.47, 0.0)];

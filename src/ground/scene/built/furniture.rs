@@ -30,7 +30,7 @@ pub(super) fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.block(place, cushion[0], cushion[1], palette.black);
     parts.frustum(place, [[-0.23, -0.22, 0.47], [0.23, 0.22, 0.51]], 0.025, [palette.cloth; 6]);
     parts.block(place, [-0.03, -0.29, 0.40], [0.03, -0.26, 0.70], palette.metal);
-    // From its upper edge down: x across, y along the back, z towards whoever sits.
+    // From its upper edge down: x across, y along the back, z towards the sitter.
     let back = place.to(0.0, -0.30, 1.04).turned(0, -0.23);
     parts.block(back, [-0.22, 0.0, -0.03], [0.22, 0.46, 0.0], palette.black);
     parts.frustum(back, [[-0.21, 0.01, 0.0], [0.21, 0.45, 0.035]], 0.03, [palette.cloth; 6]);

@@ -1,8 +1,8 @@
 //! Bodies composed of rounded pieces that flow into each other, and their surfaces.
 //!
 //! A body is the set of points where a function is negative. Its surface is found by tetrahedra (six to a cell of a
-//! grid: Doi, Koide 1991), which is closed whatever the function, coarsened to the number of vertices that is wanted,
-//! and moved onto the zeros of the function.
+//! grid: Doi, Koide 1991), which is closed for any function, coarsened to the number of vertices that is wanted, and
+//! moved onto the zeros of the function.
 
 use std::collections::BTreeMap;
 
@@ -84,7 +84,7 @@ impl Folds {
 /// Step of a body's construction.
 #[derive(Clone, Copy, Debug)]
 enum BodyStep {
-    /// Adds a piece, with the width in which it flows into what is there.
+    /// Adds a piece, with the width of its blend into the body.
     Add(RoundedPiece, f64),
     /// Removes a piece in the same way.
     Carve(RoundedPiece, f64),
@@ -99,7 +99,6 @@ pub(super) struct RoundedBody {
 }
 
 impl RoundedBody {
-    /// Adds a piece.
     pub(super) fn add(&mut self, piece: RoundedPiece, width: f64) {
         self.steps.push((BodyStep::Add(piece, width), false));
     }
@@ -119,7 +118,7 @@ impl RoundedBody {
         self.steps.push((BodyStep::Carve(piece, width), true));
     }
 
-    /// Folds what is there.
+    /// Folds the body.
     pub(super) fn fold(&mut self, folds: Folds) {
         self.steps.push((BodyStep::Fold(folds), false));
     }

@@ -127,10 +127,8 @@ impl Parts {
         }
     }
 
-    /// Returns the finished scene.
-    ///
-    /// # Panics
-    /// If a generator made coordinates that are not finite; the tests build every scene.
+    /// Returns the finished scene. Panics if a generator made coordinates that are not finite; the tests build every
+    /// scene.
     pub(super) fn scene(self, views: Vec<View>, point_lights: Vec<PointLight>) -> Scene {
         let mesh = Mesh::new(self.welder.into_positions(), self.triangles).expect("places are finite");
         let mut scene =

@@ -41,7 +41,7 @@ impl ClosedSurface {
         }
     }
 
-    /// The part with the most triangles: without what it encloses, and without splinters.
+    /// The part with the most triangles, without enclosed parts and splinters.
     pub(super) fn outermost(self) -> Self {
         let mut part: Vec<u32> = (0..self.positions.len() as u32).collect();
         let first = |part: &mut Vec<u32>, mut at: u32| {
@@ -188,7 +188,7 @@ struct Coarsening {
     triangles: Vec<[u32; 3]>,
     /// Triangles around each vertex.
     around: Vec<Vec<usize>>,
-    /// How often the edges of a vertex have changed.
+    /// Number of changes to the edges of a vertex.
     changes: Vec<u32>,
     /// Edges by length, with the changes of both ends at which this was theirs.
     shortest: BinaryHeap<Reverse<RankedEdge>>,

@@ -103,7 +103,7 @@ pub fn cornell(what: CornellBox) -> Scene {
     room.scene(eye, target, if what.open { 0.345 } else { 1.2 })
 }
 
-/// Adds the ceiling in nine pieces, of which the middle one emits.
+/// Adds the ceiling in nine pieces; the middle one emits.
 fn ceiling_with_light(room: &mut RoomBuilder) {
     let (xs, ys, z) = ([0.0, 2.1, 3.4, 5.5], [0.0, 2.25, 3.3, 5.5], 5.5);
     for j in 0..3 {

@@ -1,6 +1,6 @@
 //! Models with the vertex counts of those in the papers on compressed transfer (Table 1 of each): the Stanford bunny,
-//! and stand-ins for those that are not available, a Buddha, a bird, a head, an armor, and two polygons of which one
-//! shadows the other.
+//! and stand-ins for those that are not available, a Buddha, a bird, a head, an armor, and two polygons, one shadowing
+//! the other.
 //!
 //! All have normals and texture coordinates. All but the polygons are closed; where the texture's two ends meet, the
 //! mesh repeats vertices, which have the same position, normal and tangent and count once.

@@ -11,7 +11,7 @@ fn floats_come_back_as_the_format_holds_them() {
     for (format, expected) in [
         (TexelFormat::Rgba32f, texels.texels.clone()),
         (TexelFormat::Rgba16f, vec![[1.0, -0.0, 0.333_251_95, 65504.0], [0.099_975_586, 2.0, 3.0, 4.0]]),
-        // What the card reads of the components that the format lacks.
+        // Values that the card reads for components that the format lacks.
         (TexelFormat::R32f, vec![[1.0, 1.0, 1.0, 1.0], [0.1, 1.0, 1.0, 1.0]]),
     ] {
         let texture = texels.upload(&mut machine, format).expect("a texture");

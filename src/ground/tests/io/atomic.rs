@@ -112,7 +112,6 @@ fn names_stay_below_the_folder() {
     assert!(matches!(write_file(&file.join("x"), |_| Ok(())), Err(WriteError::Folder { .. })));
 }
 
-/// Other files in the folder stay as they are.
 #[test]
 fn files_of_others_stay() {
     let root = tempfile::tempdir().expect("a folder");

@@ -42,7 +42,7 @@ fn volume(mesh: &Mesh) -> f64 {
     mesh.iter_corners().map(|corners| corners.map(wide)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
 }
 
-/// The bunny's box is 2.5 long and lies around the origin, whatever the number of vertices.
+/// The bunny's box is 2.5 long and lies around the origin, for any number of vertices.
 #[test]
 fn the_bunny_is_as_large_as_stand_ins_are() {
     for coarser in 1..=4 {

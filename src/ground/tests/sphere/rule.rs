@@ -38,7 +38,7 @@ fn walls_at_any_azimuth_are_told_about_as_well() {
     let rms = |rule: &DirectionRule| {
         let off = |wall: usize| {
             let [x, y] = elementary::on_circle(unit(wall, 0.754_877_666));
-            // Of the plane through the origin that the wall's upper edge spans: cos of its angle to the ground.
+            // Cosine of the angle between the ground and the plane through the origin and the wall's upper edge.
             let [c, s] = elementary::on_circle(0.25 * unit(wall, 0.569_840_291));
             let light = rule.integral(|v| if v.z * c > (v.x * x + v.y * y) * s { v.z } else { 0.0 });
             let exact = PI * (1.0 + c) / 2.0;
@@ -91,7 +91,7 @@ fn monomials_are_integrated_up_to_the_degree_and_not_beyond() {
     }
 }
 
-/// Every column of a spread rule integrates polynomials in z exactly, with weights above 0, from whatever phase.
+/// Every column of a spread rule integrates polynomials in z exactly, with weights above 0, for any phase.
 #[test]
 fn columns_of_any_phase_integrate_polynomials_with_weights_above_zero() {
     for (count, degree) in [(3, 0), (4, 1), (11, 8), (21, 18), (23, 18), (64, 30), (200, 18)] {

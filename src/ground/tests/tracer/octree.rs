@@ -70,7 +70,6 @@ fn corner() -> impl Strategy<Value = [f32; 3]> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// Each of the eight cells around the middle lists the triangles that touch it, and no others.
     #[test]
     fn a_cell_lists_the_triangles_that_touch_it(
         corners in prop::array::uniform3(corner()),

@@ -22,10 +22,7 @@ use super::visible::visible;
 use crate::error::InputError;
 
 impl Chart {
-    /// Encodes the chart as an SVG file.
-    ///
-    /// # Errors
-    /// If there is nothing to draw, or more series than distinguishable styles.
+    /// Encodes the chart as an SVG file. Fails if there is nothing to draw, or more series than distinguishable styles.
     pub fn svg(&self) -> Result<String, InputError> {
         let fail = |reason: String| not_encoded("SVG", reason);
         let count = self.lines.len() + self.dots.len();

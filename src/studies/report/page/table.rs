@@ -6,7 +6,7 @@ use super::super::palette::okabe_ito;
 use super::super::summary::TallyEntry;
 use super::super::{Cell, Figure, Table};
 
-/// Name of the column that is second on the page, whatever its place in the files.
+/// Name of the column that is second on the page; files keep its own place.
 const VERDICT: &str = "verdict";
 
 /// Most rows of a table that is shown in full: a longer one scrolls in a box as high as the window.

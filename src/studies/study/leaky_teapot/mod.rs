@@ -137,10 +137,8 @@ fn hits(
     Ok(ConfigurationHits { view, edges: list(edges)?, vertices: list(vertices)? })
 }
 
-/// Traces all configurations. `progress` is called with the label of each before it starts.
-///
-/// # Errors
-/// If a configuration has no intersection program, or the card refuses the work.
+/// Traces all configurations. `progress` is called with the label of each before it starts. Fails if a configuration
+/// has no intersection program, or the card refuses the work.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<TeapotOutcome, EngineError> {
     let aimed = aimed(parameters);
     let found = of_range(parameters, &aimed, 0..parameters.cases().count(), progress)?;

@@ -124,7 +124,7 @@ impl Tally {
 pub struct TeapotRow {
     /// Configuration.
     pub configuration: Configuration,
-    /// How the program evaluates edges.
+    /// Rule by which the program evaluates edges.
     pub edge_rule: EdgeRule,
     /// Cost of an intersection.
     pub cost: IntersectionCost,

@@ -1,4 +1,4 @@
-//! One element of a product, block by block: where it parts, and what each addend lost there.
+//! One element of a product, block by block: the block with the first difference, and the loss of each addend there.
 
 use refsim::num::matrix::{Element, MatrixError};
 

@@ -8,7 +8,6 @@ use refsim::num::{Format, ops};
 use super::operands::MatrixInput;
 use crate::io::NumbersOrCodes;
 
-/// Rows of one task.
 const TASK_ROWS: usize = 8;
 
 /// The operands of a product in the types of a unit.
@@ -58,10 +57,8 @@ impl ExactSum {
 }
 
 impl MatrixOperands {
-    /// Quantises A, B and C for a unit; `elements` are the types of A and B, by default the unit's first.
-    ///
-    /// # Errors
-    /// If shapes do not fit, or the unit does not take such operands.
+    /// Quantises A, B and C for a unit; `elements` are the types of A and B, by default the unit's first. Fails if
+    /// shapes do not fit, or the unit does not take such operands.
     pub fn new(
         unit: MatrixUnit,
         [a, b]: [&MatrixInput; 2],
@@ -114,11 +111,9 @@ impl MatrixOperands {
         Ok(self.words(unit, depth, promote)?.into_iter().map(number).collect())
     }
 
-    /// Words of D over the first `depth` products, by a unit that takes the same operands. With `promote`, every so many
-    /// products go to a sum in single precision, rounded to nearest even, and the unit begins again from zero.
-    ///
-    /// # Errors
-    /// If the unit does not go with the promotion.
+    /// Words of D over the first `depth` products, by a unit that takes the same operands. With `promote`, every so
+    /// many products go to a sum in single precision, rounded to nearest even, and the unit begins again from zero.
+    /// Fails if the unit does not go with the promotion.
     pub fn words(&self, unit: &MatrixUnit, depth: usize, promote: Option<usize>) -> Result<Vec<u64>, MatrixError> {
         let result = unit.result.element;
         let multiple = unit.block.max(self.a.share);

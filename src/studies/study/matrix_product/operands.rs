@@ -28,10 +28,8 @@ pub struct MatrixInput {
 }
 
 impl MatrixInput {
-    /// Reads a matrix from an array of NumPy's.
-    ///
-    /// # Errors
-    /// If the file cannot be read, is longer than 1 GiB, or holds no array of two axes.
+    /// Reads a matrix from an array of NumPy's. Fails if the file cannot be read, is longer than 1 GiB, or holds no
+    /// array of two axes.
     pub fn load(path: &Path) -> Result<Self, InputError> {
         let made = Self { name: path.display().to_string(), data: load_numbers_or_codes(path, "matrix", MAX_BYTES)? };
         match made.shape() {
@@ -41,10 +39,7 @@ impl MatrixInput {
         }
     }
 
-    /// Rows and columns.
-    ///
-    /// # Errors
-    /// If there are not two axes, or one is empty.
+    /// Rows and columns. Fails if there are not two axes, or one is empty.
     pub fn shape(&self) -> Result<[usize; 2], MatrixError> {
         let shape = match &self.data {
             NumbersOrCodes::Numbers(array) => &array.shape,

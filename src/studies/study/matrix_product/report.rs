@@ -11,7 +11,6 @@ use crate::study::StudyError;
 
 /// Maximum number of addends that are printed; those that lose most.
 const MOST_ADDENDS: usize = 10;
-/// Lines of the chart, at most.
 const MOST_LINES: usize = 12;
 
 const ERRORS: &str = "Errors are shares of the reference's magnitude, element by element: worst is the largest, mean has the sign \
@@ -124,7 +123,7 @@ fn errors(title: &str, outcome: &ProductOutcome, skipped: usize) -> Table {
     table
 }
 
-/// Worst error over depth; none if there is no error at two depths.
+/// Worst error over depth; none without errors at two depths.
 fn chart(outcome: &ProductOutcome) -> Option<NamedChart> {
     let line = |row: &ProductRow| {
         let points = outcome.depths.iter().zip(&row.errors).map(|(&depth, errors)| (depth as f64, errors.worst));

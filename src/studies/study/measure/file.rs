@@ -52,10 +52,8 @@ struct Row {
     depth: Option<u32>,
 }
 
-/// Reads measured pixels from a file.
-///
-/// # Errors
-/// If the file cannot be read, is too long or is not such a table: the message has the path and the line.
+/// Reads measured pixels from a file. Fails if the file cannot be read, is too long or is not such a table: the message
+/// has the path and the line.
 pub fn load_measurement(path: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
     let unreadable = |source| {
         StudyError::new("crossbar::measure::file", format!("cannot read the measured pixels {}", path.display()))
@@ -71,10 +69,8 @@ pub fn load_measurement(path: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
     parse_measurement(&bytes, path)
 }
 
-/// Reads measured pixels from bytes; `name` is the path of the file, to which paths of cases are relative.
-///
-/// # Errors
-/// If it is not such a table, or has no pixels.
+/// Reads measured pixels from bytes; `name` is the path of the file, to which paths of cases are relative. Fails if it
+/// is not such a table, or has no pixels.
 pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
     let wrong = |line: u64, found: String| {
         StudyError::new("crossbar::measure::table", format!("{}:{line}: {found}", name.display())).with_help(HELP)

@@ -1,4 +1,4 @@
-//! Settings of a device's switches that draw what was measured.
+//! Settings of a device's switches that reproduce measured pixels.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -55,11 +55,8 @@ struct CaseCounts {
 }
 
 impl Survey {
-    /// Draws every case under all settings of the switches that its measured pixels depend on.
-    ///
-    /// # Errors
-    /// If a case cannot be drawn on the device as it is, a pixel lies outside its target, or there are too many
-    /// settings.
+    /// Draws every case under all settings of the switches that its measured pixels depend on. Fails if a case cannot
+    /// be drawn on the device as it is, a pixel lies outside its target, or there are too many settings.
     pub(super) fn new(measure: &Measure, progress: &mut ProgressFn<'_>) -> Result<Self, StudyError> {
         let Measure { profile, cases, .. } = measure;
         let questions = questions(measure);
@@ -233,7 +230,7 @@ pub(super) fn measured(pixel: &MeasuredPixel) -> impl Iterator<Item = (usize, u3
     all.into_iter().enumerate().filter_map(|(at, code)| Some((at, code?)))
 }
 
-/// Draws a case and returns what is stored where something was measured.
+/// Draws a case and returns the stored codes at measured pixels.
 fn codes(setup: &Setup, pixels: &[MeasuredPixel]) -> Result<Vec<u32>, CaseError> {
     let mut loaded = Loaded::new(setup, ExecutorKind::Scalar)?;
     loaded.draw()?;

@@ -37,7 +37,7 @@ const OPERATIONS: [(Op, &str, usize); 17] = [
     (Op::Cos, "cos", 2),
 ];
 
-/// Formats, with what had them.
+/// Formats, with the hardware that had them.
 const FORMATS: [(&str, &str); 8] = [
     ("s3.12", "Radeon 8500"),
     ("s1.10", "GeForce FX fixed point"),

@@ -20,10 +20,8 @@ use crate::study::{ProgressFn, StudyError};
 const WASM: &[u8] = b"\0asm";
 
 /// Renders the page as one self-contained HTML file, with the emulator (`refsim/web`, compiled to WebAssembly) in it if
-/// given. `progress` is called with the name of each part before it starts.
-///
-/// # Errors
-/// If the card refuses the pictures, a picture cannot be encoded, or the emulator is not a WebAssembly module.
+/// given. `progress` is called with the name of each part before it starts. Fails if the card refuses the pictures, a
+/// picture cannot be encoded, or the emulator is not a WebAssembly module.
 pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<String, StudyError> {
     if emulator.is_some_and(|bytes| !bytes.starts_with(WASM)) {
         let error = StudyError::new("page::emulator", "expected a WebAssembly module as the emulator");

@@ -110,7 +110,6 @@ impl FormatBits {
         if digits < self.digits { self } else { Self { range, digits, ..self } }
     }
 
-    /// Narrowest format of the family.
     pub(super) fn narrowest(family: FormatFamily) -> Self {
         let range = *family.range_bits().start();
         Self { family, range, digits: *family.digit_bits(range).start() }

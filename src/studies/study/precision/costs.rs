@@ -33,9 +33,7 @@ struct CostRow {
 
 impl FormatCosts {
     /// Reads a table with the header `bits,cost`: a format costs as much as the narrowest width listed that holds it.
-    ///
-    /// # Errors
-    /// If the file cannot be read or is not such a table: the message has the path and the line.
+    /// Fails if the file cannot be read or is not such a table: the message has the path and the line.
     pub fn load(path: &Path) -> Result<Self, StudyError> {
         let name = path.display();
         let unreadable = |source| {
@@ -52,7 +50,7 @@ impl FormatCosts {
         })
     }
 
-    /// Parses the table; an error is a line and what is wrong there.
+    /// Parses the table; an error is a line and its defect.
     fn parse(bytes: &[u8]) -> Result<Self, (u64, String)> {
         let broken = |error: csv::Error| {
             let line = error.position().map_or(1, csv::Position::line);

@@ -2,7 +2,7 @@
 
 use refsim::machine::{Executor, ExecutorKind};
 
-/// The batch and the scalar executor, which keep what they decoded from run to run.
+/// The batch and the scalar executor, which keep decoded programs between runs.
 #[derive(Clone, Debug)]
 pub(super) struct SubjectExecutors {
     pub(super) batch: Executor,

@@ -1,4 +1,4 @@
-//! Which expressions of a shader in WGSL may be f16.
+//! Finds the expressions of a WGSL shader that may be f16.
 
 use super::bits::{Assignment, FormatBits};
 use super::runs::{RunError, Runs};

@@ -42,7 +42,7 @@ fn loss(runs: &mut Runs<'_>, assignment: &Assignment) -> Result<f64, RunError> {
     Ok(runs.goal.loss(value, exact))
 }
 
-/// Finds what one instruction is to blame for.
+/// Computes the blame of one instruction.
 pub(super) fn blame(
     needs: &mut InstructionNeeds,
     place: usize,
@@ -51,7 +51,7 @@ pub(super) fn blame(
 ) -> Result<(), RunError> {
     let mut others = runs.uniform(all.bits);
     others[place] = None;
-    // Without a loss nobody is to blame.
+    // Without a loss every blame is zero.
     let share = |loss: f64| match (loss == 0.0, loss.is_finite() && all.loss.is_finite()) {
         (true, _) => Some(0.0),
         (_, true) if all.loss > 0.0 => Some(loss / all.loss),

@@ -93,10 +93,7 @@ impl PrecisionOutcome {
 }
 
 impl Precision {
-    /// Goal of the study.
-    ///
-    /// # Errors
-    /// If the subject does not have its measure.
+    /// Goal of the study. Fails if the subject does not have its measure.
     pub(super) fn goal(&self) -> Result<Goal, StudyError> {
         let Some(goal) = &self.goal else { return Ok(self.subject.default_goal()) };
         let names: Vec<&str> = self.subject.measures().iter().map(|measure| measure.name).collect();
@@ -109,10 +106,7 @@ impl Precision {
         Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
     }
 
-    /// Runs of the subject.
-    ///
-    /// # Errors
-    /// If no runs are allowed, or no instruction has a format.
+    /// Runs of the subject. Fails if no runs are allowed, or no instruction has a format.
     pub(super) fn runs<'a>(
         &'a self,
         goal: &'a Goal,
@@ -138,10 +132,8 @@ impl Precision {
         Ok(runs)
     }
 
-    /// Runs the study until its end or that of the budget.
-    ///
-    /// # Errors
-    /// If the exact run misses the goal, or the subject cannot be run.
+    /// Runs the study until its end or that of the budget. Fails if the exact run misses the goal, or the subject
+    /// cannot be run.
     pub(super) fn outcome(&self, runs: &mut Runs<'_>) -> Result<PrecisionOutcome, StudyError> {
         let mut outcome = PrecisionOutcome::default();
         match self.run(runs, &mut outcome) {
@@ -240,7 +232,7 @@ impl FamilyOutcome {
         Ok(())
     }
 
-    /// Finds what each instruction needs, and the mixed formats.
+    /// Finds the bits that each instruction needs, and the mixed formats.
     fn run(&mut self, costs: &FormatCosts, runs: &mut Runs<'_>) -> Result<(), RunError> {
         let Some(minimum) = self.curve.minimum else { return Ok(()) };
         let order = self.share_blame(minimum, runs)?;

@@ -14,7 +14,6 @@ pub(super) fn most_blamed<'t>(traces: &'t [RefutationTrace], family: &FamilyOutc
     traces.iter().min_by(|a, b| blame(b).total_cmp(&blame(a)))
 }
 
-/// Title of the table of one trace.
 pub(super) fn title(trace: &RefutationTrace, runs: &Runs<'_>) -> String {
     let [line, text] = named_line(trace.refuted.place, runs).map(|cell| cell.text());
     let [column, row] = trace.traced.pixel;

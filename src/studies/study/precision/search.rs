@@ -63,7 +63,7 @@ pub(super) fn search(
         return Ok(());
     }
     let result = descend(&mut formats, order, runs);
-    // Every step of the descent meets the goal, and so does what the budget leaves unfinished.
+    // Every step of the descent meets the goal, and so does a search cut off by the budget.
     let cost = costs.sum(&formats);
     if best.as_ref().is_none_or(|best| cost < best.cost) {
         *best = Some(MixedFormats { cost, is_minimal: result.is_ok(), refuted: refuted(&formats, runs), formats });
@@ -85,7 +85,7 @@ fn descend(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> 
     remove_bits(formats, order, runs)
 }
 
-/// Narrows one instruction by bisection of one field, of which it has the most bits of `field`.
+/// Narrows one instruction by bisection of one field, starting from the bits of `field`.
 fn narrow(
     formats: &mut [FormatBits],
     place: usize,

@@ -171,46 +171,33 @@ pub trait PrecisionSubject {
     /// Everything that decides the values of a run beside its device, for a digest.
     fn content(&self) -> &dyn Debug;
 
-    /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`.
-    ///
-    /// # Errors
-    /// If the device cannot run the programs.
+    /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`. Fails if the
+    /// device cannot run the programs.
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
     /// Returns `true` if the exact run on this device, which differs in a switch, draws with pixel programs that are
-    /// none of the subject's.
-    ///
-    /// # Errors
-    /// If the device cannot run the programs.
+    /// none of the subject's. Fails if the device cannot run the programs.
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
         let _ = profile;
         Ok(false)
     }
 
-    /// Measures on held-out input; `None` if there is none.
-    ///
-    /// # Errors
-    /// If the device cannot run the programs.
+    /// Measures on held-out input; `None` if there is none. Fails if the device cannot run the programs.
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
         let _ = profile;
         Ok(None)
     }
 
     /// Results of instructions of a sample of fragments: of all in the exact run, and of rounded ones; empty if the
-    /// subject has no traces.
-    ///
-    /// # Errors
-    /// If the device cannot run the programs.
+    /// subject has no traces. Fails if the device cannot run the programs.
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
         let _ = (exact, rounded);
         Ok(SampledResults::default())
     }
 
     /// Follows a pixel on three devices: `worst`, that of the largest error of the last of them, or a pixel of an
-    /// earlier pass or another ray if `worst` does not run the program; `None` if the subject has no traces.
-    ///
-    /// # Errors
-    /// If a device cannot run the programs.
+    /// earlier pass or another ray if `worst` does not run the program; `None` if the subject has no traces. Fails if a
+    /// device cannot run the programs.
     fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
         let _ = (devices, worst);
         Ok(None)
@@ -237,7 +224,6 @@ pub(super) struct InstructionPlace {
 }
 
 impl InstructionPlace {
-    /// All its instructions.
     pub(super) fn instructions(&self) -> impl Iterator<Item = usize> + '_ {
         std::iter::once(self.at).chain(self.alike.iter().copied())
     }

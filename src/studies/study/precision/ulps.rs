@@ -8,9 +8,7 @@ use super::subject::FragmentResults;
 /// Error of an instruction's results, in units in the last place of its format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LocalError {
-    /// Median.
     pub(super) median: f64,
-    /// Largest.
     pub(super) largest: f64,
 }
 
@@ -32,7 +30,6 @@ fn exponent(value: f64) -> Option<i32> {
     Some(((value.to_bits() >> 52) & 0x7ff) as i32 - 1023)
 }
 
-/// Range of results.
 pub(super) fn range_of<'r>(results: impl IntoIterator<Item = &'r f64>) -> ResultRange {
     let mut range = ResultRange { exponents: None, not_finite: false };
     for value in results {
@@ -83,7 +80,7 @@ pub(super) fn errors_of<'r>(
 pub(super) fn local_error(errors: impl Iterator<Item = f64>) -> Option<LocalError> {
     let mut errors: Vec<f64> = errors.collect();
     errors.sort_by(f64::total_cmp);
-    // Of an even number the lower one, which is one of the errors.
+    // For an even count the lower one, which is one of the errors.
     let median = *errors.get(errors.len().checked_sub(1)? / 2)?;
     Some(LocalError { median, largest: *errors.last()? })
 }

@@ -1,4 +1,4 @@
-//! How far a compressed signal is from the original.
+//! Error of a compressed signal.
 
 use crate::clustering::{Clustering, Signal};
 use crate::report::digits::{Quantity, shown};

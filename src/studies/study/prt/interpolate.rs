@@ -108,7 +108,6 @@ impl SeenSurface {
     }
 }
 
-/// The pixels of a camera as a picture.
 pub(in crate::study) fn linear_picture(camera: &Camera, colors: &[[f64; 3]]) -> Picture {
     let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
     Picture::rgb(camera.width(), camera.height(), &single)

@@ -17,7 +17,7 @@ const WIDTH: u32 = 320;
 const MIDDLE_GREY: f64 = 0.18;
 
 /// Picture of the radiance from every direction, as a lat-long picture that `--light` reads: its middle is +y, its
-/// right +x, and up is +z. The median of the pixels that are not black is 18 % grey, whatever the sun does.
+/// right +x, and up is +z. The median of the pixels that are not black is 18 % grey, with any sun.
 pub(in crate::study) fn light_picture(
     name: impl Into<String>,
     light: &str,

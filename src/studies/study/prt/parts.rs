@@ -18,7 +18,7 @@ impl Concatenate for VisibilityMaps {
     }
 }
 
-/// Rays of the vertices of a range, and what these make of direct light.
+/// Rays of the vertices of a range, and their matrices of direct light.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct VertexTransfer {
     pub(super) answers: RayAnswers,

@@ -61,13 +61,13 @@ pub struct Precomputation<'a> {
     /// The size of the rule of directions over each vertex's hemisphere: [`DirectionRule::spread`], whose heights are
     /// all different, from 40 on; below, [`DirectionRule::hemisphere`] of this degree.
     pub degree: usize,
-    /// How often light is reflected on its way.
+    /// Number of interreflections.
     pub bounces: Bounces,
     /// A medium below the surface, if there is one.
     pub scatterer: Option<Scatterer>,
 }
 
-/// Transfer, and what was counted.
+/// Transfer, and its counts.
 #[derive(Debug)]
 pub struct Precomputed {
     /// The transfer.
@@ -76,11 +76,11 @@ pub struct Precomputed {
     pub directions: usize,
     /// Rays.
     pub counts: TransferCounts,
-    /// Per channel what each bounce added, as a share of the direct transfer.
+    /// Contribution of each bounce per channel, relative to the direct transfer.
     pub bounces: Vec<Vec<f64>>,
 }
 
-/// How the materials of a channel answer light.
+/// Responses of the materials of a channel.
 struct ChannelResponses {
     of_materials: Vec<Response>,
     /// Light that passes into the medium below the surface, with its dipole.
@@ -88,10 +88,8 @@ struct ChannelResponses {
 }
 
 impl Precomputation<'_> {
-    /// Traces the rays and computes the matrices.
-    ///
-    /// # Errors
-    /// If the mesh or a material does not suit the transfer, or its numbers exceed f32.
+    /// Traces the rays and computes the matrices. Fails if the mesh or a material does not suit the transfer, or its
+    /// numbers exceed f32.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
         let (rule, responses) = self.prepare()?;
         let found = self.of_range(0..self.vertices.len(), &rule, &responses, progress)?;
@@ -99,10 +97,8 @@ impl Precomputation<'_> {
     }
 
     /// The same, with the rays and matrices of direct light of all vertices, of those of a part, or of parts. Work that
-    /// needs all vertices is not split: bounces, and light that scatters below the surface.
-    ///
-    /// # Errors
-    /// Those of [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
+    /// needs all vertices is not split: bounces, and light that scatters below the surface. Errors: those of
+    /// [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,
         split: &SplitRun,

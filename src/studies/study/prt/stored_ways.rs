@@ -42,11 +42,11 @@ pub struct StoredComparison<'a> {
 pub struct StoredWay {
     /// The way, with its settings.
     pub name: String,
-    /// Bytes by layout, of which the first is that of the errors.
+    /// Bytes by layout; the errors belong to the first.
     pub sizes: Vec<StoredSize>,
     /// For each light the error of all its channels.
     pub errors: Vec<LocalLightError>,
-    /// How long it took to make.
+    /// Time of its computation.
     pub seconds: f64,
 }
 
@@ -54,10 +54,8 @@ pub struct StoredWay {
 pub type LightChannels = Vec<Vec<f64>>;
 
 impl StoredComparison<'_> {
-    /// All ways under some lights, biclusters first. `visit` sees each when it is made.
-    ///
-    /// # Errors
-    /// [`InputError`]; values that do not fit into a layout of narrow numbers are left out.
+    /// All ways under some lights, biclusters first. `visit` sees each when it is made. Fails with [`InputError`];
+    /// values that do not fit into a layout of narrow numbers are left out.
     pub fn ways(
         &self,
         lights: &[LightChannels],

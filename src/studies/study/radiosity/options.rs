@@ -179,10 +179,8 @@ impl RadiosityOptions {
         emit.chain(paint.map(|c| Change::Reflectance { material: c.material, reflectance: c.rgb })).collect()
     }
 
-    /// Every solver, those on the card in every packing and storage; nothing twice.
-    ///
-    /// # Errors
-    /// If an option for cards is given, and no method runs on a card.
+    /// Every solver, those on the card in every packing and storage; nothing twice. Fails if an option for cards is
+    /// given, and no method runs on a card.
     pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
         let solvers = if self.solvers.is_empty() { &usual[..] } else { &self.solvers };

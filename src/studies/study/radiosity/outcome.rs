@@ -12,7 +12,6 @@ use crate::radiosity::form_factor::RowSums;
 /// Results of one method.
 #[derive(Debug)]
 pub(super) struct MethodRow {
-    /// Method.
     pub(super) method: SolveMethod,
     /// Name of the method, unique in a study and valid as a file name.
     pub(super) label: String,
@@ -39,7 +38,6 @@ pub(super) struct MethodRow {
 /// Results of all methods.
 #[derive(Debug)]
 pub(super) struct RadiosityOutcome {
-    /// Patches.
     pub(super) patches: Patches,
     /// Row sums before closure was enforced.
     pub(super) found_sums: RowSums,

@@ -192,10 +192,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
 ];
 
 /// Returns the entries with these names, and those of papers with these names, in the order of [`ENTRIES`]; all entries
-/// for no names.
-///
-/// # Errors
-/// If neither a paper nor an entry has a name.
+/// for no names. Fails if neither a paper nor an entry has a name.
 pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, StudyError> {
     let names = |name: &String, entry: &ReproduceEntry| [entry.id, entry.paper.id()].contains(&name.as_str());
     if let Some(found) = wanted.iter().find(|name| !ENTRIES.iter().any(|entry| names(name, entry))) {

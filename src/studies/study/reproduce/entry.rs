@@ -73,18 +73,14 @@ impl ReproduceEntry {
         Ok(EntryFindings { rows, ..found })
     }
 
-    /// Computes the entry at full size, alone. Finished pieces of entries that take hours are kept, and taken.
-    ///
-    /// # Errors
-    /// Those of the entry, and of a folder in which pieces cannot be kept.
+    /// Computes the entry at full size, alone. Finished pieces of entries that take hours are kept, and taken. Errors:
+    /// those of the entry, and of a folder in which pieces cannot be kept.
     pub fn at_full_size(&self, kept: Rc<KeptResults>) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Printed).keeping(Some(kept)))
     }
 
-    /// Computes the entry alone on reduced models, which judge nothing: a test that a run at full size ends.
-    ///
-    /// # Errors
-    /// Those of the entry.
+    /// Computes the entry alone on reduced models, which judge nothing: a test that a run at full size ends. Errors:
+    /// those of the entry.
     pub fn on_reduced_models(&self) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Reduced))
     }

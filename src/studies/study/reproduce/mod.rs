@@ -71,11 +71,9 @@ pub struct Parameters {
     pub full_size: bool,
 }
 
-/// Computes entries, one after the other; those with a record ([`recorded`]) only at full size. Renderings and runs needed
-/// by several entries of a paper are made once. `progress` is called with the name of each.
-///
-/// # Errors
-/// That of the first entry that fails, also of a record that is malformed.
+/// Computes entries, one after the other; those with a record ([`recorded`]) only at full size. Renderings and runs
+/// needed by several entries of a paper are made once. `progress` is called with the name of each. Errors: that of the
+/// first entry that fails, also of a record that is malformed.
 pub fn reproduce(
     entries: &[ReproduceEntry],
     full_size: bool,

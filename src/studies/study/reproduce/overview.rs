@@ -31,7 +31,6 @@ pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     }
 }
 
-/// All rows.
 pub(super) fn rows(found: &Reproduced) -> impl Iterator<Item = &PaperRow> {
     found.iter().flat_map(|(_, found)| &found.rows)
 }

@@ -12,7 +12,7 @@ use crate::split::KeptResults;
 
 /// Result that entries share: of each type one per key, made where the type is.
 pub(super) trait SharedResult: Sized + 'static {
-    /// Which of the type's results.
+    /// Key of the result within its type.
     type Key: PartialEq + 'static;
 
     /// Computes the result, from others if it needs them.

@@ -11,8 +11,8 @@ use crate::subsurface::{Dipole, Reference};
 /// Names of the channels.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// How far radiosities are from others, as shares of the others; infinite if some are not finite and the others are, or
-/// the reverse.
+/// Differences of radiosities from others, relative to the others; infinite if some are not finite and the others are,
+/// or the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct GatherError {
     /// Root of the mean squared difference, over that of the others' values; by area, over all channels.

@@ -46,7 +46,7 @@ impl GatheredBands {
 }
 
 impl Concatenate for GatheredBands {
-    /// Lengths depend on the model, whose merge refuses what does not fit it.
+    /// Lengths depend on the model; a merge refuses parts that do not fit it.
     fn are_of(&self, range: &Range<usize>) -> bool {
         self.bands == range.len()
     }

@@ -59,7 +59,7 @@ fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let pairs = judged()
         .filter(|row| is_fixed(row))
         .filter_map(|fixed| Some((fixed, judged().find(|row| !is_fixed(row) && alike(fixed, row))?)));
-    // Of equal numbers the first.
+    // Among equal numbers the first.
     let (fixed, adaptive) = pairs.min_by_key(|(fixed, _)| Reverse(count(fixed)))?;
     let bins = || fixed.angles.iter().zip(&adaptive.angles);
     let better =

@@ -62,10 +62,8 @@ impl Study for Parameters {
 }
 
 /// Builds the atlas, lights it, gathers over all pairs and by every way: as a whole, in part, or out of parts of sums
-/// over all pairs and links, by bands of rows of texels.
-///
-/// # Errors
-/// If the model, its medium or its light does not suit the study, or the card refuses the work.
+/// over all pairs and links, by bands of rows of texels. Fails if the model, its medium or its light does not suit the
+/// study, or the card refuses the work.
 fn run(
     parameters: &Parameters,
     split: &SplitRun,

@@ -19,7 +19,6 @@ pub(super) struct ModelLengths {
     pub(super) diffusion_length: f64,
     /// The diagonal of the bounds.
     pub(super) diagonal: f64,
-    /// The shortest side of the bounds.
     pub(super) shortest_side: f64,
     /// Median distance to the opposite surface along the inward normal; `None` for open models.
     pub(super) thickness: Option<f64>,

@@ -81,10 +81,7 @@ fn yes_or_no() -> OneOf<bool> {
 }
 
 impl SubsurfaceOptions {
-    /// Checks the options that suit any medium.
-    ///
-    /// # Errors
-    /// If one is out of its range.
+    /// Checks the options that suit any medium. Fails if one is out of its range.
     pub fn check(&self) -> Result<(), StudyError> {
         if self.all_pairs == Some(true) && self.side > MAX_ALL_PAIRS_SIDE {
             let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
@@ -98,10 +95,8 @@ impl SubsurfaceOptions {
         self.all_pairs.unwrap_or(self.side <= ALL_PAIRS_SIDE)
     }
 
-    /// Every combination of what may be repeated: a row of the table for each.
-    ///
-    /// # Errors
-    /// If no level of the atlas has the requested number of fixed links.
+    /// Every combination of what may be repeated: a row of the table for each. Fails if no level of the atlas has the
+    /// requested number of fixed links.
     pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
         let [r, g, b] = material.channels;
         let choices = or(&self.choices, LinkLayout::Fixed);

@@ -16,7 +16,7 @@ pub(super) fn exposure(outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
     Ok(auto_exposure(&colors))
 }
 
-/// Figure 7: the first way with and without scattered light, and what is scattered alone.
+/// Figure 7: the first method with and without scattered light, and scattered light alone.
 pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let (whole, scattered) = (row.picture.linear()?, row.scattered.linear()?);
     let direct: Vec<[f32; 3]> = whole.iter().zip(&scattered).map(|(w, s)| [0, 1, 2].map(|c| w[c] - s[c])).collect();

@@ -1,4 +1,4 @@
-//! Seams: how far B is from smooth between neighbouring texels, beyond what B over all pairs is.
+//! Seams: roughness of B between neighbouring texels, beyond that of B over all pairs.
 
 use std::collections::BTreeMap;
 

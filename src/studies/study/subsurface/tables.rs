@@ -141,7 +141,7 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// A row per face: its area, what entered it, and B in every way.
+/// A row per face: its area, the light that entered it, and B by every method.
 pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let columns: Vec<(&str, Vec<[f64; 3]>)> =
         outcome.columns().map(|(label, texels)| (label, model::by_face(&outcome.atlas, texels))).collect();

@@ -1,4 +1,4 @@
-//! One way of gathering: links, the three passes, and what they cost.
+//! One method of gathering: links, the three passes, and their cost.
 
 use std::ops::Range;
 
@@ -59,7 +59,6 @@ impl<'a> Scene<'a> {
 pub(super) struct WayRow {
     /// Its name.
     pub(super) label: String,
-    /// The way.
     pub(super) way: GatherWay,
     /// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
     pub(super) lookups: [usize; 2],
@@ -73,7 +72,7 @@ pub(super) struct WayRow {
     pub(super) saturated: usize,
     /// The links' own error: the host's sum over them against all pairs.
     pub(super) links_error: Option<GatherError>,
-    /// How far its errors are from smooth among neighbouring texels, over B.
+    /// Roughness of its errors among neighbouring texels, relative to B.
     pub(super) seams: Option<f64>,
     /// The links' own error with means by number of texels.
     pub(super) plain_error: Option<GatherError>,
@@ -108,7 +107,6 @@ pub(super) fn link_bands(
     Ok(LinkBands::new(scene.surface, dipoles, way.choice, tolerance, range, &|_, _| {})?)
 }
 
-/// The links of a way.
 pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
     links_of(scene, way, link_bands(scene, way, 0..LinkBands::count(scene.parameters.options.side), progress)?)
 }

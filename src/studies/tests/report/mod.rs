@@ -9,7 +9,6 @@ mod texts;
 
 use crossbar_studies::report::{Findings, Provenance};
 
-/// The page of findings.
 fn page(mut found: Findings) -> String {
     let files = found.take_files(&Provenance::new("crossbar")).expect("all of it can be encoded");
     let (_, bytes) = files.into_iter().find(|(name, _)| name == "index.html").expect("a page");

@@ -55,7 +55,6 @@ impl StudyFiles {
     }
 }
 
-/// A number of a row of a table.
 fn number(row: &BTreeMap<String, String>, heading: &str) -> f64 {
     let text = row.get(heading).unwrap_or_else(|| panic!("no {heading} in {:?}", row.keys()));
     text.parse().unwrap_or_else(|_| panic!("{heading} is {text}"))

@@ -132,7 +132,7 @@ fn errors_are_told_by_angle() {
             let found = number(bin, heading);
             assert!((found - expected).abs() <= 1e-6 * expected.abs().max(1e-3), "{heading}: {found} {expected}");
         }
-        // Links are judged as the card is, but for what its formats round.
+        // Links are judged as the card is, except for the rounding of its formats.
         for (links, all) in [("links_percent", "all_percent"), ("links_rms_percent", "all_rms_percent")] {
             assert!((number(bin, links) - number(bin, all)).abs() < 0.5, "{bin:?}");
         }

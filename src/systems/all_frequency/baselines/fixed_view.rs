@@ -46,10 +46,7 @@ pub struct FixedView<'a>(pub BaselineSubject<'a>);
 
 impl FixedView<'_> {
     /// The row of a map's vertex: the contribution of each light texel of radiance 1 to its radiance towards a local
-    /// view.
-    ///
-    /// # Panics
-    /// If there is no such map.
+    /// view. Panics if there is no such map.
     pub fn row(&self, map: usize, view: DVec3) -> Vec<f64> {
         let BaselineSubject { vertices, maps, hats, product } = self.0;
         let response = |light: DVec3, into: &mut [f64]| into[0] = product.value(view, light);
@@ -65,10 +62,8 @@ impl FixedView<'_> {
 
     /// Radiance of each map's vertex towards an eye under each of some lights, which are radiances of the cube's
     /// texels: truncated ones as they are put together from the coefficients that are kept
-    /// ([`HaarLight::radiances`](crate::transfer::light::HaarLight::radiances)). 0 from below.
-    ///
-    /// # Panics
-    /// If a light does not have 6,144 texels.
+    /// ([`HaarLight::radiances`](crate::transfer::light::HaarLight::radiances)). 0 from below. Panics if a light does
+    /// not have 6,144 texels.
     pub fn radiance(&self, eye: DVec3, lights: &[&[[f64; 3]]]) -> Vec<Vec<[f64; 3]>> {
         assert!(lights.iter().all(|light| light.len() == LIGHT_TEXELS), "lights of {LIGHT_TEXELS} texels");
         let of_map = |map: usize| {

@@ -25,10 +25,7 @@ pub struct HarmonicTransfer<'a> {
 }
 
 impl<'a> HarmonicTransfer<'a> {
-    /// Baseline of an order; 5 in the paper.
-    ///
-    /// # Panics
-    /// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
+    /// Baseline of an order; 5 in the paper. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
     pub fn new(subject: BaselineSubject<'a>, order: usize) -> Self {
         let count = function_count(order);
         let mut functions = vec![0.0; FINE_DIRECTIONS * count];
@@ -42,10 +39,8 @@ impl<'a> HarmonicTransfer<'a> {
         &self.functions[fine * count..(fine + 1) * count]
     }
 
-    /// The light's coefficients: of its texels' radiances, interpolated by their hat functions.
-    ///
-    /// # Panics
-    /// If the light does not have 6,144 texels.
+    /// The light's coefficients: of its texels' radiances, interpolated by their hat functions. Panics if the light
+    /// does not have 6,144 texels.
     pub fn light(&self, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
         assert_eq!(texels.len(), LIGHT_TEXELS, "texels of a light");
         let mut coefficients = vec![[0.0; 3]; function_count(self.order)];
@@ -61,10 +56,8 @@ impl<'a> HarmonicTransfer<'a> {
         coefficients
     }
 
-    /// Radiance of each map's vertex towards an eye under a light of coefficients. 0 from below.
-    ///
-    /// # Panics
-    /// If there is not a coefficient per function.
+    /// Radiance of each map's vertex towards an eye under a light of coefficients. 0 from below. Panics if there is not
+    /// a coefficient per function.
     pub fn radiance(&self, eye: DVec3, light: &[[f64; 3]]) -> Vec<[f64; 3]> {
         assert_eq!(light.len(), function_count(self.order), "a coefficient per function");
         let incident = |fine: usize| {
@@ -88,8 +81,7 @@ impl<'a> HarmonicTransfer<'a> {
         (0..self.subject.maps.len()).into_par_iter().map(of_map).collect()
     }
 
-    /// The matrix of a map's vertex times the light: coefficients of the radiance that arrives where nothing is in the
-    /// way.
+    /// The matrix of a map's vertex times the light: coefficients of the unoccluded incident radiance.
     fn arriving(&self, map: usize, incident: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut coefficients = vec![[0.0; 3]; function_count(self.order)];
         for (block, &word) in self.subject.maps.bits(map).iter().enumerate() {

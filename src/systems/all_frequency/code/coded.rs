@@ -73,13 +73,8 @@ impl CodeSize {
 }
 
 impl CodedTransfer {
-    /// Quantises compressed transfer.
-    ///
-    /// # Errors
-    /// [`InputError`].
-    ///
-    /// # Panics
-    /// If a segment has more than 65,536 clusters, or a cluster more than 255 vectors.
+    /// Quantises compressed transfer. Panics if a segment has more than 65,536 clusters, or a cluster more than 255
+    /// vectors.
     pub fn new(transfer: &CompressedTransfer, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let segments = transfer.segments.par_iter().map(|part| CodedSegment::new(part, options)).collect();
@@ -132,13 +127,7 @@ impl CodedTransfer {
 }
 
 impl CodedSegment {
-    /// Quantises a compressed segment.
-    ///
-    /// # Errors
-    /// [`InputError`].
-    ///
-    /// # Panics
-    /// As [`CodedTransfer::new`].
+    /// Quantises a compressed segment. Panics: as [`CodedTransfer::new`].
     pub fn code(part: &CompressedSegment, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         Ok(Self::new(part, options))
@@ -146,13 +135,7 @@ impl CodedSegment {
 
     /// Quantises a compressed segment in an absolute step, the same for all representatives. Each is multiplied by the
     /// root mean square of its weights beforehand, so that its weights are about 1; numbers beyond 16 bits of the step
-    /// are cut off. Weights are coded by the options.
-    ///
-    /// # Errors
-    /// [`InputError`].
-    ///
-    /// # Panics
-    /// As [`CodedTransfer::new`].
+    /// are cut off. Weights are coded by the options. Panics: as [`CodedTransfer::new`].
     pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let sizes = mean_weights(&part.clustering, &firsts(&counts(&part.clustering)));

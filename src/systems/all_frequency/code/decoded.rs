@@ -53,10 +53,7 @@ impl CodedSegment {
         })
     }
 
-    /// The decoded transfer of one vertex, by its index within the segment.
-    ///
-    /// # Panics
-    /// If there is no such vertex.
+    /// The decoded transfer of one vertex, by its index within the segment. Panics if there is no such vertex.
     pub fn decoded(&self, at: usize) -> Vec<f64> {
         let (codes, columns) = (self.representatives.decode(), self.representatives.columns());
         let first = self.firsts()[usize::from(self.cluster_of[at])];
@@ -69,10 +66,8 @@ impl CodedSegment {
         sum
     }
 
-    /// Squared differences from the original transfer, vertex by vertex.
-    ///
-    /// # Panics
-    /// If the signal has another number of points or dimensions.
+    /// Squared differences from the original transfer, vertex by vertex. Panics if the signal has another number of
+    /// points or dimensions.
     pub fn squared_errors(&self, signal: &Signal) -> Vec<f64> {
         let shape = (self.vertices.len(), self.representatives.columns());
         assert_eq!((signal.points(), signal.dimension()), shape, "the signal's shape");

@@ -25,10 +25,7 @@ pub(in crate::all_frequency) struct SparseColumn<'a> {
 }
 
 impl SparseRows {
-    /// Encodes rows of `columns` numbers each, concatenated.
-    ///
-    /// # Panics
-    /// If `columns` is 0, or the last row is incomplete.
+    /// Encodes rows of `columns` numbers each, concatenated. Panics if `columns` is 0, or the last row is incomplete.
     pub fn encode(values: &[i16], columns: usize) -> Self {
         assert!(columns > 0 && values.len().is_multiple_of(columns), "whole rows");
         let mut sparse = Self { rows: values.len() / columns, columns, ..Self::default() };

@@ -108,7 +108,7 @@ impl ProductErrors {
     }
 }
 
-/// f at pairs of directions above the horizon, each of which represents a solid angle.
+/// f at pairs of directions above the horizon, each representing a solid angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HemisphereSamples {
     /// Directions of the views and of the lights.
@@ -216,13 +216,8 @@ fn inside(map: ParabolicMap) -> Vec<usize> {
 }
 
 /// Errors of harmonics of an order on both sides, at samples above the horizon. Coefficients are integrals with the
-/// functions, f being 0 below the horizon: sums over these samples, weighted by their solid angles.
-///
-/// # Errors
-/// [`InputError`] if a matrix is too large.
-///
-/// # Panics
-/// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
+/// functions, f being 0 below the horizon: sums over these samples, weighted by their solid angles. Fails with
+/// [`InputError`] if a matrix is too large. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
 pub fn harmonic_errors(samples: &HemisphereSamples, order: usize) -> Result<ProductErrors, InputError> {
     let [view, light] = [0, 1].map(|side| Expansion::new(samples, side, order));
     Ok(samples.errors_of(&view?.rows(&light?.columns(&samples.values)?)?))

@@ -37,10 +37,8 @@ impl FactorMap {
 }
 
 impl ProductFactors {
-    /// Factors of this many terms from two maps, each with the values of its texels, term by term.
-    ///
-    /// # Panics
-    /// If a map does not have `terms` values per texel.
+    /// Factors of this many terms from two maps, each with the values of its texels, term by term. Panics if a map does
+    /// not have `terms` values per texel.
     pub fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
         let of = |(map, values): (ParabolicMap, Vec<f64>)| FactorMap { map, values };
         let (view, light) = (of(view), of(light));
@@ -70,35 +68,23 @@ impl ProductFactors {
         [&self.view.values, &self.light.values]
     }
 
-    /// G at a texel, by row times side plus column.
-    ///
-    /// # Panics
-    /// If there is no such texel.
+    /// G at a texel, by row times side plus column. Panics if there is no such texel.
     pub fn view_texel(&self, texel: usize) -> &[f64] {
         self.view.texel(self.terms, texel)
     }
 
-    /// F at a texel.
-    ///
-    /// # Panics
-    /// If there is no such texel.
+    /// F at a texel. Panics if there is no such texel.
     pub fn light_texel(&self, texel: usize) -> &[f64] {
         self.light.texel(self.terms, texel)
     }
 
-    /// G at a direction of length 1 towards the viewer.
-    ///
-    /// # Panics
-    /// If there is not a place per term.
+    /// G at a direction of length 1 towards the viewer. Panics if there is not a place per term.
     pub fn view(&self, direction: DVec3, into: &mut [f64]) {
         assert_eq!(into.len(), self.terms, "a place per term");
         self.view.read(direction, into);
     }
 
-    /// F at a direction of length 1 towards the light.
-    ///
-    /// # Panics
-    /// If there is not a place per term.
+    /// F at a direction of length 1 towards the light. Panics if there is not a place per term.
     pub fn light(&self, direction: DVec3, into: &mut [f64]) {
         assert_eq!(into.len(), self.terms, "a place per term");
         self.light.read(direction, into);
@@ -118,8 +104,7 @@ impl ProductFactors {
 /// of 32 x 32.
 pub const PAIR_DISTANCE: f64 = 1e-3;
 
-/// A pair of equal singular values of which one is kept and one is not: the terms then prefer a direction that f does
-/// not.
+/// A pair of equal singular values, one kept and one dropped: the terms then prefer a direction that f does not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitPair {
     /// The terms that are kept.
@@ -137,10 +122,8 @@ pub struct Factorization {
 }
 
 impl Factorization {
-    /// Factors a table, with vectors for up to `terms` terms. The bits do not depend on the number of threads.
-    ///
-    /// # Errors
-    /// [`InputError`] for no terms, for more than the table's rank, and for a table of zeros.
+    /// Factors a table, with vectors for up to `terms` terms. The bits do not depend on the number of threads. Fails
+    /// with [`InputError`] for no terms, for more than the table's rank, and for a table of zeros.
     pub fn new(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
         let found = Self::up_to(table, terms)?;
         ensure!((1..=found.rank()).contains(&terms), "crossbar::factor::terms" =>
@@ -148,10 +131,7 @@ impl Factorization {
         Ok(found)
     }
 
-    /// As [`Self::new`], with fewer terms where the rank is lower.
-    ///
-    /// # Errors
-    /// [`InputError`] for a table of zeros.
+    /// As [`Self::new`], with fewer terms where the rank is lower. Fails with [`InputError`] for a table of zeros.
     pub fn up_to(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
         let svd = LeadingSvd::new(table.values(), terms.max(1)).map_err(of_svd)?;
         ensure!(svd.rank != 0, "crossbar::factor::dark" =>
@@ -192,10 +172,7 @@ impl Factorization {
     }
 
     /// The factors of the largest singular values, whose square roots are multiplied into both (equation 9). The
-    /// component of F_k of largest magnitude is positive.
-    ///
-    /// # Panics
-    /// If there are no vectors for this many terms.
+    /// component of F_k of largest magnitude is positive. Panics if there are no vectors for this many terms.
     pub fn factors(&self, terms: usize) -> ProductFactors {
         assert!((1..=self.terms()).contains(&terms), "1 to {} terms, not {terms}", self.terms());
         let by_texel = |vectors: &crate::linalg::Matrix| {

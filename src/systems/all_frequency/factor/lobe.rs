@@ -127,10 +127,7 @@ impl Lobe {
         }
     }
 
-    /// Checks that all parameters are in range.
-    ///
-    /// # Errors
-    /// [`InputError`] for the first that is not.
+    /// Checks that all parameters are in range. Fails with [`InputError`] for the first that is not.
     pub fn check(&self) -> Result<(), InputError> {
         let Self { albedo, normal_incidence, .. } = *self;
         match self.distribution {

@@ -15,7 +15,7 @@ pub enum ProductSymmetry {
     TurnsAndMirrors,
 }
 
-/// A motion: what x and y of a texel become, counted from the middle of the map.
+/// A symmetry of the map: images of x and y of a texel, counted from the middle of the map.
 pub(super) type Motion = [[isize; 2]; 2];
 
 const SAME: Motion = [[1, 0], [0, 1]];

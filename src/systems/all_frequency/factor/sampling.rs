@@ -53,10 +53,7 @@ impl Default for FactorSampling {
 }
 
 impl FactorSampling {
-    /// Checks that all parameters are in range.
-    ///
-    /// # Errors
-    /// [`InputError`] for the first that is not.
+    /// Checks that all parameters are in range. Fails with [`InputError`] for the first that is not.
     pub fn check(&self) -> Result<(), InputError> {
         let of = |what, expected, found: f64, fits: bool| {
             ensure!(fits, "crossbar::factor::range" => "expected {expected} for the {what}, found {found}");
@@ -73,10 +70,7 @@ impl FactorSampling {
 
     /// The table of f: each value is the mean over the samples of a pair of texels, summed view by view, light by
     /// light. `progress` is called with the number of finished views and their total. The bits do not depend on
-    /// threads.
-    ///
-    /// # Errors
-    /// [`InputError`] for parameters out of range.
+    /// threads. Fails with [`InputError`] for parameters out of range.
     pub fn table(
         &self,
         product: &dyn ProductFunction,

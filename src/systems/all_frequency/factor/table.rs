@@ -19,20 +19,15 @@ pub struct ProductTable {
 }
 
 impl ProductTable {
-    /// A table from values, with one row per texel of the view's map and one column per texel of the light's.
-    ///
-    /// # Panics
-    /// If the numbers of rows and columns differ from those of the maps' texels.
+    /// A table from values, with one row per texel of the view's map and one column per texel of the light's. Panics if
+    /// the numbers of rows and columns differ from those of the maps' texels.
     pub(super) fn new([view, light]: [ParabolicMap; 2], values: Matrix) -> Self {
         assert_eq!([values.row_count(), values.column_count()], [view.texels(), light.texels()], "a value per texel");
         Self { view, light, values }
     }
 
-    /// A table from rows of numbers; `name` is the file's name in messages.
-    ///
-    /// # Errors
-    /// [`InputError`] if the number of rows or columns is not that of a square map's texels, or a number is
-    /// below 0, NaN or infinite.
+    /// A table from rows of numbers; `name` is the file's name in messages. Fails with [`InputError`] if the number of
+    /// rows or columns is not that of a square map's texels, or a number is below 0, NaN or infinite.
     pub fn of_numbers(table: &NumberTable<f64>, name: &Path) -> Result<Self, InputError> {
         let columns = table.columns.max(1);
         let map = |what: &'static str, found: usize| {

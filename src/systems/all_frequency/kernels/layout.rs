@@ -64,10 +64,7 @@ impl SetLayout {
         self.channels * self.quads()
     }
 
-    /// The set and component of a term.
-    ///
-    /// # Panics
-    /// If there is no such term or channel.
+    /// The set and component of a term. Panics if there is no such term or channel.
     pub fn place(&self, term: usize, channel: usize) -> (usize, usize) {
         assert!(term < self.terms && channel < self.channels, "term {term} of channel {channel}");
         let quad = term / 4;

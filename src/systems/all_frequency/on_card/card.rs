@@ -48,11 +48,8 @@ pub struct FactoredCard<'a> {
 }
 
 impl<'a> FactoredCard<'a> {
-    /// Uploads a mesh, and the maps of G.
-    ///
-    /// # Errors
-    /// [`CardError`] if the device lacks programs, coordinate sets, samplers or filtering of the format, or the
-    /// parts of the mesh have contradictory sizes.
+    /// Uploads a mesh, and the maps of G. Fails with [`CardError`] if the device lacks programs, coordinate sets,
+    /// samplers or filtering of the format, or the parts of the mesh have contradictory sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -86,11 +83,8 @@ impl<'a> FactoredCard<'a> {
         self.display.machine_mut()
     }
 
-    /// The target of a frame. Background pixels are 0, alpha is 1 elsewhere.
-    ///
-    /// # Errors
-    /// [`CardError`] for an exposure out of range, radiance outside its format's range, and draws that the card
-    /// refuses.
+    /// The target of a frame. Background pixels are 0, alpha is 1 elsewhere. Fails with [`CardError`] for an exposure
+    /// out of range, radiance outside its format's range, and draws that the card refuses.
     pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(view, false)?.0)
     }

@@ -60,7 +60,7 @@ impl Programs {
 #[derive(Clone, Debug)]
 pub(super) struct FactorMaps {
     pub(super) textures: Vec<TextureId>,
-    /// Per term what texels are to be multiplied by.
+    /// Factor of the texels per term.
     pub(super) scales: Vec<f64>,
 }
 

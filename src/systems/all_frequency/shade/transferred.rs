@@ -18,10 +18,8 @@ pub struct TransferredRadiance {
 }
 
 impl TransferredRadiance {
-    /// Transferred radiance from `rows` rows of 3 channels per vertex, one vertex after another.
-    ///
-    /// # Panics
-    /// If `rows` is 0 or does not divide the number of values.
+    /// Transferred radiance from `rows` rows of 3 channels per vertex, one vertex after another. Panics if `rows` is 0
+    /// or does not divide the number of values.
     pub fn new(rows: usize, values: Vec<[f32; 3]>) -> Self {
         assert!(rows > 0 && values.len().is_multiple_of(rows), "{} numbers are no rows of {rows}", values.len());
         Self { rows, stride: 3 * rows, values: values.into_flattened() }
@@ -32,10 +30,7 @@ impl TransferredRadiance {
         self.rows
     }
 
-    /// A vertex's rows, 3 channels each.
-    ///
-    /// # Panics
-    /// If there is no such vertex.
+    /// A vertex's rows, 3 channels each. Panics if there is no such vertex.
     pub fn of(&self, vertex: usize) -> &[[f32; 3]] {
         self.values[vertex * self.stride..][..3 * self.rows].as_chunks().0
     }

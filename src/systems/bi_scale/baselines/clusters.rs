@@ -50,7 +50,6 @@ impl RowClusterOptions {
 /// Bytes per number.
 const NUMBER: usize = 4;
 
-/// Bytes of a cluster index.
 fn name_bytes(clusters: usize) -> usize {
     if clusters > 256 { 2 } else { 1 }
 }
@@ -103,10 +102,7 @@ impl RowClusters {
         })
     }
 
-    /// The approximation of a row, one number per column.
-    ///
-    /// # Panics
-    /// If there is no such row.
+    /// The approximation of a row, one number per column. Panics if there is no such row.
     pub fn row(&self, row: usize) -> Vec<f64> {
         let before = self.of_row[..row].iter().map(|&cluster| self.vectors_of(cluster)).sum::<usize>();
         let cluster = self.of_row[row] as usize;

@@ -18,26 +18,17 @@ pub struct CompressedRows {
 }
 
 impl CompressedRows {
-    /// Three bytes per entry: two for the column, and one for the value in units of the matrix.
-    ///
-    /// # Errors
-    /// [`InputError`] if this has no room for a column or value.
-    ///
-    /// # Panics
-    /// If there are more entries than 32 bits can count.
+    /// Three bytes per entry: two for the column, and one for the value in units of the matrix. Fails with
+    /// [`InputError`] if this has no room for a column or value. Panics if there are more entries than 32 bits can
+    /// count.
     pub fn narrow(matrix: &SparseMatrix) -> Result<Self, InputError> {
         let has_unit = matrix.values().fraction_bits().is_some();
         let fits = |entry: i32| has_unit && i8::try_from(entry).is_ok();
         Self::new(matrix, 3, u16::MAX.into(), "values of -128 to 127 units", fits)
     }
 
-    /// Eight bytes per entry: four for the column, and four for the value in f32.
-    ///
-    /// # Errors
-    /// [`InputError`] if a value is beyond single precision.
-    ///
-    /// # Panics
-    /// As [`Self::narrow`].
+    /// Eight bytes per entry: four for the column, and four for the value in f32. Fails with [`InputError`] if a value
+    /// is beyond single precision. Panics: as [`Self::narrow`].
     pub fn wide(matrix: &SparseMatrix) -> Result<Self, InputError> {
         let fits = |entry| (matrix.value(entry) as f32).is_finite();
         Self::new(matrix, 8, u32::MAX, "values within single precision", fits)
@@ -78,10 +69,7 @@ impl CompressedRows {
     }
 
     /// Rows times C lights, or channels of one, in f32: of a row one product after the other, columns increasing,
-    /// beginning with 0.
-    ///
-    /// # Panics
-    /// If the light has not as many numbers as the matrix has columns.
+    /// beginning with 0. Panics if the light has not as many numbers as the matrix has columns.
     pub fn multiply_singles<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
         assert_eq!(light.len(), self.width, "as many numbers as columns");
         self.sums([0.0; C], |sum, column, value| {

@@ -126,10 +126,7 @@ impl HaarRows {
         self.coefficients.len()
     }
 
-    /// A row's coefficients by increasing number, with their values.
-    ///
-    /// # Panics
-    /// If there is no such row.
+    /// A row's coefficients by increasing number, with their values. Panics if there is no such row.
     pub fn row(&self, row: usize) -> impl ExactSizeIterator<Item = (usize, f64)> {
         let of = self.begins[row]..self.begins[row + 1];
         let values = self.values[of.clone()].iter().map(|&value| f64::from(value));

@@ -16,8 +16,8 @@ use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column
 pub enum HarmonicSides {
     /// The distant light alone: M x n^2 numbers per vertex, the local directions stay.
     Light,
-    /// Both, as in the paper's reference 3: n^2 x n^2 numbers per vertex, of which the light of a local direction is
-    /// the integral over its part of the hemisphere.
+    /// Both, as in the paper's reference 3: n^2 x n^2 numbers per vertex; the light of a local direction is their
+    /// integral over its part of the hemisphere.
     Both,
 }
 
@@ -30,7 +30,7 @@ pub struct HarmonicRows {
     height: usize,
     /// Vertex by vertex, row by row, n^2 numbers per row.
     values: Vec<f32>,
-    /// Per local direction what each local harmonic gives it; only where both sides are in harmonics.
+    /// Weight of each local harmonic per local direction; only where both sides are in harmonics.
     cells: Vec<Vec<f64>>,
 }
 

@@ -68,10 +68,7 @@ impl<'a> LocalTransfer<'a> {
 
 /// Per local direction the integrals of the harmonics of an order over the part of the hemisphere that is nearest to
 /// it, in steradians: a sum over 16 x 16 points of equal solid angle for each direction. With order 1 times the root of
-/// 4 pi these are solid angles, which sum to 2 pi.
-///
-/// # Panics
-/// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
+/// 4 pi these are solid angles, which sum to 2 pi. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
 pub fn cell_integrals(directions: &LocalDirections, order: usize) -> Vec<Vec<f64>> {
     let count = function_count(order);
     let side = directions.side() * CELLS;

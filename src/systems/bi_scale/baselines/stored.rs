@@ -10,10 +10,8 @@ pub trait StoredTransfer {
     /// Bytes per layout. [`Self::multiply`] computes with the numbers of the first layout.
     fn sizes(&self) -> Vec<StoredSize>;
 
-    /// Local light L~ in f64: one number per row of T, from `light` with one number per column.
-    ///
-    /// # Panics
-    /// If the light does not have one number per column of T.
+    /// Local light L~ in f64: one number per row of T, from `light` with one number per column. Panics if the light
+    /// does not have one number per column of T.
     fn multiply(&self, light: &[f64]) -> Vec<f64>;
 }
 
@@ -38,10 +36,7 @@ pub struct LocalLightError {
 }
 
 impl LocalLightError {
-    /// The error of found light against expected light, row by row.
-    ///
-    /// # Panics
-    /// If the numbers of rows differ, or are 0.
+    /// The error of found light against expected light, row by row. Panics if the numbers of rows differ, or are 0.
     pub fn new(found: &[f64], expected: &[f64]) -> Self {
         assert!(!expected.is_empty() && found.len() == expected.len(), "a number per row");
         let (mut squares, mut whole, mut largest) = (0.0, 0.0, 0.0_f64);

@@ -7,7 +7,7 @@ use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
 /// Numbers behind the integers of a search; 0 represents 0.
 pub(super) trait SearchNumbers {
-    /// The integer for the difference of two numbers; `None` if there is no integer left for it.
+    /// The integer for the difference of two numbers; `None` if no integer is left for it.
     fn difference(&mut self, value: i32, t: i32) -> Option<i32>;
 
     /// The order of two numbers.
@@ -27,7 +27,7 @@ pub(super) struct UnitNumbers {
 impl UnitNumbers {
     /// `drop` in the scale of the matrix.
     pub(super) fn new(drop: f64, fraction_bits: u32) -> Self {
-        // Saturates, and takes what is not a number for 0.
+        // Saturates; NaN becomes 0.
         Self { drop: (drop * f64::from(1_u32 << fraction_bits)) as u32 }
     }
 }
@@ -71,7 +71,6 @@ impl KnownNumbers {
         Some((known, rows))
     }
 
-    /// The number that an integer represents.
     pub(super) fn number(&self, integer: i32) -> f64 {
         self.numbers[integer as usize]
     }

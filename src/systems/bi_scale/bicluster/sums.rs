@@ -1,11 +1,11 @@
-//! Sums of biclusters, and what they leave of a matrix: exact in units of the matrix, else in f64.
+//! Sums of biclusters, and the residual of a matrix: exact in units of the matrix, else in f64.
 
 use super::Biclustering;
 use crate::bi_scale::matrix::{EntryValues, SparseMatrix};
 use crate::error::{InputError, ensure};
 use crate::io::CoordinateMatrix;
 
-/// How the sum of biclusters differs from a matrix.
+/// Difference between the sum of biclusters and a matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BiclusterResidual {
     /// Number of elements that differ.
@@ -26,11 +26,8 @@ impl BiclusterResidual {
 
 impl Biclustering {
     /// The sum of the biclusters: in units of the matrix exactly the original matrix, else the same except for the
-    /// rounding of residuals and of the sum.
-    ///
-    /// # Errors
-    /// [`InputError`] if a sum can be no value of a matrix, which happens for biclusters from elsewhere and
-    /// where residuals were dropped.
+    /// rounding of residuals and of the sum. Fails with [`InputError`] if a sum can be no value of a matrix, which
+    /// happens for biclusters from elsewhere and where residuals were dropped.
     pub fn sum(&self) -> Result<SparseMatrix, InputError> {
         let ([rows, columns], bits) = (self.matrix_size(), self.values().fraction_bits());
         let units = bits.map(EntryValues::units);
@@ -51,11 +48,8 @@ impl Biclustering {
         Ok(sum.expect("finite numbers in a matrix of this size"))
     }
 
-    /// How the sum differs from a matrix of the same size: not at all if the matrix is in units and nothing was
-    /// dropped.
-    ///
-    /// # Panics
-    /// If the sizes differ.
+    /// Difference of the sum from a matrix of the same size; zero if the matrix is in units and nothing was dropped.
+    /// Panics if the sizes differ.
     pub fn residual(&self, matrix: &SparseMatrix) -> BiclusterResidual {
         assert_eq!(self.matrix_size(), [matrix.rows(), matrix.columns()], "the size of the matrix");
         let mut residual = BiclusterResidual::default();

@@ -84,35 +84,23 @@ impl Biclustering {
         &self.values
     }
 
-    /// The number that a value of a column represents.
-    ///
-    /// # Panics
-    /// If there can be no such value.
+    /// The number that a value of a column represents. Panics if there can be no such value.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         self.values.value(entry)
     }
 
-    /// The rows of a bicluster, increasing.
-    ///
-    /// # Panics
-    /// If there is no such bicluster.
+    /// The rows of a bicluster, increasing. Panics if there is no such bicluster.
     pub fn rows_of(&self, bicluster: usize) -> &[u32] {
         &self.rows[self.row_begins[bicluster]..self.row_begins[bicluster + 1]]
     }
 
-    /// The columns of a bicluster with their values, increasing.
-    ///
-    /// # Panics
-    /// If there is no such bicluster.
+    /// The columns of a bicluster with their values, increasing. Panics if there is no such bicluster.
     pub fn columns_of(&self, bicluster: usize) -> &[MatrixEntry] {
         &self.columns[self.column_begins[bicluster]..self.column_begins[bicluster + 1]]
     }
 
-    /// One bicluster, copied.
-    ///
-    /// # Panics
-    /// If there is no such bicluster.
+    /// One bicluster, copied. Panics if there is no such bicluster.
     pub fn get(&self, bicluster: usize) -> Bicluster {
         Bicluster { rows: self.rows_of(bicluster).to_vec(), columns: self.columns_of(bicluster).to_vec() }
     }
@@ -157,9 +145,9 @@ pub struct BiclusterOptions {
     pub seed: u64,
     /// True if rows and columns may also be deleted again (section IV-C: operations are insertions and deletions).
     pub deletion: bool,
-    /// Residuals of at most this magnitude are dropped, once per matrix element; 0 is lossless, and so is what is
-    /// negative or not a number. The sum of the biclusters then differs from the matrix by at most this in each element
-    /// (the paper's future work, section VII).
+    /// Residuals of at most this magnitude are dropped, once per matrix element; 0 is lossless, and so are negative
+    /// numbers and NaN. The sum of the biclusters then differs from the matrix by at most this in each element (the
+    /// paper's future work, section VII).
     pub drop: f64,
 }
 

@@ -24,10 +24,7 @@ impl LocalLayout {
         (4 * self.sets).saturating_sub(BESIDE) / 3
     }
 
-    /// Number of passes for `directions` directions.
-    ///
-    /// # Panics
-    /// If there are fewer than three sets.
+    /// Number of passes for `directions` directions. Panics if there are fewer than three sets.
     pub const fn passes(self, directions: usize) -> usize {
         directions.div_ceil(self.directions())
     }
@@ -37,10 +34,7 @@ impl LocalLayout {
         self.sets - 1
     }
 
-    /// The set and component of a direction's channel.
-    ///
-    /// # Panics
-    /// If there is no such direction or channel.
+    /// The set and component of a direction's channel. Panics if there is no such direction or channel.
     pub fn place(self, direction: usize, channel: usize) -> (usize, usize) {
         assert!(direction < self.directions() && channel < 3, "direction {direction}, channel {channel}");
         match direction.checked_sub(self.last()) {

@@ -141,11 +141,8 @@ impl<'a> BiScaleCard<'a> {
     }
 
     /// The target of a frame from local light, which is M times red, green and blue for each vertex. Background pixels
-    /// are 0, alpha is 1 elsewhere.
-    ///
-    /// # Errors
-    /// [`CardError`] for an exposure out of range, light of another size or outside its format's range, and
-    /// draws that the card refuses.
+    /// are 0, alpha is 1 elsewhere. Fails with [`CardError`] for an exposure out of range, light of another size or
+    /// outside its format's range, and draws that the card refuses.
     pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(local, view, false)?.0)
     }

@@ -80,11 +80,8 @@ pub(super) fn version(profile: &Profile, what: &str) -> Result<Version, KernelEr
 }
 
 impl GatherCard {
-    /// Uploads the lists of biclusters.
-    ///
-    /// # Errors
-    /// [`CardError`] if the device lacks the shader version, texture format or texture size, or a value is
-    /// beyond single precision.
+    /// Uploads the lists of biclusters. Fails with [`CardError`] if the device lacks the shader version, texture format
+    /// or texture size, or a value is beyond single precision.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -142,11 +139,8 @@ impl GatherCard {
         }
     }
 
-    /// Local light of each row in red, green and blue, from one color per column.
-    ///
-    /// # Errors
-    /// [`CardError`]: light of another size, numbers that are not finite, or negative in [`LightFormat::Bytes`],
-    /// draws that the card refuses.
+    /// Local light of each row in red, green and blue, from one color per column. Fails with [`CardError`]: light of
+    /// another size, numbers that are not finite, or negative in [`LightFormat::Bytes`], draws that the card refuses.
     pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, CardError> {
         let scale = self.draw(light)?;
         let texels = Texels::read_back(&self.machine, self.stages[1].targets[0])?.texels;

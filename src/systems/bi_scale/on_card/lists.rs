@@ -65,10 +65,7 @@ pub(super) struct Lists {
 impl Lists {
     /// The lists of `lengths.len()` sums with `lengths[i]` texels each; `texel(i, n)` gives the n-th texel of a list,
     /// and `filler` is a texel of places of 0. The target has at least one place more than there are sums, which stays
-    /// 0.
-    ///
-    /// # Errors
-    /// [`CardError`] if the target exceeds the largest texture, or has more places than remain distinct.
+    /// 0. Fails with [`CardError`] if the target exceeds the largest texture, or has more places than remain distinct.
     pub(super) fn new(
         what: &'static str,
         lengths: &[usize],

@@ -72,7 +72,7 @@ pub(super) struct LocalStream<'a> {
     /// M times red, green and blue for each vertex.
     pub(super) local: &'a [[f32; 3]],
     pub(super) directions: usize,
-    /// Exposure, and what texels are to be multiplied by.
+    /// Exposure, and the factor of the texels.
     pub(super) factor: f64,
     /// The largest number times that.
     pub(super) largest: f64,
@@ -101,10 +101,8 @@ impl LocalStream<'_> {
     }
 }
 
-/// The largest value of local light times a factor.
-///
-/// # Errors
-/// [`CardError::Input`] if single precision does not hold it.
+/// The largest value of local light times a factor. Fails with [`CardError::Input`] if single precision does not hold
+/// it.
 pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, CardError> {
     let numbers = local.as_flattened().iter();
     let found = numbers.fold(0.0_f64, |most, &value| most.max((factor * f64::from(value)).abs()));

@@ -20,10 +20,8 @@ pub struct TexturedMesh<'a> {
     pub texture_of: &'a [u32],
 }
 
-/// Texture coordinates of the corners of a mesh's triangles, in units of a patch that repeats `repeat` times.
-///
-/// # Errors
-/// [`CardError::Input`] for a mesh without texture coordinates.
+/// Texture coordinates of the corners of a mesh's triangles, in units of a patch that repeats `repeat` times. Fails
+/// with [`CardError::Input`] for a mesh without texture coordinates.
 pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]; 3]>, CardError> {
     let none = "the mesh has no texture coordinates, by which a bidirectional texture is placed";
     let of = mesh.texcoords().ok_or_else(|| CardError::input(none))?;
@@ -69,7 +67,6 @@ impl TexturedMesh<'_> {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
 
-    /// The texture of a triangle.
     pub(super) fn texture(&self, triangle: u32) -> &BidirectionalTexture {
         &self.textures[self.texture_of[triangle as usize] as usize]
     }

@@ -12,11 +12,9 @@ use crate::card::CardError;
 /// The largest number of half precision.
 const HALF_MOST: f32 = 65_504.0;
 
-/// The image of a volume, and the factor by which its texels must be multiplied.
-///
-/// # Errors
-/// [`CardError`] for a format other than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or
-/// has no volumes of the size, and samples outside the format's range.
+/// The image of a volume, and the factor by which its texels must be multiplied. Fails with [`CardError`] for a format
+/// other than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or has no volumes of the size, and
+/// samples outside the format's range.
 pub fn volume_image(
     profile: &Profile,
     texture: &BidirectionalTexture,
@@ -87,10 +85,7 @@ pub struct VolumeTexture {
 }
 
 impl VolumeTexture {
-    /// Uploads a texture.
-    ///
-    /// # Errors
-    /// As [`volume_image`], and if the card refuses the texture.
+    /// Uploads a texture. Errors: as [`volume_image`], and if the card refuses the texture.
     pub fn new(
         machine: &mut Machine,
         texture: &BidirectionalTexture,

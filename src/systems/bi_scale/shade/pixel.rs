@@ -93,10 +93,7 @@ impl TextureLookup {
     }
 
     /// Equation 3 for a pixel: [`paper::radiance`](crate::bi_scale::paper::radiance). `b` is scratch memory for M
-    /// samples.
-    ///
-    /// # Panics
-    /// If a corner has no row.
+    /// samples. Panics if a corner has no row.
     pub fn radiance(&self, local: &[[f64; 3]], pixel: &ShadedPixel, b: &mut Vec<[f64; 3]>) -> [f64; 3] {
         b.clear();
         b.resize(self.lights, [0.0; 3]);

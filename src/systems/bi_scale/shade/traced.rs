@@ -93,10 +93,8 @@ impl TracedScene<'_> {
         found
     }
 
-    /// The pixel's radiance for every step, in the order of [`TracedRung::ALL`].
-    ///
-    /// # Panics
-    /// If the light does not have one radiance per direction or texel.
+    /// The pixel's radiance for every step, in the order of [`TracedRung::ALL`]. Panics if the light does not have one
+    /// radiance per direction or texel.
     pub fn rungs(
         &self,
         of: &TracedPoint,

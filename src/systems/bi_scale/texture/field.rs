@@ -55,10 +55,7 @@ impl HeightField {
     /// The largest depth in edges of the patch.
     pub const DEEPEST: f64 = 16.0;
 
-    /// Checks the number of texels along an edge.
-    ///
-    /// # Errors
-    /// [`InputError`] for 0, and for more than [`Self::MOST`].
+    /// Checks the number of texels along an edge. Fails with [`InputError`] for 0, and for more than [`Self::MOST`].
     pub fn check_side(side: usize) -> Result<(), InputError> {
         ensure!(
             (1..=Self::MOST).contains(&side),

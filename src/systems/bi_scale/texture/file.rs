@@ -46,10 +46,7 @@ pub fn load_bidirectional_texture(path: &Path) -> Result<BidirectionalTexture, I
         .map_err(|reason| input_error!("crossbar::bidirectional_texture::samples" => "{reason}").at(path))
 }
 
-/// Writes a texture.
-///
-/// # Errors
-/// Those of `out`.
+/// Writes a texture. Errors: those of `out`.
 pub fn write_bidirectional_texture(texture: &BidirectionalTexture, out: &mut dyn Write) -> io::Result<()> {
     let [views, lights] = [texture.view(), texture.light()].map(|directions| directions.directions().len());
     let shape = [views, lights, texture.size(), texture.size(), 3];

@@ -36,10 +36,8 @@ impl PatchKind {
     /// All kinds.
     pub const ALL: [Self; 5] = [Self::Bumps, Self::Mail, Self::Tiles, Self::Bricks, Self::Weave];
 
-    /// The patch, with all heights multiplied by `relief`.
-    ///
-    /// # Panics
-    /// If `relief` is negative, not finite, or makes the patch deeper than [`HeightField::DEEPEST`].
+    /// The patch, with all heights multiplied by `relief`. Panics if `relief` is negative, not finite, or makes the
+    /// patch deeper than [`HeightField::DEEPEST`].
     pub fn patch(self, relief: f64) -> MesoPatch {
         assert!(relief >= 0.0, "a relief of 0 or more");
         let place: fn([f64; 2]) -> Place = match self {
@@ -137,7 +135,7 @@ fn mail(place: [f64; 2]) -> Place {
     const TILT: f64 = 0.3;
     let mut found = Place { height: -0.09, material: 0, turns: 0.0 };
     for ring in 0..8 {
-        // Rings of one grid lean one way, those of the other, half a ring further, the other way.
+        // Rings of one grid lean one way; rings of the other, half a ring further, lean the other way.
         let (grid, at) = (ring / 4, ring % 4);
         let shift = 0.25 * f64::from(grid);
         let center = [f64::from(at % 2) * 0.5 + shift, f64::from(at / 2) * 0.5 + shift];

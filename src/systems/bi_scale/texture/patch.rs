@@ -32,10 +32,7 @@ impl MesoMaterial {
         Self { color, lobe: None, lobe_color: [0.0; 3] }
     }
 
-    /// Checks that all parameters are in range.
-    ///
-    /// # Errors
-    /// [`InputError`] for the first that is not.
+    /// Checks that all parameters are in range. Fails with [`InputError`] for the first that is not.
     pub fn check(&self) -> Result<(), InputError> {
         for albedo in self.color {
             Brdf::Lambert { albedo }.check()?;

@@ -93,10 +93,7 @@ impl BidirectionalTexture {
         &self.samples
     }
 
-    /// The patch under one light, seen from one view: rows of texels.
-    ///
-    /// # Panics
-    /// If there is no such view or light.
+    /// The patch under one light, seen from one view: rows of texels. Panics if there is no such view or light.
     pub fn patch(&self, view: usize, light: usize) -> &[[f32; 3]] {
         let lights = self.light.directions().len();
         assert!(light < lights, "light {light} of {lights}");
@@ -133,19 +130,13 @@ pub struct TextureSampling {
     pub view: LocalDirections,
     /// The M directions of light.
     pub light: LocalDirections,
-    /// n x n points per texel, of which the mean is taken; with 1 its middle.
+    /// n x n points per texel, averaged; with 1 its middle.
     pub samples: usize,
 }
 
 impl MesoPatch {
     /// The texture of a patch, with the same bits on any number of threads. `done` is called with the number of
-    /// finished views and their total.
-    ///
-    /// # Errors
-    /// [`InputError`].
-    ///
-    /// # Panics
-    /// If there are no samples per texel.
+    /// finished views and their total. Panics if there are no samples per texel.
     pub fn texture(
         &self,
         sampling: &TextureSampling,

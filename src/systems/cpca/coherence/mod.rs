@@ -16,10 +16,8 @@ use crate::clustering::{Clustering, Signal};
 use crate::error::{InputError, ensure, input_error};
 
 /// The number of triangles drawn: for each triangle the number of different clusters of its vertices, summed. Divided
-/// by the number of triangles it is the overdraw that the paper prints.
-///
-/// # Panics
-/// If a triangle names a vertex without a cluster.
+/// by the number of triangles it is the overdraw that the paper prints. Panics if a triangle names a vertex without a
+/// cluster.
 pub fn overdraw(triangles: &[[u32; 3]], of_point: &[u32]) -> u64 {
     triangles.iter().map(|corners| distinct(corners.map(|corner| of_point[corner as usize]))).sum()
 }

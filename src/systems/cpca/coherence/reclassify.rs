@@ -22,10 +22,8 @@ pub struct Reclassified {
 
 /// Moves vertices to clusters of their neighbours (section 5): always the vertex with the greatest reduction of
 /// overdraw per increase of squared error, one without an increase first; the lowest among equals. Moves add at most
-/// `budget` times the initial squared error; one that would exceed it is skipped. The paper takes 0.05 to 0.1.
-///
-/// # Errors
-/// [`InputError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
+/// `budget` times the initial squared error; one that would exceed it is skipped. The paper takes 0.05 to 0.1. Fails
+/// with [`InputError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,
@@ -120,7 +118,7 @@ impl<'a> Search<'a> {
         subspace.squared_error(self.signal.point(point), &mut self.residual)
     }
 
-    /// Makes moves within a limit of added error; gives their number and what they added.
+    /// Makes moves within a limit of added error; returns their number and the added error.
     fn run(&mut self, limit: f64) -> (usize, f64) {
         let mut heap: BinaryHeap<Move> = (0..self.of_point.len()).filter_map(|p| self.best_move(p)).collect();
         let (mut moved, mut added) = (0, 0.0);

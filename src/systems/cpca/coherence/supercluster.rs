@@ -41,10 +41,8 @@ pub struct Superclusters {
 
 impl Superclusters {
     /// Begins with one supercluster per cluster; then repeatedly merges the two with the most common triangles that fit
-    /// the registers together, the lowest among equals, until no two neighbours fit.
-    ///
-    /// # Errors
-    /// [`InputError`] if a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
+    /// the registers together, the lowest among equals, until no two neighbours fit. Fails with [`InputError`] if a
+    /// triangle names a vertex without a cluster, or a single cluster exceeds the registers.
     pub fn new(
         clustering: &Clustering,
         triangles: &[[u32; 3]],
@@ -54,9 +52,7 @@ impl Superclusters {
         Ok(Self::merged(clustering, triangles, needed(clustering, registers)?, registers.limit))
     }
 
-    /// Likewise of `clusters` clusters at most, whatever they take: a size for all cards.
-    ///
-    /// # Errors
+    /// Superclusters of at most `clusters` clusters, with any number of registers: a size for all cards. Fails with
     /// [`InputError`] if a triangle names a vertex without a cluster, or for a size of 0.
     pub fn of_size(clustering: &Clustering, triangles: &[[u32; 3]], clusters: usize) -> Result<Self, InputError> {
         check_triangles(triangles, clustering.points())?;
@@ -103,10 +99,7 @@ impl Superclusters {
         Self::numbered(of_cluster)
     }
 
-    /// One supercluster per cluster.
-    ///
-    /// # Errors
-    /// [`InputError`] if a cluster exceeds the registers.
+    /// One supercluster per cluster. Fails with [`InputError`] if a cluster exceeds the registers.
     pub fn apart(clustering: &Clustering, registers: ConstantRegisters) -> Result<Self, InputError> {
         let count = needed(clustering, registers)?.len();
         Ok(Self { of_cluster: (0..count as u32).collect(), count })
@@ -132,10 +125,8 @@ impl Superclusters {
         &self.of_cluster
     }
 
-    /// The number of triangles drawn, summed over superclusters.
-    ///
-    /// # Panics
-    /// If clustering and triangles are not those from which the superclusters were made.
+    /// The number of triangles drawn, summed over superclusters. Panics if clustering and triangles are not those from
+    /// which the superclusters were made.
     pub fn overdraw(&self, clustering: &Clustering, triangles: &[[u32; 3]]) -> u64 {
         let of_point: Vec<u32> = clustering.of_point().iter().map(|&k| self.of_cluster[k as usize]).collect();
         overdraw(triangles, &of_point)

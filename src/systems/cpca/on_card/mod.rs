@@ -105,11 +105,8 @@ impl<'a> PrtCard<'a> {
         self.display.machine_mut()
     }
 
-    /// The target of a frame. Background pixels are 0.
-    ///
-    /// # Errors
-    /// [`CardError`] for light of too low an order, an exposure out of range, products that are not finite, and
-    /// draws that the card refuses.
+    /// The target of a frame. Background pixels are 0. Fails with [`CardError`] for light of too low an order, an
+    /// exposure out of range, products that are not finite, and draws that the card refuses.
     pub fn view_texels(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(light, view, false)?.0)
     }

@@ -18,11 +18,8 @@ pub struct Products {
 
 impl Products {
     /// Products in double precision, times a factor and with the ranges of weights multiplied in, rounded once.
-    /// Coefficients of the light beyond the matrices' columns are ignored.
-    ///
-    /// # Errors
-    /// [`CardError`] for parts with contradictory sizes, light of too low an order, and products that overflow
-    /// single precision.
+    /// Coefficients of the light beyond the matrices' columns are ignored. Fails with [`CardError`] for parts with
+    /// contradictory sizes, light of too low an order, and products that overflow single precision.
     pub fn new(
         transfer: &CompressedTransfer<'_>,
         weights: &CardWeights,
@@ -58,10 +55,8 @@ impl Products {
         }
     }
 
-    /// The vectors of a cluster, the mean first: the rows of three channels for each.
-    ///
-    /// # Panics
-    /// If there is no such cluster.
+    /// The vectors of a cluster, the mean first: the rows of three channels for each. Panics if there is no such
+    /// cluster.
     pub fn vectors(&self, cluster: usize) -> impl ExactSizeIterator<Item = [&[f32]; 3]> {
         let vectors = self.clusters[cluster].chunks_exact(3 * self.rows);
         vectors.map(|vector| [0, 1, 2].map(|channel| &vector[channel * self.rows..(channel + 1) * self.rows]))

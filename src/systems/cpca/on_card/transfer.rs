@@ -44,10 +44,7 @@ impl CompressedTransfer<'_> {
         matches!(self.basis, ExitBasis::Harmonics(_))
     }
 
-    /// Its sizes.
-    ///
-    /// # Errors
-    /// [`CardError`] if the parts have contradictory sizes.
+    /// Its sizes. Fails with [`CardError`] if the parts have contradictory sizes.
     pub fn size(&self) -> Result<TransferSize, CardError> {
         let TransferShape { rows, columns, .. } = self.shape()?;
         let clusters = self.clustering.subspaces().len();

@@ -71,18 +71,13 @@ impl CardWeights {
         Self { format, ranges }
     }
 
-    /// Low and extent of each vector of a cluster.
-    ///
-    /// # Panics
-    /// If there is no such cluster.
+    /// Low and extent of each vector of a cluster. Panics if there is no such cluster.
     pub fn ranges(&self, cluster: usize) -> &[[f64; 2]] {
         &self.ranges[cluster]
     }
 
-    /// A weight on a vector of a cluster, encoded as the attribute that the vertex program reads.
-    ///
-    /// # Panics
-    /// If there is no such cluster or vector.
+    /// A weight on a vector of a cluster, encoded as the attribute that the vertex program reads. Panics if there is no
+    /// such cluster or vector.
     pub fn attribute(&self, cluster: usize, vector: usize, weight: f64) -> f32 {
         let [low, extent] = self.ranges[cluster][vector];
         match (self.format, self.format.largest_code()) {

@@ -103,8 +103,8 @@ impl<'a> TransferGather<'a> {
         sums
     }
 
-    /// One more reflection: what arrives from the front faces that a vertex sees, if `last` is their exit radiance in
-    /// a basis.
+    /// One more reflection: light that arrives from the front faces that a vertex sees, if `last` is their exit
+    /// radiance in a basis.
     pub(super) fn bounce(&self, last: &[f32], basis: &ExitBasis) -> Vec<f32> {
         self.each(|vertex, into| {
             let (material, frame) = (self.material(vertex), &self.vertices.frames()[vertex]);
@@ -138,7 +138,7 @@ impl<'a> TransferGather<'a> {
         }
     }
 
-    /// A matrix per vertex whose rays were traced, each computed by itself.
+    /// A matrix per vertex whose rays were traced, each computed independently.
     fn each(&self, compute: impl Fn(usize, &mut [f32]) + Sync) -> Vec<f32> {
         let range = self.rays.range();
         let mut values = vec![0.0; range.len() * self.size()];
@@ -160,7 +160,6 @@ fn above_horizon(local: DVec3) -> DVec3 {
     unit(local.with_z(0.0)).unwrap_or(DVec3::Z)
 }
 
-/// Adds a column times a row.
 fn add_product(sums: &mut [f64], column: &[f64], row: &[f64]) {
     for (sums, factor) in sums.chunks_exact_mut(row.len()).zip(column) {
         sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor * value);

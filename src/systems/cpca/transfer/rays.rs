@@ -98,9 +98,7 @@ impl TracedRays {
     /// takes 16 bytes per blocked ray.
     ///
     /// The result is that of tracing every ray, on any number of threads; rays that certainly hit nothing are not cast.
-    ///
-    /// # Errors
-    /// [`InputError`] if the caster fails.
+    /// Fails with [`InputError`] if the caster fails.
     pub fn trace(
         vertices: &Vertices,
         rule: DirectionRule,
@@ -110,13 +108,8 @@ impl TracedRays {
         Self::trace_range(vertices, 0..vertices.len(), rule, caster, keep_hits)
     }
 
-    /// [`Self::trace`] from the vertices of a range alone, with the same results.
-    ///
-    /// # Errors
-    /// As [`Self::trace`].
-    ///
-    /// # Panics
-    /// If the range has vertices that do not exist.
+    /// [`Self::trace`] from the vertices of a range alone, with the same results. Fails as [`Self::trace`] does. Panics
+    /// if the range has vertices that do not exist.
     pub fn trace_range(
         vertices: &Vertices,
         range: Range<usize>,
@@ -166,10 +159,7 @@ impl TracedRays {
         &self.answers.counts
     }
 
-    /// True if the ray of a vertex in a direction is blocked.
-    ///
-    /// # Panics
-    /// If there is no such vertex or direction.
+    /// True if the ray of a vertex in a direction is blocked. Panics if there is no such vertex or direction.
     pub fn is_blocked(&self, vertex: usize, direction: usize) -> bool {
         assert!(direction < self.rule.len(), "a direction of the rule");
         self.words(vertex)[direction / 64] >> (direction % 64) & 1 != 0

@@ -35,9 +35,7 @@ pub struct Response {
 }
 
 impl Response {
-    /// A diffuse response: exit radiance is albedo / pi times irradiance. One row, the t_p of section 3.
-    ///
-    /// # Errors
+    /// A diffuse response: exit radiance is albedo / pi times irradiance. One row, the t_p of section 3. Fails with
     /// [`InputError`] if the albedo is not in [0, 1].
     pub fn diffuse(albedo: f64, rule: &DirectionRule) -> Result<Self, InputError> {
         require((0.0..=1.0).contains(&albedo), "the albedo", "a number from 0 to 1", albedo)?;
@@ -54,10 +52,8 @@ impl Response {
 
     /// A glossy response in harmonics: equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or a variant. A_r^-1 is applied if
     /// `exit_inverse`; otherwise rows are the zero-hemisphere projection of exit radiance. `views` is the rule by which
-    /// B is integrated ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)).
-    ///
-    /// # Errors
-    /// [`InputError`] for parameters out of range.
+    /// B is integrated ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)). Fails with [`InputError`] for parameters
+    /// out of range.
     pub fn glossy(
         brdf: &Brdf,
         exit: &ExitBasis,
@@ -105,13 +101,9 @@ impl Response {
         self.columns.chunks_exact(self.basis.len())
     }
 
-    /// The matrix of a vertex that sees the whole hemisphere, for light of `light_order` in local coordinates.
-    ///
-    /// # Errors
-    /// [`InputError`] never, since there are at most 100 functions.
-    ///
-    /// # Panics
-    /// If the order is not 1 to 10, or the rule has another number of directions than the response.
+    /// The matrix of a vertex that sees the whole hemisphere, for light of `light_order` in local coordinates. Fails
+    /// with [`InputError`] never, since there are at most 100 functions. Panics if the order is not 1 to 10, or the
+    /// rule has another number of directions than the response.
     pub fn unoccluded(&self, light_order: usize, rule: &DirectionRule) -> Result<Matrix, InputError> {
         assert_eq!(rule.len(), self.directions, "the response's rule");
         let columns = function_count(light_order);

@@ -55,10 +55,8 @@ impl Transfer {
     /// `entering` is the irradiance that passes into the medium at each vertex, one row
     /// ([`Response::entering`](super::Response::entering)). `reflectance` is the exitance per flux that enters at a
     /// distance in mm, per mm^2, such as a dipole's; over a vertex's own area it is integrated as over a disk. The
-    /// triangles should be smaller than the mean free path.
-    ///
-    /// # Errors
-    /// [`InputError`] if `entering` is not of these vertices or has more than one row, or an option is out of range.
+    /// triangles should be smaller than the mean free path. Fails with [`InputError`] if `entering` is not of these
+    /// vertices or has more than one row, or an option is out of range.
     pub fn scattered(
         vertices: &Vertices,
         entering: &Self,

@@ -42,11 +42,9 @@ pub struct Transfer {
 
 impl Transfer {
     /// The transfer of all vertices for light of an order. There must be one response per material, all in one exit
-    /// basis; the rays must have been traced from these vertices, with hits kept if `bounces` is not 0.
-    ///
-    /// # Errors
-    /// [`InputError`] for responses with different bases or of another rule, a missing material, an order not in 1
-    /// to 10, or bounces without hits.
+    /// basis; the rays must have been traced from these vertices, with hits kept if `bounces` is not 0. Fails with
+    /// [`InputError`] for responses with different bases or of another rule, a missing material, an order not in 1 to
+    /// 10, or bounces without hits.
     pub fn new(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -59,8 +57,8 @@ impl Transfer {
         Self::with_bounces(vertices, rays, responses, light_order, (direct, bounces))
     }
 
-    /// The matrices of direct light at the vertices of a range, those whose rays were traced: each is computed by
-    /// itself, and the same for every range. Concatenated, row by row.
+    /// The matrices of direct light at the vertices of a range, those whose rays were traced; each is computed
+    /// independently, with the same result for every range. Concatenated, row by row.
     pub fn direct(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -80,10 +78,7 @@ impl Transfer {
     }
 
     /// The transfer of all vertices out of [`Self::direct`], with bounces. Without these the results of single rays are
-    /// not needed.
-    ///
-    /// # Errors
-    /// [`InputError`] as of [`Self::new`], and if there is not one matrix per vertex.
+    /// not needed. Fails with [`InputError`] as of [`Self::new`], and if there is not one matrix per vertex.
     pub fn with_bounces(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -166,10 +161,7 @@ impl Transfer {
         &self.basis
     }
 
-    /// The matrix of a vertex, row by row.
-    ///
-    /// # Panics
-    /// If there is no such vertex.
+    /// The matrix of a vertex, row by row. Panics if there is no such vertex.
     pub fn of(&self, vertex: usize) -> &[f32] {
         let size = self.row_count() * self.columns;
         &self.values[vertex * size..(vertex + 1) * size]
@@ -186,10 +178,8 @@ impl Transfer {
         Self { basis: self.basis.clone(), columns: self.columns, values, bounces: Vec::new() }
     }
 
-    /// The radiance that a vertex sends in a local direction under a light with these coefficients: y(v) M_p l.
-    ///
-    /// # Panics
-    /// If there is no such vertex, or the light does not have one coefficient per column.
+    /// The radiance that a vertex sends in a local direction under a light with these coefficients: y(v) M_p l. Panics
+    /// if there is no such vertex, or the light does not have one coefficient per column.
     pub fn radiance(&self, vertex: usize, view: DVec3, light: &[f64]) -> f64 {
         assert_eq!(light.len(), self.columns, "a coefficient per column");
         let mut y = vec![0.0; self.row_count()];
@@ -200,10 +190,8 @@ impl Transfer {
     }
 
     /// Adds the transfer of the same vertices in another exit basis, such as a diffuse part in [`ExitBasis::Radiance`],
-    /// whose radiance is added to the coefficient of y_0 (Figure 9).
-    ///
-    /// # Errors
-    /// [`InputError`] if sizes do not fit, or this basis lacks a function of the other.
+    /// whose radiance is added to the coefficient of y_0 (Figure 9). Fails with [`InputError`] if sizes do not fit, or
+    /// this basis lacks a function of the other.
     pub fn add(&mut self, other: &Self) -> Result<(), InputError> {
         differ("columns", [self.columns, other.columns])?;
         differ("vertices", [self.vertex_count(), other.vertex_count()])?;

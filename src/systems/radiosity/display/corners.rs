@@ -74,10 +74,7 @@ impl SmoothVertex {
         first.map(|(at, set)| Self { at, patches: sets[set as usize].clone() }).collect()
     }
 
-    /// Returns its radiosity, given one radiosity per patch.
-    ///
-    /// # Panics
-    /// If there is no radiosity of one of its patches.
+    /// Returns its radiosity, given one radiosity per patch. Panics if there is no radiosity of one of its patches.
     pub fn mean(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         mean(&self.patches, radiosity)
     }
@@ -91,10 +88,7 @@ fn mean(set: &[u32], radiosity: &[[f64; 3]]) -> [f64; 3] {
 
 /// Computes the radiosity at each corner of each patch: the mean over the patches of one material that meet there and
 /// are not across an edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do
-/// not count. Constant radiosity stays constant.
-///
-/// # Panics
-/// If there is not one radiosity per patch.
+/// not count. Constant radiosity stays constant. Panics if there is not one radiosity per patch.
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity per patch");
     let CornerSets { sets, of } = CornerSets::new(patches);

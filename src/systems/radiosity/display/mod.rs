@@ -51,10 +51,8 @@ pub struct Display {
 impl Display {
     /// Projects the patches, uploads the sets of patches that meet at corners, and creates targets of the camera's
     /// size. A `target` of [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time;
-    /// [`TexelFormat::Rgba32f`] stores all values.
-    ///
-    /// # Errors
-    /// [`DrawError`] if the card has no fragment programs, or its targets are too small.
+    /// [`TexelFormat::Rgba32f`] stores all values. Fails with [`DrawError`] if the card has no fragment programs, or
+    /// its targets are too small.
     pub fn new(
         machine: &mut Machine,
         patches: &Patches,
@@ -78,9 +76,7 @@ impl Display {
         Ok(Self { patches: patches.list().len(), shapes, flat, id, resampler, target, ids })
     }
 
-    /// Uploads radiosities of the host, one per patch, as a texture to draw from: a row of texels.
-    ///
-    /// # Errors
+    /// Uploads radiosities of the host, one per patch, as a texture to draw from: a row of texels. Fails with
     /// [`DrawError`] if there is not one per patch, or the card's textures are too small.
     pub fn upload(&self, machine: &mut Machine, radiosity: &[[f64; 3]]) -> Result<TextureId, DrawError> {
         if radiosity.len() != self.patches {
@@ -91,30 +87,22 @@ impl Display {
     }
 
     /// Draws each patch in its constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity
-    /// over pi.
-    ///
-    /// # Errors
-    /// [`DrawError`] if the card refuses.
+    /// over pi. Fails with [`DrawError`] if the card refuses.
     pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         self.draw(machine, self.target, Some(radiosity), exposure, |_| &self.flat)?;
         self.picture(machine)
     }
 
     /// Draws each patch interpolated between radiosities at its corners, resampled by the card; exposure as with
-    /// [`Display::flat`].
-    ///
-    /// # Errors
-    /// [`DrawError`] if the card refuses.
+    /// [`Display::flat`]. Fails with [`DrawError`] if the card refuses.
     pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         let corners = self.resampler.run(machine, radiosity)?;
         self.draw(machine, self.target, Some(corners), exposure, |shape| &shape.smooth)?;
         self.picture(machine)
     }
 
-    /// Draws the patch whose front each pixel shows, if any; rows from the top.
-    ///
-    /// # Errors
-    /// [`DrawError`] if the card refuses.
+    /// Draws the patch whose front each pixel shows, if any; rows from the top. Fails with [`DrawError`] if the card
+    /// refuses.
     pub fn ids(&self, machine: &mut Machine) -> Result<Vec<Option<u32>>, DrawError> {
         self.draw(machine, self.ids, None, 1.0, |_| &self.id)?;
         let codes = Texels::read_back(machine, self.ids.color)?;

@@ -67,9 +67,7 @@ impl FormFactors {
     }
 
     /// Enforces closure (every row sums to 1) and reciprocity: factors are scaled by d_i d_j, the d found by Sinkhorn
-    /// and Knopp's iteration (1967) in its symmetric form. Rows without any light stay unchanged.
-    ///
-    /// # Errors
+    /// and Knopp's iteration (1967) in its symmetric form. Rows without any light stay unchanged. Fails with
     /// [`InputError`] if such a scaling does not exist, or was not found. The factors are then reciprocal, but not
     /// closed.
     pub fn enforce_closure(&mut self) -> Result<(), InputError> {

@@ -32,11 +32,8 @@ pub struct FormFactors {
 }
 
 impl FormFactors {
-    /// Creates form factors from a matrix with F_ij in row i, column j.
-    ///
-    /// # Errors
-    /// [`InputError`] if the matrix is not square, there is not one positive area per row, or a form factor is
-    /// negative or NaN.
+    /// Creates form factors from a matrix with F_ij in row i, column j. Fails with [`InputError`] if the matrix is not
+    /// square, there is not one positive area per row, or a form factor is negative or NaN.
     pub fn from_values(areas: Vec<f64>, matrix: Matrix) -> Result<Self, InputError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         ensure!(matrix.is_square(), "radiosity::form_factors" =>

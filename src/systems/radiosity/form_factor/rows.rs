@@ -19,10 +19,8 @@ pub struct FormFactorRows {
 }
 
 impl FormFactorRows {
-    /// Computes the rows of some patches as [`FormFactors::unoccluded`] does.
-    ///
-    /// # Errors
-    /// Those of [`FormFactors::unoccluded`].
+    /// Computes the rows of some patches as [`FormFactors::unoccluded`] does. Errors: those of
+    /// [`FormFactors::unoccluded`].
     pub fn unoccluded(patches: &Patches, is_wanted: &(dyn Fn(usize) -> bool + Sync)) -> Result<Self, InputError> {
         let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
         let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();
@@ -38,10 +36,8 @@ impl FormFactorRows {
         Ok(Self { matrix })
     }
 
-    /// Computes the rows of some patches as [`FormFactors::with_visibility`] does.
-    ///
-    /// # Errors
-    /// Those of [`FormFactors::with_visibility`].
+    /// Computes the rows of some patches as [`FormFactors::with_visibility`] does. Errors: those of
+    /// [`FormFactors::with_visibility`].
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,
@@ -54,21 +50,13 @@ impl FormFactorRows {
         Ok(rows)
     }
 
-    /// The exchanges of a patch with later patches.
-    ///
-    /// # Panics
-    /// If there is no such patch.
+    /// The exchanges of a patch with later patches. Panics if there is no such patch.
     pub fn row(&self, patch: usize) -> &[f64] {
         &self.matrix.row(patch)[patch + 1..]
     }
 
-    /// Sets the row of a patch to one that was computed apart.
-    ///
-    /// # Errors
-    /// [`InputError`] if it does not have the length of [`Self::row`].
-    ///
-    /// # Panics
-    /// If there is no such patch.
+    /// Sets the row of a patch to one that was computed apart. Fails with [`InputError`] if it does not have the length
+    /// of [`Self::row`]. Panics if there is no such patch.
     pub fn set_row(&mut self, patch: usize, values: &[f64]) -> Result<(), InputError> {
         let row = &mut self.matrix.row_mut(patch)[patch + 1..];
         ensure!(values.len() == row.len(), "radiosity::form_factors" =>
@@ -88,20 +76,15 @@ impl FormFactorRows {
 
 impl FormFactors {
     /// Computes form factors without occlusion: exact for convex rooms, and the first step for others. Reciprocal to
-    /// one ULP.
-    ///
-    /// # Errors
-    /// [`InputError`] for too many patches.
+    /// one ULP. Fails with [`InputError`] for too many patches.
     pub fn unoccluded(patches: &Patches) -> Result<Self, InputError> {
         Ok(FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches))
     }
 
     /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
     /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of pairs done
-    /// and of all pairs.
-    ///
-    /// # Errors
-    /// [`InputError`] for too many patches, no samples, or rays that the ray caster fails on.
+    /// and of all pairs. Fails with [`InputError`] for too many patches, no samples, or rays that the ray caster fails
+    /// on.
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,

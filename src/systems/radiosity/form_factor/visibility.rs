@@ -124,8 +124,8 @@ fn share(
     let (mut open, mut all) = (0.0, 0.0);
     for sample in samples {
         all += sample.weight;
-        // Nothing in the way, the far end itself, or a face that the ray starts or ends on: their planes cannot hide
-        // each other.
+        // No occluder, the far end itself, or a face that the ray starts or ends on: their planes cannot hide each
+        // other.
         let passes = |hit: Hit| hit.t >= sample.arrives || faces.contains(&patches.face_of(hit.triangle));
         let hit = if sample.ray.is_some() { hits.next().flatten() } else { None };
         if hit.is_none_or(passes) {

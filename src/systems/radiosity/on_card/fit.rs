@@ -45,19 +45,15 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Limits of a device. A block is 254 texels on the paper's card.
-    ///
-    /// # Errors
-    /// [`CardError::Input`] for a device without programs of such length.
+    /// Limits of a device. A block is 254 texels on the paper's card. Fails with [`CardError::Input`] for a device
+    /// without programs of such length.
     pub fn of(profile: &Profile, packing: Packing) -> Result<Self, CardError> {
         let (instructions, limit) = limits(profile)?;
         let blocks = kernels::of(packing, false).map(|kernel| kernel.block(instructions));
         Ok(Self { block: blocks[0].min(blocks[1]).max(1), limit })
     }
 
-    /// Checks the size of a system before its form factors are computed, which takes long.
-    ///
-    /// # Errors
+    /// Checks the size of a system before its form factors are computed, which takes long. Fails with
     /// [`CardError::Input`].
     pub fn require(self, profile: &Profile, packing: Packing, patches: usize) -> Result<(), CardError> {
         let size = packing.matrix_texels(patches);
@@ -67,9 +63,7 @@ impl Fit {
         Err(too_large(profile, packing::too_large("a matrix", self.limit, size)))
     }
 
-    /// Lays out a system for the device: one system of three channels, or three of one.
-    ///
-    /// # Errors
+    /// Lays out a system for the device: one system of three channels, or three of one. Fails with
     /// [`CardError::Input`].
     pub fn systems(self, profile: &Profile, packing: Packing, system: &System) -> Result<Vec<CardSystem>, CardError> {
         let made = match packing {

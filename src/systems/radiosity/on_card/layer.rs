@@ -1,4 +1,4 @@
-//! The textures of one system: its matrix, its emittance, and three vectors of which one holds the radiosities.
+//! The textures of one system: its matrix, its emittance, and three vectors, one of them the radiosities.
 
 use refsim::exec::Constants;
 use refsim::machine::{Machine, TextureId};

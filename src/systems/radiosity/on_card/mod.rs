@@ -48,11 +48,8 @@ pub struct CardSolver {
 }
 
 impl CardSolver {
-    /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one.
-    ///
-    /// # Errors
-    /// [`CardError::Input`]; [`CardError::Draw`] if the device lacks the format, or
-    /// a GPU of the host does not open.
+    /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one. Fails with
+    /// [`CardError::Input`]; [`CardError::Draw`] if the device lacks the format, or a GPU of the host does not open.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -66,11 +63,8 @@ impl CardSolver {
     }
 
     /// Creates a solver and uploads systems that are already in the card's layout: one, or three luminance systems of
-    /// one size for the three channels.
-    ///
-    /// # Errors
-    /// As [`Self::new`]; [`CardError::Input`] for other numbers of systems or several of different sizes,
-    /// [`CardError::Program`] for blocks that are too long for the device.
+    /// one size for the three channels. Errors: as [`Self::new`]; [`CardError::Input`] for other numbers of systems or
+    /// several of different sizes, [`CardError::Program`] for blocks that are too long for the device.
     pub fn of(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -119,18 +113,13 @@ impl CardSolver {
         &self.programs.list
     }
 
-    /// Runs one iteration: all passes of all systems.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// Runs one iteration: all passes of all systems. Fails with [`CardError::Draw`].
     pub fn iterate(&mut self) -> Result<(), CardError> {
         self.iterate_watched(&mut |_, _, _, _| Ok(()))
     }
 
     /// Runs one iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// Fails with [`CardError::Draw`].
     pub fn iterate_by_pass(&mut self, each: &mut dyn FnMut(usize, usize, Texels)) -> Result<(), CardError> {
         self.iterate_watched(&mut |machine, place, layer, pass| {
             each(place, pass, Texels::read_back(machine, layer.target(pass))?);
@@ -161,9 +150,7 @@ impl CardSolver {
         Ok(())
     }
 
-    /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey.
-    ///
-    /// # Errors
+    /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey. Fails with
     /// [`CardError::Draw`].
     pub fn read(&self) -> Result<Vec<[f32; 3]>, CardError> {
         let all = self.read_texels()?;
@@ -175,19 +162,13 @@ impl CardSolver {
         })
     }
 
-    /// Reads the radiosities back in the layout of the textures, one per system.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// Reads the radiosities back in the layout of the textures, one per system. Fails with [`CardError::Draw`].
     pub fn read_texels(&self) -> Result<Vec<Texels>, CardError> {
         let layers = self.layers.iter();
         Ok(layers.map(|layer| Texels::read_back(&self.machine, layer.radiosity)).collect::<Result<_, _>>()?)
     }
 
-    /// Replaces the radiosities.
-    ///
-    /// # Errors
-    /// [`CardError::Input`] if there is not one per patch.
+    /// Replaces the radiosities. Fails with [`CardError::Input`] if there is not one per patch.
     pub fn load(&mut self, radiosity: &[[f32; 3]]) -> Result<(), CardError> {
         CardError::check_size(PATCHES, self.len(), radiosity.len())?;
         let texel = |c: usize, x: usize| [0, 1, 2, 3].map(|k| radiosity.get(4 * x + k).map_or(0.0, |b| b[c]));
@@ -202,10 +183,7 @@ impl CardSolver {
     }
 
     /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card. Radiosities are
-    /// kept.
-    ///
-    /// # Errors
-    /// [`CardError::Input`] if it has another number of patches.
+    /// kept. Fails with [`CardError::Input`] if it has another number of patches.
     pub fn set_emittance(&mut self, system: &System) -> Result<(), CardError> {
         CardError::check_size(PATCHES, self.len(), system.factors().len())?;
         let texels = emittances(system, self.layout.packing, self.fit.limit)
@@ -215,9 +193,7 @@ impl CardSolver {
     }
 
     /// Replaces the reflectances: uploads matrix and emittances of a system of as many patches. Radiosities are kept.
-    ///
-    /// # Errors
-    /// [`CardError::Input`] if it has another number of patches.
+    /// Fails with [`CardError::Input`] if it has another number of patches.
     pub fn set_system(&mut self, system: &System) -> Result<(), CardError> {
         CardError::check_size(PATCHES, self.len(), system.factors().len())?;
         let fit = Fit { block: self.layout.block, ..self.fit };

@@ -15,10 +15,8 @@ use super::programs::Programs;
 use crate::card::{CardError, FullScreenPass, PingPong, Texels, nearest};
 use crate::radiosity::{kernels, packing};
 
-/// The largest block on a device, in texels: the steps of a pass.
-///
-/// # Errors
-/// [`CardError::Input`] for a device without programs of such length.
+/// The largest block on a device, in texels: the steps of a pass. Fails with [`CardError::Input`] for a device without
+/// programs of such length.
 pub fn product_block(profile: &Profile) -> Result<usize, CardError> {
     let (instructions, _) = limits(profile)?;
     Ok(kernels::PRODUCT_FIRST.block(instructions).min(kernels::PRODUCT_NEXT.block(instructions)).max(1))
@@ -26,11 +24,8 @@ pub fn product_block(profile: &Profile) -> Result<usize, CardError> {
 
 /// The product of two block-channel matrices (see [`crate::radiosity::packing::block_channel_matrix`]), `block` steps
 /// per pass, and the programs that ran. The result is that of [`crate::radiosity::packing::block_channel_product`] to
-/// the bit.
-///
-/// # Errors
-/// [`CardError`] if the device has no such programs, the matrices are too large or differ in size, or the block is
-/// longer than [`product_block`].
+/// the bit. Fails with [`CardError`] if the device has no such programs, the matrices are too large or differ in size,
+/// or the block is longer than [`product_block`].
 pub fn product(
     profile: impl Into<Arc<Profile>>,
     executor: impl Into<Executor>,

@@ -27,10 +27,8 @@ pub enum Solver {
     Direct,
 }
 
-/// Solves a system.
-///
-/// # Errors
-/// [`InputError`]. Reaching the maximum of iterations is not an error: see [`Solution::converged`].
+/// Solves a system. Fails with [`InputError`]. Reaching the maximum of iterations is not an error: see
+/// [`Solution::converged`].
 pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     check(problem)?;
     match solver {

@@ -62,10 +62,8 @@ pub struct RayEngine<'a> {
 }
 
 impl<'a> RayEngine<'a> {
-    /// Creates an engine over a mesh: builds the octree and marks the GPU cells.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the card runs no intersection program.
+    /// Creates an engine over a mesh: builds the octree and marks the GPU cells. Fails with [`EngineError`] if the card
+    /// runs no intersection program.
     pub fn new(
         mesh: &'a Mesh,
         profile: Profile,
@@ -93,9 +91,7 @@ impl<'a> RayEngine<'a> {
         })
     }
 
-    /// Submits rays, and may answer some of those that wait. Tickets count from the one returned.
-    ///
-    /// # Errors
+    /// Submits rays, and may answer some of those that wait. Tickets count from the one returned. Fails with
     /// [`EngineError`] if the card refuses the work.
     pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
         let first = self.flights.given();
@@ -106,10 +102,7 @@ impl<'a> RayEngine<'a> {
         Ok(Ticket(first))
     }
 
-    /// Answers all waiting rays.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the card refuses the work.
+    /// Answers all waiting rays. Fails with [`EngineError`] if the card refuses the work.
     pub fn finish(&mut self) -> Result<(), EngineError> {
         while !self.tree.is_empty() {
             self.release_bucket()?;

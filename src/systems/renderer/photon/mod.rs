@@ -67,10 +67,7 @@ impl Photons {
 }
 
 /// Renders with photon maps. `settings.depth` is the maximum number of surfaces that a photon hits, and of rays in
-/// sequence from the eye.
-///
-/// # Errors
-/// [`InputError`] if a setting is out of range or the caster fails.
+/// sequence from the eye. Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

@@ -139,10 +139,8 @@ impl GatherKernel {
         }
     }
 
-    /// The program for so many links, accepted by a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
+    /// The program for so many links, accepted by a device. Fails with [`KernelError`] if it breaks a rule of the
+    /// device.
     pub fn checked(&self, profile: &Profile, links: usize) -> Result<CheckedProgram, KernelError> {
         checked(profile, format!("`{}`, written out for {links} links", self.name()), &self.text(links))
     }
@@ -188,7 +186,6 @@ impl Writer {
         self.textures += 1;
     }
 
-    /// Reads the map.
     fn read_map(&mut self, at: &str) {
         let _ = writeln!(self.text, "TEX {}, {at}, TEX0, {};", self.register(TEXEL), self.kernel.map.target());
     }

@@ -33,10 +33,8 @@ impl LightKernel {
         text + tail
     }
 
-    /// The program for so many lights, accepted by a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
+    /// The program for so many lights, accepted by a device. Fails with [`KernelError`] if it breaks a rule of the
+    /// device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.kernel.name;
         let name = if lights == 1 { format!("`{name}`") } else { format!("`{name}`, written out for {lights} lights") };

@@ -1,7 +1,7 @@
 //! Pass 3 (4.2.4): the fragment programs that draw the model.
 //!
-//! - TEX0: two places in the atlas, xy and zw, of which the smaller by component is the fragment's; TEX1: the face's
-//!   bounds in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
+//! - TEX0: two places in the atlas, xy and zw; their component-wise minimum is the fragment's; TEX1: the face's bounds
+//!   in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
 //! - sampler 0: scattered irradiance, a rectangle; sampler 1: transmittances by cosine, 1-D.
 //! - `p[0]`: from scattered irradiance times transmittance (exact: half of it) to the picture, in w the smallest
 //!   squared distance to a light. `p[1]`: eye, in w the smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta;
@@ -193,10 +193,8 @@ impl ViewKernel {
         LIGHT_PART.most_within([0, 1].map(|lights| instructions(&self.text(lights))), slots, constants)
     }
 
-    /// The program for so many lights by fragment, accepted by a device.
-    ///
-    /// # Errors
-    /// [`KernelError`] if it breaks a rule of the device.
+    /// The program for so many lights by fragment, accepted by a device. Fails with [`KernelError`] if it breaks a rule
+    /// of the device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.name();
         let name = if self.direct == DirectLight::ByFragment {
@@ -208,6 +206,5 @@ impl ViewKernel {
     }
 }
 
-/// The part with direct light.
 const LIGHT_PART: LightKernel =
     LightKernel { kernel: KernelText { name: "direct light", text: LIGHTS }, prefix: "p[", first: 4, step: 4 };

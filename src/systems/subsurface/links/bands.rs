@@ -37,10 +37,8 @@ impl LinkBands {
         BAND.min(side as usize)
     }
 
-    /// The links of a range of bands; otherwise as [`Links::new`](super::Links::new).
-    ///
-    /// # Errors
-    /// As [`Links::new`](super::Links::new).
+    /// The links of a range of bands; otherwise as [`Links::new`](super::Links::new). Fails as
+    /// [`Links::new`](super::Links::new) does.
     pub fn new(
         surface: &SurfaceMoments,
         dipoles: &[Dipole],
@@ -195,13 +193,11 @@ fn root(surface: &SurfaceMoments) -> ClusterId {
     ClusterId { level: surface.level_count() - 1, y: 0, x: 0 }
 }
 
-/// The squares of a band of rows.
 fn squares(side: u32, band: usize) -> impl Iterator<Item = ClusterId> {
     let level = BLOCK_LEVEL.min(side.ilog2());
     (0..side >> level).map(move |x| ClusterId { level, y: band as u32, x })
 }
 
-/// Place of a texel in its band.
 fn place_in_band(side: u32, (x, y): (u32, u32)) -> usize {
     ((y % BAND as u32) * side + x) as usize
 }

@@ -1,11 +1,11 @@
-//! Which clusters a texel has links to.
+//! Choice of the clusters that a texel links to.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use super::super::multipole::{ClusterId, TexelFactors, to_morton};
 
-/// Which clusters the texels of an atlas have links to.
+/// Clusters that the texels of an atlas link to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinkChoice {
     /// All clusters of a level, the same for every texel: 1, 4, 16, 64, ... links.
@@ -56,7 +56,7 @@ impl<const N: usize> Candidate<N> {
         self.cluster.level == 0
     }
 
-    /// Where the cluster begins in Morton order.
+    /// Start of the cluster in Morton order.
     fn place(&self) -> u64 {
         let ClusterId { level, y, x } = self.cluster;
         (to_morton(x, y) as u64) << (2 * level)

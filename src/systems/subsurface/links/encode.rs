@@ -20,7 +20,7 @@ use super::super::multipole::{ClusterId, SurfaceMoments};
 use super::{LinkChoice, Links, MeanWeighting};
 use crate::card::Texels;
 
-/// Where a link reads the map.
+/// Place in the map that a link reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkPlace {
     /// The center of the cluster, from 0 to 1.
@@ -40,16 +40,16 @@ impl LinkPlace {
     }
 }
 
-/// How many factors and places a format loses.
+/// Numbers of factors and places that a format loses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LostFactors {
     /// Factors of links that are used: above 0.
     pub factors: usize,
-    /// How many of them round to 0.
+    /// Number of factors that round to 0.
     pub flushed: usize,
     /// Those that are denormal, which a card may flush to 0.
     pub denormal: usize,
-    /// Places of adaptive links of which a coordinate is rounded.
+    /// Number of adaptive links with a rounded coordinate.
     pub places: usize,
 }
 
@@ -76,10 +76,7 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// A texture, not yet rounded to its format.
-    ///
-    /// # Panics
-    /// If there is no such texture.
+    /// A texture, not yet rounded to its format. Panics if there is no such texture.
     pub fn texture(&self, index: usize) -> Texels {
         assert!(index < self.texture_count(), "there is no texture {index}");
         let side = self.links.side() as usize;
@@ -117,7 +114,7 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// How many factors and places a format loses.
+    /// Numbers of factors and places that a format loses.
     pub fn lost(&self, format: Format) -> LostFactors {
         let mut lost = LostFactors::default();
         let least_normal = least_normal(format);

@@ -25,10 +25,7 @@ pub struct IrradianceMeans {
 }
 
 impl IrradianceMeans {
-    /// The means of the irradiances of all texels, row by row.
-    ///
-    /// # Errors
-    /// [`InputError`] if there is not one per texel.
+    /// The means of the irradiances of all texels, row by row. Fails with [`InputError`] if there is not one per texel.
     pub fn new(
         surface: &SurfaceMoments,
         irradiances: &[[f64; 3]],
@@ -50,10 +47,7 @@ impl IrradianceMeans {
         Ok(Self { side, levels })
     }
 
-    /// The mean irradiance of a cluster.
-    ///
-    /// # Panics
-    /// If there is no such cluster.
+    /// The mean irradiance of a cluster. Panics if there is no such cluster.
     pub fn of(&self, ClusterId { level, y, x }: ClusterId) -> [f64; 3] {
         self.levels[level as usize][y as usize * (self.side >> level) as usize + x as usize]
     }
@@ -85,10 +79,7 @@ fn mean_of_children(
 
 impl Links {
     /// The radiosity of every texel, row by row: the sum over its links of factor times mean irradiance. A scalar
-    /// factor serves all three channels.
-    ///
-    /// # Panics
-    /// If the means are of an atlas of another size.
+    /// factor serves all three channels. Panics if the means are of an atlas of another size.
     pub fn gather(&self, means: &IrradianceMeans) -> Vec<[f64; 3]> {
         assert_eq!(self.side, means.side, "links and irradiance are of one atlas");
         let side = self.side as usize;

@@ -38,11 +38,9 @@ pub struct Links {
 
 impl Links {
     /// The links of every texel, for one dipole (scalar factors) or for red, green and blue. `done` is called with the
-    /// number of rows of texels done and of all, in any order and from any thread.
-    ///
-    /// # Errors
-    /// [`InputError`] for another number of dipoles, a level that the atlas does not have, a tolerance out of range,
-    /// no links, or more than [`MAX_FACTORS`] factors.
+    /// number of rows of texels done and of all, in any order and from any thread. Fails with [`InputError`] for
+    /// another number of dipoles, a level that the atlas does not have, a tolerance out of range, no links, or more
+    /// than [`MAX_FACTORS`] factors.
     pub fn new(
         surface: &SurfaceMoments,
         dipoles: &[Dipole],
@@ -54,10 +52,7 @@ impl Links {
         Self::of_bands(surface, dipoles.len(), choice, all)
     }
 
-    /// The links of every texel with given factors.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
+    /// The links of every texel with given factors. Fails as [`Self::new`] does.
     pub fn with<const N: usize>(
         factors: &Factors<'_, N>,
         choice: LinkChoice,
@@ -68,10 +63,8 @@ impl Links {
         Self::of_bands(surface, N, choice, all)
     }
 
-    /// The links of all bands, from the first on.
-    ///
-    /// # Errors
-    /// [`InputError`] if these are not the bands of this atlas with this choice.
+    /// The links of all bands, from the first on. Fails with [`InputError`] if these are not the bands of this atlas
+    /// with this choice.
     pub fn of_bands(
         surface: &SurfaceMoments,
         channels: usize,
@@ -101,7 +94,7 @@ impl Links {
         self.side
     }
 
-    /// How the links were chosen.
+    /// Choice of the links.
     pub fn choice(&self) -> LinkChoice {
         self.choice
     }
@@ -116,10 +109,8 @@ impl Links {
         self.per_texel
     }
 
-    /// The links of the texel in column `x` and row `y`: clusters with a factor per channel.
-    ///
-    /// # Panics
-    /// If there is no such texel.
+    /// The links of the texel in column `x` and row `y`: clusters with a factor per channel. Panics if there is no such
+    /// texel.
     pub fn of(&self, [x, y]: [u32; 2]) -> impl ExactSizeIterator<Item = (ClusterId, &[f32])> {
         assert!(x < self.side && y < self.side, "there is no texel ({x}, {y})");
         let texel = y as usize * self.side as usize + x as usize;

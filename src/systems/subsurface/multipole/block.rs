@@ -2,8 +2,8 @@
 //!
 //! The light of a far cluster varies smoothly among near texels. So a square of texels has one expansion to second
 //! order of the light of all clusters that are far from it; its four quarters do the same for the clusters that were
-//! too near, and so on; each texel gathers the remaining ones by itself. The nodes of the tree of clusters keep these
-//! parts apart, so that a texel has the factor of any of them: sums of parts are sums over its children.
+//! too near, and so on; each texel gathers the remaining ones individually. The nodes of the tree of clusters keep
+//! these parts apart, so that a texel has the factor of any of them: sums of parts are sums over its children.
 
 use super::expansion::Expansion;
 use super::integrate::Receiver;
@@ -35,7 +35,7 @@ struct Node<const N: usize> {
     parent: u32,
     /// Where its four children stand.
     children: u32,
-    /// Part that the present texel gathers by itself.
+    /// Part that the current texel gathers individually.
     own: Part<[f64; N]>,
     /// Part that each square around the present texel gathers as a whole, by level, from 1.
     shared: [Part<Expansion<N>>; BLOCK_LEVEL as usize],
@@ -181,7 +181,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         sum
     }
 
-    /// Returns the part of a node that a texel gathers by itself.
+    /// Returns the part of a node that a texel gathers individually.
     fn gather_to_texel(&mut self, texel: usize, at: u32) -> [f64; N] {
         let Node { level, place, .. } = self.nodes[at as usize];
         let sum = match self.receiver.undivided(texel, level, place as usize) {
@@ -212,7 +212,6 @@ impl<const N: usize> TexelFactors<'_, '_, N> {
         from_morton(self.texel)
     }
 
-    /// The cluster of a node.
     pub(in crate::subsurface) fn cluster(&self, node: usize) -> ClusterId {
         let Node { level, place, .. } = self.block.nodes[node];
         let (x, y) = from_morton(place as usize);
@@ -235,8 +234,7 @@ impl<const N: usize> TexelFactors<'_, '_, N> {
         sum
     }
 
-    /// Where the four children of a node stand; they are computed if they were not needed for its factor. `None` of a
-    /// texel.
+    /// Indices of the four children of a node, computed on first use; `None` for a texel.
     pub(in crate::subsurface) fn children(&mut self, node: usize) -> Option<usize> {
         let Node { level, place, children, .. } = self.block.nodes[node];
         if level == 0 {

@@ -34,7 +34,6 @@ impl<const N: usize> Expansion<N> {
         }
     }
 
-    /// The mean over a receiver.
     pub(super) fn mean_over(&self, receiver: &Moments, center: DVec3) -> [f64; N] {
         let offset = receiver.point - center;
         let spread = receiver.covariance.plus(&Covariance::of([(1.0, offset)]));

@@ -18,10 +18,8 @@ pub struct Factors<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Factors<'a, N> {
-    /// Factors within a tolerance, for example [`super::TOLERANCE`].
-    ///
-    /// # Errors
-    /// [`InputError`] if it is not from [`MIN_TOLERANCE`] to [`MAX_TOLERANCE`].
+    /// Factors within a tolerance, for example [`super::TOLERANCE`]. Fails with [`InputError`] if it is not from
+    /// [`MIN_TOLERANCE`] to [`MAX_TOLERANCE`].
     pub fn new(surface: &'a SurfaceMoments, dipoles: [Dipole; N], tolerance: f64) -> Result<Self, InputError> {
         ensure!((MIN_TOLERANCE..=MAX_TOLERANCE).contains(&tolerance), "subsurface::links" =>
             "expected a tolerance of factors from {MIN_TOLERANCE} to {MAX_TOLERANCE}, found {tolerance}");
@@ -33,10 +31,8 @@ impl<'a, const N: usize> Factors<'a, N> {
         self.surface
     }
 
-    /// F_iC per channel, of the texel in column `x` and row `y` and a cluster.
-    ///
-    /// # Panics
-    /// If there is no such texel or cluster.
+    /// F_iC per channel, of the texel in column `x` and row `y` and a cluster. Panics if there is no such texel or
+    /// cluster.
     pub fn factor(&self, texel: [u32; 2], cluster: ClusterId) -> [f64; N] {
         self.receiver().factor(texel, cluster)
     }
@@ -55,10 +51,7 @@ pub struct Receiver<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Receiver<'a, N> {
-    /// As [`Factors::factor`].
-    ///
-    /// # Panics
-    /// If there is no such texel or cluster.
+    /// As [`Factors::factor`]. Panics if there is no such texel or cluster.
     pub fn factor(&mut self, [x, y]: [u32; 2], cluster: ClusterId) -> [f64; N] {
         let side = self.factors.surface.side();
         assert!(x < side && y < side, "there is no texel ({x}, {y})");

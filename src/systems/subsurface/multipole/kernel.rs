@@ -136,7 +136,7 @@ impl<const N: usize> DistanceTable<N> {
 
     /// Largest size of pieces at each distance.
     fn set_reaches(&mut self, area: f64, tolerance: f64) {
-        // What the second order leaves out grows with the third power of the size.
+        // The error of the second order grows with the third power of the size.
         let far = FAR * cbrt(tolerance / 0.01);
         let left_ends: Vec<f64> = (0..self.intervals.len()).map(|k| self.left_end(k)).collect();
         let distance = |k: usize| ((left_ends[k] - 1.0) * self.unit).sqrt();
@@ -156,7 +156,6 @@ impl<const N: usize> DistanceTable<N> {
         }
     }
 
-    /// The left end of an interval.
     fn left_end(&self, interval: usize) -> f64 {
         f64::from_bits(((1.0_f64.to_bits() >> self.shift) + interval as u64) << self.shift)
     }
@@ -229,7 +228,7 @@ impl<const N: usize> DistanceTable<N> {
                 if !is_far(channel) {
                     return Taylor { value: cluster.area * value, ..Taylor::default() };
                 }
-                // Of g(|apart - offset|^2) by the offset: -2 g' apart, and 2 g' 1 + 4 g'' apart apart^T.
+                // Derivatives of g(|apart - offset|^2) by the offset: -2 g' apart, and 2 g' 1 + 4 g'' apart apart^T.
                 let slope = 2.0 * cluster.area * first * self.per_unit;
                 let bend = 4.0 * cluster.area * second * self.per_unit * self.per_unit;
                 let mut matrix = Covariance::of([(bend, apart)]);
@@ -253,7 +252,7 @@ impl<const N: usize> DistanceTable<N> {
         self.unit.sqrt()
     }
 
-    /// How many times two pieces are to be halved until their parts are far from each other.
+    /// Number of halvings of two pieces until their parts are far from each other.
     pub(super) fn halvings(&self, one: &Moments, other: &Moments) -> u32 {
         let balls = [one, other].map(|piece| (BALL * piece.size_squared).sqrt());
         let apart = (one.point.distance(other.point) - balls[0] - balls[1]).max(0.0);

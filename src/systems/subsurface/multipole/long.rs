@@ -139,8 +139,8 @@ impl OutlineSide {
         Self { start: a, along: (b - a).normalize_or_zero(), length: a.distance(b) }
     }
 
-    /// Where a line from a point along a vector is nearest to the side, in lengths of that vector; no number if the two
-    /// are parallel.
+    /// Parameter at which a line from a point along a vector is nearest to the side, in lengths of that vector; NaN if
+    /// the two are parallel.
     fn nearest(&self, from: DVec3, vector: DVec3) -> f64 {
         let (offset, squared) = (self.start - from, vector.length_squared());
         let [along, across] = [self.along.dot(vector), offset.dot(vector)];
@@ -186,7 +186,6 @@ impl<const N: usize> Light<'_, N> {
         sum
     }
 
-    /// The mean light on a patch.
     fn mean(&self, patch: &TexelPatch) -> [f64; N] {
         let &TexelPatch { corner, e, f, is_triangle, .. } = patch;
         let normal = e.cross(f);
@@ -270,7 +269,7 @@ struct Interval<const N: usize> {
     ends: [f64; 2],
     /// Values at the ends, the middle and between.
     values: [[f64; N]; 5],
-    /// The rule on halves, and what the change from the whole promises.
+    /// The rule on halves, and the error estimate from the change.
     integral: [f64; N],
     /// The change from the whole to halves.
     error: [f64; N],

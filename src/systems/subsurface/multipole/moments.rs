@@ -5,7 +5,6 @@ use glam::DVec3;
 /// The moments of a piece of surface. Lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moments {
-    /// Its area.
     pub(super) area: f64,
     /// Its mean point.
     pub(super) point: DVec3,

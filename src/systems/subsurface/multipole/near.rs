@@ -69,7 +69,6 @@ impl TexelPieces {
     }
 }
 
-/// The moments of the quarters of a window.
 fn quarters(face: &FaceMap, window: Window, area: f64) -> [Moments; 4] {
     let windows = window.quarters();
     if window.is_bent() {

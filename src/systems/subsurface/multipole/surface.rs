@@ -39,11 +39,8 @@ pub struct SurfaceMoments {
 }
 
 impl SurfaceMoments {
-    /// The moments of the clusters of an atlas.
-    ///
-    /// # Errors
-    /// [`InputError`] if the scale is not from [`MIN_MM_PER_UNIT`](super::MIN_MM_PER_UNIT) to
-    /// [`MAX_MM_PER_UNIT`](super::MAX_MM_PER_UNIT).
+    /// The moments of the clusters of an atlas. Fails with [`InputError`] if the scale is not from
+    /// [`MIN_MM_PER_UNIT`](super::MIN_MM_PER_UNIT) to [`MAX_MM_PER_UNIT`](super::MAX_MM_PER_UNIT).
     pub fn new(atlas: &Atlas, mm_per_unit: f64) -> Result<Self, InputError> {
         check_scale(mm_per_unit)?;
         let in_mm = |corner: DVec3| mm_per_unit * corner;
@@ -87,10 +84,7 @@ impl SurfaceMoments {
         self.root().area
     }
 
-    /// The area of a cluster, in mm^2.
-    ///
-    /// # Panics
-    /// If there is no such cluster.
+    /// The area of a cluster, in mm^2. Panics if there is no such cluster.
     pub fn cluster_area(&self, cluster: ClusterId) -> f64 {
         self.level(cluster.level)[to_morton(cluster.x, cluster.y)].area
     }

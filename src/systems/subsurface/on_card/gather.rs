@@ -130,7 +130,6 @@ impl Gather {
     }
 }
 
-/// Kind of texture of the map.
 pub(super) fn map_texture(options: &SubsurfaceCardOptions) -> MapTexture {
     if options.map.is_leveled() { MapTexture::Leveled } else { MapTexture::Rectangle }
 }

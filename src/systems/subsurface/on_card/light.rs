@@ -1,4 +1,4 @@
-//! Lights of OpenGL's kinds, and what the programs read of them.
+//! Lights of OpenGL's kinds, and their constants for the programs.
 
 use glam::DVec3;
 use std::f64::consts::PI;

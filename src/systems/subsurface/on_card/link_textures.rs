@@ -20,8 +20,8 @@ pub struct LinkTextures {
 }
 
 impl LinkTextures {
-    /// Of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times area; with
-    /// [`MeanWeighting::Count`] texels of levels count by their number.
+    /// Weighting of the means of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times
+    /// area; with [`MeanWeighting::Count`] texels of levels count by their number.
     pub fn new(links: &Links, surface: &SurfaceMoments, weighting: MeanWeighting) -> Self {
         let encoded = EncodedLinks::new(links, surface, weighting);
         let level = match links.choice() {
@@ -33,10 +33,7 @@ impl LinkTextures {
     }
 
     /// For textures laid out like those of [`EncodedLinks`]: `count` links per texel, all to one level or (`None`) each
-    /// to its own.
-    ///
-    /// # Errors
-    /// [`CardError::Input`] for another number of textures or texels.
+    /// to its own. Fails with [`CardError::Input`] for another number of textures or texels.
     pub fn from_textures(
         side: u32,
         level: Option<u32>,

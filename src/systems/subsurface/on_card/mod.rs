@@ -56,11 +56,9 @@ pub struct SubsurfaceCard {
 }
 
 impl SubsurfaceCard {
-    /// Uploads a model and its links. `eta` is the index of refraction.
-    ///
-    /// # Errors
-    /// [`CardError`] if the device has no such programs, an atlas or a program is too large for it, the links
-    /// are of another atlas, or a figure is out of its range.
+    /// Uploads a model and its links. `eta` is the index of refraction. Fails with [`CardError`] if the device has no
+    /// such programs, an atlas or a program is too large for it, the links are of another atlas, or a figure is out of
+    /// its range.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -116,10 +114,7 @@ impl SubsurfaceCard {
         &self.gather.programs
     }
 
-    /// New lights: passes 1 and 2.
-    ///
-    /// # Errors
-    /// [`CardError::Input`], [`CardError::Draw`].
+    /// New lights: passes 1 and 2. Fails with [`CardError::Input`], [`CardError::Draw`].
     pub fn light(&mut self, lights: &[Light]) -> Result<(), CardError> {
         self.lights = CardLights::new(lights, &self.model)?;
         self.light.run(self.view.machine_mut(), &self.lights, self.map.map)?;
@@ -127,10 +122,7 @@ impl SubsurfaceCard {
     }
 
     /// Irradiances of a table (equation 8: the light that entered the surface), one per texel, row by row, in place of
-    /// pass 1; then pass 2. Then there is no direct light.
-    ///
-    /// # Errors
-    /// [`CardError::Input`], [`CardError::Draw`].
+    /// pass 1; then pass 2. Then there is no direct light. Fails with [`CardError::Input`], [`CardError::Draw`].
     pub fn irradiate(&mut self, irradiances: &[[f64; 3]]) -> Result<(), CardError> {
         self.lights = CardLights::default();
         self.light.fill(self.view.machine_mut(), &self.model, irradiances, self.map.map)?;
@@ -145,9 +137,7 @@ impl SubsurfaceCard {
         self.gather()
     }
 
-    /// Pass 2 over the present map, as [`Self::light`] and [`Self::irradiate`] end with it.
-    ///
-    /// # Errors
+    /// Pass 2 over the present map, as [`Self::light`] and [`Self::irradiate`] end with it. Fails with
     /// [`CardError::Draw`].
     pub fn gather(&mut self) -> Result<(), CardError> {
         self.gather.run(self.view.machine_mut(), &self.map)?;
@@ -155,20 +145,15 @@ impl SubsurfaceCard {
         Ok(())
     }
 
-    /// The model from a camera: pass 3. Pixels that show nothing are 0.
-    ///
-    /// # Errors
-    /// [`CardError::Input`], [`CardError::Draw`].
+    /// The model from a camera: pass 3. Pixels that show nothing are 0. Fails with [`CardError::Input`],
+    /// [`CardError::Draw`].
     pub fn view(&mut self, view: &View) -> Result<Picture, CardError> {
         let Texels { width, height, texels } = self.view_texels(view)?;
         let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
         Ok(Picture::rgb(width as u32, height as u32, &pixels))
     }
 
-    /// As [`Self::view`], with an alpha of 1 where the model is.
-    ///
-    /// # Errors
-    /// As [`Self::view`].
+    /// As [`Self::view`], with an alpha of 1 where the model is. Fails as [`Self::view`] does.
     pub fn view_texels(&mut self, view: &View) -> Result<Texels, CardError> {
         let texels = self.view.show(&self.lights, self.gather.scattered(), view)?;
         self.note(PassKind::View);
@@ -176,33 +161,22 @@ impl SubsurfaceCard {
     }
 
     /// Reads all levels of the radiosity map, finest first: irradiance times transmittance times area over the mean
-    /// area, times the map's scale.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// area, times the map's scale. Fails with [`CardError::Draw`].
     pub fn read_levels(&self) -> Result<Vec<Texels>, CardError> {
         self.map.read_back(self.view.machine())
     }
 
-    /// Reads the finest level of the radiosity map alone.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// Reads the finest level of the radiosity map alone. Fails with [`CardError::Draw`].
     pub fn read_map(&self) -> Result<Texels, CardError> {
         Ok(Texels::read_back(self.view.machine(), self.map.map)?)
     }
 
-    /// Reads the scattered irradiance: B of equation 9 per texel.
-    ///
-    /// # Errors
-    /// [`CardError::Draw`].
+    /// Reads the scattered irradiance: B of equation 9 per texel. Fails with [`CardError::Draw`].
     pub fn read_scattered(&self) -> Result<Texels, CardError> {
         Ok(Texels::read_back(self.view.machine(), self.gather.scattered())?)
     }
 
-    /// How many channels of texels of the radiosity map are at its largest value, so that light may have been cut off.
-    ///
-    /// # Errors
+    /// Number of channels in the radiosity map at its largest value, where light may have been clamped. Fails with
     /// [`CardError::Draw`].
     pub fn saturated(&self) -> Result<usize, CardError> {
         let largest = self.options.map.largest();
@@ -228,7 +202,7 @@ impl SubsurfaceCard {
         self.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// Moves what the machine has recorded to a pass.
+    /// Moves the machine's recorded log to a pass.
     fn note(&mut self, pass: PassKind) {
         if let Some(log) = &mut self.log {
             log.extend(self.view.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));

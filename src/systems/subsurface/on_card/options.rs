@@ -106,7 +106,7 @@ pub struct SubsurfaceCardOptions {
     pub scattered: FloatTexels,
     /// True if pass 2 computes in half precision, except places in a rectangle.
     pub half: bool,
-    /// How many textures of links lie along an edge of one texture that holds them as tiles; `None` for a texture each.
+    /// Number of link textures along an edge of one texture that holds them as tiles; `None` for separate textures.
     pub tiles: Option<u32>,
 }
 

@@ -84,7 +84,6 @@ impl LightPass {
         lights.div_ceil(self.most).max(1)
     }
 
-    /// Lights the map.
     pub(super) fn run(&mut self, machine: &mut Machine, lights: &CardLights, map: TextureId) -> Result<(), CardError> {
         let passes = self.passes(lights.list.len());
         if passes > 1 && self.between.is_none() {

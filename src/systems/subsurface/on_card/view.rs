@@ -17,7 +17,7 @@ use crate::subsurface::kernels::{self, DirectLight, EyeTransmittance, ViewKernel
 /// Texels of the table of transmittances.
 const TABLE: u32 = 256;
 
-/// How the model is shown.
+/// Options of the view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// The camera, exposure, and format: [`TexelFormat::Bgra8`] clamps to 0 to 1, floats keep all.

@@ -52,7 +52,7 @@ fn values_are_means_over_the_samples_of_a_pair() {
     let sampling = FactorSampling { side: 4, supersamples, limit: f64::INFINITY };
     let found = sampled(sampling, &lobe);
     let (fine, mut sum) = (ParabolicMap::new(8), 0.0);
-    // View texel (1, 2) and light texel (3, 2), part of which lies below the horizon.
+    // View texel (1, 2) and light texel (3, 2), which lies partly below the horizon.
     for (a, b, c, d) in (0..16).map(|at| (at & 1, at >> 1 & 1, at >> 2 & 1, at >> 3 & 1)) {
         let [view, light] = [fine.direction(2 + a, 4 + b), fine.direction(6 + c, 4 + d)];
         sum += if light.z > 0.0 { lobe.value(view, light) } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Pictures against f64, counts, and what does not fit.
+//! Pictures against f64, counts, and refusals.
 
 use crossbar_systems::bi_scale::kernels::BlockEdges;
 use crossbar_systems::bi_scale::on_card::reference::pixel;
@@ -138,7 +138,7 @@ fn triangles_show_their_own_textures() {
     assert!((100..1400).contains(&differ), "{differ}");
 }
 
-/// Each thing held in fewer bits, the others in single precision.
+/// One quantity in fewer bits, the others in single precision.
 #[test]
 fn fewer_bits_show() {
     let hills = Hills::new(rough(8, 4, 4));

@@ -36,8 +36,8 @@ fn every_number_has_a_place_of_its_own() {
     }
 }
 
-/// Eight sets of ps_2_x; fifteen of shader model 4: Direct3D 10 has 16 outputs of a vertex program, of which
-/// position takes one, and Mesa's driver for these cards (nv50_screen.c) gives fragment programs 15 inputs.
+/// Eight sets in ps_2_x, fifteen in shader model 4: Direct3D 10 has 16 outputs of a vertex program, one for the
+/// position, and Mesa's driver for these cards (nv50_screen.c) gives fragment programs 15 inputs.
 #[test]
 fn passes_for_the_papers_directions() {
     let passes = |sets, directions| LocalLayout { sets }.passes(directions);

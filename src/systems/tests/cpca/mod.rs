@@ -1,4 +1,4 @@
-//! Matrices of harmonics per vertex, coherence of clusters, programs and what they compute on a card.
+//! Matrices of harmonics per vertex, coherence of clusters, programs and their results on a card.
 
 mod card;
 mod kernels;

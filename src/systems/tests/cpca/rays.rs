@@ -73,7 +73,7 @@ fn every_answer_is_that_of_tracing_every_ray() {
         let traced = TracedRays::trace(&vertices, rule, &mut caster, false).expect("traced");
         assert!(traced.counts().traced < traced.counts().rays, "mesh {number}: {:?}", traced.counts());
         let reach = ray_length(&vertices);
-        // Of large meshes some vertices: a range of one vertex prepares the whole mesh again.
+        // Only some vertices of large meshes: a range of one vertex prepares the whole mesh again.
         for vertex in (0..vertices.len()).step_by(if number < 30 { 1 } else { 1 + vertices.len() / 16 }) {
             let frame = &vertices.frames()[vertex];
             caster.origins.clear();

@@ -9,7 +9,7 @@ fn texel(direction: DVec3) -> usize {
     (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
 }
 
-/// Texels turn with the cube; truncated light has texels below 0, which stay what they are.
+/// Texels turn with the cube; truncated light has texels below 0, which stay unchanged.
 #[test]
 fn texels_of_any_sign_turn_with_the_cube() {
     // A quarter turn around z takes +x to +y: the middle of face +x comes to that of face +y.

@@ -21,34 +21,21 @@ pub enum ExitBasis {
 }
 
 impl ExitBasis {
-    /// All functions of an order: 16 for order 4, 25 for order 5.
-    ///
-    /// # Panics
-    /// If the order is not 1 to [`MAX_ORDER`].
+    /// All functions of an order: 16 for order 4, 25 for order 5. Panics if the order is not 1 to [`MAX_ORDER`].
     pub fn of_order(order: usize) -> Self {
         Self::Harmonics(Hemisphere::new(order))
     }
 
     /// All functions of an order except (l, m) = (1, 0), which is nearly redundant on the hemisphere: 24 for order 5
-    /// (section 6.1).
-    ///
-    /// # Errors
-    /// [`InputError`] for order 1, which has no such function.
-    ///
-    /// # Panics
-    /// If the order is not 1 to [`MAX_ORDER`].
+    /// (section 6.1). Fails with [`InputError`] for order 1, which has no such function. Panics if the order is not 1
+    /// to [`MAX_ORDER`].
     pub fn without_1_0(order: usize) -> Result<Self, InputError> {
         Hemisphere::without(order, &[function_index(1, 0)]).map(Self::Harmonics)
     }
 
     /// The basis with the given functions, l (l + 1) + m, increasing; function 0 alone represents radiance, as in
-    /// `.npz` files.
-    ///
-    /// # Errors
-    /// [`InputError`] for no functions.
-    ///
-    /// # Panics
-    /// If a function is not of an order up to [`MAX_ORDER`].
+    /// `.npz` files. Fails with [`InputError`] for no functions. Panics if a function is not of an order up to
+    /// [`MAX_ORDER`].
     pub fn of_functions(functions: &[u16]) -> Result<Self, InputError> {
         if functions == [0] {
             return Ok(Self::Radiance);
@@ -80,10 +67,7 @@ impl ExitBasis {
         }
     }
 
-    /// The functions' values at a local direction.
-    ///
-    /// # Panics
-    /// If there is not one place per function.
+    /// The functions' values at a local direction. Panics if there is not one place per function.
     pub fn values(&self, local: DVec3, into: &mut [f64]) {
         assert_eq!(into.len(), self.len(), "a place per function");
         match self {
@@ -148,13 +132,8 @@ impl<'a> Projector<'a> {
 }
 
 /// The matrix B of a BRDF, without either inverse: one row per function of the exit basis, one column per function of
-/// the incident order, integrated by a rule over the hemisphere for both directions.
-///
-/// # Errors
-/// [`InputError`] never, since there are at most 100 functions.
-///
-/// # Panics
-/// If the order is not 1 to [`MAX_ORDER`].
+/// the incident order, integrated by a rule over the hemisphere for both directions. Fails with [`InputError`] never,
+/// since there are at most 100 functions. Panics if the order is not 1 to [`MAX_ORDER`].
 pub fn brdf_matrix(
     brdf: &Brdf,
     exit: &ExitBasis,

@@ -84,13 +84,8 @@ fn one_way_error(found: &'static str) -> InputError {
 }
 
 impl Brdf {
-    /// One channel (0 red, 1 green, 2 blue) of a material's surface.
-    ///
-    /// # Errors
-    /// [`InputError`] for mirrors and glass, and for parameters out of range.
-    ///
-    /// # Panics
-    /// If there is no such channel.
+    /// One channel (0 red, 1 green, 2 blue) of a material's surface. Fails with [`InputError`] for mirrors and glass,
+    /// and for parameters out of range. Panics if there is no such channel.
     pub fn of_surface(surface: &Surface, channel: usize) -> Result<Self, InputError> {
         let brdf = match *surface {
             Surface::Diffuse { albedo } => Self::Lambert { albedo: f64::from(albedo[channel]) },
@@ -105,10 +100,7 @@ impl Brdf {
         brdf.check().map(|()| brdf)
     }
 
-    /// Checks that all parameters are in range.
-    ///
-    /// # Errors
-    /// [`InputError`] for the first that is not.
+    /// Checks that all parameters are in range. Fails with [`InputError`] for the first that is not.
     pub fn check(&self) -> Result<(), InputError> {
         type Range = (&'static str, fn(f64) -> bool);
         const SHARE: Range = ("a number from 0 to 1", |x| (0.0..=1.0).contains(&x));

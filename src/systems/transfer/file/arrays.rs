@@ -87,19 +87,14 @@ fn clustering(
     found.map_err(|reason| arrays.refuse("clusters", "those of a signal", reason.to_string()))
 }
 
-/// Writes a file completely or not at all.
-///
-/// # Errors
-/// [`WriteError`]; with an [`InvalidInput`](std::io::ErrorKind::InvalidInput) if the parts contradict each other.
+/// Writes a file completely or not at all. Fails with [`WriteError`]; with an
+/// [`InvalidInput`](std::io::ErrorKind::InvalidInput) if the parts contradict each other.
 pub fn save_prt(file: &PrtFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_prt(file, out))
 }
 
-/// Writes the bytes of a file.
-///
-/// # Errors
-/// Those of `out`; [`InvalidInput`](std::io::ErrorKind::InvalidInput), before anything is written, if the parts
-/// contradict each other.
+/// Writes the bytes of a file. Errors: those of `out`; [`InvalidInput`](std::io::ErrorKind::InvalidInput), before
+/// anything is written, if the parts contradict each other.
 pub fn write_prt(file: &PrtFile, out: &mut dyn Write) -> std::io::Result<()> {
     if let Some(fault) = file.fault() {
         return Err(contradiction(fault));

@@ -57,9 +57,7 @@ impl fmt::Display for MeshDigest {
 }
 
 /// Refuses a file of another mesh than `expected`, or of the same with other tangents; `path` is named in the message.
-///
-/// # Errors
-/// [`InputError`] unless `found` is this mesh.
+/// Fails with [`InputError`] unless `found` is this mesh.
 pub fn require_mesh(path: &Path, expected: &MeshDigest, found: Option<MeshDigest>) -> Result<(), InputError> {
     if found.as_ref() == Some(expected) {
         return Ok(());

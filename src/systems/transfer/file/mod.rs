@@ -35,7 +35,7 @@ pub struct PrtFile {
     /// Per cluster the supercluster that it is drawn in, if that was decided beforehand: numbered from 0 in the order
     /// of their lowest clusters.
     pub superclusters: Option<Vec<u32>>,
-    /// How the numbers were made: one line of at most 4,096 bytes without control characters.
+    /// Provenance of the numbers: one line of at most 4,096 bytes without control characters.
     pub provenance: Option<String>,
 }
 
@@ -45,7 +45,7 @@ pub struct PrtFile {
 pub enum PrtMeaning {
     /// Numbers without a meaning.
     Numbers {
-        /// How many per point.
+        /// Numbers per point.
         dimension: u32,
     },
     /// One transfer matrix per channel: channel by channel, row by row.
@@ -105,10 +105,7 @@ impl PrtMeaning {
     }
 }
 
-/// Cuts off so many values.
-///
-/// # Panics
-/// If there are fewer.
+/// Cuts off so many values. Panics if there are fewer.
 pub(crate) fn front<T: Clone>(values: &mut &[T], count: usize) -> Vec<T> {
     let (front, rest) = values.split_at(count);
     *values = rest;

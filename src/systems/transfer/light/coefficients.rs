@@ -52,10 +52,7 @@ impl HaarLight {
         (0..LIGHT_TEXELS).map(|at| self.channels.each_ref().map(|channel| channel[at])).collect()
     }
 
-    /// The coefficients of a segment in a channel.
-    ///
-    /// # Panics
-    /// If there is no such channel or segment.
+    /// The coefficients of a segment in a channel. Panics if there is no such channel or segment.
     pub fn segment(&self, channel: usize, segment: usize) -> &[f64] {
         let len = self.segmentation.len();
         &self.channels[channel][segment * len..(segment + 1) * len]
@@ -111,7 +108,7 @@ pub enum TruncationPriority<'a> {
     Transfer(&'a [f64]),
 }
 
-/// A truncated light and what is left of it.
+/// A truncated light and the kept energy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightTruncation {
     /// The light, coefficients that were dropped set to 0.
@@ -129,10 +126,7 @@ pub struct LightTruncation {
 impl HaarLight {
     /// The light with at most `keep` coefficients. A coefficient is kept in all three channels or in none; its
     /// magnitude is the root of the sum of their squares, so that L has one pattern of zeros. Among equal priorities
-    /// the lowest number is kept.
-    ///
-    /// # Errors
-    /// [`InputError`] if there is not one mean response per coefficient.
+    /// the lowest number is kept. Fails with [`InputError`] if there is not one mean response per coefficient.
     pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, InputError> {
         let weights = match priority {
             TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],

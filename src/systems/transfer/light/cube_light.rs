@@ -34,10 +34,8 @@ pub struct CubeLight {
 }
 
 impl CubeLight {
-    /// A light from radiances by texel number.
-    ///
-    /// # Errors
-    /// [`InputError`] unless there are 6 x 32 x 32, all finite and at least 0.
+    /// A light from radiances by texel number. Fails with [`InputError`] unless there are 6 x 32 x 32, all finite and
+    /// at least 0.
     pub fn new(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if texels.len() != LIGHT_TEXELS {
             return Err(texels_error(texels.len()));
@@ -46,10 +44,8 @@ impl CubeLight {
         Ok(Self { texels })
     }
 
-    /// A light from radiances that may be negative, as those of truncated light are, which oscillate around 0.
-    ///
-    /// # Errors
-    /// [`InputError`] unless there are 6 x 32 x 32, all finite.
+    /// A light from radiances that may be negative, as those of truncated light are, which oscillate around 0. Fails
+    /// with [`InputError`] unless there are 6 x 32 x 32, all finite.
     pub fn signed(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if texels.len() != LIGHT_TEXELS {
             return Err(texels_error(texels.len()));
@@ -58,19 +54,14 @@ impl CubeLight {
         Ok(Self { texels })
     }
 
-    /// A light with the same radiance from all directions.
-    ///
-    /// # Errors
-    /// [`InputError`] if it is negative or not finite.
+    /// A light with the same radiance from all directions. Fails with [`InputError`] if it is negative or not finite.
     pub fn constant(radiance: [f64; 3]) -> Result<Self, InputError> {
         Self::new(vec![radiance; LIGHT_TEXELS])
     }
 
     /// A light from a function of unit directions, sampled in the 4 x 4 fine directions of each texel. The function's
-    /// direction v is rotated to `rotation` v.
-    ///
-    /// # Errors
-    /// [`InputError`] if the matrix is not a rotation, or a radiance is negative or not finite.
+    /// direction v is rotated to `rotation` v. Fails with [`InputError`] if the matrix is not a rotation, or a radiance
+    /// is negative or not finite.
     pub fn sampled(
         radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
         rotation: &DMat3,
@@ -79,10 +70,8 @@ impl CubeLight {
         Self::decimated(&fine_samples(radiance, rotation, 0.0)?, decimation)
     }
 
-    /// The rotated light: each fine direction has the radiance, perhaps negative, of the texel that contains it.
-    ///
-    /// # Errors
-    /// [`InputError`] if the matrix is not a rotation.
+    /// The rotated light: each fine direction has the radiance, perhaps negative, of the texel that contains it. Fails
+    /// with [`InputError`] if the matrix is not a rotation.
     pub fn turned(&self, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         Self::decimated(&self.fine(rotation)?, decimation)
     }
@@ -107,27 +96,21 @@ impl CubeLight {
 
     /// A light from small sources, counted from 0 in errors. Each adds its radiance times the covered fraction of each
     /// fine texel; the fractions are computed on a grid as fine as the source needs and scaled so that the source's
-    /// flux, 2 pi (1 - cos radius) times its radiance, is exact.
-    ///
-    /// # Errors
-    /// [`InputError`] for a matrix that is not a rotation, or a source without direction, radius or radiance.
+    /// flux, 2 pi (1 - cos radius) times its radiance, is exact. Fails with [`InputError`] for a matrix that is not a
+    /// rotation, or a source without direction, radius or radiance.
     pub fn from_disks(sources: &[DiskSource], rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         Self::decimated(&fine_disks(sources, rotation)?, decimation)
     }
 
-    /// The light of the CIE clear sky over z >= 0 with its sun, and of the ground below.
-    ///
-    /// # Errors
-    /// As [`Self::sampled`], and for a sun that is not above the horizon.
+    /// The light of the CIE clear sky over z >= 0 with its sun, and of the ground below. Errors: as [`Self::sampled`],
+    /// and for a sun that is not above the horizon.
     pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         sky.relative(DVec3::Z).map_err(of_light)?;
         let without_sun = Self::sampled(|v| sky_radiance(sky, v), rotation, decimation)?;
         Ok(without_sun.plus(&Self::from_disks(&[sun_disk(sky)], rotation, decimation)?))
     }
 
-    /// [`HarmonicLight::red_and_blue`] without truncation to an order: two disks in a dim surrounding.
-    ///
-    /// # Errors
+    /// [`HarmonicLight::red_and_blue`] without truncation to an order: two disks in a dim surrounding. Fails with
     /// [`InputError`] if the matrix is not a rotation.
     pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;

@@ -26,10 +26,8 @@ pub struct SegmentCensus {
 
 impl SegmentCensus {
     /// The census of all vertices of some maps. A fine direction belongs to a segment if the hat function of one of its
-    /// texels is not 0 there: with a width of one texel, if it lies in the segment.
-    ///
-    /// # Panics
-    /// If the maps are of other vertices.
+    /// texels is not 0 there: with a width of one texel, if it lies in the segment. Panics if the maps are of other
+    /// vertices.
     pub fn new(vertices: &Vertices, maps: &VisibilityMaps, hats: &LinearBasis) -> Self {
         let of_map = |map: usize| {
             let normal = vertices.frames()[maps.vertices()[map] as usize].normal();
@@ -60,7 +58,7 @@ impl SegmentCensus {
     }
 }
 
-/// The segments of which no fine direction lies above the horizon of a unit normal, a bit each from the lowest up.
+/// The segments without a fine direction above the horizon of a unit normal, one bit each from the lowest up.
 pub fn segments_below_horizon(normal: DVec3, hats: &LinearBasis) -> u32 {
     let directions = FineDirections::get().directions();
     let is_above = |fine: usize| normal.dot(directions[fine]) > 0.0;

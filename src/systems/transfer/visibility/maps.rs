@@ -23,10 +23,7 @@ impl Default for VisibilitySampling {
 }
 
 impl VisibilitySampling {
-    /// The directions.
-    ///
-    /// # Panics
-    /// If there are more than 4 x 4 per texel.
+    /// The directions. Panics if there are more than 4 x 4 per texel.
     pub fn directions(self) -> &'static FineDirections {
         FineDirections::of(1 << self.log2_samples)
     }
@@ -68,7 +65,7 @@ pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 pub struct VisibilityCounts {
     /// Directions above the horizon of their vertex's normal.
     pub above: u64,
-    /// How many of these directions are behind all triangles on which the vertex lies.
+    /// Number of these directions behind all triangles on which the vertex lies.
     pub below_triangles: u64,
     /// Directions in which a ray was cast; for all others the result is certain.
     pub traced: u64,
@@ -126,10 +123,7 @@ impl VisibilityMaps {
     }
 
     /// The same maps with vertex numbers reduced by `first`: converts the numbers of the second of two joined meshes to
-    /// its own.
-    ///
-    /// # Panics
-    /// If a vertex number is lower than `first`.
+    /// its own. Panics if a vertex number is lower than `first`.
     #[must_use]
     pub fn counted_from(mut self, first: u32) -> Self {
         let lower = |vertex: &mut u32| *vertex = vertex.checked_sub(first).expect("a vertex of the second mesh");
@@ -137,10 +131,7 @@ impl VisibilityMaps {
         self
     }
 
-    /// Appends the maps of other vertices in the same sampling.
-    ///
-    /// # Panics
-    /// If the sampling is another.
+    /// Appends the maps of other vertices in the same sampling. Panics if the sampling is another.
     pub fn append(&mut self, next: Self) {
         assert_eq!(self.sampling, next.sampling, "maps of one sampling");
         self.vertices.extend(next.vertices);
@@ -177,19 +168,13 @@ impl VisibilityMaps {
     }
 
     /// The bits of a map, 64 directions per word, the first in the lowest bit. Maps count from 0, in the order of
-    /// [`Self::vertices`].
-    ///
-    /// # Panics
-    /// If there is no such map.
+    /// [`Self::vertices`]. Panics if there is no such map.
     pub fn bits(&self, map: usize) -> &[u64] {
         let words = self.sampling.words();
         &self.words[map * words..(map + 1) * words]
     }
 
-    /// True if a map's vertex sees the light in a fine direction.
-    ///
-    /// # Panics
-    /// If there is no such map or direction.
+    /// True if a map's vertex sees the light in a fine direction. Panics if there is no such map or direction.
     pub fn is_visible(&self, map: usize, fine: usize) -> bool {
         let bits = self.bits(map);
         assert!(fine < 64 * bits.len(), "a fine direction, not {fine}");

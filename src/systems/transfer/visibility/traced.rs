@@ -73,7 +73,6 @@ pub(super) fn above(frame: &LocalFrame, origin: &RayOrigin, sampling: Visibility
     (open.into_iter().map(|(fine, _)| fine).collect(), below.len() as u64)
 }
 
-/// Sets a bit of a map.
 pub(super) fn set(bits: &mut [u64], fine: u32) {
     bits[fine as usize / 64] |= 1 << (fine % 64);
 }
@@ -119,10 +118,8 @@ impl VisibilityMaps {
     /// nothing are not cast.
     ///
     /// The maps take [`VISIBILITY_BYTES`](super::VISIBILITY_BYTES) per vertex; rays that wait to be cast at most 32
-    /// vertices times 98,304 directions times 30 bytes, 90 MB.
-    ///
-    /// # Errors
-    /// [`InputError`] for a vertex that does not exist; [`InputError`] if the caster fails.
+    /// vertices times 98,304 directions times 30 bytes, 90 MB. Fails with [`InputError`] for a vertex that does not
+    /// exist; [`InputError`] if the caster fails.
     pub fn trace_sampled(
         vertices: &Vertices,
         of: &[u32],
@@ -194,7 +191,6 @@ impl VisibilityMaps {
     }
 }
 
-/// Checks that all vertices exist.
 pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), InputError> {
     let unknown = of.iter().find(|&&vertex| vertex as usize >= vertices.len());
     let (what, expected) = ("a vertex's number", "one below the number of vertices");

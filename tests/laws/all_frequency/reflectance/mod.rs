@@ -1,4 +1,4 @@
-//! Factors of reflectance: what singular values promise, measured files, tables.
+//! Factors of reflectance: error bounds by singular values, measured files, tables.
 
 mod factors;
 mod tables;

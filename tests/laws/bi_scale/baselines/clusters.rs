@@ -44,7 +44,7 @@ fn no_round_adds_error() {
             assert!(falls && found.history[6] < whole, "{form:?}: {:?} of {whole}", found.history);
             let gained = found.history[6] / found.history[0];
             assert!(sample > 40 || gained < 0.99, "{form:?}: {:?}", found.history);
-            // What is stored is in f32.
+            // Stored numbers are f32.
             assert_relative_eq!(squared_error(&matrix, &found), found.history[6], max_relative = 1e-5);
         }
     }
@@ -80,7 +80,6 @@ fn rounds_begin_with_the_clusters_of_the_dense_signal() {
     }
 }
 
-/// The product is that of the represented rows.
 #[test]
 fn products_are_those_of_the_approximated_rows() {
     let (matrix, light) = (transfer().1, light(3));

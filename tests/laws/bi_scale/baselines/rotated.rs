@@ -17,7 +17,6 @@ use crossbar::transfer::grid::LIGHT_MAP;
 use super::{light, transfer};
 use crate::bi_scale::transfer::center as texel_center;
 
-/// Parts of the hemisphere cover it once.
 #[test]
 fn cells_cover_the_hemisphere() {
     for side in [1, 3, 8] {

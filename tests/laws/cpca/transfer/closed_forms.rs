@@ -141,6 +141,6 @@ fn bowls_of_any_height_cost_no_more_than_walls() {
         worst = worst.max((light / (1.0 - sine * sine) - 1.0).abs());
         assert_eq!(found.directions, 1058);
     }
-    // Of the rule of 23 rings 3 %.
+    // 3 % with the rule of 23 rings.
     assert!(worst < 5e-3, "{worst}");
 }

@@ -21,7 +21,7 @@ use crossbar::tracer::HostTracer;
 use crossbar::transfer::Vertices;
 use glam::DVec3;
 
-/// Triangles of which each keeps its own vertices.
+/// Triangles with separate vertices.
 #[derive(Default)]
 struct Soup(Vec<[f32; 3]>);
 

@@ -81,7 +81,7 @@ fn flat_models_have_their_materials() {
         }
         assert_eq!(model.material_of.len(), model.mesh.len());
         let vertices = Vertices::with_materials(&model.mesh, &model.material_of, Tangents::Texture).expect("vertices");
-        // Of the vertices that the file repeats, those where tubes close count once.
+        // Vertices that the file repeats where tubes close count once.
         assert!(vertices.len() <= models::build(name).expect("a mesh").positions().len(), "{name}");
     }
     let plain = models::build_with_materials("bi-scale-bunny").expect("a model");

@@ -18,7 +18,7 @@ use glam::DVec3;
 use super::{Soup, caster, mixed, trace};
 
 const ALBEDO: f64 = 0.8;
-/// How far rays start off the surface.
+/// Offset of rays from the surface.
 const LIFT: f64 = 1e-4;
 /// Random numbers of a place on a path.
 const PER_PLACE: u64 = 2;

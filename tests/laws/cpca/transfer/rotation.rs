@@ -55,7 +55,7 @@ fn turning_mesh_tangents_and_light_changes_nothing() {
             // Corners in single precision: a ray that just misses an edge may hit it.
             let flipped: Vec<usize> = (0..rays.rule().len()).filter(of).collect();
             differ += flipped.len();
-            // What a ray carries: its weight, the lobe towards the view, and the light, both below 20.
+            // Factors of a ray: its weight, the lobe towards the view, and the light, both below 20.
             let share: f64 = flipped.iter().map(|&direction| 400.0 * rays.rule().weights()[direction]).sum();
             let [found, expected] =
                 [after.radiance(vertex, view, &turned_light), before.radiance(vertex, view, &light)];

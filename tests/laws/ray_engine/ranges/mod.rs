@@ -27,7 +27,7 @@ use refsim::num::power_of_two;
 use scene::Scene;
 use std::sync::LazyLock;
 
-/// Cards and ideal formats, some with other switches: an overflow that wraps breaks what one that saturates may hide.
+/// Cards and ideal formats, some with other switches: wrapping overflows show errors that saturation may hide.
 const DEVICES: [(&str, &[(&str, &str)]); 18] = [
     ("r200", &[]),
     ("r200", &[("overflow", "wrap"), ("texcrd-overflow", "wrap-preserving")]),
@@ -65,7 +65,7 @@ fn crossbar(device: (&str, &[(&str, &str)])) -> Crossbar {
     Crossbar::new(profile(device), ExecutorKind::Batch)
 }
 
-/// How many scenes a device sees.
+/// Number of scenes per device.
 fn scenes() -> u64 {
     by_form(60, 4000)
 }

@@ -9,7 +9,7 @@ use super::tally::{BATCHES, BatchCounts, WalkTally};
 
 /// A body in mean free paths, entered at its origin along +z.
 trait Body: Copy + Sync {
-    /// How far a ray from inside goes before it leaves, and the unit normal that points outwards there.
+    /// Distance at which a ray from inside leaves, and the outward unit normal there.
     fn boundary(self, from: DVec3, direction: DVec3) -> (f64, DVec3);
 
     /// Moves a point back that rounding has put on the wrong side of the boundary.
@@ -54,8 +54,8 @@ impl Body for Sphere {
     }
 }
 
-/// Follows photons that enter a half space at a point. Bins are the rings between ascending `radii` in mm, the first
-/// of which is a disc.
+/// Follows photons that enter a half space at a point. Bins are the rings between ascending `radii` in mm; the first is
+/// a disc.
 pub(crate) fn half_space(walk: &PhotonWalk, radii: &[f64]) -> WalkTally {
     follow(walk, HalfSpace, radii)
 }

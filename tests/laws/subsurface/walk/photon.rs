@@ -55,7 +55,7 @@ impl PhotonRng {
     pub(crate) fn enter(&mut self, entry: PhotonEntry, eta: f64, inwards: DVec3) -> DVec3 {
         let outside: Option<f64> = match entry {
             PhotonEntry::Beam(cosine) => Some(cosine),
-            // At least a third of what is tried passes: the limit is for indices that are no numbers.
+            // At least a third of the tries passes; the limit is for NaN indices.
             PhotonEntry::Diffuse => (0..MAX_TRIES).find_map(|_| {
                 let [u, v] = self.pair();
                 let cosine = u.sqrt();

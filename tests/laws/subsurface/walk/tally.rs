@@ -21,7 +21,7 @@ impl WalkEstimate {
         Self { mean, half_width: STUDENT * (squares / (count * (count - 1.0))).sqrt() }
     }
 
-    /// How many half widths `value` is away from the mean.
+    /// Distance of `value` from the mean in half widths.
     pub(crate) fn distance(self, value: f64) -> f64 {
         (value - self.mean).abs() / self.half_width
     }
@@ -74,7 +74,6 @@ impl WalkTally {
         self.estimate(|batch| batch.left.iter().sum::<u64>() as f64)
     }
 
-    /// The fraction that left in a bin.
     pub(crate) fn fraction(&self, bin: usize) -> WalkEstimate {
         self.estimate(|batch| batch.left[bin] as f64)
     }

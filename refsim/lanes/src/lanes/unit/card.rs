@@ -12,7 +12,7 @@ use crate::num::{Format, FormatKind, NumberOperation as Op, Unit as Name};
 /// 0.5.
 const HALF: u32 = 0x3f00_0000;
 
-/// What a unit has besides sums, products, comparisons and integral parts.
+/// Functions of a unit besides sums, products, comparisons and integral parts.
 pub(crate) trait CardFunctions {
     /// Numbers of a table. They are looked up apart: a loop that does is compiled to no vector code.
     type Entry: Copy;
@@ -28,8 +28,9 @@ pub(crate) trait CardFunctions {
     fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
 }
 
-/// What differs from unit to unit. The quick versions are for loops of vector code: with their result they hand back
-/// what they met, by which it may be wrong. `FUSED` tells them that the host has fused multiply-add.
+/// Operations that differ between units. The quick versions are for loops of vector code: beside their result they
+/// return the range of magnitudes met, from which the caller sees whether it may be wrong. `FUSED` is `true` if the
+/// host has fused multiply-add.
 pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// True if comparisons set NaN where words have no order.
     const SETS_NAN: bool;
@@ -71,7 +72,7 @@ pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     fn saturate(&self, x: u32) -> u32;
 }
 
-/// The arithmetic of a unit. What the unit does not have is that of the ideal format, with the unit's NaN.
+/// The arithmetic of a unit. Operations that the unit lacks are those of the ideal format, with the unit's NaN.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CardLane<U> {
     pub(crate) unit: U,
@@ -143,7 +144,7 @@ impl<U: CardUnit> CardLane<U> {
         Some(Self::of_ideal(value))
     }
 
-    /// What a comparison sets: 1 or +0, and without an order the NaN of a unit that has one there.
+    /// Result of a comparison: 1 or +0; unordered operands give NaN on units that define one.
     #[inline(always)]
     pub(crate) fn flag(&self, a: u32, b: u32, holds: bool) -> u32 {
         let word = if holds { ONE } else { 0 };

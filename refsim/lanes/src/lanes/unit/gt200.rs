@@ -1,5 +1,6 @@
 //! The unit of GT200: sums and products of the host where these are exact or rounded once. The quick versions are for
-//! loops of vector code and say what they met, by which their results may be wrong.
+//! loops of vector code and return the range of magnitudes met, from which the caller sees whether their results may be
+//! wrong.
 
 use super::card::CardUnit;
 use super::tables::{GT200, Tables};
@@ -9,24 +10,24 @@ use crate::lanes::round::ZERO;
 use crate::lanes::toward;
 use crate::num::{Format, Rounding, Unit};
 
-/// `2^-126 (1 - 2^-25)`: what is below, rounded to 24 bits, is below the least normal number.
+/// `2^-126 (1 - 2^-25)`: smaller numbers, rounded to 24 bits, are below the least normal number.
 const LEAST: f64 = f64::from_bits((1023 - 126) << 52) * (1.0 - f64::from_bits((1023 - 25) << 52));
 
 /// The state of the unit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gt200 {
-    /// Sums and products are rounded toward zero, those of MAD never.
+    /// Sums and products are rounded toward zero, except in MAD.
     toward_zero: bool,
     zero_wins: bool,
     pub(super) tables: &'static Tables<128, 3>,
 }
 
-/// Returns `true` if a conversion makes zeros of what is below `2^-33`, whatever the rounding: GT200's to half floats.
+/// Returns `true` if a conversion flushes magnitudes below `2^-33` in every rounding: GT200's to half floats.
 pub(crate) fn drops_small_halves(from: &Format, to: &Format) -> bool {
     matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins) && to.kind == Format::FP16.kind
 }
 
-/// A number without what [`drops_small_halves`].
+/// A number after flushing as [`drops_small_halves`] requires.
 #[inline(always)]
 pub(crate) fn without_small(x: f64) -> f64 {
     let kept = if x.abs() < crate::lanes::layout::pow2(-33) { 0.0 } else { x };

@@ -1,4 +1,4 @@
-//! The arithmetic units of cards, on words: written apart from [`crate::num::unit`], of which it has the tables alone.
+//! The arithmetic units of cards, on words. Shares only the tables with [`crate::num::unit`].
 //!
 //! - `word`: single floats as words.
 //! - `nv`, `nv_functions`: the vertex unit of NV20 to NV35; `gt200`, `gt200_functions`: the unit of GT200.

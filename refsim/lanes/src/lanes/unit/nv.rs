@@ -1,7 +1,8 @@
 //! The vertex unit of NV20 to NV35: products cut to 24 bits, sums of aligned addends.
 //!
 //! [`Nv::mul`] and [`Nv::sum`] are right for all words. The quick versions are for loops of vector code. They compute
-//! in host floats, and say what they met, by which their results may be wrong.
+//! in host floats, and return the range of magnitudes met, from which the caller sees whether their results may be
+//! wrong.
 
 use super::card::CardUnit;
 use super::tables::{NV, Tables};
@@ -21,7 +22,7 @@ pub(crate) struct Nv {
 }
 
 impl Nv {
-    /// A result of any exponent, of which the significand has its leading one at bit 23.
+    /// A result of any exponent; the significand has its leading one at bit 23.
     fn packed(self, sign: u32, exponent: i32, significand: u32) -> u32 {
         let magnitude = match exponent {
             ..=0 => 0,
@@ -61,7 +62,7 @@ impl Nv {
         self.packed(sum.cast_unsigned() & SIGN, top + 3 - zeros.cast_signed(), magnitude << zeros >> 8)
     }
 
-    /// The place of a word in the order of comparisons, which is that of integers.
+    /// Key of a word for comparisons as integers.
     #[inline(always)]
     fn key(self, w: u32) -> i32 {
         let key = (w ^ mask(w & SIGN != 0) >> 1).cast_signed();

@@ -9,7 +9,7 @@ use crate::lanes::layout::pow2;
 use crate::num::NumberOperation as Op;
 use crate::num::unit::tables::{NV_EXP, NV_LOG, NV3X_EX2, NV3X_LG2};
 
-/// Doubles hold the integers that the steps of Newton's method are made of, but for one product.
+/// Doubles hold the integers of the steps of Newton's method exactly, except one product.
 impl CardFunctions for Nv {
     type Entry = [f64; 1];
 
@@ -143,7 +143,7 @@ impl Nv {
             _ => {}
         }
         let f = u64::from(significand(x));
-        // In units of 2^(e - 150), those of numbers below 1 as of 1.
+        // In units of 2^(e - 150); numbers below 1 have the unit of 1.
         let units = if e < 127 { f.div_ceil(1 << (127 - e)) } else { f };
         let bits = 150 - e.max(127);
         let whole = 1u64 << bits;

@@ -8,7 +8,6 @@ use crate::lanes::toward;
 pub(super) const SIGN: u32 = 1 << 31;
 /// The exponent field; alone, infinity.
 pub(super) const FIELD: u32 = 0x7f80_0000;
-/// The mantissa.
 pub(super) const MANTISSA: u32 = 0x7f_ffff;
 /// 1.0.
 pub(super) const ONE: u32 = 0x3f80_0000;
@@ -73,22 +72,22 @@ pub(super) fn mask(condition: bool) -> u32 {
     if condition { u32::MAX } else { 0 }
 }
 
-/// `a b` with the bits beyond 24 dropped; rounded, or cut, where it is no normal number. `FUSED` tells that the host has
-/// fused multiply-add.
+/// `a b` with the bits beyond 24 dropped; rounded, or cut, if the result is not a normal number. `FUSED` is `true` if
+/// the host has fused multiply-add.
 #[inline(always)]
 pub(super) fn cut_product<const FUSED: bool>(a: u32, b: u32) -> f32 {
     let (a, b) = (f32::from_bits(a), f32::from_bits(b));
     if FUSED { toward::product::<ZERO>(a, b) } else { cut_double(f64::from(a) * f64::from(b)) }
 }
 
-/// A double as a single, the bits beyond 24 dropped; rounded where it is no normal number.
+/// A double as a single, the bits beyond 24 dropped; rounded if it is not a normal number.
 #[inline(always)]
 pub(super) fn cut_double(x: f64) -> f32 {
     f64::from_bits(x.to_bits() & !SURPLUS) as f32
 }
 
-/// The ends of a range of numbers met in a computation in vector code, which is right far from the ends of the format.
-/// Of single numbers, and of all lanes: no loop that gathers conditions is compiled to vector code, those of minima are.
+/// Smallest and largest magnitude in a computation in vector code, which is right far from the ends of the format.
+/// Minima and maxima are tracked, because loops over conditions are not vectorised.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Met {
     /// The largest magnitude.
@@ -115,7 +114,7 @@ impl Met {
         Self { largest, addend: largest.wrapping_sub(1), ..Self::NONE }
     }
 
-    /// What was met in two computations.
+    /// Union of the ranges of two computations.
     #[inline(always)]
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
@@ -125,9 +124,9 @@ impl Met {
         }
     }
 
-    /// Returns `true` if results may be wrong: of special values, of a sum that may leave the range, or of which bits
-    /// of subnormal addends count, and of products that are at most the smallest normal number, which they may have
-    /// been rounded to.
+    /// Returns `true` if results may be wrong: for special values, sums that may leave the range or have significant
+    /// bits of subnormal addends, and products of at most the smallest normal number, to which they may have been
+    /// rounded.
     #[inline(always)]
     pub(crate) fn is_risky(self) -> bool {
         self.largest >= 252 << 23 || self.addend < (64 << 23) - 1 || self.product < 1 << 23

@@ -1,4 +1,4 @@
-//! Types of operands, addends and results, and what the adders see of a number.
+//! Types of operands, addends and results, and the adders' view of a number.
 
 use crate::num::aligned::Addend;
 use crate::num::{
@@ -165,8 +165,8 @@ pub struct ResultFormat {
     pub element: Element,
     /// The digits that are kept, from the top of the word, and their rounding. (Of fp64 none is used.)
     pub format: Format,
-    /// Results of NVIDIA's adders are never -0, and their NaN is 7fffffff or 7fff. Which NaN the others give is not
-    /// known: theirs is the positive quiet one.
+    /// Results of NVIDIA's adders are never -0, and their NaN is 7fffffff or 7fff. The NaN of the others is not known;
+    /// here it is the positive quiet one.
     pub is_nvidia: bool,
 }
 

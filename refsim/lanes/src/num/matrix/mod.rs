@@ -26,7 +26,7 @@ pub(crate) use element::Value;
 pub use element::{Element, ResultFormat};
 pub use table::UNITS;
 
-/// How the addends of a block become a sum.
+/// Rule by which the addends of a block are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// NVIDIA's adder: addends are aligned to the largest exponent, which is at least `least`, cut, and added exactly.
@@ -73,13 +73,13 @@ pub struct MatrixUnit {
     pub bits: Option<u32>,
     /// The sum.
     pub rule: Rule,
-    /// How many numbers share a scale, and its type, where a and b have scales.
+    /// Numbers per scale and the scale's type, if a and b have scales.
     pub scaling: Option<(usize, Element)>,
     /// Type and rounding of d.
     pub result: ResultFormat,
-    /// How the rule is known: measured (results of GPUs agree), two models or one model (that others made agree).
+    /// Evidence for the rule: measured (results of GPUs agree), two models or one model (that others made agree).
     pub evidence: &'static str,
-    /// What was measured, on what, and which models agree.
+    /// The measured results, the chips, and the models that agree.
     pub source: &'static str,
 }
 
@@ -174,8 +174,8 @@ impl MatrixUnit {
         }
     }
 
-    /// The addends of a block of an aligned adder, `c` last: exact, and as they are kept. `None` of other rules, and
-    /// where an addend is no number.
+    /// The addends of a block of an aligned adder, `c` last: exact, and as they are kept. `None` for other rules, and
+    /// if an addend is NaN or infinite.
     pub fn kept(
         &self,
         a: Operand<'_>,

@@ -1,4 +1,4 @@
-//! What the units make of a block: NVIDIA's adder and its forms, AMD's CDNA1 to CDNA3, and fused multiply-adds.
+//! Results of the units for one block: NVIDIA's adder and its forms, AMD's CDNA1 to CDNA3, and fused multiply-adds.
 
 use super::element::{Element, ResultFormat, Value, special};
 use crate::num::aligned::{Addend, Alignment, aligned};

@@ -80,7 +80,7 @@ const fn synchronous(name: &'static str, least: i32, result: ResultFormat, sourc
     MatrixUnit { rule, ..nvidia(name, SYNC, EIGHT, [32, 32, 25, 25], result, (MEASURED, source)) }
 }
 
-/// Units of AMD's, and those of fused operations.
+/// Units of AMD, and units of fused operations.
 const fn other(
     name: &'static str,
     chips: &'static str,

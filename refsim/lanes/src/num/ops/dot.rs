@@ -47,7 +47,7 @@ pub fn aligned_bits(text: &str) -> Option<u8> {
 }
 
 /// Sums the products of `terms` (dp2, dp3, dp4; any number works, an empty sum is +0). Units of cards have a fixed
-/// order, whatever the order given.
+/// order and ignore the order given.
 pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
     let env = env.into();
     accumulated(env, env, &env.format, order, terms)

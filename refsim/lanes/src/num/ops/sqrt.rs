@@ -18,7 +18,7 @@ pub fn sqrt(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => invalid(&env.format),
         Unpacked::Inf { sign: false } => infinite(&env.format, false),
         Unpacked::Finite { sig, exp, den, .. } => {
-            // In units, the root of s/d is that of s d.
+            // In units, the root of s/d is the root of s d.
             let (square, exp) = even(sig * u64::from(den), exp);
             let root = square.isqrt();
             in_units(&env, false, root, exp / 2, root * root != square)

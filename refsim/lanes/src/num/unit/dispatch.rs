@@ -1,4 +1,4 @@
-//! Which function of a unit an operation is.
+//! Maps operations to functions of a unit.
 
 use super::operation::UnitOperation;
 use super::word::{NAN, ONE, SIGN, Word};
@@ -109,7 +109,7 @@ fn gt200(unit: Unit, rounding: Rounding, operation: UnitOperation, [a, b, c]: [u
         Op::Min => gt200::min(a, b),
         Op::Max => gt200::max(a, b),
         Op::Floor => gt200_conversions::round_to_int(Rounding::Down, a),
-        // Drivers subtract; there is no such instruction.
+        // Drivers subtract; the chip has no such instruction.
         Op::Frc => gt200::add(rounding, a, gt200_conversions::round_to_int(Rounding::Down, a) ^ SIGN),
         Op::Rcp => gt200_functions::rcp(a),
         Op::Rsq => gt200_functions::rsq(a),

@@ -23,7 +23,7 @@ fn is_inward(rounding: Rounding, negative: bool) -> bool {
         || matches!(rounding, Rounding::Down | Rounding::Up) && !rounding.is_outward(negative)
 }
 
-/// To a half float of four hexadecimal digits. Numbers below `2^-33` become zero, whatever the rounding; NaN is 7fff.
+/// To a half float of four hexadecimal digits. Numbers below `2^-33` become zero in every rounding; NaN is 7fff.
 pub fn to_half(rounding: Rounding, x: u32) -> u32 {
     let word = Word::of(x);
     let half = match word.field {
@@ -31,7 +31,7 @@ pub fn to_half(rounding: Rounding, x: u32) -> u32 {
         255 => 0x7c00,
         ..94 => 0,
         field => {
-            // Of 11 bits, or the multiple of 2^-24 that subnormals are.
+            // 11 bits, or for subnormals a multiple of 2^-24.
             let least = (field - 112).max(1);
             let drop = (least + 125 - field).cast_unsigned();
             let steps = divide(rounding, word.negative, word.significand().into(), drop) as u32;

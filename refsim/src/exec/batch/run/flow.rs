@@ -54,7 +54,7 @@ fn remove(from: &mut LaneRow, lanes: &LaneRow) {
 }
 
 impl<'p> FlowRun<'p> {
-    /// Creates an execution of the lanes in `run`, of which those in `covered` are fragments (or vertices).
+    /// Creates an execution of the lanes in `run`; the lanes in `covered` are fragments (or vertices).
     pub(crate) fn new(
         plan: &'p FlowPlan,
         around: &'p Surroundings<'p>,

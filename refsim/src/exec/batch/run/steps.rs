@@ -18,7 +18,6 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) constants: &'a [[u32; 4]],
 }
 
-/// Fills the constants of a block.
 pub(crate) fn fill_constants(block: &StepBlock, slots: &mut Slots) {
     for &slot in &block.without_row {
         slots.without_row(slot);

@@ -41,7 +41,7 @@ pub(crate) enum BatchStep {
     Sum {
         /// Format.
         arith: Arith,
-        /// How it adds.
+        /// Order of its additions.
         sum: RowSum,
         /// The numbers; surplus ones are ignored.
         from: [Slot; 4],
@@ -88,7 +88,7 @@ pub(crate) struct StepBlock {
     pub(crate) roots: Vec<Slot>,
     /// Number of slots used.
     pub(crate) slots: usize,
-    /// Slots of constants and given values of which steps read only the uniform value, never the row.
+    /// Slots of constants and given values whose rows no step reads, only the uniform value.
     pub(crate) without_row: Vec<Slot>,
 }
 

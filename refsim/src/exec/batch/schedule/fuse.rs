@@ -15,7 +15,7 @@ pub(crate) struct Fused {
     pub(crate) code: LaneCode,
     /// Operands, as many as the code's arity.
     pub(crate) args: [NodeId; OPERANDS],
-    /// `true` if a product with a zero factor is zero, whatever the other factor.
+    /// `true` if a product with a zero factor is zero, for any other factor.
     pub(crate) zero_wins: bool,
 }
 
@@ -26,7 +26,6 @@ impl Fused {
         Self { arith, code, args, zero_wins: false }
     }
 
-    /// The operands.
     pub(crate) fn operands(&self) -> &[NodeId] {
         &self.args[..self.code.arity()]
     }

@@ -1,4 +1,4 @@
-//! Interpolation in packed lanes, each of which belongs to a triangle of its own.
+//! Interpolation in packed lanes, one triangle per lane.
 
 use refsim_lanes::{AnyLane, LANES, LaneRow, Slots};
 

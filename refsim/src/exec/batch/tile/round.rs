@@ -38,7 +38,7 @@ pub(super) enum RoundCode<'s> {
 }
 
 impl<'s> TileRound<'s> {
-    /// Prepares triangles: selects a plan, and computes what is constant over each, one lane per triangle.
+    /// Prepares triangles: selects a plan, and computes the values constant over each, one lane per triangle.
     pub(super) fn new(
         program: &'s DecodedPixel,
         surfaces: &'s Surfaces,

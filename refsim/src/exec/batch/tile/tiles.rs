@@ -133,7 +133,7 @@ impl<'a> BatchTiles<'a> {
             Ok(())
         })?;
         let mut others = others.into_inner().unwrap_or_else(PoisonError::into_inner);
-        // Merges what other threads shaded, in order of submission.
+        // Merges the fragments shaded by other threads, in order of submission.
         others.sort_unstable_by_key(|behind: &Behind| behind.piece);
         for behind in others {
             counts += behind.counts?;

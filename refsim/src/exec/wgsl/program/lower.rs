@@ -63,7 +63,7 @@ pub(super) struct MaskedStep {
 pub(super) enum Body {
     /// Without flow control: the uses of all values, and the sampler of each texture read.
     Straight { sinks: Vec<Sink>, fetches: Vec<usize> },
-    /// With flow control: steps with registers in slots below `first_free`, and what is done before and after them.
+    /// With flow control: steps with registers in slots below `first_free`, and the prologue and epilogue.
     Flow { start: Vec<Sink>, steps: Vec<MaskedStep>, first_free: Slot, end: Vec<Sink> },
 }
 

@@ -24,7 +24,6 @@ pub const MAX_PPD: f64 = 1000.0;
 
 /// Exponent of color differences.
 const COLOR_EXPONENT: f64 = 0.7;
-/// Exponent of feature differences.
 const FEATURE_EXPONENT: f64 = 0.5;
 /// Fraction of the largest color difference that is mapped to [`KNEE_ERROR`].
 const KNEE: f64 = 0.4;

@@ -62,7 +62,7 @@ impl CaseErrors {
             return;
         }
         self.largest_absolute = self.largest_absolute.max(absolute);
-        // Codes are integers; the quotients that stand for them here are not.
+        // Codes are integers; the quotients that represent them here are not.
         let off = codes(channel).map(|codes| (absolute * codes).round());
         self.largest_codes = self.largest_codes.max(off.unwrap_or(0.0));
         self.wrong[pixel] |= off.map_or(relative > WRONG, |off| off > 1.0);

@@ -38,10 +38,8 @@ pub struct CaseSubject {
 }
 
 impl CaseSubject {
-    /// Draws the exact run of a case; its device is the one as given. `name` is the title of a case without one.
-    ///
-    /// # Errors
-    /// If the device cannot draw the case.
+    /// Draws the exact run of a case; its device is the one as given. `name` is the title of a case without one. Fails
+    /// if the device cannot draw the case.
     pub fn new(setup: Setup, name: &str) -> Result<Self, StudyError> {
         let executors = SubjectExecutors::new();
         let exact = DrawnCase::new(&setup, &executors.batch, &exact(&setup.profile, [&*setup.pixel]))?;
@@ -55,10 +53,8 @@ impl CaseSubject {
     }
 
     /// Holds back a case: the formats that were searched on this case are tried on it, on the device of this one.
-    /// `name` is where it comes from.
-    ///
-    /// # Errors
-    /// If it has another pixel program, if this one's device cannot draw it, or if it lacks a measure of this one.
+    /// `name` is where it comes from. Fails if it has another pixel program, if this one's device cannot draw it, or if
+    /// it lacks a measure of this one.
     pub fn holding_back(mut self, other: &Setup, name: &str) -> Result<Self, StudyError> {
         let other = Self::new(other.on_device(self.setup.profile.clone())?, name)?;
         let refused = |expected: &str, found: &str, help: &str| {

@@ -56,10 +56,7 @@ impl PaperSystem {
         }
     }
 
-    /// Subject on a device.
-    ///
-    /// # Errors
-    /// If the device cannot run the system.
+    /// Subject on a device. Fails if the device cannot run the system.
     pub fn subject(self, profile: Profile) -> Result<Box<dyn PrecisionSubject>, StudyError> {
         Ok(match self {
             Self::RayEngine => Box::new(RayEngineSubject::new(profile)?),

@@ -198,7 +198,6 @@ impl SystemSubject {
     }
 }
 
-/// Picture of linear values.
 fn picture([width, height]: [u32; 2], values: &[[f64; 3]]) -> RgbImage {
     rgb8(width, height, values.iter().map(|pixel| pixel.map(display::encode)))
 }

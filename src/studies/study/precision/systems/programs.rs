@@ -47,13 +47,11 @@ impl PixelPrograms {
         Ok((Self(programs.collect()), found))
     }
 
-    /// Index and program of a digest.
     pub(super) fn of_digest(&self, digest: u64) -> Option<(usize, &Program)> {
         let mut all = self.0.iter().enumerate().map(|(index, (program, _))| (index, program));
         all.find(|(_, program)| program.digest() == digest)
     }
 
-    /// Program at an index.
     pub(super) fn get(&self, index: usize) -> Option<&Program> {
         self.0.get(index).map(|(program, _)| program)
     }

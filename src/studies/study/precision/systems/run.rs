@@ -1,4 +1,4 @@
-//! Interface of a system to its subject, and what inputs share.
+//! Interface of a system to its subject, and code shared by inputs.
 
 use std::fmt;
 
@@ -35,10 +35,8 @@ pub(super) trait SystemRun: fmt::Debug {
         "pixel"
     }
 
-    /// Red, green and blue of each pixel or patch. Pictures are exposed, so that white is 1.
-    ///
-    /// # Errors
-    /// If the device cannot run the programs.
+    /// Red, green and blue of each pixel or patch. Pictures are exposed, so that white is 1. Fails if the device cannot
+    /// run the programs.
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError>;
 
     /// Width and height of the picture, if the values are one.
@@ -52,7 +50,6 @@ pub(super) trait SystemRun: fmt::Debug {
     }
 }
 
-/// Goal that a measure is at most a bound.
 pub(super) fn at_most(measure: &str, bound: f64) -> Goal {
     Goal { measure: measure.to_owned(), relation: GoalRelation::AtMost, bound }
 }

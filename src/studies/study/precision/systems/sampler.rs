@@ -74,7 +74,8 @@ impl ResultSampler {
 }
 
 impl DrawWatcher for ResultSampler {
-    /// Samples the draws of a program with the numbers 0, 1, 2, 4, 8 and so on: what grows from draw to draw is seen.
+    /// Samples the draws of a program with the numbers 0, 1, 2, 4, 8 and so on: errors that grow from draw to draw are
+    /// included.
     fn before(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
         let digest = call.pixel_program.digest();
         let Some(index) = self.programs.iter().position(|program| program.digest() == digest) else { return Ok(()) };

@@ -54,7 +54,7 @@ pub struct SegmentedCompression<'a> {
     pub options: SegmentOptions,
     /// How they are coded.
     pub code: CodeOptions,
-    /// Where finished segments are kept, and taken from, and with what their names begin.
+    /// Folder of finished segments, and the prefix of their names.
     pub kept: Option<(&'a KeptResults, &'a str)>,
 }
 
@@ -65,19 +65,15 @@ impl SegmentedCompression<'_> {
         4 * self.vertices.len() as u64 * numbers as u64
     }
 
-    /// Compresses and codes all segments.
-    ///
-    /// # Errors
-    /// If transfer cannot be computed, compressed or coded, or finished segments cannot be kept or taken.
+    /// Compresses and codes all segments. Fails if transfer cannot be computed, compressed or coded, or finished
+    /// segments cannot be kept or taken.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
         let found = self.of_range(0..Segmentation::Quarters.count(), progress)?;
         Ok(self.whole(found))
     }
 
-    /// The same of all segments, of those of a part, or out of parts.
-    ///
-    /// # Errors
-    /// Those of [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
+    /// The same of all segments, of those of a part, or out of parts. Errors: those of [`Self::run`], and
+    /// [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,
         split: &SplitRun,

@@ -1,4 +1,4 @@
-//! How far coded transfer is from the raw matrices.
+//! Error of coded transfer relative to the raw matrices.
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;
@@ -19,13 +19,7 @@ pub struct CodedErrors {
 }
 
 /// Computes the raw matrices again, one segment after the other. A segment coded as empty has the matrix's squares as
-/// its error.
-///
-/// # Errors
-/// [`InputError`].
-///
-/// # Panics
-/// If what is coded belongs to other vertices or another reflectance.
+/// its error. Panics if what is coded belongs to other vertices or another reflectance.
 pub fn coded_errors(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: BasisWidth,

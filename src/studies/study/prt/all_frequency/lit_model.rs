@@ -23,7 +23,7 @@ pub struct LitModel {
     pub original: Option<AllFrequencyFile>,
     /// The light.
     pub light: DistantLight,
-    /// How it is decimated.
+    /// Decimation of the light.
     pub decimation: Decimation,
     /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
     pub keep: Option<usize>,

@@ -67,9 +67,7 @@ fn parted(range: &Range<usize>, at: usize) -> [Range<usize>; 2] {
 }
 
 impl SightOfModel<'_> {
-    /// Casts the rays: the model's, then the ground's; or those of a part.
-    ///
-    /// # Errors
+    /// Casts the rays: the model's, then the ground's; or those of a part. Fails with
     /// [`InputError`](crate::error::InputError), in a study's.
     pub fn run(
         self,

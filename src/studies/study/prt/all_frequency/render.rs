@@ -22,7 +22,7 @@ use crate::transfer::light::{HaarLight, LightTruncation};
 /// Segments whose clusters are drawn, as in Figure 4.
 const CLUSTER_PICTURES: usize = 3;
 
-/// A lit model, and what is drawn of it.
+/// A lit model, and its pictures.
 #[derive(Debug)]
 pub struct AllFrequencyRendering {
     /// The model, its transfer, the light and the camera.

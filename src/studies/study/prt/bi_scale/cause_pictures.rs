@@ -1,5 +1,5 @@
-//! Pictures between one by rays and that of transfer, each with one thing more done as transfer does it, and how far
-//! they lie apart.
+//! Pictures between one by rays and that of transfer, each with one more approximation of transfer, and their
+//! differences.
 
 use crate::bi_scale::shade::TracedRung;
 use crate::picture::metrics::{ErrorSums, value_error};

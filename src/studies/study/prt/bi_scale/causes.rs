@@ -24,7 +24,7 @@ use crate::transfer::visibility::VisibilitySampling;
 /// Pixels between two signs of progress.
 const BLOCK: usize = 256;
 
-/// The pictures of all rungs, of which the last is that of transfer.
+/// The pictures of all steps; the last is that of transfer.
 type Pictures = Vec<Vec<[f64; 3]>>;
 
 /// Pictures that separate the errors of a rendering by cause.

@@ -1,4 +1,4 @@
-//! A rendering in progress: what its pixels show, and its textures laid out.
+//! A rendering in progress: visible surfaces of its pixels, and its textures.
 
 use glam::DMat3;
 use rayon::prelude::*;
@@ -49,17 +49,11 @@ impl<'a> BiScaleDrawing<'a> {
     }
 
     /// The light's texels.
-    ///
-    /// # Errors
-    /// [`InputError`].
     pub(in crate::study) fn cube(&self) -> Result<CubeLight, InputError> {
         self.rendering.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)
     }
 
-    /// L~ of the light's texels.
-    ///
-    /// # Errors
-    /// If the file is not transfer of a mesh.
+    /// L~ of the light's texels. Fails if the file is not transfer of a mesh.
     pub(in crate::study) fn local(&self, cube: &CubeLight) -> Result<LocalLight, StudyError> {
         LocalLight::new(&self.rendering.file, cube).ok_or_else(no_mesh_transfer)
     }
@@ -73,10 +67,8 @@ impl<'a> BiScaleDrawing<'a> {
         self.pixels.par_iter().map_init(Vec::new, color).collect()
     }
 
-    /// The pictures between one by rays and `drawn`, that of transfer.
-    ///
-    /// # Errors
-    /// If the light is invalid, or the file is not transfer of a mesh.
+    /// The pictures between one by rays and `drawn`, that of transfer. Fails if the light is invalid, or the file is
+    /// not transfer of a mesh.
     pub(in crate::study) fn causes(
         &self,
         cube: &CubeLight,

@@ -21,9 +21,7 @@ pub struct LocalLight {
 
 impl LocalLight {
     /// The light times a file's transfer, by its biclusters if it has any; `None` if it has neither these nor a matrix.
-    ///
-    /// # Panics
-    /// If the transfer has not a column per light texel.
+    /// Panics if the transfer has not a column per light texel.
     pub fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
         let gather = Gather::new(biclusters);
@@ -37,10 +35,7 @@ impl LocalLight {
         Some(Self { way: "biclusters", rows: rows.into_iter().map(|row| row.map(f64::from)).collect(), seconds })
     }
 
-    /// The same in f64: by the file's matrix, else by its biclusters.
-    ///
-    /// # Panics
-    /// As [`Self::new`].
+    /// The same in f64: by the file's matrix, else by its biclusters. Panics: as [`Self::new`].
     pub fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let channels = light_vectors(light);
         let start = Instant::now();

@@ -1,5 +1,5 @@
-//! Bi-scale transfer: pictures of a model from its transfer and its bidirectional textures, and what their errors come
-//! from.
+//! Bi-scale transfer: pictures of a model from its transfer and its bidirectional textures, and the causes of their
+//! errors.
 
 mod cause_pictures;
 mod causes;

@@ -1,4 +1,4 @@
-//! A mesh whose triangles have textures, and what of it each pixel shows.
+//! A mesh with textured triangles, and the visible surface of each pixel.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -23,7 +23,7 @@ pub struct TexturedSurface {
     pub vertices: Vertices,
     /// The number of each triangle's texture.
     texture_of: Vec<u32>,
-    /// How often a patch repeats along an edge of the texture coordinates' square.
+    /// Repetitions of a patch along an edge of the unit square of texture coordinates.
     repeat: f64,
 }
 
@@ -43,10 +43,7 @@ pub(super) struct SurfacePixel {
 
 impl TexturedSurface {
     /// A mesh, its vertices, a texture's number per triangle, and how often patches repeat where texture coordinates
-    /// grow by 1.
-    ///
-    /// # Errors
-    /// If the mesh has no texture coordinates, or there is not a texture per triangle.
+    /// grow by 1. Fails if the mesh has no texture coordinates, or there is not a texture per triangle.
     pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, StudyError> {
         if mesh.texcoords().is_none() {
             let what = "the model has no texture coordinates, which say where on it a patch lies";

@@ -1,4 +1,4 @@
-//! How a card's picture differs from that of the host, pixel by pixel of the card's raster.
+//! Difference of a card's picture from the host's, per pixel of the card's raster.
 
 use serde_json::json;
 
@@ -68,8 +68,8 @@ pub(super) struct ComparedPicture<'a> {
 }
 
 impl<'a> ComparedPicture<'a> {
-    /// Compares pictures of what pixels show. Where the target or the vertices hold fractions, the host's is clamped
-    /// alike.
+    /// Compares pictures by visible surface. If the target or the vertices hold fractions, the host's picture is
+    /// clamped alike.
     pub(super) fn new(
         seen: &[Option<SeenPixel>],
         drawn: &'a [[f64; 3]],

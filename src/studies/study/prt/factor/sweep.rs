@@ -20,7 +20,6 @@ pub(in crate::study) struct SweptRoughness {
     pub(in crate::study) flip: f64,
 }
 
-/// The lobe with another roughness.
 fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, InputError> {
     let distribution = match lobe.distribution {
         FacetDistribution::Beckmann { .. } => FacetDistribution::Beckmann { roughness },

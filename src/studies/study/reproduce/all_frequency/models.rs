@@ -118,7 +118,7 @@ pub(super) struct CompressedModel {
     pub(super) haar: f64,
     /// Relative squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
-    /// Each compressed segment by itself.
+    /// Each compressed segment separately.
     pub(super) by_segment: Vec<SegmentShares>,
 }
 
@@ -134,7 +134,7 @@ pub(super) struct CodedModel {
 }
 
 impl ModelVisibility {
-    /// Computes visibility by ray casting, of a model by itself.
+    /// Computes visibility of a model without ground by ray casting.
     pub(super) fn alone(model: TableModel, size: ModelSize) -> Result<Self, StudyError> {
         let mesh = model.mesh(size)?;
         let vertices = Vertices::new(&mesh, Tangents::default()).on(HOST)?;
@@ -211,7 +211,7 @@ impl ModelVisibility {
     }
 }
 
-/// Visibility of a model by itself and on a ground, computed on first use: work with kept pieces needs none.
+/// Visibility of a model without and with ground, computed on first use: kept pieces need none.
 pub(super) struct SeenModel {
     pub(super) model: TableModel,
     size: ModelSize,
@@ -224,7 +224,7 @@ impl SeenModel {
         Self { model, size, alone: OnceCell::new(), on_ground: OnceCell::new() }
     }
 
-    /// For the model by itself.
+    /// For the model without ground.
     pub(super) fn alone(&self) -> Result<&ModelVisibility, StudyError> {
         on_first_use(&self.alone, || ModelVisibility::alone(self.model, self.size))
     }
@@ -244,10 +244,7 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
 }
 
 /// Compresses the diffuse bunny of Table 1, reduced, in pieces that are kept if requested. Returns the model as text,
-/// and whether its visibility was computed.
-///
-/// # Errors
-/// If the model cannot be compressed, or its pieces cannot be kept.
+/// and whether its visibility was computed. Fails if the model cannot be compressed, or its pieces cannot be kept.
 pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
     let (shared, seen) =
         (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));

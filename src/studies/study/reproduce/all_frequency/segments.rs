@@ -82,7 +82,6 @@ impl SegmentSums {
         Ok(found)
     }
 
-    /// Shares of the segment.
     pub(super) fn shares(&self, segment: usize) -> SegmentShares {
         let CodeSums { numbers, squared_error, .. } = self.coded[0];
         let coded = numbers as f64 / (4 * self.numbers) as f64;

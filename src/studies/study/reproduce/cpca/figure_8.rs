@@ -76,7 +76,7 @@ fn of_rows(size: TransferSize, rows: usize) -> TransferSize {
     TransferSize { rows, ..size }
 }
 
-/// Rows on rates without compression, of which one calibrated the host's rate.
+/// Rows on rates without compression; one of them calibrated the host's rate.
 fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, StudyError> {
     let mut found = Vec::new();
     for rows in ROWS {

@@ -119,7 +119,7 @@ impl FileFigure {
     /// Terms of the figure: its own, and those of its group otherwise.
     pub(super) fn terms(&self, group: &FigureGroup) -> FigureTerms {
         let (own, shared) = (self.own.clone(), group.shared.clone());
-        // A figure with a bound is judged, whatever the others of its group are, and the other way round.
+        // A figure with a bound is judged independently of its group, and the reverse.
         let is_own = own.bound.is_some() || own.unjudged.is_some();
         let judged = if is_own { (own.bound, own.unjudged) } else { (shared.bound, shared.unjudged) };
         FigureTerms {

@@ -26,53 +26,39 @@ static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
     Ok(figures)
 });
 
-/// Holds a paper's file against its statements, and parses its figures; errors are sentences.
-///
-/// # Errors
-/// If the file is malformed, or states other bounds than it did.
+/// Holds a paper's file against its statements, and parses its figures; errors are sentences. Fails if the file is
+/// malformed, or states other bounds than it did.
 pub fn parse_figures(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
     statement::verify(text)?;
     file::parse(paper, text)
 }
 
-/// Returns the printed, implied and inferred figures of all papers, in the order of their files.
-///
-/// # Errors
-/// If a file is malformed, or states other bounds than it did.
+/// Returns the printed, implied and inferred figures of all papers, in the order of their files. Fails if a file is
+/// malformed, or states other bounds than it did.
 pub fn figures() -> Result<&'static [PaperFigure], StudyError> {
     FIGURES.as_deref().map_err(|reason| papers_error(reason))
 }
 
-/// Returns the figure with a name, as in `ray-engine/host-alone`.
-///
-/// # Errors
-/// If there is none.
+/// Returns the figure with a name, as in `ray-engine/host-alone`. Fails if there is none.
 pub fn printed(id: &str) -> Result<&'static PaperFigure, StudyError> {
     let found = figures()?.iter().find(|figure| figure.id == id);
     found.ok_or_else(|| papers_error(&format!("no figure is named `{id}`")))
 }
 
-/// Returns the value of the figure with a name.
-///
-/// # Errors
-/// As [`printed`].
+/// Returns the value of the figure with a name. Fails as [`printed`] does.
 pub(super) fn value(id: &str) -> Result<f64, StudyError> {
     Ok(printed(id)?.value)
 }
 
-/// Returns the row that judges the figure with a name by a value of ours, with the bound of the data.
-///
-/// # Errors
-/// If there is no such figure, or if the data has a reason not to judge it.
+/// Returns the row that judges the figure with a name by a value of ours, with the bound of the data. Fails if there is
+/// no such figure, or if the data has a reason not to judge it.
 pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Dependence)) -> Result<PaperRow, StudyError> {
     let unjudged = || papers_error(&format!("the figure `{id}` is listed as not judged"));
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }
 
-/// Returns the rows of an entry whose values are expressions of printed ones, in the order of the file.
-///
-/// # Errors
-/// As [`row`].
+/// Returns the rows of an entry whose values are expressions of printed ones, in the order of the file. Fails as
+/// [`row`] does.
 pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
     let mut rows = Vec::new();
     for figure in figures()? {

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::file::{FigureGroup, FileFigure, PaperFile};
 
-/// Compares a file with its digests; the error explains what to do.
+/// Compares a file with its digests; the error contains advice.
 pub(super) fn verify(text: &str) -> Result<(), String> {
     let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
     let first = file.stated.first().ok_or("expected at least one date in `stated`")?.date.as_str();

@@ -7,7 +7,6 @@ use super::engine_run::Commands;
 use super::teapot::TeapotRoom;
 use super::{Dependence, number, paragraph};
 
-/// Inputs of every predicted rate.
 pub(super) const RATE: Dependence = Dependence::Predicted {
     from: "135,812 rays/s of the host alone (the host's scale), 286 M/s at ten triangles (the card's fill rate), 250 MB/s (read-back)",
 };

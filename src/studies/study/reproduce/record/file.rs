@@ -75,7 +75,7 @@ impl EntryRecord {
         &self.entry
     }
 
-    /// How the record was made.
+    /// Provenance of the record.
     pub const fn made(&self) -> &RecordMade {
         &self.made
     }
@@ -86,19 +86,13 @@ impl EntryRecord {
         Some(std::iter::once(row.ours).chain(row.readings.iter().copied()))
     }
 
-    /// Formats the file.
-    ///
-    /// # Errors
-    /// If the record cannot be written as TOML.
+    /// Formats the file. Fails if the record cannot be written as TOML.
     pub fn text(&self) -> Result<String, StudyError> {
         let body = toml::to_string(self).map_err(|error| StudyError::coded("reproduce::record", error))?;
         Ok(format!("{HEAD}{body}"))
     }
 
-    /// Parses the file of an entry; errors are sentences.
-    ///
-    /// # Errors
-    /// If it is malformed, or is the record of another entry.
+    /// Parses the file of an entry; errors are sentences. Fails if it is malformed, or is the record of another entry.
     pub fn parse(entry: &str, text: &str) -> Result<Self, String> {
         let malformed = |reason: String| format!("the record of `{entry}`: {reason}");
         let record: Self = toml::from_str(text).map_err(|error| malformed(error.to_string()))?;
@@ -113,9 +107,7 @@ impl EntryRecord {
     }
 
     /// Findings of the run. Rows that are expressions of printed values are computed by this program, and come first.
-    ///
-    /// # Errors
-    /// If a figure of the record is unknown or not judged.
+    /// Fails if a figure of the record is unknown or not judged.
     pub fn findings(&'static self) -> Result<EntryFindings, StudyError> {
         let mut rows = equations(&self.entry)?;
         for row in &self.row {

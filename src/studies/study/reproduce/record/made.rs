@@ -10,7 +10,7 @@ const CONFIRMED: &str = "All is computed anew at full size, and has the bits of 
 const DIFFERS: &str = "All is computed anew at full size; {} not as recorded: `{}`, version {} ({}), {}. Either the record is of another program, or this \
     program does not compute the same everywhere.";
 
-/// How a record was made.
+/// Provenance of a record.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordMade {
@@ -33,7 +33,7 @@ pub enum RecordStatus {
     Recorded(&'static RecordMade),
     /// Computed at full size, beside a record.
     Computed {
-        /// How the record was made.
+        /// Provenance of the record.
         made: &'static RecordMade,
         /// Number of rows that are not as recorded.
         differ: usize,
@@ -41,7 +41,7 @@ pub enum RecordStatus {
 }
 
 impl RecordStatus {
-    /// How the record was made.
+    /// Provenance of the record.
     pub const fn made(&self) -> &'static RecordMade {
         match self {
             Self::Recorded(made) | Self::Computed { made, .. } => made,

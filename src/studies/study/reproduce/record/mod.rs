@@ -22,10 +22,7 @@ static RECORDS: LazyLock<Result<Vec<EntryRecord>, String>> = LazyLock::new(|| {
     recorded.map(|(id, text)| EntryRecord::parse(id, text)).collect()
 });
 
-/// Returns the record of an entry that the program contains.
-///
-/// # Errors
-/// If a file is malformed.
+/// Returns the record of an entry that the program contains. Fails if a file is malformed.
 pub fn recorded(entry: &ReproduceEntry) -> Result<Option<&'static EntryRecord>, StudyError> {
     let records = RECORDS.as_deref().map_err(|reason| StudyError::new("reproduce::record", reason.as_str()))?;
     Ok(records.iter().find(|record| record.entry() == entry.id))

@@ -78,8 +78,8 @@ impl PaperRow {
         Self { readings: readings.into_iter().collect(), ..self }
     }
 
-    /// States the range of the values that the computation can give whatever the model, with the reason. A bound that
-    /// admits all of them judges nothing ([`RowVerdict::ByConstruction`]).
+    /// States the range of the values that the computation can give for any model, with the reason. A bound that admits
+    /// all of them judges nothing ([`RowVerdict::ByConstruction`]).
     #[must_use]
     pub fn confined(self, range: [f64; 2], why: &'static str) -> Self {
         Self { confined: Some((range, why)), ..self }

@@ -122,8 +122,8 @@ fn dominance(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Resul
     Ok(paper_row("subsurface/pass-2-dominates", (CARD, Method::Pipeline), ours)?.with_readings(ratios))
 }
 
-/// Row on Figure 7: 40 frames per second are no integer fraction of the display's rate, so that the frame counts
-/// without synchronisation, for the bunny at the smaller size.
+/// Row on Figure 7: 40 frames per second are not an integer fraction of the display's rate, so the frame counts without
+/// synchronisation, for the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, StudyError> {
     let gather = gather::cost(OTHER_CARD, VARIANTS[OURS])?;
     let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;

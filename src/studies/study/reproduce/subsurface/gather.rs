@@ -100,7 +100,6 @@ pub(super) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, StudyErro
     VARIANTS.iter().map(|variant| cost(card, *variant)).collect()
 }
 
-/// Measures a variant on a card.
 pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, StudyError> {
     let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {

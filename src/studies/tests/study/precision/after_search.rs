@@ -49,7 +49,7 @@ fn a_refutation_has_its_trace() {
     let files = StudyFiles::of(&study);
     let rows = files.rows("traces_float.csv");
     assert_eq!(rows.len(), places.len() * 3 * 4, "three instructions of four components");
-    // Of the sum with one bit of mantissa: 1.25 is halfway between 1 and 1.5.
+    // The sum with one bit of mantissa: 1.25 is halfway between 1 and 1.5.
     let refuted = texts(&document, "refuted_float", "line");
     let sum = &rows[rows.iter().position(|row| row["refuted_line"] == refuted[0]).expect("a trace") + 4];
     let cells = ["instruction", "component", "exact", "mixed", "one_bit_less", "one_bit_less_differs"];

@@ -53,12 +53,10 @@ fn study_of(subject: Box<dyn PrecisionSubject>, goal: &str, families: &[FormatFa
     }
 }
 
-/// The document of a study.
 fn document(study: &Precision) -> Value {
     findings(study).plain_document()
 }
 
-/// A column of a table of the document.
 fn column<'d>(document: &'d Value, table: &str, key: &str) -> Vec<&'d Value> {
     let rows = document[table].as_array().unwrap_or_else(|| panic!("no {table} in {document}"));
     rows.iter().map(|row| row.get(key).unwrap_or_else(|| panic!("no {key} in {row}"))).collect()
@@ -113,7 +111,6 @@ impl std::fmt::Display for Layout {
     }
 }
 
-/// Digits of a format in a cell.
 fn digits(cell: &Value) -> Option<u8> {
     cell.as_str().map(|text| Layout::of(text).digits)
 }

@@ -264,7 +264,7 @@ fn losses_are_against_the_exact_run() {
     // Only one is not finite: it has all of the loss, and the other a share that is not known.
     let nan = blame(Told::shares("<=1", 0.0, f64::NAN, [f64::NAN, 0.5]));
     assert_eq!(nan, [vec![Some(100.0), None], some([100.0, 0.0])]);
-    // What is infinite in the exact run is no loss.
+    // Values that are infinite in the exact run are not a loss.
     let infinite = blame(Told::shares(">=1", f64::INFINITY, 0.0, [f64::INFINITY, f64::INFINITY]));
     assert_eq!(infinite[0], some([0.0, 0.0]));
 }

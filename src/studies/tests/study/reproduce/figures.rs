@@ -52,7 +52,7 @@ fn file(figures: &str, stated: &str) -> String {
              unit = \"Hz\"\nbound = \"15 %\"\nfigures = [{figures}]"
         )
     };
-    // Without it the error says what the digest is.
+    // Without it the error states the digest.
     let error = parse_figures(Paper::Cpca, &text(stated, "")).expect_err("another digest");
     let digest = error.split_once("stands there now ").map_or("", |(_, digest)| &digest[..16]);
     text(figures, digest)

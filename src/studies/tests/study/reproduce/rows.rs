@@ -207,7 +207,7 @@ fn what_no_setting_reaches_stays_missed() {
     assert_eq!(rows[0].verdict(), RowVerdict::Missed);
 }
 
-/// Of settings that exclude each other, only the one that explains most rows counts.
+/// Among settings that exclude each other, only the one that explains most rows counts.
 #[test]
 fn one_setting_explains_all_that_a_sweep_explains() {
     let explained = |settings: &[[f64; 3]]| {

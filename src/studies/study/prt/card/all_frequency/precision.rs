@@ -111,9 +111,7 @@ pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
 }
 
 /// Draws a mesh into floats in many ways, and compares each picture with what the host computes in f64 of the same
-/// numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn.
-///
-/// # Errors
+/// numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with
 /// [`CardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
 pub fn factored_precision(
     mesh: TransferredMesh<'_>,

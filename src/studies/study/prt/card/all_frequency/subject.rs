@@ -22,7 +22,7 @@ pub struct AllFrequencyOnCard {
     pub place: ProductPlace,
 }
 
-/// Steps 1 to 3 of section 6, and what they multiplied.
+/// Steps 1 to 3 of section 6, and their counts of multiplications.
 pub(super) struct HostSteps {
     pub(super) cut: LightTruncation,
     pub(super) transferred: TransferredRadiance,

@@ -36,7 +36,7 @@ pub struct BiScaleOnCard {
     pub card: CardSetting,
     /// Format of light on the card.
     pub light_format: LightFormat,
-    /// How the display is made.
+    /// Options of the display.
     pub options: DisplayOptions,
 }
 

@@ -33,7 +33,7 @@ pub(super) struct Drawn {
     pub(super) draws: ChunkCounts,
 }
 
-/// How the mesh was cut.
+/// Partition of the mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ChunkCounts {
     /// Groups of clusters that are drawn together.
