@@ -1,7 +1,7 @@
 //! A watertight intersector, and one that leaks, before the oracle.
 //!
-//! `cargo run --release --example watertight` prints what docs/examples/foreign_intersector.md says of them;
-//! `tests/watertight.rs` holds the page to it. Needs the crate without its features.
+//! `cargo run --release -p crossbar-gi-base --example watertight` prints what docs/examples/foreign_intersector.md says of
+//! them; `tests/watertight.rs` holds the page to it. Needs the crate without its features.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use crossbar::elementary::on_circle;

@@ -1,32 +1,28 @@
-//! Strips of the page: measured colors above the colors of each answer, with the difference in codes.
+//! Pictures of the page, in SVG: measured colors above the colors of each answer, with the difference in codes.
 
 use super::rule::Measured;
 use super::values::{Value, Values};
-use font8x8::legacy::BASIC_LEGACY;
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Values that a strip shows.
 const SHOWN: usize = 96;
-/// Sizes in pixels: the strips, a strip of colors, the bars below it, the space below those, a letter.
-const WIDTH: usize = 480;
-const COLORS: usize = 14;
+/// Sizes in pixels: the labels, the strips, a strip of colors, the bars below it, an answer with the space below it.
+const LEFT: usize = 380;
+const WIDTH: usize = 564;
+const COLORS: usize = 18;
 const BARS: usize = 17;
-const SPACE: usize = 5;
-const LETTER: usize = 8;
+const ROW: usize = 44;
 /// The longest bar, and its growth for each code.
 const LONGEST: usize = 8;
 const PER_CODE: usize = 3;
 
-const WHITE: [u8; 3] = [255; 3];
-const BLACK: [u8; 3] = [0; 3];
-const GROUND: [u8; 3] = [232; 3];
-const EDGE: [u8; 3] = [128; 3];
 /// The drawn code is above the measured one, below it, or different in a way that the strip does not show.
-const ABOVE: [u8; 3] = [0xd5, 0x5e, 0x00];
-const BELOW: [u8; 3] = [0x00, 0x72, 0xb2];
-const ELSEWHERE: [u8; 3] = [0x00, 0x00, 0x00];
+const ABOVE: &str = "#d55e00";
+const BELOW: &str = "#0072b2";
+const ELSEWHERE: &str = "#000000";
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pictures/measured")
@@ -36,17 +32,14 @@ fn folder() -> PathBuf {
 fn file(measured: &Measured) -> String {
     let words = measured.rule.name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let words: Vec<String> = words.take(6).map(str::to_lowercase).collect();
-    format!("{}.png", words.join("-"))
+    format!("{}.svg", words.join("-"))
 }
 
 /// The section of the page with all pictures.
 pub(crate) fn section(all: &[Measured]) -> String {
     let files: BTreeSet<String> = all.iter().map(file).collect();
     assert_eq!(files.len(), all.len(), "a file for each rule");
-    let picture = |measured: &Measured| {
-        let (name, file) = (measured.rule.name, file(measured));
-        format!("{name}:\n\n![Measured values, and what each answer draws](pictures/measured/{file})\n")
-    };
+    let picture = |measured: &Measured| format!("![{}](pictures/measured/{})\n", measured.rule.name, file(measured));
     all.iter().map(picture).collect::<Vec<_>>().join("\n")
 }
 
@@ -62,93 +55,75 @@ pub(crate) fn hold(all: &[Measured], write: bool) {
         fs::remove_file(stale).expect("removed");
     }
     for measured in all {
-        let (path, picture) = (folder().join(file(measured)), Picture::of(measured));
+        let (path, picture) = (folder().join(file(measured)), picture(measured));
         match write {
-            true => fs::write(&path, picture.png()).expect("written"),
-            false => assert!(Picture::read(&path) == picture, "{}: the picture of the rule", path.display()),
+            true => fs::write(&path, picture).expect("written"),
+            false => {
+                let stored = fs::read_to_string(&path).unwrap_or_default().replace('\r', "");
+                assert!(stored == picture, "{}: the picture of the rule", path.display());
+            }
         }
     }
 }
 
-/// Rows of pixels, red, green and blue.
-#[derive(PartialEq, Eq)]
-struct Picture {
-    width: usize,
-    pixels: Vec<[u8; 3]>,
+fn picture(measured: &Measured) -> String {
+    let shown = shown(&measured.values);
+    let all = measured.values[0].1.all();
+    let (title, own) = (measured.rule.name, measured.own().0);
+    let height = 30 + (measured.values.len() + 1) * ROW + 12;
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" height=\"{height}\" \
+         viewBox=\"-8 0 960 {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
+         <rect x=\"-8\" width=\"960\" height=\"{height}\" fill=\"#ffffff\"/>\n\
+         <text y=\"18\" font-size=\"15\" font-weight=\"bold\">{title}</text>\n"
+    );
+    let measured_colors: Vec<_> = shown.iter().map(|&i| color(measured.values[0].1.0[i].measured)).collect();
+    row(&mut out, 30, &format!("measured: {} of {all} values", shown.len()), &measured_colors);
+    for (number, (name, values)) in measured.values.iter().enumerate() {
+        let top = 30 + (number + 1) * ROW;
+        let own = if name == own { " (the cards' answer)" } else { "" };
+        let drawn: Vec<_> = shown.iter().map(|&i| color(values.0[i].drawn)).collect();
+        row(&mut out, top, &format!("{name}{own}: {} of {all} right", values.right()), &drawn);
+        let bars: Vec<_> = shown.iter().map(|&i| bar(values.0[i])).collect();
+        strip(&mut out, top + COLORS + 1, BARS, &bars);
+    }
+    let y = height - 10;
+    let _ = writeln!(
+        out,
+        "<text x=\"{LEFT}\" y=\"{y}\" font-size=\"12\">wrong values: <tspan fill=\"{ABOVE}\">drawn above the \
+         measured code</tspan>, <tspan fill=\"{BELOW}\">below</tspan>, or black: not visible in grey</text>\n</svg>"
+    );
+    out
 }
 
-impl Picture {
-    fn of(measured: &Measured) -> Self {
-        let shown = shown(&measured.values);
-        let label = |name: &str, values: &Values| format!("{name}: {} of {}", values.right(), values.all());
-        let labels: Vec<String> = measured.values.iter().map(|(name, values)| label(name, values)).collect();
-        let longest = labels.iter().map(String::len).max().unwrap_or_default().max("measured".len());
-        let left = (longest + 1) * LETTER;
-        let strip = COLORS + BARS + SPACE;
-        let (width, height) = (left + WIDTH, COLORS + SPACE + labels.len() * strip);
-        let mut picture = Self { width, pixels: vec![WHITE; width * height] };
-        let cell = |i: usize| left + i * WIDTH / shown.len()..left + (i + 1) * WIDTH / shown.len();
-        picture.write("measured", [0, 3]);
-        picture.fill(left..width, 0..COLORS, EDGE);
-        for (i, &value) in shown.iter().enumerate() {
-            picture.fill(cell(i), 1..COLORS - 1, measured.values[0].1.0[value].measured);
-        }
-        for (number, (label, (_, values))) in labels.iter().zip(&measured.values).enumerate() {
-            let top = COLORS + SPACE + number * strip;
-            picture.write(label, [0, top + 3]);
-            picture.fill(left..width, top..top + COLORS, EDGE);
-            picture.fill(left..width, top + COLORS + 1..top + COLORS + BARS, GROUND);
-            for (i, &value) in shown.iter().enumerate() {
-                let value = values.0[value];
-                picture.fill(cell(i), top + 1..top + COLORS - 1, value.drawn);
-                let middle = top + COLORS + 1 + LONGEST;
-                let (color, rows) = match bar(value) {
-                    None => continue,
-                    Some(0) => (ELSEWHERE, middle - 1..middle + 1),
-                    Some(off @ 1..) => (ABOVE, middle - off.unsigned_abs()..middle),
-                    Some(off) => (BELOW, middle..middle + off.unsigned_abs()),
-                };
-                picture.fill(cell(i), rows, color);
-            }
-        }
-        picture
-    }
+/// A label and its strip of colors.
+fn row(out: &mut String, top: usize, label: &str, colors: &[String]) {
+    let _ = writeln!(out, "<text y=\"{}\">{label}</text>", top + 13);
+    strip(out, top, COLORS, &colors.iter().map(|color| Some((color.as_str(), 0, COLORS))).collect::<Vec<_>>());
+}
 
-    fn fill(&mut self, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>, color: [u8; 3]) {
-        for row in rows {
-            self.pixels[row * self.width..][columns.clone()].fill(color);
+/// A column for each value, filled with a color from a row downward; equal neighbours are one rectangle.
+fn strip(out: &mut String, top: usize, height: usize, columns: &[Option<(&str, usize, usize)>]) {
+    let count = columns.len();
+    let _ = writeln!(
+        out,
+        "<svg x=\"{LEFT}\" y=\"{top}\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {count} {height}\" \
+         preserveAspectRatio=\"none\" shape-rendering=\"crispEdges\"><rect width=\"{count}\" height=\"{height}\" \
+         fill=\"#e8e8e8\"/>"
+    );
+    let mut x = 0;
+    for run in columns.chunk_by(PartialEq::eq) {
+        if let Some((color, y, rows)) = run[0] {
+            let wide = run.len();
+            let _ = writeln!(out, "<path fill=\"{color}\" d=\"M{x} {y}h{wide}v{rows}h-{wide}z\"/>");
         }
+        x += run.len();
     }
+    out.push_str("</svg>\n");
+}
 
-    fn write(&mut self, text: &str, [x, y]: [usize; 2]) {
-        for (i, byte) in text.bytes().enumerate() {
-            let glyph = BASIC_LEGACY.get(usize::from(byte)).unwrap_or(&BASIC_LEGACY[usize::from(b'?')]);
-            for (row, bits) in glyph.iter().enumerate() {
-                for column in (0..LETTER).filter(|column| bits >> column & 1 == 1) {
-                    self.pixels[(y + row) * self.width + x + i * LETTER + column] = BLACK;
-                }
-            }
-        }
-    }
-
-    fn png(&self) -> Vec<u8> {
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, self.width as u32, (self.pixels.len() / self.width) as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_compression(png::Compression::High);
-        let mut writer = encoder.write_header().expect("a header");
-        writer.write_image_data(self.pixels.as_flattened()).expect("pixels");
-        writer.finish().expect("an end");
-        file
-    }
-
-    fn read(path: &Path) -> Self {
-        let file = fs::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG file");
-        let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
-        let info = reader.next_frame(&mut bytes).expect("pixels");
-        Self { width: info.width as usize, pixels: bytes.as_chunks().0.to_vec() }
-    }
+fn color([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// Positions of the values that are shown: of those about which the same answers are right as many as of any others,
@@ -170,10 +145,16 @@ fn shown(hypotheses: &[(String, Values)]) -> Vec<usize> {
     chosen
 }
 
-/// Length of the bar of a wrong value, upward if more was drawn than measured: of the component that is most off.
-fn bar(value: Value) -> Option<isize> {
+/// The bar of a wrong value, upward if more was drawn than measured, by the component that is most off: its color, its
+/// first row and the count of its rows.
+fn bar(value: Value) -> Option<(&'static str, usize, usize)> {
     let off = |i: usize| isize::from(value.drawn[i]) - isize::from(value.measured[i]);
     let most = [0, 1, 2].map(off).into_iter().max_by_key(|off| off.unsigned_abs())?;
-    let length = LONGEST.min(PER_CODE * most.unsigned_abs()).cast_signed();
-    (!value.right).then_some(most.signum() * length)
+    let length = LONGEST.min(PER_CODE * most.unsigned_abs());
+    let bar = match most {
+        0 => (ELSEWHERE, LONGEST - 1, 2),
+        1.. => (ABOVE, LONGEST - length, length),
+        _ => (BELOW, LONGEST, length),
+    };
+    (!value.right).then_some(bar)
 }

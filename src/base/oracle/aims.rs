@@ -6,7 +6,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::disagreement::DisagreementKind;
-use super::hard::{Aim, HardRay};
+use super::hard::{Aim, JudgedRay};
 use super::report::Report;
 
 /// Number of wrong hits of each kind among the rays of each [`Aim`]. Displays as a table, serializes as a map.
@@ -23,17 +23,25 @@ struct AimRow {
 }
 
 impl Report {
-    /// Counts the wrong hits by aim. `rays` are the rays that were judged, in the same order.
-    pub fn by_aim(&self, rays: &[HardRay]) -> AimCounts {
+    /// Counts the wrong hits by aim. `rays` are the rays that were judged, in the same order; those without an aim are
+    /// not counted.
+    pub fn by_aim<R: JudgedRay>(&self, rays: &[R]) -> AimCounts {
         let mut counts = AimCounts::default();
-        for hard in rays {
-            counts.rows.entry(hard.aim).or_default().rays += 1;
+        for aim in rays.iter().filter_map(JudgedRay::aim) {
+            counts.rows.entry(aim).or_default().rays += 1;
         }
         for wrong in self.disagreements() {
-            let Some(row) = rays.get(wrong.ray).and_then(|hard| counts.rows.get_mut(&hard.aim)) else { continue };
+            let aim = rays.get(wrong.ray).and_then(JudgedRay::aim);
+            let Some(row) = aim.and_then(|aim| counts.rows.get_mut(&aim)) else { continue };
             *row.counts.entry(wrong.kind).or_default() += 1;
         }
         counts
+    }
+
+    /// The report, and a table of its counts by aim if the rays have aims.
+    pub(crate) fn with_aims<R: JudgedRay>(&self, rays: &[R]) -> String {
+        let counts = self.by_aim(rays);
+        if counts.rows.is_empty() { self.to_string() } else { format!("{self}\n\n{counts}") }
     }
 }
 

@@ -141,33 +141,33 @@ impl<'a> Oracle<'a> {
     /// Asserts [`Oracle::agrees`].
     ///
     /// # Panics
-    /// With the report, if anything disagrees.
+    /// With the report and its counts by aim, if anything disagrees.
     #[track_caller]
     pub fn assert_agrees<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.agrees(rays, intersector) {
-            panic!("{report}");
+            panic!("{}", report.with_aims(rays));
         }
     }
 
     /// Asserts [`Oracle::watertight`].
     ///
     /// # Panics
-    /// With the report of the leaks, if there are any.
+    /// With the report of the leaks and their counts by aim, if there are any.
     #[track_caller]
     pub fn assert_watertight<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.watertight(rays, intersector) {
-            panic!("{report}");
+            panic!("{}", report.with_aims(rays));
         }
     }
 
     /// Asserts [`Oracle::faithful`]: no leaks and no false hits.
     ///
     /// # Panics
-    /// With the report of the errors that rounding does not explain, if there are any.
+    /// With the report of the errors that rounding does not explain and their counts by aim, if there are any.
     #[track_caller]
     pub fn assert_faithful<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.faithful(rays, intersector) {
-            panic!("{report}");
+            panic!("{}", report.with_aims(rays));
         }
     }
 

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 use std::process::Output;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex};
 
 use serde_json::Value;
 
 use super::texts::{CargoCommand, pages};
-use crate::generated::hold;
+use crate::generated::{filled, hold};
 
 fn cargo(folder: &Path, arguments: &str) -> Output {
     let mut command = std::process::Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
@@ -19,6 +19,9 @@ static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {
     let metadata: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
     metadata["packages"].as_array().expect("a list").clone()
 });
+
+/// Held by tests that may write docs/dependency.md.
+static DEPENDENCY_PAGE: Mutex<()> = Mutex::new(());
 
 /// The packages that a command selects: the one named `asked`, or all.
 fn packages(asked: Option<&str>) -> Vec<&'static Value> {
@@ -130,10 +133,33 @@ fn dependencies_on_pages_resolve() {
     );
 }
 
+/// The address of the repository is the one of Cargo.toml. `INSTA_UPDATE=always` writes it.
+#[test]
+fn the_address_is_that_of_the_manifest() {
+    let (root, address) = (Path::new(env!("CARGO_MANIFEST_DIR")), env!("CARGO_PKG_REPOSITORY"));
+    let said = |name: &str| match (name, address) {
+        ("git", "") => "`git = \"...\"` with its address".to_owned(),
+        ("git", _) => format!("`git = \"{address}\"`"),
+        ("clone", "") => "clone the repository".to_owned(),
+        ("clone", _) => format!("`git clone {address}`"),
+        _ => panic!("no text {name}"),
+    };
+    let _one = DEPENDENCY_PAGE.lock();
+    for (name, text) in pages().into_iter().filter(|(_, text)| text.contains("<!-- repository: ")) {
+        hold(&root.join(name), &filled(&text, "repository", said));
+    }
+    let path = root.join("CITATION.cff");
+    let text = std::fs::read_to_string(&path).expect("the file");
+    let line = text.lines().find(|line| line.contains("repository-code:")).expect("a line for the address");
+    let unset = if address.is_empty() { "# " } else { "" };
+    hold(&path, &text.replace(line, format!("{unset}repository-code: {address}").trim_end()));
+}
+
 /// docs/dependency.md counts the crates of each feature as cargo does. `INSTA_UPDATE=always` writes them.
 #[test]
 fn crates_are_counted() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let _one = DEPENDENCY_PAGE.lock();
     let page = std::fs::read_to_string(root.join("docs/dependency.md")).expect("the page");
     let mut counted = page.clone();
     for (row, features) in [("none", ""), ("`systems`", "systems"), ("`cli`", "cli"), ("`wgpu`", "cli,wgpu")] {
