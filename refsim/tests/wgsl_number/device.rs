@@ -1,5 +1,6 @@
 //! The shader's results compared with `refsim::num`.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -59,11 +60,31 @@ impl Item {
     }
 }
 
+/// The parts that an item needs. Drivers take longer to compile units of cards and groups of operations together than
+/// one by one.
+fn parts(formats: &[Format], item: &Item) -> Parts {
+    let converts = item.operation == NumberOperation::Convert;
+    let both = [formats[item.format], formats[if converts { item.source } else { item.format }]];
+    let mut parts = Parts::default();
+    if !both.iter().any(|format| format.unit.is_card()) {
+        return parts.grown();
+    }
+    ["HAS_FORMATS", "HAS_FIXED", "HAS_NORMALIZED", "HAS_FINITE"].iter().for_each(|name| parts.add(name));
+    both.iter().for_each(|format| parts.add_format(format));
+    parts.add_operation(item.operation);
+    parts
+}
+
 /// Runs the items and reports differences.
 fn check(gpu: &Gpu, formats: &[Format], items: &[Item]) {
-    // Drivers take long to compile units of cards.
-    let by_card = items.iter().any(|item| formats[item.format].unit.is_card() || formats[item.source].unit.is_card());
-    let parts = if by_card { Parts::all() } else { Parts::default().grown() };
+    let mut shaders: BTreeMap<Parts, Vec<Item>> = BTreeMap::new();
+    for &item in items {
+        shaders.entry(parts(formats, &item)).or_default().push(item);
+    }
+    shaders.iter().for_each(|(parts, items)| check_with(gpu, formats, items, parts));
+}
+
+fn check_with(gpu: &Gpu, formats: &[Format], items: &[Item], parts: &Parts) {
     let shader = parts.of(&(library() + include_str!("operations.wgsl")), "run_operations");
     let table: Vec<u32> = formats.iter().flat_map(format_words).collect();
     for part in items.chunks(1 << 18) {
