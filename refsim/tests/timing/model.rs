@@ -148,7 +148,7 @@ fn clocks(device: &str, lines: &str) -> (u64, u64, u64) {
     (fragment.arithmetic.0, fragment.textures.0, fragment.total().0)
 }
 
-/// The worked example of docs/timing.md.
+/// A read, five instructions in fixed point and a dot product: 2 clocks with X, 7 with H, 3 on the NV35.
 #[test]
 fn fixed_point_goes_beside_the_float_unit_of_nv30() {
     let lines = |x: &str| {
