@@ -140,7 +140,7 @@ fn stand_ins_have_the_papers_counts() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// Nothing depends on the unit of length: 2^66 of it, or 2^-66, give the same atlas.
+    /// Nothing depends on the unit of length: a mesh scaled by 2^66 or 2^-66 has the same atlas.
     #[test]
     fn the_unit_does_not_matter((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");

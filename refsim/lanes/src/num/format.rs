@@ -274,7 +274,7 @@ impl Format {
         u32::MAX >> (32 - self.width())
     }
 
-    /// The sign bit; in [`Format::E8M0`], which has none, the bit above the width.
+    /// The sign bit. [`Format::E8M0`] has no sign: there it is the bit above the width.
     #[inline]
     pub const fn sign_bit(&self) -> u32 {
         1 << (self.width() - self.is_signed() as u32)
@@ -285,7 +285,7 @@ impl Format {
         0
     }
 
-    /// One; in `s0.F`, which has none, the largest number.
+    /// Code of the number 1. `s0.F` cannot represent 1: there it is the code of the largest number.
     pub const fn one(&self) -> u32 {
         match self.kind {
             FormatKind::Fixed { int_bits: 0, .. } => self.max_finite(),

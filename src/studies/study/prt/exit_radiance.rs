@@ -26,7 +26,7 @@ impl<'a> Lit<'a> {
         Some(Self { channels: *channels as usize, functions: exit_functions, columns, light })
     }
 
-    /// The exit coefficients of a matrix, or of a part of one: M l, per row red, green and blue.
+    /// Exit coefficients M l of a matrix, or of some of its rows: red, green and blue per row.
     fn product(&self, matrix: &[f64]) -> Vec<[f64; 3]> {
         let rows = self.functions.len();
         let dot = |row: &[f64], channel: usize| {

@@ -8,7 +8,7 @@ use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
 use crate::subsurface::links::LinkChoice;
 
-/// The error within which storage is judged.
+/// Largest error of a choice of links that the conclusion calls sufficient.
 const ENOUGH: f64 = 0.01;
 
 /// Sentences, warnings and the tally.

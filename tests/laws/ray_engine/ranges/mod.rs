@@ -2,8 +2,8 @@
 //!
 //! **Range.** Random scenes of any size and position, triangles from tiny ones to rooms around the rays, on every card
 //! that intersects and on ideal formats, fixed-point ones that wrap among them. `bounds.rs` derives how far rounding
-//! can move u, v, w, n.d and t. Wherever that leaves no doubt about the ray's first hit, the card has to find it:
-//! saturation, wrapping, overflow and underflow would be visible.
+//! can move u, v, w, n.d and t. If the first hit of a ray is certain within these bounds, the card must find it. So
+//! saturation, wrapping, overflow and underflow would be detected.
 //!
 //! **Unit of length.** Multiplying corners and origins by a power of two multiplies t by it and changes no other bit;
 //! nor does a power of two in a direction.
