@@ -175,7 +175,7 @@ proptest! {
         prop_assert!(quality.levels.iter().all(|level| level.compactness.is_finite() && level.radius.is_finite()));
     }
 
-    /// The same atlas with any number of threads.
+    /// The atlas does not depend on the number of threads.
     #[test]
     fn threads_do_not_matter((sample, side) in atlases()) {
         let on = |threads| in_threads(threads, || Atlas::new(&sample.mesh, side).expect("an atlas"));

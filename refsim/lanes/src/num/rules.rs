@@ -110,11 +110,11 @@ pub enum Unit {
     Nv2x,
     /// The vertex unit of NV30 and NV35 as programs of GL_NV_vertex_program see it (`:nv3x-legacy`).
     Nv3xLegacy,
-    /// The same unit as programs of GL_NV_vertex_program2 see it (`:nv3x`).
+    /// The vertex unit of NV30 and NV35 as programs of GL_NV_vertex_program2 see it (`:nv3x`).
     Nv3x,
     /// The unit of GT200 (`:gt200`); it rounds to the nearest, or toward zero where the format does.
     Gt200,
-    /// The same unit in the state in which 0 times anything is 0 (`:gt200-zero-wins`).
+    /// The unit of GT200 in the state in which 0 times anything is 0 (`:gt200-zero-wins`).
     Gt200ZeroWins,
 }
 

@@ -135,7 +135,7 @@ fn floats_keep_their_range_in_the_programs_for_fixed_point() {
     }
 }
 
-/// The same scene in units of 2^-`power`.
+/// The scene in units of 2^-`power`.
 fn in_other_units(mesh: &Mesh, rays: &[Ray], power: i32) -> (Mesh, Vec<Ray>) {
     let unit = power_of_two(power);
     let scaled = |p: [f32; 3]| p.map(|x| (f64::from(x) * unit) as f32);
