@@ -130,8 +130,8 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// Both the unit and its product with a factor are rounded, so the relative error is at most `2^-23`, and the error
-    /// is less than `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product avoids the
-    /// middle between two codes, so that the sum with the pivot is rounded to the right one.
+    /// is less than `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product
+    /// avoids the middle between two codes, so that the sum with the pivot is rounded to the right one.
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
         self.codes.fused_sum_of(self.reciprocal as f32, a, b)

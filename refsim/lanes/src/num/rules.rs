@@ -32,11 +32,10 @@ pub enum Rounding {
     /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. A result with this
     /// rounding can be rounded once more into a format of two bits less, in any direction, as if it had been exact.
     Odd,
-    /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits of
-    /// the discarded fraction and this word, is at least `2^32`. A fraction of a quarter is rounded up for a quarter of
-    /// all words. The word belongs to one operation ([`super::random_word`]); operations of several roundings use
-    /// it for each.
-    /// Devices refuse it ([`super::Format::for_registers`]).
+    /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits
+    /// of the discarded fraction and this word, is at least `2^32`. A fraction of a quarter is rounded up for a quarter
+    /// of all words. The word belongs to one operation ([`super::random_word`]); operations of several roundings use it
+    /// for each. Devices refuse it ([`super::Format::for_registers`]).
     Stochastic(u32),
 }
 
