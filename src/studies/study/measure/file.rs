@@ -21,7 +21,7 @@ const HELP: &str = "the header is `case,column,row,red,green,blue,alpha,depth`; 
 pub struct MeasuredPixel {
     /// Line of the table, from 1.
     pub line: u64,
-    /// Column and row, from the top left, from 0.
+    /// Column and row, counted from 0 at the top left.
     pub place: [u32; 2],
     /// Stored codes of the channels of target 0, as far as they were measured.
     pub codes: [Option<u32>; 4],
