@@ -24,7 +24,7 @@ pub struct Census {
     /// Number of faces without area.
     pub faces_without_area: usize,
     /// Number of faces that lie on an earlier face: with the same three corners, or in its plane and on the same side
-    /// of a common edge, as where a polygon stands twice and was cut along other diagonals. Losses by rounding
+    /// of a common edge, as where a polygon is listed twice and was cut along other diagonals. Losses by rounding
     /// coordinates to f32 do not count.
     pub duplicate_faces: usize,
 }

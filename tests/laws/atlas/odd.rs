@@ -65,7 +65,7 @@ fn oddities_are_counted() {
     };
     assert_eq!(*atlas.census(), expected);
     assert!(!expected.is_sound());
-    // A square that stands twice, cut along both diagonals, and turned so that its corners are rounded.
+    // A square that is listed twice, cut along both diagonals, and turned so that its corners are rounded.
     let corner = |[x, y]: [f32; 2]| [0.6 * x + 0.1, 0.64 * x - 0.6 * y, 0.48 * x + 0.8 * y];
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(corner).to_vec();
     let twice = Mesh::new(square, vec![[0, 1, 2], [0, 2, 3], [1, 2, 3], [3, 0, 1]]).expect("a mesh");

@@ -122,7 +122,7 @@ fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     })
 }
 
-/// A face that stands twice is surface twice: light enters and leaves both.
+/// A face that is listed twice counts as two surfaces: light enters and leaves both.
 fn repeated(outcome: &SubsurfaceOutcome) -> Option<String> {
     let count = outcome.atlas.census().duplicate_faces as u64;
     (count > 0).then(|| {
