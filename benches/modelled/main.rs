@@ -60,7 +60,7 @@ fn widths(criterion: &mut Criterion<ModelledTime>) {
     group.finish();
 }
 
-/// The same sixteen batches, read back synchronously, and one batch later behind a fence.
+/// Sixteen batches as above, read back synchronously, and one batch later behind a fence.
 fn asynchrony(criterion: &mut Criterion<ModelledTime>) {
     for device in CARDS {
         let (model, mut group) = (model(device), criterion.benchmark_group(format!("read-back, {device}")));

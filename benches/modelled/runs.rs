@@ -115,7 +115,7 @@ impl Batches {
     }
 }
 
-/// The same draws with a cache that never hits.
+/// A log with the same draws and a cache that never hits.
 pub(crate) fn without_cache(mut log: Vec<Event>) -> Vec<Event> {
     for event in &mut log {
         let Event::Draw(record) = event else { continue };

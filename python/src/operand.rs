@@ -3,7 +3,7 @@
 use numpy::ndarray::{ArrayViewD, Axis};
 use numpy::{Element, PyReadonlyArrayDyn};
 
-/// Elements of an operand: all in a row, one for all, or anywhere in memory.
+/// Elements of an operand: a contiguous array, one element for all, or a strided array.
 pub(crate) enum Operand<'a, T> {
     All(&'a [T]),
     One([T; 1]),

@@ -52,7 +52,7 @@ fn mesh(vertices: &PyReadonlyArray2<'_, f32>, faces: &PyReadonlyArray2<'_, u32>)
     Mesh::new(vertices.to_vec(), faces.to_vec()).map_err(|error| value_error(error.to_string()))
 }
 
-/// Rays as two arrays, which are read where they lie.
+/// Rays as two arrays, which are read without a copy.
 struct RayRows<'a> {
     origins: &'a [[f32; 3]],
     directions: &'a [[f32; 3]],

@@ -160,8 +160,8 @@ pub(super) fn usage_problem(error: &clap::Error) -> Problem {
     Problem::usage(joined(what.trim_start_matches("error: ")), joined(help))
 }
 
-/// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. `parse` parses other
-/// arguments: a message that quotes what is not safe to show is made again.
+/// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. If a
+/// message quotes characters that are not safe to show, `parse` parses the escaped arguments for another message.
 pub(super) fn print_usage(
     error: &clap::Error,
     arguments: &[OsString],

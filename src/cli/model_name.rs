@@ -51,7 +51,7 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
     Ok(model(path)?.mesh)
 }
 
-/// The same with materials.
+/// The model, with materials, of a name or a file, as [`mesh`].
 pub(super) fn model(path: &Path) -> miette::Result<Model> {
     let name = path.to_str().unwrap_or_default();
     if let Some(MaterialMesh { mesh, materials, material_of }) = meshes::build_with_materials(name) {

@@ -30,7 +30,7 @@ fn random_texels(random: &mut Random, texel: impl Fn(&mut Random) -> [f32; 4]) -
     Texels { width: side, height: side, texels: (0..side * side).map(|_| texel(random)).collect() }
 }
 
-/// A factor below 1/8, one in sixteen of them 0.
+/// Random factor: 0 with a probability of 1/16, else a number in [0, 1/8).
 fn factor(random: &mut Random) -> f32 {
     if random.below(16) == 0 { 0.0 } else { random.below(1 << 16) as f32 / (1 << 19) as f32 }
 }

@@ -95,7 +95,7 @@ const CROSSBAR: Law = (
     ],
 );
 
-/// The executors: `scalar` shares nothing; the others share a middle. Files of `exec` itself stand to the left of all.
+/// The executors: `scalar` shares nothing; the others share a middle. Files of `exec` itself are to the left of all.
 const EXEC: Law =
     ("refsim/src", &["exec"], &[("scalar", ""), ("lower", ""), ("batch", "lower"), ("wgsl", "lower"), ("gpu", "wgsl")]);
 

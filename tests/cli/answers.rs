@@ -24,7 +24,7 @@ pub(crate) fn document(arguments: &[&str]) -> Value {
     serde_json::from_str(&ran.stdout).expect("one JSON document")
 }
 
-/// The same for arguments in one line, without spaces in them.
+/// Document of a run with arguments in one line, without spaces in them.
 pub(crate) fn document_of(line: &str) -> Value {
     document(&line.split_whitespace().collect::<Vec<_>>())
 }
@@ -51,7 +51,7 @@ pub(crate) fn refused(arguments: &[&str]) -> String {
     crossbar(arguments, "").refusal(arguments)
 }
 
-/// The same of arguments in one line.
+/// Words of the message of a run with arguments in one line, which is refused.
 pub(crate) fn refused_line(line: &str) -> String {
     refused(&line.split_whitespace().collect::<Vec<_>>())
 }

@@ -58,7 +58,7 @@ fn claims(good: &[u8]) -> Vec<Vec<u8>> {
         return text_claims(text).into_iter().map(String::into_bytes).collect();
     }
     let is_archive = good.starts_with(io::npz::MAGIC);
-    // Sizes of an archive stand at its end, too.
+    // Sizes of an archive are repeated at its end.
     let last = if is_archive { good.len().saturating_sub(HEAD)..good.len() - 3 } else { 0..0 };
     let mut all = if is_archive { claims_of_members(good) } else { Vec::new() };
     for at in (0..good.len().min(HEAD).saturating_sub(3)).chain(last) {

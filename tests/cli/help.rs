@@ -91,7 +91,7 @@ fn without_arguments_there_are_three_things_to_try() {
     let tries: Vec<&str> = ran.stderr.lines().filter_map(|line| line.strip_prefix("  crossbar ")).collect();
     assert_eq!(tries.len(), 3, "{}", ran.stderr);
     for line in tries {
-        // The command stands before two spaces or the end of the line.
+        // The command ends before two spaces or at the end of the line.
         let command = line.split("  ").next().unwrap_or_default();
         let words: Vec<&str> = command.split(' ').chain(["--help"]).collect();
         assert_eq!(crossbar(&words, "").code, Some(0), "{command}");

@@ -109,7 +109,7 @@ fn what_is_no_module_is_refused() {
     assert!(!folder.path().join("page/index.html").exists());
 }
 
-/// The same bytes each time: results and pictures do not depend on threads.
+/// Two runs write the same bytes: results and pictures do not depend on threads.
 #[test]
 fn the_page_is_the_same_each_time() {
     let folder = tempfile::tempdir().expect("a folder for the test");

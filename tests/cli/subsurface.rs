@@ -272,7 +272,7 @@ fn all_pairs_are_gathered_up_to_the_side_that_help_and_page_say() {
     }
 }
 
-/// A tetrahedron whose slanted face stands twice, from another corner.
+/// A tetrahedron whose slanted face is listed twice, the second time starting at another corner.
 #[test]
 fn a_face_that_stands_twice_is_said() {
     let folder = tempfile::tempdir().expect("a folder for the test");

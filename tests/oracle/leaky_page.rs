@@ -193,7 +193,7 @@ fn the_pages_say_what_the_program_prints() {
     }
 }
 
-/// Every figure of README.md is checked: its numbers stand between marks, or they are years, names, or one of these,
+/// Every figure of README.md is checked: its numbers are between marks, or they are years, names, or one of these,
 /// each with its test.
 #[test]
 fn every_figure_of_the_front_page_is_held() {

@@ -153,7 +153,7 @@ fn stepping_by_keys(browser: &mut Browser) {
     assert!(now(browser).1.contains("+cmp r0.a"), "{:?}", now(browser));
     browser.press("stepper", "Home", 36);
     assert_eq!(now(browser), ("0".to_owned(), String::new()), "an input register");
-    // Written values stand there three times: the emulator's, the GPU's, and the GPU's own floats.
+    // Written values are there three times: the emulator's, the GPU's, and the GPU's own floats.
     let cells =
         browser.value("[...document.querySelectorAll('#written tr:first-child > *')].map((cell) => cell.textContent)");
     let cells: Vec<&str> = cells.as_array().into_iter().flatten().filter_map(Value::as_str).collect();

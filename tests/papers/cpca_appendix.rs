@@ -32,7 +32,7 @@ fn the_spectrum_of_order_5() {
     assert!(near(values[0] / values[24], 151_695.0, 1e-5), "the condition: {}", values[0] / values[24]);
 }
 
-/// The same from A itself, by another algorithm.
+/// The printed singular values from A itself, by another algorithm.
 #[test]
 fn the_spectrum_of_the_gram_matrix() {
     for order in 1..=10 {

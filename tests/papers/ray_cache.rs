@@ -45,7 +45,7 @@ fn engine<'a>(mesh: &'a Mesh, device: &str, parameters: EngineParameters) -> Ray
 struct Cache {
     /// The mean fill of its buckets, in [0, 1], with all rays in it.
     full: f64,
-    /// The same for the batches that left it.
+    /// The mean fill of the batches that left it, in [0, 1].
     batches: f64,
     /// Levels that went, for each batch after which any did.
     levels: f64,

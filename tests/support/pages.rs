@@ -11,7 +11,7 @@ pub(crate) fn hold(path: &Path, expected: &str) {
     hold_bytes(path, expected.as_bytes());
 }
 
-/// The same for any bytes. Line ends of texts may differ by system.
+/// Compares a file of bytes with its expected contents, or writes it. Line ends of texts may differ by system.
 pub(crate) fn hold_bytes(path: &Path, expected: &[u8]) {
     if writes_files() {
         fs::write(path, expected).expect("it can be written");

@@ -88,7 +88,7 @@ fn set_format_rule(format: &mut Format, name: &str, value: &str) -> Option<()> {
     Some(())
 }
 
-/// Returns `true` if the format's rule of this name has this value among its own.
+/// Returns `true` if the format has a rule with this name that can have this value.
 pub(super) fn sets_rule(mut format: Format, name: &str, value: &str) -> bool {
     set_format_rule(&mut format, name, value).is_some()
 }

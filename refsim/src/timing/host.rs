@@ -130,7 +130,7 @@ impl HostModel {
         Self::calibrate_with(HostWeights::default(), counts, rays, rays_per_second)
     }
 
-    /// The same with other weights; the scale is recalibrated, so that the calibration run takes the same time.
+    /// As [`Self::calibrate`], with other weights; the scale is such that the calibration run takes the same time.
     ///
     /// # Errors
     /// [`HostError`] if one of the arguments is 0, or all counted operations have weight 0.

@@ -10,7 +10,7 @@ pub(crate) struct Random {
     state: u64,
     /// [`Self::number`] gives numbers of ordinary size, without special values.
     pub(crate) tame: bool,
-    /// Tame numbers exceed the range of short fixed-point formats.
+    /// [`Self::number`] also gives numbers beyond the range of short fixed-point formats, even if `tame`.
     pub(crate) wide: bool,
 }
 

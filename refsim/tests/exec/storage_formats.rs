@@ -150,7 +150,8 @@ proptest! {
         prop_assert_eq!(stored, results(rounded_program, &plain, &inputs, &host));
     }
 
-    /// Where the accumulator has every number of the registers, sums in it are dot products in that format.
+    /// If the accumulator can represent every number of the registers, a dot product with it equals a dot product in
+    /// the accumulator's format.
     #[test]
     fn wide_accumulators_are_formats_of_dot_products(
         data in vectors(24),

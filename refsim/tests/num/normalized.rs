@@ -69,8 +69,8 @@ impl Reference {
     }
 }
 
-/// All pairs of the registers of a combiner and of its 9 bits in the full form, each with a third operand; part of the
-/// first operands in the short one.
+/// Full form: all pairs of operands in the format of a combiner's registers and in its 9-bit format, each pair with a
+/// third operand. Short form: part of the first operands.
 #[test]
 fn every_pair() {
     for (int_bits, frac_bits, step) in [(0, 8, 1), (3, 8, 67), (7, 8, 16_411), (1, 5, 1)] {

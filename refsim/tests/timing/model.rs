@@ -148,7 +148,7 @@ fn clocks(device: &str, lines: &str) -> (u64, u64, u64) {
     (fragment.arithmetic.0, fragment.textures.0, fragment.total().0)
 }
 
-/// The worked example of docs/timing.md.
+/// A read, five instructions in fixed point and a dot product: 2 clocks with X, 7 with H, 3 on the NV35.
 #[test]
 fn fixed_point_goes_beside_the_float_unit_of_nv30() {
     let lines = |x: &str| {
@@ -179,7 +179,7 @@ fn nv30_does_three_operations_or_five_multiplications_in_fixed_point_a_clock() {
     assert_eq!([16, 17, 21, 22].map(|n| behind("MULX H0, H0, p[0]", n)), [4, 5, 5, 6]);
 }
 
-/// The worked example of docs/timing.md: levels of a 1024 x 1024 map with 8 bits.
+/// Levels of a 1024 x 1024 map with 8 bits.
 #[test]
 fn mip_levels_are_drawn_one_after_the_other() {
     let mut machine = Machine::new(Profile::named("nv35").unwrap(), ExecutorKind::Batch);

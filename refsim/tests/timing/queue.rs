@@ -61,7 +61,7 @@ impl Command {
         }
     }
 
-    /// The same on an infinitely fast card, with unchanged buses and host.
+    /// The command on an infinitely fast card, with unchanged buses and host.
     fn on_infinitely_fast_card(&self) -> Self {
         match self {
             Self::State(_) | Self::Clear(..) | Self::Draw { .. } => self.scaled(0),

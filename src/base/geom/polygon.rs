@@ -17,7 +17,7 @@ use super::vector::{place_bits, unit, wide};
 pub const MAX_CORNERS: usize = 4096;
 /// Largest distance between corners along the normal of a flat polygon, relative to the polygon's size.
 const FLATNESS: f64 = 1e-4;
-/// The same relative to the largest coordinate, for the rounding to f32.
+/// Largest distance along the normal, relative to the largest coordinate, for the rounding to f32.
 const ROUNDING: f64 = 1.0 / (1 << 21) as f64;
 
 /// A reason for which a polygon of four corners or more has no certain interior.

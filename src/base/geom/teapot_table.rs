@@ -2,8 +2,8 @@
 //!
 //! Martin Newell's data of 1975 (University of Utah) as it has been passed on since the 1980s, with the four bottom
 //! patches that were added later. `fixtures/README.md` describes how these figures were checked. The coordinates are
-//! decimals of at most five places; they stand here as whole numbers of 1/100000, so that the surface can be evaluated
-//! exactly.
+//! decimals of at most five places; they are written here as multiples of 1/100000, so that the surface can be
+//! evaluated exactly.
 
 /// Units of [`POINTS`] in one unit of length.
 pub(super) const UNITS: i128 = 100_000;

@@ -201,7 +201,8 @@ fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miet
     Ok(Verdict::Done)
 }
 
-/// The unit of an operation on lines of many numbers, once its options go together; `None` for other operations.
+/// Checks that the options fit together, and returns the unit of an operation that reads many numbers per line (`dot`,
+/// `quantize`, `dequantize`); `None` for other operations.
 fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<Option<RowUnit>, Problem> {
     if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
         return Err(Problem::usage(

@@ -117,7 +117,7 @@ impl Coherence {
         }
     }
 
-    /// The same as JSON.
+    /// The changes as JSON.
     pub(super) fn document(&self) -> Value {
         let [clusters, reclassified, superclusters] = self.drawn;
         json!({

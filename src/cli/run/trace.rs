@@ -94,7 +94,7 @@ impl ShownTrace<'_> {
         table
     }
 
-    /// The fragment's result, in a line.
+    /// One line with the fragment's result.
     fn result(&self, fragment: &FragmentTrace) -> String {
         let own = fragment.shading.output.depth.map(|depth| {
             let number = Number { format: depth.format, bits: depth.bits };

@@ -73,7 +73,7 @@ impl DistantLightArg {
         Ok(Self::Disk { towards, degrees, radiance })
     }
 
-    /// The file that it is read from, if it is.
+    /// The file that the light is read from; `None` for other lights.
     pub(in crate::cli) fn file(&self) -> Option<&Path> {
         if let Self::Picture(path) = self { Some(path) } else { None }
     }

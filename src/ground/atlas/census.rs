@@ -24,7 +24,7 @@ pub struct Census {
     /// Number of faces without area.
     pub faces_without_area: usize,
     /// Number of faces that lie on an earlier face: with the same three corners, or in its plane and on the same side
-    /// of a common edge, as where a polygon stands twice and was cut along other diagonals. Losses by rounding
+    /// of a common edge, as where a polygon is listed twice and was cut along other diagonals. Losses by rounding
     /// coordinates to f32 do not count.
     pub duplicate_faces: usize,
 }
@@ -51,8 +51,8 @@ impl Census {
     }
 }
 
-/// Counts the faces that lie on an earlier one. Each face on an edge, in their order around it, is compared with the
-/// next.
+/// Counts the faces that coincide with an earlier one. The faces of an edge are sorted by their angle around it, and
+/// each is compared with the next.
 fn duplicate_faces(welded: &Mesh, adjacency: &Adjacency) -> usize {
     let place = |vertex: u32| wide(welded.positions()[vertex as usize]);
     let with_area: Vec<bool> = welded.iter_corners().map(|corners| has_certain_area(&corners)).collect();

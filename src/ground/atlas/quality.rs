@@ -13,7 +13,7 @@ pub struct AtlasQuality {
     pub used: f64,
     /// Standard deviation of the texels' areas, relative to their mean.
     pub deviation: f64,
-    /// The same with every texel weighted by its area.
+    /// Standard deviation of the texels' areas, relative to their mean, with every texel weighted by its area.
     pub deviation_by_area: f64,
     /// Smallest non-zero area of a texel, relative to the mean.
     pub least: f64,

@@ -9,7 +9,7 @@ pub struct Texel {
     pub face: u32,
     /// Mean point of the part.
     pub point: DVec3,
-    /// Unit normal at that point, interpolated between the normals of the face's corners; zero on a face that has none.
+    /// Unit normal at that point, interpolated between the normals of the face's corners; zero if the face has none.
     pub normal: DVec3,
     /// Area of the part; 0 on a face without area.
     pub area: f64,

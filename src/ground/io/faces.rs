@@ -45,7 +45,7 @@ impl<C: Copy> Faces<C> {
     }
 
     /// The triangles of all faces, n - 2 of a face of n corners. Faces with a fault are refused if `strict`, otherwise
-    /// counted in the notes. `named` is a face as messages name it.
+    /// counted in the notes. `named` returns the name of a face for messages.
     pub(super) fn triangles(
         &self,
         position: impl Fn(C) -> [f32; 3],

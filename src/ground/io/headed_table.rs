@@ -34,7 +34,7 @@ pub(super) fn for_each_row(
     Ok(())
 }
 
-/// A row as messages quote it.
+/// Text of a row for messages.
 pub(super) fn whole(record: &csv::ByteRecord) -> String {
     quoted(&record.iter().collect::<Vec<_>>().join(&b','))
 }

@@ -120,7 +120,7 @@ fn contents(mut opened: io::Take<Bounded>, limit: u64) -> io::Result<Option<Vec<
     Ok((bytes.len() as u64 <= limit).then_some(bytes))
 }
 
-/// Invalid input as messages quote it: escaped, and cut to 40 characters.
+/// Invalid input as quoted in messages: escaped, and cut to 40 characters.
 fn quoted(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
     let cut: String = text.chars().take(40).collect();

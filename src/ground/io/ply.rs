@@ -240,7 +240,7 @@ fn expected(element: &ElementDef) -> String {
     format!("a `{}` of `{}{more}`", visible(&element.name), visible(&names.join(" ")))
 }
 
-/// A name in the header as messages show it.
+/// A name of the header as shown in messages.
 fn visible(name: &str) -> String {
     name.chars().take(80).collect::<String>().escape_debug().to_string()
 }

@@ -68,7 +68,7 @@ impl Lu {
         Ok(())
     }
 
-    /// Subtracts the multiples of a factored panel's rows from what stands right of it.
+    /// Subtracts the multiples of a factored panel's rows from the columns to the right of it.
     fn eliminate_panel(&mut self, first: usize, end: usize) {
         let size = self.size;
         let (above, below) = self.values.split_at_mut(end * size);

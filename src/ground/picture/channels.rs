@@ -103,7 +103,7 @@ impl Picture {
         self.height
     }
 
-    /// Channels, in the order in which they were added or stand in the file.
+    /// Channels, in the order in which they were added, or in that of the file.
     pub fn channels(&self) -> &[PictureChannel] {
         &self.channels
     }

@@ -34,7 +34,7 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
 impl PictureSize {
     /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. For an EXR file it
     /// is that of the largest layer. Fails with [`InputError`] for a header that is broken, for more than the limits,
-    /// and for more pixels than so many bytes can stand for.
+    /// and for more pixels than so many bytes can encode.
     pub fn of(bytes: &[u8]) -> Result<Self, InputError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::size(bytes),

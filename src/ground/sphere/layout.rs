@@ -62,7 +62,8 @@ impl LayoutGrid {
         self.solid_angle(column, row) > 0.0
     }
 
-    /// Index, row by row, of the pixel that shows a unit direction. On the border of two it is either.
+    /// Index, row by row, of the pixel that shows a unit direction. A direction on the border of two pixels may give
+    /// either.
     pub(super) fn pixel(&self, direction: DVec3) -> usize {
         let within = |at: f64, count: usize| (at.max(0.0) as usize).min(count - 1);
         let [width, height] = [self.width, self.height];

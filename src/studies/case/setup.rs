@@ -106,7 +106,7 @@ impl Setup {
         Self::from_bytes_with(&path.display().to_string(), &bytes, folder, overrides)
     }
 
-    /// The same case on another device, for which its programs are checked again. Fails if a program breaks rules of
+    /// This case on another device, for which its programs are checked again. Fails if a program breaks rules of
     /// the device.
     pub fn on_device(&self, profile: Profile) -> Result<Self, CaseError> {
         let pixel = self.pixel_text.check((*self.pixel).clone(), &profile)?;

@@ -11,7 +11,7 @@ pub struct SourceText {
     text: String,
     /// Start of each line, in bytes.
     starts: Vec<usize>,
-    /// `true` if the text is ASCII, so that columns are bytes.
+    /// `true` if the text is ASCII: columns then equal bytes.
     ascii: bool,
 }
 

@@ -53,7 +53,7 @@ pub struct SummaryLine {
     pub heading: String,
     /// Counts of outcomes; those of 0 are not shown.
     pub tally: Vec<TallyEntry>,
-    /// Sentence on the part.
+    /// Sentence that summarises the part.
     pub text: String,
 }
 

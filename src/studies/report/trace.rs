@@ -3,7 +3,7 @@
 //! One process, a thread for each lane. Slices are complete events (`X`), names and order of the lanes are metadata
 //! (`M`), arrows are flows (`s` to `f`). Times are given in picoseconds. The format wants microseconds, and Perfetto
 //! rounds starts and durations to nanoseconds separately: two slices that meet at half a nanosecond would overlap, and
-//! it drops one. So the ends of slices are moved to whole nanoseconds before; the picoseconds stand among the details.
+//! it drops one. So the ends of slices are moved to whole nanoseconds before; the picoseconds are among the details.
 
 use std::io::{self, Write};
 

@@ -1,6 +1,6 @@
 //! Studies: one folder per question. Parameters go in, [`Findings`] come out; nothing is printed or written here.
 //!
-//! docs/command_line.md describes how to add a study.
+//! docs/contributing.md describes how to add a study.
 
 pub mod atlas;
 pub mod configuration;

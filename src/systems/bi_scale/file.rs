@@ -34,7 +34,7 @@ pub struct BiScaleFile {
     pub meaning: Option<BiScaleMeaning>,
     /// The matrix.
     pub matrix: Option<SparseMatrix>,
-    /// The same as a sum of biclusters.
+    /// The matrix as a sum of biclusters.
     pub biclusters: Option<Biclustering>,
 }
 

@@ -40,7 +40,7 @@ impl SparseMatrix {
         Self::of_values(columns, EntryValues::units(fraction_bits))
     }
 
-    /// The same for any values.
+    /// As [`Self::new`], for any values.
     pub(super) fn of_values(columns: usize, values: EntryValues) -> Result<Self, InputError> {
         if columns == 0 || u32::try_from(columns).is_err() {
             return Err(size_error(0, columns));

@@ -41,7 +41,7 @@ impl Submatrix {
         Some(changed)
     }
 
-    /// The same for a column. Also `None` if a column is 0 in all rows, and so has no value.
+    /// As [`Self::with_row_changed`], for a column. Also `None` if a column is 0 in all rows, and so has no value.
     fn with_column_changed(&self, column: usize, matrix: &[Vec<f64>]) -> Option<Self> {
         let mut changed = self.clone();
         match changed.columns.iter().position(|(inside, _)| *inside == column) {

@@ -4,8 +4,8 @@
 //! - [`Gather`]: Algorithm 2 in f32, from lists in the order in which they are read: the sums of
 //!   [`paper::multiply`](super::paper::multiply)'s shape.
 //!
-//! Values of biclusters are taken in the format of the product. Residuals that it does not hold are rounded, so that
-//! large ones may leave an error where they cancel, though the biclusters are exact.
+//! Values of biclusters are converted to the format of the product. Residuals that it cannot represent are rounded. So
+//! large residuals that cancel may leave an error, although the biclusters are exact.
 //!
 //! Sums are taken in this order, one addition after the other, beginning with 0: of a bicluster over its columns,
 //! increasing; of a row over its biclusters, in the order in which they were found.

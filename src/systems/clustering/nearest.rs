@@ -8,7 +8,7 @@ use refsim::exec::batch::SimdLevel;
 use super::axes::{AlongAxes, Axes};
 use super::{AffineSubspace, Signal};
 
-/// Points per block: a cluster's vectors are read once for all of them.
+/// Points per block. The vectors of a cluster are read once per block.
 const BLOCK: usize = 64;
 
 /// The best cluster of each point, and the squared error of its approximation there.

@@ -83,7 +83,7 @@ impl Range {
         Self { end, step, divisor: end, code: power_of_two(-15), kind }
     }
 
-    /// The same for rays in textures of signed bytes.
+    /// This range for rays in textures of signed bytes.
     pub(super) fn with_byte_texels(self) -> Self {
         // Components between the largest code used and 1 are off by up to a step.
         Self { code: 1.0 / BYTE_CODES, ..self }

@@ -73,8 +73,8 @@ impl<'a> Lights<'a> {
         self.points.len()
     }
 
-    /// Samples emitted light: from an emitter with a cosine distribution about its front, from a point in all
-    /// directions. Takes six numbers in [0, 1).
+    /// Samples a ray of emitted light: from an emitter with a cosine distribution about its normal, from a point light
+    /// in all directions. `number` returns the i-th of six random numbers in [0, 1).
     pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<EmissionSample> {
         if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
             let towards = cosine(place.normal, [number(3), number(4)]);

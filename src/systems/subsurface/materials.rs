@@ -36,7 +36,7 @@ impl FigureConfidence {
 pub struct PublishedFigure<T> {
     /// The figure, for red, green and blue where there are three.
     pub value: T,
-    /// Where it stands.
+    /// Where it was published.
     pub source: &'static str,
     /// How sure it is.
     pub confidence: FigureConfidence,

@@ -268,7 +268,7 @@ fn triangle_points([a, b, c]: [DVec3; 3], n: u32, points: &mut Vec<WeightedPoint
             let corner = a + f64::from(column) * u + f64::from(row) * v;
             for (s, t) in [(1.0, 1.0), (4.0, 1.0), (1.0, 4.0)] {
                 points.push((corner + s / 6.0 * u + t / 6.0 * v, weight));
-                // The part that stands upside down beside it.
+                // The part upside down beside it.
                 if column + row + 1 < n {
                     points.push((corner + (6.0 - s) / 6.0 * u + (6.0 - t) / 6.0 * v, weight));
                 }

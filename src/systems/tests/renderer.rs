@@ -119,7 +119,7 @@ fn scattered(count: u64) -> Vec<Photon> {
     (0..count).map(photon).collect()
 }
 
-/// The same estimate by testing all photons.
+/// The estimate of a photon map, by testing all photons.
 fn brute_force(photons: &[Photon], at: DVec3, nearest: usize, radius: f64) -> f64 {
     let up = photons.iter().filter(|photon| photon.normal.z > 0.0);
     let mut squares: Vec<f64> = up.map(|photon| photon.at.distance_squared(at)).collect();

@@ -57,8 +57,8 @@ impl Haar {
         }
     }
 
-    /// Takes coefficients to the square that they are of. Panics if there are more or fewer than the square has
-    /// numbers.
+    /// Inverse transform, in place: coefficients to the numbers of the square. Panics if the length is not that of the
+    /// square.
     pub fn inverse(&mut self, coefficients: &mut [f64]) {
         assert_eq!(coefficients.len(), self.side * self.side, "a square of side {}", self.side);
         let mut half = 1;

@@ -133,7 +133,7 @@ impl Writer<'_> {
         self.r.of(&["", "", "_pp"])
     }
 
-    /// A source of arithmetic; an instruction may read one constant and one input only.
+    /// Text of a random source operand. An instruction may read one constant and one input only.
     fn source(&mut self, others: &mut usize) -> String {
         let negate = if self.r.one_in(4) { "-" } else { "" };
         let register = match self.r.below(14) {

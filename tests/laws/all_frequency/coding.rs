@@ -19,7 +19,7 @@ pub(super) fn segments(vertices: &Vertices, maps: &VisibilityMaps, reflectance: 
     transfer_of(vertices, maps, &hats, reflectance).segments().map(|segment| segment.expect("transfer")).collect()
 }
 
-/// The same by clusters of 10 vertices.
+/// All segments of the transfer of some maps, by clusters of 10 vertices.
 pub(super) fn compressed(
     vertices: &Vertices,
     maps: &VisibilityMaps,

@@ -65,7 +65,7 @@ fn oddities_are_counted() {
     };
     assert_eq!(*atlas.census(), expected);
     assert!(!expected.is_sound());
-    // A square that stands twice, cut along both diagonals, and turned so that its corners are rounded.
+    // A square that is listed twice, cut along both diagonals, and turned so that its corners are rounded.
     let corner = |[x, y]: [f32; 2]| [0.6 * x + 0.1, 0.64 * x - 0.6 * y, 0.48 * x + 0.8 * y];
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(corner).to_vec();
     let twice = Mesh::new(square, vec![[0, 1, 2], [0, 2, 3], [1, 2, 3], [3, 0, 1]]).expect("a mesh");
@@ -140,7 +140,7 @@ fn stand_ins_have_the_papers_counts() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// Nothing depends on the unit of length: 2^66 of it, or 2^-66, give the same atlas.
+    /// Nothing depends on the unit of length: a mesh scaled by 2^66 or 2^-66 has the same atlas.
     #[test]
     fn the_unit_does_not_matter((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -175,7 +175,7 @@ proptest! {
         prop_assert!(quality.levels.iter().all(|level| level.compactness.is_finite() && level.radius.is_finite()));
     }
 
-    /// The same atlas with any number of threads.
+    /// The atlas does not depend on the number of threads.
     #[test]
     fn threads_do_not_matter((sample, side) in atlases()) {
         let on = |threads| in_threads(threads, || Atlas::new(&sample.mesh, side).expect("an atlas"));

@@ -23,7 +23,7 @@ fn drawn_at(drawn: &DrawnFace, place: &FacePlace, weights: [i64; 3]) -> [i64; 2]
     })
 }
 
-/// The same over the whole face: the smaller of two interpolated coordinates.
+/// The coordinates of a point over the whole face: the smaller of two interpolated coordinates.
 fn whole_at(whole: &WholeFace, weights: [i64; 3]) -> [i64; 2] {
     let at = |pair: usize, axis: usize| {
         let vertices = whole.vertices.iter().zip(weights);

@@ -177,7 +177,7 @@ proptest! {
     }
 }
 
-/// The digest is of all that a transfer depends on.
+/// The digest covers everything that a transfer depends on.
 #[test]
 fn digests_tell_meshes_apart() {
     use crossbar::transfer::file::MeshDigest;

@@ -103,8 +103,8 @@ fn a_radiosity_that_is_the_same_everywhere_makes_a_picture_of_one_colour() {
     }
 }
 
-/// The ceiling has corners where the walls have none, at their common side. Such a side is drawn with these corners in
-/// it; drawn as one line, it would leave two black pixels at 192 x 192.
+/// Along the side that ceiling and wall share, the ceiling has corners where the wall has none. The wall's side is
+/// drawn through these corners: as a single line it would leave two black pixels at 192 x 192.
 #[test]
 fn a_closed_room_shows_a_patch_in_every_pixel() {
     for blocks in [false, true] {

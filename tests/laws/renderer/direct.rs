@@ -21,8 +21,8 @@ fn lambert(corners: &[DVec3]) -> f64 {
     ((0..corners.len()).map(side).sum::<f64>() / (2.0 * PI)).abs()
 }
 
-/// The same for a rectangle parallel to the area with a corner straight above it, sides a and b in multiples of its
-/// height.
+/// The form factor to a rectangle parallel to the area with a corner straight above it, sides a and b in multiples of
+/// its height.
 fn parallel_corner(a: f64, b: f64) -> f64 {
     let (x, y) = ((1.0 + a * a).sqrt(), (1.0 + b * b).sqrt());
     (a / x * libm::atan(b / x) + b / y * libm::atan(a / y)) / (2.0 * PI)

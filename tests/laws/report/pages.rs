@@ -87,7 +87,7 @@ fn balanced(page: &str) -> Vec<String> {
         let (tag, tail) = tail.split_once('>').expect("a tag ends");
         rest = tail;
         let name = tag.split([' ', '/', '\n']).find(|part| !part.is_empty()).unwrap_or_default().to_owned();
-        // Names of attributes stand before `="`, values between that and the next quote.
+        // Names of attributes precede `="`; values end at the next quote.
         let attributes = tag.strip_prefix(name.as_str()).unwrap_or("");
         let names: Vec<&str> =
             attributes.split('"').step_by(2).map(|name| name.trim_matches([' ', '\n', '=', '/'])).collect();
@@ -116,7 +116,7 @@ fn a_page_is_balanced_and_stands_alone() {
     assert!(page.starts_with("<!DOCTYPE html><html lang=\"en\">"));
     assert!(page.contains("T &amp; U") && page.contains("&lt;script&gt;") && !page.contains("an empty table"));
     assert!(page.contains("crossbar leaky-teapot --size 8x8"), "the command is told");
-    // Nothing is fetched: the one address is the name of SVG, and the one script stands in the page.
+    // Nothing is fetched: the one address is the name of SVG, and the one script is in the page.
     assert!(!page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "").contains("http") && !page.contains("url("));
     assert!(!tags.iter().any(|tag| tag.starts_with("script ") || tag.starts_with("link") || tag.contains(" on")));
     for image in tags.iter().filter(|tag| tag.starts_with("img")) {

@@ -151,7 +151,7 @@ fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
     assert!(others.iter().all(|row| !row.admits(alone.ours)));
 }
 
-/// A reason stands once, with all its rows.
+/// Each reason is listed once, with all its rows.
 #[test]
 fn every_explanation_is_said_once() {
     let notes = notes(&FOUND);

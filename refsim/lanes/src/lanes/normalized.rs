@@ -129,9 +129,9 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
         Self::FUSED && self.fused
     }
 
-    /// The unit is rounded, and so is its product with a factor: together an error of one part in `2^23`, less than
-    /// `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product avoids the
-    /// middle between two codes, so that the sum with the pivot is rounded to the right one.
+    /// Both the unit and its product with a factor are rounded, so the relative error is at most `2^-23`, and the error
+    /// is less than `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product
+    /// avoids the middle between two codes, so that the sum with the pivot is rounded to the right one.
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
         self.codes.fused_sum_of(self.reciprocal as f32, a, b)

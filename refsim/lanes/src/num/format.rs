@@ -124,38 +124,38 @@ impl Format {
         }
     }
 
-    /// The same layout with another encoding. [`Encoding::Finite`] and [`Encoding::UnsignedZero`] are for floats of at
+    /// This layout with another encoding. [`Encoding::Finite`] and [`Encoding::UnsignedZero`] are for floats of at
     /// most 7 exponent bits, whose numbers single precision has, [`Encoding::Scale`] for [`Format::E8M0`] alone.
     pub const fn with_encoding(mut self, encoding: Encoding) -> Format {
         self.encoding = encoding;
         self
     }
 
-    /// The same format with another rounding.
+    /// This format with another rounding.
     pub const fn with_rounding(mut self, rounding: Rounding) -> Format {
         self.rounding = rounding;
         self
     }
 
-    /// The same format with another overflow rule.
+    /// This format with another overflow rule.
     pub const fn with_overflow(mut self, overflow: Overflow) -> Format {
         self.overflow = overflow;
         self
     }
 
-    /// The same format with or without subnormal numbers.
+    /// This format with or without subnormal numbers.
     pub const fn with_denormals(mut self, denormals: Denormals) -> Format {
         self.denormals = denormals;
         self
     }
 
-    /// The same format with other conventions for special values.
+    /// This format with other conventions for special values.
     pub const fn with_specials(mut self, specials: Specials) -> Format {
         self.specials = specials;
         self
     }
 
-    /// The same format, computed by the unit of a card, which makes no subnormal numbers; for [`Format::FP32`] alone.
+    /// This format, computed by the unit of a card, which makes no subnormal numbers; for [`Format::FP32`] alone.
     pub const fn with_unit(mut self, unit: Unit) -> Format {
         self.unit = unit;
         if unit.is_card() {
@@ -274,7 +274,7 @@ impl Format {
         u32::MAX >> (32 - self.width())
     }
 
-    /// The sign bit; in [`Format::E8M0`], which has none, the bit above the width.
+    /// The sign bit. [`Format::E8M0`] has no sign: there it is the bit above the width.
     #[inline]
     pub const fn sign_bit(&self) -> u32 {
         1 << (self.width() - self.is_signed() as u32)
@@ -285,7 +285,7 @@ impl Format {
         0
     }
 
-    /// One; in `s0.F`, which has none, the largest number.
+    /// Code of the number 1. `s0.F` cannot represent 1: there it is the code of the largest number.
     pub const fn one(&self) -> u32 {
         match self.kind {
             FormatKind::Fixed { int_bits: 0, .. } => self.max_finite(),

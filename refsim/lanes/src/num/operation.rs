@@ -121,11 +121,11 @@ operations! {
     Cos(a) = ops::cos;
     /// Inserts `b`'s pattern of up to 16 bits into word `a` at bit `c`, where `a` is zero.
     JoinPattern(a, b, c);
-    /// The same for single-precision `b` clamped to [0, 1] and rounded to a multiple of 1/65535.
+    /// Inserts single-precision `b`, clamped to [0, 1] and rounded to a multiple of 1/65535, like `JoinPattern`.
     JoinShort(a, b, c);
-    /// The same with multiples of 1/255.
+    /// Inserts `b`, clamped to [0, 1] and rounded to a multiple of 1/255, like `JoinPattern`.
     JoinByte(a, b, c);
-    /// The same with `128 + 127 b`, `b` from -128/127 to 1; NaN gives 128.
+    /// Inserts `128 + 127 b`, `b` from -128/127 to 1, like `JoinPattern`; NaN gives 128.
     JoinSignedByte(a, b, c);
     /// Extracts the number whose pattern is at bit `b` of word `a`.
     SplitPattern(a, b);

@@ -32,11 +32,10 @@ pub enum Rounding {
     /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. A result with this
     /// rounding can be rounded once more into a format of two bits less, in any direction, as if it had been exact.
     Odd,
-    /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the first 32 bits of the fraction that is
-    /// cut off, as an integer, and this word together are `2^32` or more. Over all words that is as often as the
-    /// fraction says. The word belongs to one operation ([`super::random_word`]); operations of several roundings use
-    /// it for each.
-    /// Devices refuse it ([`super::Format::for_registers`]).
+    /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits
+    /// of the discarded fraction and this word, is at least `2^32`. A fraction of a quarter is rounded up for a quarter
+    /// of all words. The word belongs to one operation ([`super::random_word`]); operations of several roundings use it
+    /// for each. Devices refuse it ([`super::Format::for_registers`]).
     Stochastic(u32),
 }
 
@@ -110,11 +109,11 @@ pub enum Unit {
     Nv2x,
     /// The vertex unit of NV30 and NV35 as programs of GL_NV_vertex_program see it (`:nv3x-legacy`).
     Nv3xLegacy,
-    /// The same unit as programs of GL_NV_vertex_program2 see it (`:nv3x`).
+    /// The vertex unit of NV30 and NV35 as programs of GL_NV_vertex_program2 see it (`:nv3x`).
     Nv3x,
     /// The unit of GT200 (`:gt200`); it rounds to the nearest, or toward zero where the format does.
     Gt200,
-    /// The same unit in the state in which 0 times anything is 0 (`:gt200-zero-wins`).
+    /// The unit of GT200 in the state in which 0 times anything is 0 (`:gt200-zero-wins`).
     Gt200ZeroWins,
 }
 

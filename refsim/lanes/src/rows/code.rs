@@ -17,7 +17,7 @@ pub enum LaneCode {
     Neighbors(bool),
     /// Copies `a` to the wide row.
     Widen,
-    /// The same for a half float, by a unit that flushes small numbers.
+    /// Copies `a`, a half float, to the wide row, by a unit that flushes small numbers.
     WidenToHalf,
     /// Rounds the wide row to the destination.
     Narrow,
@@ -25,7 +25,7 @@ pub enum LaneCode {
     Dot(u8),
     /// 2 to 4 products, added in order, each product and each sum rounded.
     Sum(u8),
-    /// The same with 1 to 4 products whose first factors are uniform.
+    /// As [`Self::Sum`], of 1 to 4 products whose first factors are uniform.
     SumBy(u8),
     /// `a b - c d`, each step rounded.
     Difference,

@@ -68,7 +68,7 @@ pub(crate) const NAMED_FORMATS: usize = 6;
 pub(crate) enum Detail {
     /// Differences across the quad.
     Implicit,
-    /// The same, plus a bias.
+    /// Differences across the quad, plus a bias.
     Biased(NodeId),
     /// Derivatives given by the program.
     Gradients([NodeId; 4], [NodeId; 4]),

@@ -109,7 +109,7 @@ shared! {
     TEXEL_UNORM = 2;
     /// `k / (2^(n-1) - 1)`, with the smallest value below -1.
     TEXEL_SNORM = 3;
-    /// The same, with the smallest value clamped to -1.
+    /// `k / (2^(n-1) - 1)`, with the smallest value clamped to -1.
     TEXEL_SNORM_CLAMPED = 4;
     /// `k / 15` above zero, `k / 16` below.
     TEXEL_SPLIT = 5;
@@ -117,7 +117,7 @@ shared! {
     TEXEL_BYTE = 6;
     /// Bits repeated to a signed byte k: `2k / 255`.
     TEXEL_SIGNED_BYTE = 7;
-    /// The same, with the smallest value clamped to -1.
+    /// Bits repeated to a signed byte k: `2k / 255`, with the smallest value clamped to -1.
     TEXEL_SIGNED_BYTE_CLAMPED = 8;
     /// fp16
     TEXEL_FP16 = 9;
@@ -127,7 +127,7 @@ shared! {
     TEXEL_FP32 = 11;
     /// Level of detail from differences across the quad.
     DETAIL_IMPLICIT = 0;
-    /// The same, plus a bias.
+    /// Level of detail from differences across the quad, plus a bias.
     DETAIL_BIASED = 1;
     /// Level of detail from given derivatives.
     DETAIL_GRADIENTS = 2;

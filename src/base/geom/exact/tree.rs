@@ -2,9 +2,9 @@
 //!
 //! A box holds its triangles exactly (f32 figures in f64). A ray crosses the planes x = k at t = (k - o) / d, computed
 //! with at most three roundings; the interval of t inside a box is widened by 16 u on both ends, so that it holds the
-//! exact interval (no operation here can overflow or underflow: see [`super::filter`]). A box is skipped only when its
-//! widened interval is empty or starts beyond a t that some certain hit does not exceed. So the tree affects the time,
-//! but not the result.
+//! exact interval (no operation here can overflow or underflow: see [`super::filter`]). A box is skipped only if its
+//! widened interval is empty, or begins beyond the upper bound of t of a hit that is certain. So the tree affects the
+//! time, but not the result.
 
 use std::borrow::Cow;
 

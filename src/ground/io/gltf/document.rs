@@ -16,7 +16,7 @@ const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
 /// Attributes of vertices that are read.
 const ATTRIBUTES: [&str; 3] = ["POSITION", "NORMAL", "TEXCOORD_0"];
-/// Properties that are passed over wherever they stand, with those whose names end in `Texture`.
+/// Properties that are ignored wherever they occur, like those whose names end in `Texture`.
 const PASSED_OVER: [&str; 8] =
     ["animations", "camera", "cameras", "extras", "images", "samplers", "targets", "textures"];
 

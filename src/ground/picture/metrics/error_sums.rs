@@ -45,7 +45,7 @@ impl ErrorSums {
         }
     }
 
-    /// The same sums without infinite errors, except for the largest.
+    /// These sums without infinite errors, except for the largest.
     pub const fn of_finite(self) -> Self {
         Self { not_finite: 0, ..self }
     }

@@ -1,9 +1,9 @@
 //! Stand-ins for models of the papers that are not available: a Buddha, a bird, a head, an armor and a dolphin,
 //! composed of rounded pieces.
 //!
-//! Units are those of models about 2.5 high around the origin, fronts towards -y and a little +x. The Buddha has his
-//! coat because of the small omega that the paper on all-frequency transfer prints for him (its Table 1), so our omega
-//! is not evidence. The others were shaped by eye.
+//! Units are those of models about 2.5 high around the origin, fronts towards -y and a little +x. The Buddha wears a
+//! coat that brings his omega close to the small one in Table 1 of the paper on all-frequency transfer, so our omega is
+//! not evidence. The others were shaped by eye.
 
 use super::isosurface::{Folds, RoundedBody, RoundedPiece};
 use super::resample::ClosedSurface;

@@ -29,7 +29,7 @@ pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
 
 /// Builds a ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along
 /// its longest side of x and y. Where triangles of the model lie in that plane it is lowered by 1/1024 of the longest
-/// side of the model's box. Panics: as [`ground`].
+/// side of the model's box. Panics as [`ground`] does.
 pub fn ground_of(model: &Mesh, side: u32) -> Mesh {
     let [low, high] = model.bounds().unwrap_or_default().map(wide);
     let gap = if has_flat_base(model, low.z) { BELOW_A_FLAT_BASE * (high - low).max_element() } else { 0.0 };

@@ -65,7 +65,7 @@ impl ClosedSurface {
         Self::renumbered(&self.positions, kept)
     }
 
-    /// The same triangles in the same order, with vertices in the order of first use and without unused ones.
+    /// A surface of these triangles, in this order, with vertices in the order of first use and without unused ones.
     fn renumbered(positions: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> Self {
         let mut found = Self::default();
         let mut number = vec![u32::MAX; positions.len()];

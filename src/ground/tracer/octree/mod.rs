@@ -3,8 +3,8 @@
 //! cell.
 //!
 //! **No hit is lost.** A cell lists every triangle that touches the closed cell grown by [`Octree::margin`], which is
-//! larger than what rounding can do to a plane's parameter; so that a ray on the common plane, edge or corner of two
-//! cells may be assigned to either: both list the triangles hit there. A direction component of -0 counts as +0.
+//! larger than the rounding error of a plane's parameter. So a ray on the common plane, edge or corner of two cells may
+//! be assigned to either: both list the triangles hit there. A direction component of -0 counts as +0.
 
 mod beam;
 mod build;

@@ -1,7 +1,7 @@
 //! Files of measured pixels: comma-separated tables.
 //!
-//! The header names the columns, in any order: `case`, `column` and `row` are required, `red`, `green`, `blue`, `alpha`
-//! and `depth` can be left out, as can be single values. A case is a path relative to the folder of the table. Codes
+//! The header names the columns, in any order: `case`, `column` and `row` are required; `red`, `green`, `blue`, `alpha`
+//! and `depth` are optional, and so is every value in them. A case is a path relative to the folder of the table. Codes
 //! are the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's `raw`.
 //! A line that begins with `#` is a remark: the card, and probes that it could not draw.
 
@@ -21,7 +21,7 @@ const HELP: &str = "the header is `case,column,row,red,green,blue,alpha,depth`; 
 pub struct MeasuredPixel {
     /// Line of the table, from 1.
     pub line: u64,
-    /// Column and row, from the top left, from 0.
+    /// Column and row, counted from 0 at the top left.
     pub place: [u32; 2],
     /// Stored codes of the channels of target 0, as far as they were measured.
     pub codes: [Option<u32>; 4],

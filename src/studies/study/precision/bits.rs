@@ -69,7 +69,7 @@ pub(super) struct FormatBits {
     pub(super) digits: u8,
 }
 
-/// Formats of all instructions, in the order of their places; `None` computes in the registers' format.
+/// One format per instruction, in the order of the program; `None` is the registers' format.
 pub(super) type Assignment = Vec<Option<FormatBits>>;
 
 impl FormatBits {

@@ -19,7 +19,7 @@ pub enum GoalRelation {
 }
 
 impl GoalRelation {
-    /// Relations with their signs; a sign that begins with another one stands before it.
+    /// Relations with their signs; a sign that begins with another one is listed before it.
     const ALL: [(Self, &str); 5] =
         [(Self::AtMost, "<="), (Self::AtLeast, ">="), (Self::Below, "<"), (Self::Above, ">"), (Self::Equal, "=")];
 

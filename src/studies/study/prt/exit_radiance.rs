@@ -26,7 +26,7 @@ impl<'a> Lit<'a> {
         Some(Self { channels: *channels as usize, functions: exit_functions, columns, light })
     }
 
-    /// The exit coefficients of a matrix, or of a part of one: M l, per row red, green and blue.
+    /// Exit coefficients M l of a matrix, or of some of its rows: red, green and blue per row.
     fn product(&self, matrix: &[f64]) -> Vec<[f64; 3]> {
         let rows = self.functions.len();
         let dot = |row: &[f64], channel: usize| {
@@ -50,8 +50,8 @@ impl<'a> Lit<'a> {
         (0..signal.points()).into_par_iter().map(exit).collect()
     }
 
-    /// The same from clusters, as in section 6: products with the mean and the vectors of each cluster once, then
-    /// weighted sums per vertex.
+    /// The exit coefficients from clusters, as in section 6: products with the mean and the vectors of each cluster,
+    /// then weighted sums per vertex.
     pub(in crate::study) fn of_clusters(&self, clustering: &Clustering) -> Vec<Vec<[f64; 3]>> {
         let products: Vec<Vec<Vec<[f64; 3]>>> = (clustering.subspaces().par_iter())
             .map(|subspace| {

@@ -96,7 +96,7 @@ impl Precomputation<'_> {
         self.whole(found, rule, &responses)
     }
 
-    /// The same, with the rays and matrices of direct light of all vertices, of those of a part, or of parts. Work that
+    /// As [`Self::run`], for rays and direct light of all vertices, of those of a part, or of parts. Work that
     /// needs all vertices is not split: bounces, and light that scatters below the surface. Errors: those of
     /// [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(

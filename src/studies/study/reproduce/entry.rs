@@ -61,7 +61,7 @@ impl Paper {
 }
 
 impl ReproduceEntry {
-    /// The same with a record, which represents a run at full size by default.
+    /// An entry with a record, which represents a run at full size by default.
     pub(super) const fn recorded(self, record: &'static str) -> Self {
         Self { record: Some(record), ..self }
     }

@@ -133,7 +133,7 @@ pub fn notes(found: &Reproduced) -> Table {
     table
 }
 
-/// Table of the printed figures that no row judges, with the reasons, of the papers that have a row among these.
+/// Table of printed figures without a row, each with the reason, for the papers of which `found` has at least one row.
 fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     let mut table = Table::of("Printed figures without a row", "figure what place value unit reason");
     let has_row = |figure: &&PaperFigure| all(found).any(|(_, row)| row.target.paper == figure.paper);

@@ -47,7 +47,7 @@ impl Shared {
         Self { kept, ..self }
     }
 
-    /// Where pieces are kept, if they are.
+    /// Folder of kept pieces; `None` if they are not kept.
     pub(super) fn kept(&self) -> Option<&KeptResults> {
         self.kept.as_deref()
     }

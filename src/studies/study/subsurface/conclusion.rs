@@ -8,7 +8,7 @@ use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
 use crate::subsurface::links::LinkChoice;
 
-/// The error within which storage is judged.
+/// Largest error of a choice of links that the conclusion calls sufficient.
 const ENOUGH: f64 = 0.01;
 
 /// Sentences, warnings and the tally.
@@ -122,7 +122,7 @@ fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     })
 }
 
-/// A face that stands twice is surface twice: light enters and leaves both.
+/// A face that is listed twice counts as two surfaces: light enters and leaves both.
 fn repeated(outcome: &SubsurfaceOutcome) -> Option<String> {
     let count = outcome.atlas.census().duplicate_faces as u64;
     (count > 0).then(|| {

@@ -127,7 +127,7 @@ impl CodedTransfer {
 }
 
 impl CodedSegment {
-    /// Quantises a compressed segment. Panics: as [`CodedTransfer::new`].
+    /// Quantises a compressed segment. Panics as [`CodedTransfer::new`] does.
     pub fn code(part: &CompressedSegment, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         Ok(Self::new(part, options))
@@ -135,7 +135,7 @@ impl CodedSegment {
 
     /// Quantises a compressed segment in an absolute step, the same for all representatives. Each is multiplied by the
     /// root mean square of its weights beforehand, so that its weights are about 1; numbers beyond 16 bits of the step
-    /// are cut off. Weights are coded by the options. Panics: as [`CodedTransfer::new`].
+    /// are cut off. Weights are coded by the options. Panics as [`CodedTransfer::new`] does.
     pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let sizes = mean_weights(&part.clustering, &firsts(&counts(&part.clustering)));

@@ -24,7 +24,7 @@ const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
 pub struct FactoredDrawing {
     /// The texels of the target.
     pub texels: Texels,
-    /// The same in floating point, which shows negative pixels; `None` if the device has no such target.
+    /// The texels in floating point, which shows negative pixels; `None` if the device has no such target.
     pub signed: Option<Texels>,
     /// Counts of clamped colors.
     pub counts: FactoredCounts,

@@ -54,7 +54,7 @@ pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<
     Ok(sums(transfer.vertices, transfer.rows, segments))
 }
 
-/// The same from coded transfer, decoded as integers times steps.
+/// T_p from coded transfer, decoded as integers times steps.
 pub fn transferred_of_code(transfer: &CodedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LightSizeError> {
     let coefficients = transfer.coefficients;
     LightSizeError::check(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;

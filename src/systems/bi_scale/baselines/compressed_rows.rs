@@ -28,7 +28,7 @@ impl CompressedRows {
     }
 
     /// Eight bytes per entry: four for the column, and four for the value in f32. Fails with [`InputError`] if a value
-    /// is beyond single precision. Panics: as [`Self::narrow`].
+    /// is beyond single precision. Panics as [`Self::narrow`] does.
     pub fn wide(matrix: &SparseMatrix) -> Result<Self, InputError> {
         let fits = |entry| (matrix.value(entry) as f32).is_finite();
         Self::new(matrix, 8, u32::MAX, "values within single precision", fits)

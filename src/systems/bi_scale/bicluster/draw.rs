@@ -11,7 +11,7 @@ pub(in crate::bi_scale) fn start(seed: u64, bicluster: u64, count: u64) -> u64 {
 /// Numbers of elements per row, with the sums that find the row of an element by its number (Fenwick 1994).
 #[derive(Clone, Debug)]
 pub(super) struct Counts {
-    /// Node i, from 1, holds the sum of the i & -i rows that end with row i - 1.
+    /// Nodes of the Fenwick tree, counted from 1: node i is the sum of `i & -i` rows, the last of which is row i - 1.
     sums: Vec<u64>,
     total: u64,
 }

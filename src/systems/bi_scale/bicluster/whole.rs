@@ -69,8 +69,8 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// The same with other integers for values, by the number of each: in units of 2^-`fraction_bits` where there are
-    /// such and 32 bits hold all, else in a table.
+    /// These biclusters with other integers for values, by the number of each: in units of 2^-`fraction_bits` if it
+    /// is given and 32 bits hold all, else in a table.
     pub(in crate::bi_scale) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
         self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
         for entry in &mut self.columns {

@@ -130,7 +130,7 @@ pub struct TextureSampling {
     pub view: LocalDirections,
     /// The M directions of light.
     pub light: LocalDirections,
-    /// n x n points per texel, averaged; with 1 its middle.
+    /// n: a texel is the mean over n x n points; 1 is its middle.
     pub samples: usize,
 }
 

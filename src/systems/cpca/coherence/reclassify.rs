@@ -10,7 +10,7 @@ use crate::error::{InputError, input_error};
 /// A clustering with fewer triangles across clusters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reclassified {
-    /// The same subspaces, with new weights for moved points.
+    /// The subspaces of the input, with new weights for moved points.
     pub clustering: Clustering,
     /// Points that changed their cluster; one that moved twice counts twice.
     pub moved: usize,

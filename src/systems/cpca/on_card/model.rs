@@ -66,7 +66,7 @@ impl TransferSize {
         CHANNELS * self.representatives() * self.rows * self.columns
     }
 
-    /// The same without compression: 3 m_p N_r N_i.
+    /// Multiplications and additions of the host for a frame without compression: 3 m_p N_r N_i.
     pub fn uncompressed_multiply_adds(&self) -> usize {
         CHANNELS * self.raw_numbers()
     }

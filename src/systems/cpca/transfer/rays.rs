@@ -77,7 +77,7 @@ impl RayAnswers {
         self.range.clone()
     }
 
-    /// The same without the results of single rays: counts alone.
+    /// These rays without the results of single ones: counts alone.
     #[must_use]
     pub fn counts_only(self) -> Self {
         Self { blocked: Vec::new(), hits: Vec::new(), ..self }

@@ -41,7 +41,7 @@ pub(super) fn vertex_room(limits: &Limits) -> [usize; 2] {
     [limits.vertex_instructions.unwrap_or(256) as usize, limits.vertex_constants.unwrap_or(256) as usize]
 }
 
-/// The same of fragment programs.
+/// Instruction slots and constants of a device's fragment programs; usual ones where it states no limit.
 pub(super) fn fragment_room(limits: &Limits) -> [usize; 2] {
     [limits.fragment_instructions.unwrap_or(1024) as usize, limits.fragment_parameters.unwrap_or(64) as usize]
 }

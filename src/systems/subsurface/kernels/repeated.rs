@@ -46,7 +46,7 @@ impl LightKernel {
         self.most_within([0, 1].map(|lights| self.slots(lights)), slots, constants)
     }
 
-    /// The same for a program that takes `none` slots without a light and `one` with one.
+    /// As [`Self::most_lights`], for a program that takes `none` slots without a light and `one` with one.
     pub(super) fn most_within(&self, [none, one]: [usize; 2], slots: usize, constants: usize) -> usize {
         let by_length = slots.saturating_sub(none) / one.saturating_sub(none).max(1);
         by_length.min(constants.saturating_sub(self.first) / self.step)

@@ -33,7 +33,7 @@ struct Node<const N: usize> {
     /// In Morton order.
     place: u32,
     parent: u32,
-    /// Where its four children stand.
+    /// Index of the first of its four children.
     children: u32,
     /// Part that the current texel gathers individually.
     own: Part<[f64; N]>,
@@ -148,7 +148,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         }
     }
 
-    /// Appends the children of a node. Returns where they stand.
+    /// Appends the children of a node. Returns their indices.
     fn divide(&mut self, at: u32) -> std::ops::Range<u32> {
         let Node { level, place, .. } = self.nodes[at as usize];
         let first = self.nodes.len() as u32;

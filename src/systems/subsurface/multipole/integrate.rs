@@ -37,7 +37,7 @@ impl<'a, const N: usize> Factors<'a, N> {
         self.receiver().factor(texel, cluster)
     }
 
-    /// The same for many factors, whose texels are best near each other.
+    /// Computes many factors, whose texels are best near each other.
     pub fn receiver(&self) -> Receiver<'_, N> {
         Receiver { factors: self, cache: PieceCache::new() }
     }

@@ -181,7 +181,7 @@ impl<const N: usize> DistanceTable<N> {
         (0..N).all(fits).then(|| self.second_order(one, other, apart, interval, t, 1.0))
     }
 
-    /// The same for pieces that are not divided any more; R_d between mean points if they are much too near.
+    /// As [`Self::mean`], for pieces that are not divided any more; R_d between mean points if they are much too near.
     pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> [f64; N] {
         let apart = other.point - one.point;
         let (interval, t) = self.find(apart.length_squared());

@@ -67,7 +67,7 @@ impl Covariance {
 }
 
 impl Moments {
-    /// For four pieces together, except the size, which is 0. Pieces count alike if none has an area.
+    /// Moments of the union of four pieces, with a size of 0. Pieces have equal weights if none has an area.
     pub(super) fn together(parts: &[Self; 4]) -> Self {
         let area: f64 = parts.iter().map(|part| part.area).sum();
         let weight = |part: &Self| if area > 0.0 { part.area / area } else { 0.25 };

@@ -116,7 +116,7 @@ pub(super) fn texel_mean<const N: usize>(
     mean
 }
 
-/// The same by quarters.
+/// The mean of R_d over the pairs of points of two texels' parts, by quarters.
 fn quartered_mean<const N: usize>(
     surface: &SurfaceMoments,
     kernel: &DistanceTable<N>,

@@ -19,7 +19,7 @@ pub(super) struct LeveledMap {
     float: Option<FloatLevels>,
 }
 
-/// Levels of a map that has none.
+/// Levels of a float map, which has none of its own: separate rectangles, drawn by a program.
 #[derive(Debug)]
 struct FloatLevels {
     levels: Levels,

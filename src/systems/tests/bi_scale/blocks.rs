@@ -71,7 +71,7 @@ fn value(image: &Image, rules: &SampleRules, at: [u32; 4]) -> [f64; 3] {
     [red, green, blue].map(|bits| f64::from(f32::from_bits(bits)))
 }
 
-/// With weights that the sampler can represent and samples of few bits nothing is rounded.
+/// Nothing is rounded here: the sampler can represent all weights, and samples have few bits.
 #[test]
 fn blocks_repeat_as_the_hosts_patch_does() {
     let (random, rules) = (CounterRng::new(9), SampleRules::from(&device("gt200").rules));

@@ -122,7 +122,7 @@ impl VisibilityMaps {
         self.sampling
     }
 
-    /// The same maps with vertex numbers reduced by `first`: converts the numbers of the second of two joined meshes to
+    /// These maps with vertex numbers reduced by `first`: converts the numbers of the second of two joined meshes to
     /// its own. Panics if a vertex number is lower than `first`.
     #[must_use]
     pub fn counted_from(mut self, first: u32) -> Self {

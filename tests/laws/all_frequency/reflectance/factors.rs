@@ -180,7 +180,7 @@ fn reciprocity_makes_a_symmetric_table() {
     }
 }
 
-/// The same bits on any number of threads; in the full form at the paper's size.
+/// Bits do not depend on the number of threads; in the full form at the paper's size.
 #[test]
 fn bits_do_not_depend_on_threads() {
     let on = |threads: usize| {

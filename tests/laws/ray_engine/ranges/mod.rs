@@ -2,8 +2,8 @@
 //!
 //! **Range.** Random scenes of any size and position, triangles from tiny ones to rooms around the rays, on every card
 //! that intersects and on ideal formats, fixed-point ones that wrap among them. `bounds.rs` derives how far rounding
-//! can move u, v, w, n.d and t. Wherever that leaves no doubt about the ray's first hit, the card has to find it:
-//! saturation, wrapping, overflow and underflow would be visible.
+//! can move u, v, w, n.d and t. If the first hit of a ray is certain within these bounds, the card must find it. So
+//! saturation, wrapping, overflow and underflow would be detected.
 //!
 //! **Unit of length.** Multiplying corners and origins by a power of two multiplies t by it and changes no other bit;
 //! nor does a power of two in a direction.
@@ -135,7 +135,7 @@ fn floats_keep_their_range_in_the_programs_for_fixed_point() {
     }
 }
 
-/// The same scene in units of 2^-`power`.
+/// The scene in units of 2^-`power`.
 fn in_other_units(mesh: &Mesh, rays: &[Ray], power: i32) -> (Mesh, Vec<Ray>) {
     let unit = power_of_two(power);
     let scaled = |p: [f32; 3]| p.map(|x| (f64::from(x) * unit) as f32);

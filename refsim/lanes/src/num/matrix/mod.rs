@@ -115,7 +115,7 @@ impl MatrixError {
 }
 
 impl MatrixUnit {
-    /// The same unit with another number of bits below the largest exponent, 1 to 60; `None` of units without an
+    /// This unit with another number of bits below the largest exponent, 1 to 60; `None` of units without an
     /// aligned adder.
     pub fn with_bits(self, kept: u32) -> Option<Self> {
         self.bits.filter(|_| (1..=60).contains(&kept)).map(|_| Self { bits: Some(kept), ..self })

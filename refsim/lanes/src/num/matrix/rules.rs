@@ -114,7 +114,7 @@ pub(super) fn fused(a: u64, b: u64, c: u64, element: Element) -> u64 {
 
 /// Bits below the largest exponent that CDNA3 keeps of products, and of `c` beside them.
 const KEPT: u32 = 24;
-/// Bits below the larger of both that it keeps of the sum of products.
+/// Bits that CDNA3 keeps of the sum of products, below the larger exponent of this sum and `c`.
 const SUM_KEPT: i32 = 32;
 
 /// CDNA3: products are aligned and cut, their sum and `c` are brought together by floors. `halves` has those of even

@@ -139,7 +139,7 @@ fn add_square(derivative: &LaneRow, scale: f32, begins: bool, sum: &mut [f32; LA
     }
 }
 
-/// The same for the difference across a quad, between lanes whose indices differ in `bit`.
+/// Adds the square of the difference across a quad, between lanes whose indices differ in `bit`.
 #[inline(always)]
 fn add_difference(coordinate: &LaneRow, bit: usize, scale: f32, begins: bool, sum: &mut [f32; LANES]) {
     for i in 0..LANES {

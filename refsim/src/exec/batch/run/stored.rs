@@ -144,7 +144,7 @@ impl<'a> Stored<'a> {
         }
     }
 
-    /// The same for texels of `SIZE` bytes, whose components `part` extracts.
+    /// Gathers the intermediate values of texels of `SIZE` bytes, whose components `part` extracts.
     #[inline(always)]
     fn gather<const SIZE: usize>(
         &self,

@@ -178,7 +178,7 @@ impl<'g> Fusion<'g> {
         self.fused.get(&node).filter(|_| alone)
     }
 
-    /// The same, if it also has the same format.
+    /// The operation of an operand that has no other reader and the same format.
     fn part(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         self.alone(node, given).filter(|part| part.arith == arith)
     }

@@ -72,7 +72,7 @@ impl SegmentedCompression<'_> {
         Ok(self.whole(found))
     }
 
-    /// The same of all segments, of those of a part, or out of parts. Errors: those of [`Self::run`], and
+    /// As [`Self::run`], for all segments, for those of a part, or out of parts. Errors: those of [`Self::run`], and
     /// [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,

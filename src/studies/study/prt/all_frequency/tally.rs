@@ -15,7 +15,7 @@ pub struct SegmentTally {
     pub squares: f64,
     /// The squared error of its compression.
     pub squared_error: f64,
-    /// The same after coding.
+    /// The squared error after coding.
     pub coded_squared_error: f64,
     /// Time of transfer, compression and coding, in seconds.
     pub seconds: [f64; 3],

@@ -35,7 +35,7 @@ impl LocalLight {
         Some(Self { way: "biclusters", rows: rows.into_iter().map(|row| row.map(f64::from)).collect(), seconds })
     }
 
-    /// The same in f64: by the file's matrix, else by its biclusters. Panics: as [`Self::new`].
+    /// Local light in f64, by the file's matrix if it has one, else by its biclusters. Panics as [`Self::new`] does.
     pub fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let channels = light_vectors(light);
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! One number format, map or target varied after the other, the rest without rounding to speak of.
+//! Varies one number format, map or target at a time; everything else is computed almost without rounding.
 
 use super::difference::PixelErrors;
 use crate::report::digits::{Quantity, shown};

@@ -27,7 +27,7 @@ const TABLE_1: [(&str, &str, TableModel, TableMaterial); 6] = [
     ("buddha-diffuse", "buddha", Buddha, Diffuse),
     ("buddha-glossy", "buddha", Buddha, Cook),
 ];
-/// Figures of a column, in the names of figures; the first is of the model, and stands once for both its materials.
+/// Figures of a column, in the names of figures; the first is of the model, and is listed once for both its materials.
 const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 
 /// Figure that shaped a stand-in.

@@ -10,7 +10,7 @@ use crate::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclass
 pub(super) const BUDGET: f64 = 0.05;
 /// Columns of the paper's table.
 pub(super) const COLUMNS: [&str; 4] = ["original", "rec", "sc", "sc+rec"];
-/// The same in the names of printed figures.
+/// Columns of the paper's table in the names of printed figures.
 pub(super) const COLUMN_IDS: [&str; 4] = ["original", "rec", "sc", "both"];
 
 /// Drawing cost of a mesh's clusters, in the order of [`COLUMNS`].

@@ -16,7 +16,7 @@ use crate::report::{Cell, Table};
 const IN_FLIGHT: usize = 4;
 
 /// Line of Tables 3 to 5 with its run. That of 5 to 15 triangles and 64 rays is printed in all three and is one figure,
-/// whose row stands with Table 3.
+/// whose row is in Table 3.
 pub(super) struct SpeedUpRun {
     /// Name in its table.
     pub(super) name: &'static str,

@@ -89,7 +89,7 @@ pub struct PaperFigure {
     pub stated: String,
     /// Class of its miss, where its row is missed.
     pub missed: Option<MissClass>,
-    /// Row that follows from printed values alone, if it does.
+    /// The equation of a row that follows from printed values alone; `None` for other rows.
     pub equation: Option<PaperEquation>,
 }
 

@@ -11,7 +11,7 @@ pub enum RowSource {
     /// A recorded run at full size, and this one, with the same bits.
     #[strum(to_string = "recorded and computed")]
     Confirmed,
-    /// This run, at full size. A recorded one has other bits.
+    /// Computed in this run at full size; the recorded value has other bits.
     #[strum(to_string = "computed, not as recorded")]
     Differs {
         /// Recorded value.

@@ -17,7 +17,7 @@ fn every_figure_has_a_name_of_its_own_and_a_bound_or_a_reason() {
     }
 }
 
-/// No figure of a paper stands twice: a second row with the same value, unit and words is the same figure.
+/// No figure of a paper is listed twice: a second row with the same value, unit and words is the same figure.
 #[test]
 fn each_printed_figure_stands_once() {
     let mut seen = BTreeSet::new();

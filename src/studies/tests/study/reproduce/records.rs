@@ -97,7 +97,7 @@ fn cells_read_back() {
     }
 }
 
-/// Numbers stand in their places in the sentence, without a sign before 0.
+/// Numbers are put into their places in the sentence, without a sign before 0.
 #[test]
 fn a_record_says_how_it_was_made() {
     let [command, version, commit] = ["crossbar reproduce", "1.0", "abc"].map(str::to_owned);

@@ -23,7 +23,7 @@ pub struct OnCard {
     pub meaning: PrtMeaning,
     /// The clusters.
     pub clustering: Clustering,
-    /// Their superclusters, if the file has some.
+    /// Superclusters of these clusters, if the file has any.
     pub superclusters: Option<Superclusters>,
     /// The light, of the order of the transfer.
     pub light: HarmonicLight,
