@@ -73,7 +73,7 @@ fn picture(measured: &Measured) -> String {
     let height = 30 + (measured.values.len() + 1) * ROW + 20;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" height=\"{height}\" \
-         viewBox=\"-8 0 960 {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
+         viewBox=\"-8 0 960 {height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
          <rect x=\"-8\" width=\"960\" height=\"{height}\" fill=\"#ffffff\"/>\n\
          <text y=\"18\" font-size=\"15\" font-weight=\"bold\">{title}</text>\n"
     );
@@ -90,7 +90,7 @@ fn picture(measured: &Measured) -> String {
     let y = height - 10;
     let _ = writeln!(
         out,
-        "<text x=\"{LEFT}\" y=\"{y}\" font-size=\"12\">right values are counted; wrong ones: <tspan \
+        "<text y=\"{y}\">right values are counted; wrong ones: <tspan \
          fill=\"{ABOVE}\">drawn above the measured code</tspan>, <tspan fill=\"{BELOW}\">below</tspan>, black: not \
          visible in grey</text>\n</svg>"
     );
