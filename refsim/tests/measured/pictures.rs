@@ -70,28 +70,29 @@ fn picture(measured: &Measured) -> String {
     let shown = shown(&measured.values);
     let all = measured.values[0].1.all();
     let (title, own) = (measured.rule.name, measured.own().0);
-    let height = 30 + (measured.values.len() + 1) * ROW + 12;
+    let height = 30 + (measured.values.len() + 1) * ROW + 20;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" height=\"{height}\" \
-         viewBox=\"-8 0 960 {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
+         viewBox=\"-8 0 960 {height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
          <rect x=\"-8\" width=\"960\" height=\"{height}\" fill=\"#ffffff\"/>\n\
          <text y=\"18\" font-size=\"15\" font-weight=\"bold\">{title}</text>\n"
     );
     let measured_colors: Vec<_> = shown.iter().map(|&i| color(measured.values[0].1.0[i].measured)).collect();
-    row(&mut out, 30, &format!("measured: {} of {all} values", shown.len()), &measured_colors);
+    row(&mut out, 30, &format!("measured ({} of {all} values)", shown.len()), &measured_colors);
     for (number, (name, values)) in measured.values.iter().enumerate() {
         let top = 30 + (number + 1) * ROW;
         let own = if name == own { " (the cards' answer)" } else { "" };
         let drawn: Vec<_> = shown.iter().map(|&i| color(values.0[i].drawn)).collect();
-        row(&mut out, top, &format!("{name}{own}: {} of {all} right", values.right()), &drawn);
+        row(&mut out, top, &format!("{name}{own}: {} of {all}", values.right()), &drawn);
         let bars: Vec<_> = shown.iter().map(|&i| bar(values.0[i])).collect();
         strip(&mut out, top + COLORS + 1, BARS, &bars);
     }
     let y = height - 10;
     let _ = writeln!(
         out,
-        "<text x=\"{LEFT}\" y=\"{y}\" font-size=\"12\">wrong values: <tspan fill=\"{ABOVE}\">drawn above the \
-         measured code</tspan>, <tspan fill=\"{BELOW}\">below</tspan>, or black: not visible in grey</text>\n</svg>"
+        "<text y=\"{y}\">right values are counted; wrong ones: <tspan \
+         fill=\"{ABOVE}\">drawn above the measured code</tspan>, <tspan fill=\"{BELOW}\">below</tspan>, black: not \
+         visible in grey</text>\n</svg>"
     );
     out
 }
