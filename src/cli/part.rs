@@ -21,6 +21,11 @@ pub(super) struct PartArgs {
 }
 
 impl PartArgs {
+    /// Returns `true` if the option was given.
+    pub(super) const fn is_given(self) -> bool {
+        self.part.is_some()
+    }
+
     /// How the command's items are computed: all of them, those of the part, whose file is `out`, or none.
     ///
     /// # Errors
