@@ -7,10 +7,11 @@
 use std::cmp::Ordering;
 
 use num_traits::ToPrimitive;
-use refsim::num::{Format, Unpacked, from_parts, ops, unpack};
+use refsim::num::{Format, Unpacked, from_f64, from_parts, ops, to_f64, unpack};
 
 use super::graph::{Graph, Operation};
 use super::real::{Dyadic, End, Function, Interval, Real, apply};
+use super::special::special;
 
 /// Bits that values over the reals are computed to, until they decide.
 pub(super) const PRECISIONS: [u64; 8] = [96, 192, 384, 768, 1536, 3072, 6144, 12_288];
@@ -31,10 +32,9 @@ pub(super) enum Arithmetic {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Number {
     Nan,
-    /// Infinity; negative.
-    Infinite(bool),
-    /// A number, and whether its sign bit is set.
-    Finite(Dyadic, bool),
+    Infinite,
+    /// A number, without the sign of a zero.
+    Finite(Dyadic),
 }
 
 impl Arithmetic {
@@ -49,13 +49,13 @@ impl Arithmetic {
     pub(super) fn decode(self, bits: u64) -> Number {
         let finite = |negative, digits: u64, exponent: i64| {
             let digits = num_bigint::BigInt::from(digits);
-            Number::Finite(Dyadic::new(if negative { -digits } else { digits }, exponent), negative)
+            Number::Finite(Dyadic::new(if negative { -digits } else { digits }, exponent))
         };
         match self {
             Self::Double => {
                 let (negative, field, fraction) = (bits >> 63 != 0, (bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));
                 match (field, fraction) {
-                    (0x7ff, 0) => Number::Infinite(negative),
+                    (0x7ff, 0) => Number::Infinite,
                     (0x7ff, _) => Number::Nan,
                     (0, _) => finite(negative, fraction, -1074),
                     _ => finite(negative, fraction | 1 << 52, field.cast_signed() - 1075),
@@ -63,7 +63,7 @@ impl Arithmetic {
             }
             Self::Number(format) => match unpack(&format, bits as u32) {
                 Unpacked::Nan { .. } => Number::Nan,
-                Unpacked::Inf { sign } => Number::Infinite(sign),
+                Unpacked::Inf { .. } => Number::Infinite,
                 Unpacked::Finite { sign, sig, exp, .. } => finite(sign, sig, exp.into()),
             },
         }
@@ -86,12 +86,17 @@ impl Arithmetic {
         }
     }
 
+    /// Returns `true` if there is no infinity and no NaN.
+    pub(super) fn is_fixed(self) -> bool {
+        matches!(self, Self::Number(format) if format.is_fixed())
+    }
+
     /// A double, rounded once.
     pub(super) fn rounded(self, x: f64) -> u64 {
-        match Self::Double.decode(x.to_bits()) {
-            Number::Finite(x, _) => self.encode(&End::At(x)),
-            Number::Infinite(negative) => self.infinity(negative),
-            Number::Nan => self.nan(),
+        match self {
+            Self::Double if x.is_nan() => self.nan(),
+            Self::Double => x.to_bits(),
+            Self::Number(format) => from_f64(format, x).bits.into(),
         }
     }
 
@@ -99,7 +104,7 @@ impl Arithmetic {
     pub(super) fn value(self, bits: u64) -> f64 {
         match self {
             Self::Double => f64::from_bits(bits),
-            Self::Number(format) => refsim::num::to_f64(&format, bits as u32),
+            Self::Number(format) => to_f64(&format, bits as u32),
         }
     }
 
@@ -110,16 +115,12 @@ impl Arithmetic {
         }
     }
 
-    pub(super) fn infinity(self, negative: bool) -> u64 {
-        self.encode(if negative { &End::Below } else { &End::Above })
-    }
-
     /// Position of a number that is not NaN among all numbers of the format in order; both zeros have position 0.
     pub(super) fn ordinal(self, bits: u64) -> i64 {
         let width = self.width();
         let signed = (bits << (64 - width)).cast_signed() >> (64 - width);
         match self {
-            Self::Number(format) if format.is_fixed() => signed,
+            _ if self.is_fixed() => signed,
             _ if signed < 0 => -(bits & ((1 << (width - 1)) - 1)).cast_signed(),
             _ => signed,
         }
@@ -129,7 +130,7 @@ impl Arithmetic {
     pub(super) fn at_ordinal(self, ordinal: i64) -> u64 {
         let width = self.width();
         match self {
-            Self::Number(format) if format.is_fixed() => ordinal.cast_unsigned() & (u64::MAX >> (64 - width)),
+            _ if self.is_fixed() => ordinal.cast_unsigned() & (u64::MAX >> (64 - width)),
             _ if ordinal < 0 => ordinal.unsigned_abs() | 1 << (width - 1),
             _ => ordinal.unsigned_abs(),
         }
@@ -161,7 +162,7 @@ impl Arithmetic {
     /// The value over the reals of a pattern that is a number.
     pub(super) fn real(self, bits: u64) -> Real {
         match self.decode(bits) {
-            Number::Finite(x, _) => Real::Range(Interval::point(x)),
+            Number::Finite(x) => Real::Range(Interval::point(x)),
             _ => Real::Undefined,
         }
     }
@@ -217,7 +218,7 @@ impl Arithmetic {
         }
     }
 
-    pub(super) fn order(self, x: u64, y: u64) -> Option<Ordering> {
+    fn order(self, x: u64, y: u64) -> Option<Ordering> {
         let is_nan = |bits| self.decode(bits) == Number::Nan;
         (!is_nan(x) && !is_nan(y)).then(|| self.ordinal(x).cmp(&self.ordinal(y)))
     }
@@ -226,9 +227,13 @@ impl Arithmetic {
         if let Some(bits) = self.native(function, operands) {
             return bits;
         }
-        let numbers: Vec<Number> = operands.iter().map(|&bits| self.decode(bits)).collect();
-        if let Some(special) = self.special(function, operands, &numbers) {
-            return special;
+        let is_regular = |bits: &u64| matches!(self.decode(*bits), Number::Finite(x) if !x.is_zero());
+        let special = || {
+            let values: Vec<f64> = operands.iter().map(|&bits| self.value(bits)).collect();
+            self.rounded(special(function, &values))
+        };
+        if !operands.iter().all(is_regular) {
+            return special();
         }
         let reals: Vec<Real> = operands.iter().map(|&bits| self.real(bits)).collect();
         let mut last = None;
@@ -238,7 +243,7 @@ impl Arithmetic {
                     Some(bits) => return bits,
                     None => last = Some(range),
                 },
-                Real::Undefined => return self.nan(),
+                Real::Undefined => return special(),
                 Real::Unknown | Real::Truth(_) => {}
             }
         }
@@ -247,24 +252,15 @@ impl Arithmetic {
     }
 
     /// Operations whose exact result is rational.
-    pub(super) fn native(self, function: Function, operands: &[u64]) -> Option<u64> {
+    fn native(self, function: Function, operands: &[u64]) -> Option<u64> {
         use Function as F;
         if let Self::Double = self {
-            let x = f64::from_bits(operands[0]);
-            let y = f64::from_bits(operands.get(1).copied().unwrap_or_default());
-            let value = match function {
-                F::Add => x + y,
-                F::Subtract => x - y,
-                F::Multiply => x * y,
-                F::Divide => x / y,
-                F::Sqrt => x.sqrt(),
-                F::Negate => -x,
-                F::Abs => x.abs(),
-                F::Fma if !x.is_finite() || !y.is_finite() => x * y + f64::from_bits(operands[2]),
-                F::Fma if !f64::from_bits(operands[2]).is_finite() => f64::from_bits(operands[2]),
-                _ => return None,
-            };
-            return Some(if value.is_nan() { self.nan() } else { value.to_bits() });
+            let is_exact =
+                matches!(function, F::Add | F::Subtract | F::Multiply | F::Divide | F::Sqrt | F::Negate | F::Abs);
+            return is_exact.then(|| {
+                let values: Vec<f64> = operands.iter().map(|&bits| f64::from_bits(bits)).collect();
+                self.rounded(special(function, &values))
+            });
         }
         let Self::Number(format) = self else { return None };
         let word = |index: usize| operands.get(index).copied().unwrap_or_default() as u32;
@@ -281,12 +277,6 @@ impl Arithmetic {
             _ => return None,
         };
         Some(outcome.bits.into())
-    }
-}
-
-impl Number {
-    pub(super) fn is_negative(&self) -> bool {
-        matches!(self, Self::Infinite(true) | Self::Finite(_, true))
     }
 }
 

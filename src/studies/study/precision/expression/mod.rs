@@ -157,12 +157,12 @@ impl ExpressionStudy {
         self.expressions.iter().map(of).collect()
     }
 
-    /// The correctly rounded and the computed result of an expression in a format, or in double precision: patterns of
-    /// patterns. `None` for an unknown name, or where no result is decided.
+    /// The correctly rounded and the computed result of an expression in a format, or in double precision, as patterns,
+    /// as the inputs are. `None` for an unknown name, or where no result is finite and decided.
     pub fn results(&self, name: &str, format: Option<Format>, inputs: &[u64]) -> Option<[u64; 2]> {
         let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
         let expression = self.expressions.iter().find(|expression| expression.name == name)?;
-        let exact = sample::exact(expression, arithmetic, inputs)?;
+        let exact = sample::exact(expression, arithmetic, inputs.to_vec())?.exact;
         let constants = arithmetic.constants(&expression.body);
         Some([exact, arithmetic.values(&expression.body, inputs, &constants).pop()?])
     }
@@ -195,9 +195,9 @@ impl ExpressionStudy {
         let reference = sampled(single);
         if reference.kept.is_empty() {
             let found = format!(
-                "{}: expected inputs in single precision that meet the precondition and have a finite result, found \
-                 none: {} met it, {} of them without a real result",
-                expression.name, reference.drawn, reference.undefined
+                "{}: expected inputs in single precision that meet the precondition and have a finite result, found none \
+                 ({} without one)",
+                expression.name, reference.discarded
             );
             return Err(StudyError::new("crossbar::expression::inputs", found).with_help("narrow the ranges"));
         }

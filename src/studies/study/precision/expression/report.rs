@@ -3,10 +3,7 @@
 use serde_json::json;
 
 use super::super::goal::Goal;
-use super::blame::OperationError;
-use super::errors::Errors;
 use super::graph::Expression;
-use super::sample::Samples;
 use super::{ExpressionOutcome, ExpressionStudy, FormatErrors};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
@@ -48,11 +45,13 @@ pub(super) fn findings(
             }
         }
     }
-    if let [(expression, outcome)] = &studied[..] {
-        one(&mut found, expression, outcome, study, goal);
-    } else {
-        many(&mut found, &studied, study, goal);
+    let (one, samples) = (studied.len() == 1, counted(study.samples as u64, "input", "inputs"));
+    found.introduce(format!("{}: {samples} per format, goal {goal}", study.title));
+    match &studied[..] {
+        [(expression, outcome)] => conclude(&mut found, expression, outcome, goal),
+        _ => count(&mut found, &studied, study, goal),
     }
+    tables(&mut found, &studied, goal, one);
     found.table(FoundTable::from(refused).csv("not_studied").field("not_studied"));
     let meets = |outcome: &ExpressionOutcome| outcome.curves.iter().any(|curve| curve.minimum.is_some());
     found.conclude(Verdict::held(!studied.is_empty() && studied.iter().all(|(_, outcome)| meets(outcome))));
@@ -60,22 +59,12 @@ pub(super) fn findings(
     Ok(found)
 }
 
-/// Everything of one expression.
-fn one(
-    found: &mut Findings,
-    expression: &Expression,
-    outcome: &ExpressionOutcome,
-    study: &ExpressionStudy,
-    goal: &Goal,
-) {
-    let variables = expression.variables.join(", ");
-    let of = if variables.is_empty() { String::new() } else { format!(" of {variables}") };
-    let samples = counted(study.samples as u64, "input", "inputs");
-    found.introduce(format!("{}{of}: {samples} per format, goal {goal}", expression.name));
+/// The sentences of one expression.
+fn conclude(found: &mut Findings, expression: &Expression, outcome: &ExpressionOutcome, goal: &Goal) {
     for curve in &outcome.curves {
         let family = curve.family.name();
         found.conclusion(match curve.minimum {
-            None => format!("No {family} format up to {} bits meets {goal}.", if family == "float" { 32 } else { 33 }),
+            None => format!("No {family} format meets {goal}."),
             Some(bits) => format!("Smallest {family} format that meets {goal}: {bits}, {} bits.", bits.width()),
         });
     }
@@ -90,116 +79,79 @@ fn one(
     if let Some(chart) = chart(outcome, goal) {
         found.chart(chart);
     }
-    found.heading("Formats");
-    let mut table = errors_table(goal);
-    outcome.formats.iter().for_each(|row| table.push(error_cells(row, goal)));
-    found.explained_table(FoundTable::from(table).csv("formats").field("formats"), BITS);
-    found.paragraph(RELATIVE);
-    found.heading("Operations");
-    let mut table = Table::of(format!("Operations in {format}"), "place operation local_bits alone_bits");
-    operations.iter().for_each(|error| table.push(operation_cells(expression, error)));
-    found.explained_table(FoundTable::from(table).csv("operations").field("operations"), OPERATIONS);
-    found.heading("Inputs");
-    let mut table = Table::of("Inputs", "format kept undefined too_large undecided worst_input worst_bits");
-    outcome.formats.iter().for_each(|row| table.push(input_cells(expression, row)));
-    found.table(FoundTable::from(table).csv("inputs").field("inputs").unprinted());
 }
 
-fn errors_table(goal: &Goal) -> Table {
-    let measure = match goal.measure.as_str() {
-        "mean_bits" | "worst_bits" => "mean_relative",
-        measure => measure,
-    };
-    Table::new(
-        "Bits of error",
-        &[
-            "format",
-            "layout",
-            "bits",
-            "mean_bits",
-            "standard_error",
-            "worst_bits",
-            "accuracy_%",
-            "discarded",
-            measure,
-            "met",
-        ],
-    )
-}
-
-fn error_cells(row: &FormatErrors, goal: &Goal) -> Vec<Cell> {
-    let FormatErrors { name, layout, arithmetic, samples, errors, value } = row;
-    let width = arithmetic.width();
-    let relative = if goal.measure.ends_with("_bits") { errors.mean_relative } else { *value };
-    let accuracy = 100.0 * (1.0 - errors.mean_bits / f64::from(width));
-    let format: [Cell; 3] = [(*name).into(), layout.clone().into(), width.into()];
-    let bits = [errors.mean_bits, errors.standard_error, errors.worst_bits].map(Cell::error);
-    let found = if samples.kept.is_empty() { [Cell::Empty, Cell::Empty, Cell::Empty] } else { bits };
-    let accuracy = if samples.kept.is_empty() { Cell::Empty } else { Cell::percent(accuracy) };
-    let rest = [accuracy, discarded(samples).into(), Cell::error(relative), goal.met(*value).into()];
-    format.into_iter().chain(found).chain(rest).collect()
-}
-
-fn discarded(samples: &Samples) -> usize {
-    samples.undefined + samples.too_large + samples.undecided
-}
-
-fn operation_cells(expression: &Expression, error: &OperationError) -> [Cell; 4] {
-    let (text, line, column) = expression.text(&expression.body.0[error.node]);
-    let [local, alone] = [error.local, error.alone].map(Cell::error);
-    [format!("{line}:{column}").into(), text.into(), local, alone]
-}
-
-fn input_cells(expression: &Expression, row: &FormatErrors) -> Vec<Cell> {
-    let FormatErrors { name, samples, errors: Errors { worst, worst_bits, .. }, arithmetic, .. } = row;
-    let value = |(name, bits): (&String, &u64)| format!("{name}={}", shown(arithmetic.value(*bits), Quantity::Exact));
-    let worst = samples.kept.get(*worst).map(|sample| expression.variables.iter().zip(&sample.inputs).map(value));
-    let counts = [samples.kept.len(), samples.undefined, samples.too_large, samples.undecided].map(Cell::from);
-    let input = worst.map(|words| words.collect::<Vec<_>>().join(", "));
-    std::iter::once((*name).into()).chain(counts).chain([input.into(), Cell::error(*worst_bits)]).collect()
-}
-
-/// One row for each of several expressions.
-fn many(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], study: &ExpressionStudy, goal: &Goal) {
+/// A table with a row for each of several expressions.
+fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], study: &ExpressionStudy, goal: &Goal) {
     let expressions = counted(studied.len() as u64, "expression", "expressions");
-    let samples = counted(study.samples as u64, "input", "inputs");
-    found.introduce(format!("{}: {expressions}, {samples} per format, goal {goal}", study.title));
     for (at, family) in study.families.iter().enumerate() {
         let met = studied.iter().filter(|(_, outcome)| outcome.curves[at].minimum.is_some()).count();
         found.conclusion(format!("In {met} of {expressions} some {} format meets {goal}.", family.name()));
     }
-    let names: Vec<&str> =
-        studied.first().map(|(_, outcome)| outcome.formats.iter().map(|row| row.name).collect()).unwrap_or_default();
-    let columns: Vec<String> = names.iter().map(|name| format!("{name}_bits")).collect();
+    let names = studied.iter().take(1).flat_map(|(_, outcome)| outcome.formats.iter().map(|row| row.name));
     let smallest = study.families.iter().map(|family| format!("smallest_{}", family.name()));
-    let headings: Vec<String> = std::iter::once("expression".to_owned()).chain(columns).chain(smallest).collect();
+    let columns = names.map(|name| format!("{name}_bits")).chain(smallest);
+    let headings: Vec<String> = std::iter::once("expression".to_owned()).chain(columns).collect();
     let mut table = Table::new("Mean bits of error", &headings);
-    let mut all = errors_table(goal);
-    let mut blamed = Table::of("Operations", "expression format place operation local_bits alone_bits");
     for (expression, outcome) in studied {
-        let bits = outcome.formats.iter().map(|row| match row.samples.kept.is_empty() {
-            true => Cell::Empty,
-            false => Cell::error(row.errors.mean_bits),
-        });
+        let bits = outcome.formats.iter().map(|row| mean_bits(row));
         let minima = outcome.curves.iter().map(|curve| curve.minimum.map(|bits| bits.to_string()).into());
         table.push(std::iter::once(expression.name.as_str().into()).chain(bits).chain(minima));
-        for row in &outcome.formats {
-            let mut cells = error_cells(row, goal);
-            cells[0] = format!("{}: {}", expression.name, row.name).into();
-            all.push(cells);
-        }
-        for error in &outcome.blamed.1 {
-            let lead: [Cell; 2] = [expression.name.as_str().into(), outcome.blamed.0.as_str().into()];
-            blamed.push(lead.into_iter().chain(operation_cells(expression, error)));
-        }
     }
     found.heading("Expressions");
-    found.explained_table(FoundTable::from(table).csv("expressions").field("expressions"), BITS);
+    found.table(FoundTable::from(table).csv("expressions").field("expressions"));
+}
+
+/// Mean bits of error, if there are inputs.
+fn mean_bits(row: &FormatErrors) -> Cell {
+    if row.samples.kept.is_empty() { Cell::Empty } else { Cell::error(row.errors.mean_bits) }
+}
+
+/// The tables of errors and of operations; they are printed for one expression alone, and then without its name.
+fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], goal: &Goal, one: bool) {
+    let measure = if goal.measure.ends_with("_bits") { "mean_relative" } else { goal.measure.as_str() };
+    let name = if one { "" } else { "expression " };
+    let columns = format!(
+        "{name}format layout bits mean_bits standard_error worst_bits accuracy_% {measure} met inputs discarded worst_input"
+    );
+    let mut errors = Table::of("Bits of error", &columns);
+    let title = studied.iter().take(usize::from(one)).map(|(_, outcome)| format!(" in {}", outcome.blamed.0)).next();
+    let title = format!("Operations{}", title.unwrap_or_default());
+    let mut operations = Table::of(title, &format!("{name}place operation local_bits alone_bits"));
+    for (expression, outcome) in studied {
+        let lead = || (!one).then(|| Cell::from(expression.name.as_str())).into_iter();
+        outcome.formats.iter().for_each(|row| errors.push(lead().chain(error_cells(expression, row, goal))));
+        for error in &outcome.blamed.1 {
+            let (text, line, column) = expression.text(&expression.body.0[error.node]);
+            let [local, alone] = [error.local, error.alone].map(Cell::error);
+            operations.push(lead().chain([format!("{line}:{column}").into(), text.into(), local, alone]));
+        }
+    }
+    let printed = |table: FoundTable| if one { table } else { table.unprinted() };
+    found.heading("Formats");
+    found.explained_table(printed(FoundTable::from(errors).csv("formats").field("formats")), BITS);
     found.paragraph(RELATIVE);
-    found.keep_table(FoundTable::from(all).csv("formats").field("formats"));
     found.heading("Operations");
-    let table = FoundTable::from(blamed).csv("operations").field("operations").unprinted();
-    found.explained_table(table, OPERATIONS);
+    found.explained_table(printed(FoundTable::from(operations).csv("operations").field("operations")), OPERATIONS);
+}
+
+fn error_cells(expression: &Expression, row: &FormatErrors, goal: &Goal) -> Vec<Cell> {
+    let FormatErrors { name, layout, arithmetic, samples, errors, value } = row;
+    let width = arithmetic.width();
+    let mut cells: Vec<Cell> = vec![(*name).into(), layout.as_str().into(), width.into(), mean_bits(row)];
+    if samples.kept.is_empty() {
+        cells.extend([Cell::Empty, Cell::Empty, Cell::Empty]);
+    } else {
+        let accuracy = 100.0 * (1.0 - errors.mean_bits / f64::from(width));
+        cells.extend([Cell::error(errors.standard_error), Cell::error(errors.worst_bits), Cell::percent(accuracy)]);
+    }
+    let relative = if goal.measure.ends_with("_bits") { errors.mean_relative } else { *value };
+    let input = |(name, bits): (&String, &u64)| format!("{name}={}", shown(arithmetic.value(*bits), Quantity::Error));
+    let worst = samples.kept.get(errors.worst).map(|sample| expression.variables.iter().zip(&sample.inputs).map(input));
+    let worst = worst.map(|words| words.collect::<Vec<_>>().join(", "));
+    cells.extend([Cell::error(relative), goal.met(*value).into(), samples.kept.len().into(), samples.discarded.into()]);
+    cells.push(worst.into());
+    cells
 }
 
 /// The goal's measure by mantissa or fraction bits, if there are values to draw.

@@ -1,15 +1,13 @@
 //! Sampled inputs, and the exact results there.
 
-use std::cmp::Ordering;
-
 use super::arithmetic::{Arithmetic, PRECISIONS};
 use super::graph::{Comparison, Expression, Graph, Operation};
-use super::real::{Interval, Real};
+use super::real::Real;
 use crate::geom::random::CounterRng;
 
-/// Draws per input wanted, and those that meet the precondition, before the search for inputs ends.
+/// Draws per input wanted, and those discarded, before the search for inputs ends.
 const DRAWS: usize = 1000;
-const MET: usize = 20;
+const DISCARDED: usize = 20;
 
 /// Distribution of inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,24 +29,12 @@ pub(super) struct Sample {
     pub(super) value: f64,
 }
 
-/// Sampled inputs, and what was drawn and discarded.
+/// Sampled inputs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Samples {
     pub(super) kept: Vec<Sample>,
-    /// Draws that met the precondition.
-    pub(super) drawn: usize,
-    /// Inputs without a real result, with one beyond the largest number, and with one that no precision decided.
-    pub(super) undefined: usize,
-    pub(super) too_large: usize,
-    pub(super) undecided: usize,
-}
-
-/// What the reals say of an input.
-enum Exact {
-    Finite(Sample),
-    Undefined,
-    TooLarge,
-    Undecided,
+    /// Draws that met the precondition but have no finite result, or none that was decided.
+    pub(super) discarded: usize,
 }
 
 /// Draws `count` inputs that meet the precondition and have a finite result, or fewer if they are rare.
@@ -59,39 +45,29 @@ pub(super) fn sample(
     draw: InputDraw,
     seed: u64,
 ) -> Samples {
-    let spans = spans(expression, arithmetic);
-    let mut samples = Samples::default();
-    let rng = CounterRng::new(seed);
+    let (spans, rng) = (spans(expression, arithmetic), CounterRng::new(seed));
     let count = if expression.variables.is_empty() { 1 } else { count };
-    let mut at = 0;
-    while samples.kept.len() < count && at < DRAWS * count && samples.drawn < MET * count {
+    let mut samples = Samples::default();
+    for row in 0..DRAWS {
         // Whole rows at once, each input by its number, so that threads change nothing.
-        let row: Vec<usize> = (at..at + count).collect();
-        at += count;
-        let exact: Vec<Option<Exact>> = parallel(&row, |&index| {
-            let inputs: Vec<u64> = spans
-                .iter()
-                .enumerate()
-                .map(|(variable, span)| arithmetic.drawn(*span, draw, rng.bits(index as u64, 0, variable as u64)))
-                .collect();
+        let numbers: Vec<usize> = (row * count..(row + 1) * count).collect();
+        let drawn = parallel(&numbers, |&number| {
+            let bits = |variable: usize| rng.bits(number as u64, 0, variable as u64);
+            let inputs = spans.iter().enumerate().map(|(at, span)| arithmetic.drawn(*span, draw, bits(at)));
+            let inputs: Vec<u64> = inputs.collect();
             let reals: Vec<Real> = inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
-            expression
-                .preconditions
-                .iter()
-                .all(|graph| meets(graph, &reals))
-                .then(|| exact_result(expression, arithmetic, inputs, &reals))
+            let is_met = expression.preconditions.iter().all(|graph| meets(graph, &reals));
+            is_met.then(|| exact(expression, arithmetic, inputs))
         });
-        for exact in exact.into_iter().flatten() {
-            if samples.kept.len() == count {
-                break;
+        for sample in drawn.into_iter().flatten() {
+            match sample {
+                _ if samples.kept.len() == count => return samples,
+                Some(sample) => samples.kept.push(sample),
+                None => samples.discarded += 1,
             }
-            samples.drawn += 1;
-            match exact {
-                Exact::Finite(sample) => samples.kept.push(sample),
-                Exact::Undefined => samples.undefined += 1,
-                Exact::TooLarge => samples.too_large += 1,
-                Exact::Undecided => samples.undecided += 1,
-            }
+        }
+        if samples.kept.len() == count || samples.discarded > DISCARDED * count {
+            break;
         }
     }
     samples
@@ -109,45 +85,21 @@ fn meets(precondition: &Graph, reals: &[Real]) -> bool {
     value.into_iter().find(|value| *value != Some(Real::Unknown)).flatten() == Some(Real::Truth(true))
 }
 
-/// The correctly rounded result of an input, if it is finite.
-pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: &[u64]) -> Option<u64> {
+/// An input with its result, if that is finite and decided.
+pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>) -> Option<Sample> {
     let reals: Vec<Real> = inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
-    match exact_result(expression, arithmetic, inputs.to_vec(), &reals) {
-        Exact::Finite(sample) => Some(sample.exact),
+    let decide = |bits| match expression.exact().reals(&reals, bits, None).pop() {
+        Some(Real::Range(range)) => Some(Some((arithmetic.decided(&range)?, Arithmetic::Double.decided(&range)?))),
+        Some(Real::Undefined) => Some(None),
         _ => None,
-    }
-}
-
-fn exact_result(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>, reals: &[Real]) -> Exact {
-    for bits in PRECISIONS {
-        match expression.exact().reals(reals, bits, None).pop() {
-            Some(Real::Range(range)) => {
-                if let (Some(exact), Some(double)) = (arithmetic.decided(&range), Arithmetic::Double.decided(&range)) {
-                    let [least, largest] = arithmetic.finite_ordinals();
-                    let is_finite =
-                        (least..=largest).contains(&arithmetic.ordinal(exact)) && is_within(arithmetic, &range);
-                    return match is_finite {
-                        true => Exact::Finite(Sample { inputs, exact, value: f64::from_bits(double) }),
-                        false => Exact::TooLarge,
-                    };
-                }
-            }
-            Some(Real::Undefined) => return Exact::Undefined,
-            _ => {}
-        }
-    }
-    Exact::Undecided
-}
-
-/// Fixed point has no infinity: its largest number stands for all beyond, which are more than half a unit away.
-fn is_within(arithmetic: Arithmetic, range: &Interval) -> bool {
-    let Arithmetic::Number(format) = arithmetic else { return true };
-    if !format.is_fixed() {
-        return true;
-    }
-    let [least, largest] = [format.min_finite(), format.max_finite()].map(|bits| arithmetic.real(bits.into()));
-    let (Real::Range(least), Real::Range(largest)) = (least, largest) else { return true };
-    range.order(&least) != Some(Ordering::Less) && range.order(&largest) != Some(Ordering::Greater)
+    };
+    let (exact, double) = PRECISIONS.into_iter().find_map(decide)??;
+    let (value, finite) = (f64::from_bits(double), arithmetic.finite_ordinals());
+    // Fixed point has no infinity: its largest number stands for all beyond.
+    let [least, largest] = finite.map(|ordinal| arithmetic.value(arithmetic.at_ordinal(ordinal)));
+    let is_within = !arithmetic.is_fixed() || (least..=largest).contains(&value);
+    let is_finite = (finite[0]..=finite[1]).contains(&arithmetic.ordinal(exact));
+    (is_within && is_finite).then_some(Sample { inputs, exact, value })
 }
 
 impl Arithmetic {

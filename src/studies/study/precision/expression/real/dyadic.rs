@@ -114,34 +114,11 @@ impl Dyadic {
         (Self { digits, exponent: (self.exponent - places) / i64::from(degree) }.rounded(bits, up), exact)
     }
 
-    /// The integer next below, at, or next above the number; `None` if it is too large to matter.
-    pub(crate) fn integral(&self, rounding: Integral) -> Option<BigInt> {
-        if self.exponent >= 0 {
-            return (self.top() < 1 << 20).then(|| self.floor_at(0));
-        }
-        let (floor, twice) = (self.floor_at(0), self.floor_at(1));
-        let has_half = twice.bit(0);
-        let is_whole = self.digits.trailing_zeros().is_none_or(|zeros| zeros >= self.exponent.unsigned_abs());
-        let is_tie = has_half && self.digits.trailing_zeros() == Some(self.exponent.unsigned_abs() - 1);
-        let up = match rounding {
-            Integral::Floor => false,
-            Integral::Ceiling => !is_whole,
-            Integral::Truncated => self.is_negative() && !is_whole,
-            Integral::NearestAway => has_half && !(is_tie && self.is_negative()),
-            Integral::NearestEven => has_half && (!is_tie || floor.bit(0)),
-        };
-        Some(if up { floor + 1 } else { floor })
+    /// The number as an integer, if it is one.
+    pub(super) fn whole(&self) -> Option<BigInt> {
+        let zeros = self.digits.trailing_zeros().unwrap_or(u64::MAX);
+        (self.exponent >= 0 || zeros >= self.exponent.unsigned_abs()).then(|| self.floor_at(0))
     }
-}
-
-/// A rounding to integers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Integral {
-    Floor,
-    Ceiling,
-    Truncated,
-    NearestAway,
-    NearestEven,
 }
 
 /// `floor(x 2^places)`.

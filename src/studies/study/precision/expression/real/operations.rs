@@ -1,8 +1,6 @@
 //! The operations of expressions over intervals.
 
-use num_bigint::BigInt;
-
-use super::dyadic::{Dyadic, End, Integral};
+use super::dyadic::Dyadic;
 use super::functions as made;
 use super::{Interval, Real, power, series};
 
@@ -31,8 +29,7 @@ functions! {
     "fabs" Abs 1; "exp" Exp 1; "exp2" Exp2 1; "expm1" ExpM1 1; "log" Log 1; "log2" Log2 1; "log10" Log10 1;
     "log1p" Log1P 1; "pow" Pow 2; "hypot" Hypot 2; "sin" Sin 1; "cos" Cos 1; "tan" Tan 1; "asin" Asin 1; "acos" Acos 1;
     "atan" Atan 1; "atan2" Atan2 2; "sinh" Sinh 1; "cosh" Cosh 1; "tanh" Tanh 1; "asinh" Asinh 1; "acosh" Acosh 1;
-    "atanh" Atanh 1; "fmin" Min 2; "fmax" Max 2; "fdim" Dim 2; "copysign" CopySign 2; "floor" Floor 1; "ceil" Ceil 1;
-    "trunc" Trunc 1; "round" Round 1; "nearbyint" NearbyInt 1; "fmod" Mod 2; "cast" Cast 1;
+    "atanh" Atanh 1; "fmin" Min 2; "fmax" Max 2; "cast" Cast 1;
 }
 
 macro_rules! constants {
@@ -144,11 +141,6 @@ fn unary(function: Function, x: &Interval, bits: u64) -> Real {
         F::Asinh => Some(made::asinh(x, bits)),
         F::Acosh => Some(made::acosh(x, bits)),
         F::Atanh => made::atanh(x, bits),
-        F::Floor => integral(x, Integral::Floor),
-        F::Ceil => integral(x, Integral::Ceiling),
-        F::Trunc => integral(x, Integral::Truncated),
-        F::Round => integral(x, Integral::NearestAway),
-        F::NearbyInt => integral(x, Integral::NearestEven),
         _ => Some(x.clone()),
     };
     range.map_or(Real::Unknown, Real::Range)
@@ -168,19 +160,8 @@ fn not_above(x: &Interval, y: &Interval) -> Option<bool> {
     if x.high <= y.low { Some(true) } else { (x.low > y.high).then_some(false) }
 }
 
-fn integral(x: &Interval, rounding: Integral) -> Option<Interval> {
-    let at = |end: &End| match end {
-        End::At(x) if x.exponent >= 0 => Some(x.clone()),
-        End::At(x) => x.integral(rounding).map(|whole| Dyadic::new(whole, 0)),
-        _ => None,
-    };
-    let (low, high) = (at(&x.low)?, at(&x.high)?);
-    (low == high).then(|| Interval::point(low))
-}
-
 fn binary(function: Function, x: &Interval, y: &Interval, bits: u64) -> Real {
     use Function as F;
-    let zero = Interval::integer(0);
     let range = match function {
         F::Add => Some(x.plus(y, bits)),
         F::Subtract => Some(x.minus(y, bits)),
@@ -192,17 +173,6 @@ fn binary(function: Function, x: &Interval, y: &Interval, bits: u64) -> Real {
         F::Atan2 => return made::atan2(x, y, bits),
         F::Min => Some(Interval { low: (&x.low).min(&y.low).clone(), high: (&x.high).min(&y.high).clone() }),
         F::Max => Some(Interval { low: (&x.low).max(&y.low).clone(), high: (&x.high).max(&y.high).clone() }),
-        F::Dim => {
-            let less = x.minus(y, bits);
-            Some(Interval { low: less.low.max(zero.low), high: less.high.max(zero.high) })
-        }
-        F::CopySign if !y.low.is_negative() => Some(x.abs()),
-        F::CopySign if y.is_negative() => Some(x.abs().negated()),
-        F::Mod if y.as_point().is_some_and(Dyadic::is_zero) => return Real::Undefined,
-        F::Mod => x.over(y, bits).and_then(|ratio| integral(&ratio, Integral::Truncated)).map(|whole| {
-            let wide = exact(bits, &whole, y);
-            x.minus(&whole.times(y, wide), wide)
-        }),
         _ => None,
     };
     range.map_or(Real::Unknown, Real::Range)
@@ -211,6 +181,5 @@ fn binary(function: Function, x: &Interval, y: &Interval, bits: u64) -> Real {
 /// An integer that is a point, small enough to count with.
 pub(super) fn small_integer(x: &Interval) -> Option<i64> {
     let x = x.as_point()?;
-    let whole: BigInt = x.integral(Integral::Floor)?;
-    (Dyadic::new(whole.clone(), 0) == *x).then(|| i64::try_from(whole).ok())?
+    i64::try_from(Some(x).filter(|x| x.top() < 60)?.whole()?).ok()
 }

@@ -2,7 +2,7 @@
 
 use num_traits::One;
 
-use super::dyadic::{Dyadic, Integral};
+use super::dyadic::Dyadic;
 use super::operations::small_integer;
 use super::{Interval, Real, functions, series};
 
@@ -58,11 +58,8 @@ pub(super) fn pow(x: &Interval, y: &Interval, bits: u64) -> Real {
     }
     // Of a negative number only integer powers are real.
     let Some(exponent) = y.as_point().filter(|_| x.is_negative()) else { return Real::Unknown };
-    let is_even = |scale: i64| {
-        let half = exponent.scaled(scale);
-        half.exponent >= 0 || half.integral(Integral::Floor).is_some_and(|whole| Dyadic::new(whole, 0) == half)
-    };
-    match (is_even(0), is_even(-1)) {
+    let is_whole = |scale: i64| exponent.exponent + scale >= 0 || exponent.scaled(scale).whole().is_some();
+    match (is_whole(0), is_whole(-1)) {
         (false, _) => Real::Undefined,
         (true, true) => Real::Range(by_logarithm(&x.negated())),
         (true, false) => Real::Range(by_logarithm(&x.negated()).negated()),

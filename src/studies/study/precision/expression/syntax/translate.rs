@@ -18,7 +18,7 @@ const REFUSED: [(&str, &str); 6] = [
     ("while while* for for*", "loops are not taken: expressions are straight-line"),
     ("tensor tensor* array ref dim size", "tensors are not taken"),
     ("erf erfc tgamma lgamma", "it has no enclosure over the reals here"),
-    ("remainder", "it is not taken; `fmod` is"),
+    ("floor ceil trunc round nearbyint fmod remainder fdim copysign", "functions with jumps are not taken"),
     ("isfinite isinf isnan isnormal signbit INFINITY NAN", "it has no meaning over the reals"),
 ];
 
