@@ -35,7 +35,8 @@ Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures
 Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
 tables. docs/precision.md describes what is measured.
 
-Exit codes: 0 some format meets the goal, 1 none does, 2 the case, the expression or the goal cannot be used.";
+Exit codes: 0 some format meets the goal, 1 none does (of several expressions: for one of them), 2 the case, the \
+expressions or the goal cannot be used.";
 
 /// Runs of a program at most.
 const BUDGET: u64 = 10_000;

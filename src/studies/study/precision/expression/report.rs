@@ -2,9 +2,11 @@
 
 use serde_json::json;
 
+use super::super::curve::Curve;
 use super::super::goal::Goal;
 use super::graph::Expression;
-use super::{ExpressionOutcome, ExpressionStudy, FormatErrors};
+use super::sample::{Sample, Samples};
+use super::study::{ExpressionOutcome, ExpressionStudy, FormatErrors};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
@@ -111,16 +113,19 @@ fn mean_bits(row: &FormatErrors) -> Cell {
 fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], goal: &Goal, one: bool) {
     let measure = if goal.measure.ends_with("_bits") { "mean_relative" } else { goal.measure.as_str() };
     let name = if one { "" } else { "expression " };
-    let columns = format!(
-        "{name}format layout bits mean_bits standard_error worst_bits accuracy_% {measure} met inputs discarded worst_input"
-    );
+    let columns =
+        format!("{name}format layout bits mean_bits standard_error worst_bits accuracy_% discarded {measure} met");
     let mut errors = Table::of("Bits of error", &columns);
     let title = studied.iter().take(usize::from(one)).map(|(_, outcome)| format!(" in {}", outcome.blamed.0)).next();
     let title = format!("Operations{}", title.unwrap_or_default());
+    let mut inputs = Table::of("Inputs", &format!("{name}format inputs worst_bits worst_input"));
     let mut operations = Table::of(title, &format!("{name}place operation local_bits alone_bits"));
     for (expression, outcome) in studied {
         let lead = || (!one).then(|| Cell::from(expression.name.as_str())).into_iter();
-        outcome.formats.iter().for_each(|row| errors.push(lead().chain(error_cells(expression, row, goal))));
+        for row in &outcome.formats {
+            errors.push(lead().chain(error_cells(row, goal)));
+            inputs.push(lead().chain(worst_input(expression, row)));
+        }
         for error in &outcome.blamed.1 {
             let (text, line, column) = expression.text(&expression.body.0[error.node]);
             let [local, alone] = [error.local, error.alone].map(Cell::error);
@@ -131,11 +136,12 @@ fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], go
     found.heading("Formats");
     found.explained_table(printed(FoundTable::from(errors).csv("formats").field("formats")), BITS);
     found.paragraph(RELATIVE);
+    found.table(FoundTable::from(inputs).csv("inputs").field("inputs").unprinted());
     found.heading("Operations");
     found.explained_table(printed(FoundTable::from(operations).csv("operations").field("operations")), OPERATIONS);
 }
 
-fn error_cells(expression: &Expression, row: &FormatErrors, goal: &Goal) -> Vec<Cell> {
+fn error_cells(row: &FormatErrors, goal: &Goal) -> Vec<Cell> {
     let FormatErrors { name, layout, arithmetic, samples, errors, value } = row;
     let width = arithmetic.width();
     let mut cells: Vec<Cell> = vec![(*name).into(), layout.as_str().into(), width.into(), mean_bits(row)];
@@ -146,17 +152,22 @@ fn error_cells(expression: &Expression, row: &FormatErrors, goal: &Goal) -> Vec<
         cells.extend([Cell::error(errors.standard_error), Cell::error(errors.worst_bits), Cell::percent(accuracy)]);
     }
     let relative = if goal.measure.ends_with("_bits") { errors.mean_relative } else { *value };
-    let input = |(name, bits): (&String, &u64)| format!("{name}={}", shown(arithmetic.value(*bits), Quantity::Error));
-    let worst = samples.kept.get(errors.worst).map(|sample| expression.variables.iter().zip(&sample.inputs).map(input));
-    let worst = worst.map(|words| words.collect::<Vec<_>>().join(", "));
-    cells.extend([Cell::error(relative), goal.met(*value).into(), samples.kept.len().into(), samples.discarded.into()]);
-    cells.push(worst.into());
+    cells.extend([samples.discarded.into(), Cell::error(relative), goal.met(*value).into()]);
     cells
+}
+
+/// The input with the largest error.
+fn worst_input(expression: &Expression, row: &FormatErrors) -> [Cell; 4] {
+    let FormatErrors { name, arithmetic, samples: Samples { kept, .. }, errors, .. } = row;
+    let value = |(name, bits): (&String, &u64)| format!("{name}={}", shown(arithmetic.value(*bits), Quantity::Exact));
+    let words = |sample: &Sample| expression.variables.iter().zip(&sample.inputs).map(value).collect::<Vec<_>>();
+    let worst = kept.get(errors.worst).map(|sample| words(sample).join(", "));
+    [(*name).into(), kept.len().into(), Cell::error(errors.worst_bits), worst.into()]
 }
 
 /// The goal's measure by mantissa or fraction bits, if there are values to draw.
 fn chart(outcome: &ExpressionOutcome, goal: &Goal) -> Option<NamedChart> {
-    let line = |curve: &super::Curve| {
+    let line = |curve: &Curve| {
         let points = curve.scan.points.iter().map(|(bits, value)| (f64::from(*bits), *value));
         let label = format!("{}, {}", curve.family.name(), curve.range_text());
         Series { label, points: points.filter(|(_, value)| value.is_finite() && *value > 0.0).collect() }

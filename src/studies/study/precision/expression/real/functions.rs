@@ -1,7 +1,8 @@
 //! Elementary functions of intervals.
 
 use super::dyadic::{Dyadic, End};
-use super::{Interval, Real, series};
+use super::interval::{Interval, Real};
+use super::series;
 
 /// A function that grows, at both ends; where it has no end, its limit there.
 fn growing(x: &Interval, below: End, at: impl Fn(&Dyadic) -> Interval, above: End) -> Interval {

@@ -6,6 +6,19 @@ use num_bigint::BigInt;
 
 use super::dyadic::{Dyadic, End};
 
+/// Value of an expression over the reals, as far as a number of bits shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Real {
+    /// The value lies between the ends.
+    Range(Interval),
+    /// There is no real value: a division by zero, a root or a logarithm of a negative number.
+    Undefined,
+    /// These bits do not tell.
+    Unknown,
+    /// Truth value.
+    Truth(bool),
+}
+
 /// A closed interval of reals.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Interval {

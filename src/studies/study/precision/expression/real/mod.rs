@@ -13,18 +13,5 @@ mod power;
 mod series;
 
 pub(super) use dyadic::{Dyadic, End};
-pub(super) use interval::Interval;
+pub(super) use interval::{Interval, Real};
 pub(super) use operations::{Constant, Function, apply};
-
-/// Value of an expression over the reals, as far as a number of bits shows it.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Real {
-    /// The value lies between the ends.
-    Range(Interval),
-    /// There is no real value: a division by zero, a root or a logarithm of a negative number.
-    Undefined,
-    /// These bits do not tell.
-    Unknown,
-    /// Truth value.
-    Truth(bool),
-}

@@ -2,7 +2,8 @@
 
 use super::dyadic::Dyadic;
 use super::functions as made;
-use super::{Interval, Real, power, series};
+use super::interval::{Interval, Real};
+use super::{power, series};
 
 macro_rules! functions {
     ($($name:literal $variant:ident $operands:literal;)*) => {
@@ -176,10 +177,4 @@ fn binary(function: Function, x: &Interval, y: &Interval, bits: u64) -> Real {
         _ => None,
     };
     range.map_or(Real::Unknown, Real::Range)
-}
-
-/// An integer that is a point, small enough to count with.
-pub(super) fn small_integer(x: &Interval) -> Option<i64> {
-    let x = x.as_point()?;
-    i64::try_from(Some(x).filter(|x| x.top() < 60)?.whole()?).ok()
 }

@@ -3,8 +3,8 @@
 use num_traits::One;
 
 use super::dyadic::Dyadic;
-use super::operations::small_integer;
-use super::{Interval, Real, functions, series};
+use super::interval::{Interval, Real};
+use super::{functions, series};
 
 /// Largest integer exponent of powers by multiplication, and of powers of two.
 const MAX_WHOLE: u64 = 1 << 12;
@@ -97,4 +97,10 @@ fn rational_power(x: &Interval, y: &Interval, bits: u64) -> Option<Interval> {
     }
     let power = whole_power(&Interval::point(base), Some(whole.unsigned_abs()).filter(|n| *n <= MAX_WHOLE)?, bits);
     if whole < 0 { Interval::integer(1).over(&power, bits) } else { Some(power) }
+}
+
+/// An integer that is a point, small enough to count with.
+fn small_integer(x: &Interval) -> Option<i64> {
+    let x = x.as_point()?;
+    i64::try_from(Some(x).filter(|x| x.top() < 60)?.whole()?).ok()
 }

@@ -11,8 +11,8 @@ use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_traits::{One, Zero};
 
-use super::dyadic::{Dyadic, LIMIT, shifted};
-use super::{Interval, dyadic::End};
+use super::dyadic::{Dyadic, End, LIMIT, shifted};
+use super::interval::Interval;
 
 /// Places beyond those of the result.
 const GUARD: i64 = 40;
