@@ -96,7 +96,7 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     let headings: Vec<String> = std::iter::once("expression".to_owned()).chain(columns).collect();
     let mut table = Table::new("Mean bits of error", &headings);
     for (expression, outcome) in studied {
-        let bits = outcome.formats.iter().map(|row| mean_bits(row));
+        let bits = outcome.formats.iter().map(mean_bits);
         let minima = outcome.curves.iter().map(|curve| curve.minimum.map(|bits| bits.to_string()).into());
         table.push(std::iter::once(expression.name.as_str().into()).chain(bits).chain(minima));
     }

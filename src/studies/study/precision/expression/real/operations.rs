@@ -89,15 +89,9 @@ pub(crate) fn apply(function: Function, operands: &[Real], bits: u64) -> Real {
     match ranges[..] {
         [x] => unary(function, x, bits),
         [x, y] => binary(function, x, y, bits),
-        [x, y, z] => Real::Range(x.times(y, exact(bits, x, y)).plus(z, bits)),
+        [x, y, z] => Real::Range(x.times(y, bits).plus(z, bits)),
         _ => Real::Unknown,
     }
-}
-
-/// Enough bits for a product without rounding, if both are numbers of a format.
-fn exact(bits: u64, x: &Interval, y: &Interval) -> u64 {
-    let length = |x: &Interval| x.as_point().map_or(0, |x| x.digits.bits());
-    bits.max(length(x) + length(y))
 }
 
 fn unary(function: Function, x: &Interval, bits: u64) -> Real {

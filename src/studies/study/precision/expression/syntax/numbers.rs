@@ -35,7 +35,7 @@ fn scaled(text: &str, radix: u32, mark: char, base: u32) -> Option<(BigInt, BigI
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let numerator = digits(&format!("{whole}{fraction}"), radix)?;
     let denominator = BigInt::from(radix).pow(u32::try_from(fraction.len()).ok()?);
-    Some(power((numerator, denominator), base, exponent.parse().ok()?)?)
+    power((numerator, denominator), base, exponent.parse().ok()?)
 }
 
 /// A fraction times `base^exponent`.
