@@ -38,6 +38,14 @@ pub(super) enum Number {
 }
 
 impl Arithmetic {
+    /// Layout, as formats are written.
+    pub(super) fn layout(self) -> String {
+        match self {
+            Self::Double => "e11m52".to_owned(),
+            Self::Number(format) => format.to_string(),
+        }
+    }
+
     /// Width in bits.
     pub(super) fn width(self) -> u32 {
         match self {

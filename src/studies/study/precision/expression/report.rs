@@ -13,8 +13,7 @@ use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series
 use crate::study::StudyError;
 
 const BITS: &str = "Bits of error are log2(1 + n), with n the numbers of the format from the computed result to the \
-    correctly rounded one; all bits of the format if the result is NaN. The mean is over sampled inputs, with its \
-    standard error. Accuracy is the share of the format's bits that are right in the mean. Inputs are numbers of the \
+    correctly rounded one; all bits of the format if the result is NaN. The mean is over sampled inputs. Accuracy is the share of the format's bits that are right in the mean. Inputs are numbers of the \
     format itself. Discarded inputs meet the precondition but have no finite result in the format.";
 
 const OPERATIONS: &str = "Local: bits of error of the operation on its exact operands, each rounded once. Alone: bits \
@@ -113,12 +112,12 @@ fn mean_bits(row: &FormatErrors) -> Cell {
 fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], goal: &Goal, one: bool) {
     let measure = if goal.measure.ends_with("_bits") { "mean_relative" } else { goal.measure.as_str() };
     let name = if one { "" } else { "expression " };
-    let columns =
-        format!("{name}format layout bits mean_bits standard_error worst_bits accuracy_% discarded {measure} met");
+    let columns = format!("{name}format bits mean_bits worst_bits accuracy_% discarded {measure} met");
     let mut errors = Table::of("Bits of error", &columns);
     let title = studied.iter().take(usize::from(one)).map(|(_, outcome)| format!(" in {}", outcome.blamed.0)).next();
     let title = format!("Operations{}", title.unwrap_or_default());
-    let mut inputs = Table::of("Inputs", &format!("{name}format inputs worst_bits worst_input"));
+    let mut inputs =
+        Table::of("Inputs", &format!("{name}format layout inputs mean_bits standard_error worst_bits worst_input"));
     let mut operations = Table::of(title, &format!("{name}place operation local_bits alone_bits"));
     for (expression, outcome) in studied {
         let lead = || (!one).then(|| Cell::from(expression.name.as_str())).into_iter();
@@ -142,14 +141,14 @@ fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], go
 }
 
 fn error_cells(row: &FormatErrors, goal: &Goal) -> Vec<Cell> {
-    let FormatErrors { name, layout, arithmetic, samples, errors, value } = row;
+    let FormatErrors { name, arithmetic, samples, errors, value } = row;
     let width = arithmetic.width();
-    let mut cells: Vec<Cell> = vec![(*name).into(), layout.as_str().into(), width.into(), mean_bits(row)];
+    let mut cells: Vec<Cell> = vec![(*name).into(), width.into(), mean_bits(row)];
     if samples.kept.is_empty() {
-        cells.extend([Cell::Empty, Cell::Empty, Cell::Empty]);
+        cells.extend([Cell::Empty, Cell::Empty]);
     } else {
         let accuracy = 100.0 * (1.0 - errors.mean_bits / f64::from(width));
-        cells.extend([Cell::error(errors.standard_error), Cell::error(errors.worst_bits), Cell::percent(accuracy)]);
+        cells.extend([Cell::error(errors.worst_bits), Cell::percent(accuracy)]);
     }
     let relative = if goal.measure.ends_with("_bits") { errors.mean_relative } else { *value };
     cells.extend([samples.discarded.into(), Cell::error(relative), goal.met(*value).into()]);
@@ -157,12 +156,13 @@ fn error_cells(row: &FormatErrors, goal: &Goal) -> Vec<Cell> {
 }
 
 /// The input with the largest error.
-fn worst_input(expression: &Expression, row: &FormatErrors) -> [Cell; 4] {
+fn worst_input(expression: &Expression, row: &FormatErrors) -> [Cell; 7] {
     let FormatErrors { name, arithmetic, samples: Samples { kept, .. }, errors, .. } = row;
     let value = |(name, bits): (&String, &u64)| format!("{name}={}", shown(arithmetic.value(*bits), Quantity::Exact));
     let words = |sample: &Sample| expression.variables.iter().zip(&sample.inputs).map(value).collect::<Vec<_>>();
     let worst = kept.get(errors.worst).map(|sample| words(sample).join(", "));
-    [(*name).into(), kept.len().into(), Cell::error(errors.worst_bits), worst.into()]
+    let [mean, error, most] = [errors.mean_bits, errors.standard_error, errors.worst_bits].map(Cell::error);
+    [(*name).into(), arithmetic.layout().into(), kept.len().into(), mean, error, most, worst.into()]
 }
 
 /// The goal's measure by mantissa or fraction bits, if there are values to draw.

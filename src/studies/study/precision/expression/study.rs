@@ -49,7 +49,6 @@ pub struct ExpressionStudy {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FormatErrors {
     pub(super) name: &'static str,
-    pub(super) layout: String,
     pub(super) arithmetic: Arithmetic,
     pub(super) samples: Samples,
     pub(super) errors: Errors,
@@ -166,10 +165,10 @@ impl ExpressionStudy {
     }
 
     /// Formats whose errors are shown: double precision, and those of cards in the families.
-    fn formats(&self) -> Vec<(&'static str, String, Arithmetic)> {
+    fn formats(&self) -> Vec<(&'static str, Arithmetic)> {
         let named = FormatBits::named().filter(|(_, bits)| self.families.contains(&bits.family));
-        let mut all: Vec<_> = named.map(|(name, bits)| (name, bits.to_string(), number(bits))).collect();
-        all.push(("fp64", "e11m52".to_owned(), Arithmetic::Double));
+        let mut all: Vec<_> = named.map(|(name, bits)| (name, number(bits))).collect();
+        all.push(("fp64", Arithmetic::Double));
         all
     }
 
@@ -192,11 +191,11 @@ impl ExpressionStudy {
             (false, _) => errors::errors_of_rounded(expression, arithmetic, &reference, single).measure(&goal.measure),
         };
         let mut formats = Vec::new();
-        for (name, layout, arithmetic) in self.formats() {
+        for (name, arithmetic) in self.formats() {
             let samples = if arithmetic == single { reference.clone() } else { sampled(arithmetic) };
             let errors = errors::errors(expression, arithmetic, &samples);
             let value = value(arithmetic, Some(&errors));
-            formats.push(FormatErrors { name, layout, arithmetic, samples, errors, value });
+            formats.push(FormatErrors { name, arithmetic, samples, errors, value });
         }
         let mut curves = Vec::new();
         for &family in &self.families {
