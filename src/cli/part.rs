@@ -21,6 +21,11 @@ pub(super) struct PartArgs {
 }
 
 impl PartArgs {
+    /// Returns `true` if the option was given.
+    pub(super) const fn is_given(self) -> bool {
+        self.part.is_some()
+    }
+
     /// Mode of the command's items: all of them, only those of the part whose file is `out`, or none. Errors: for an
     /// argument that is not UTF-8, or a program that cannot be told from others.
     pub(super) fn split(self, line: &CommandLine, out: &Path) -> Result<SplitRun, InputError> {

@@ -8,12 +8,18 @@ use super::uniform::{self, Uniform};
 use super::{given, switch};
 use crate::case::{Overrides, Setup};
 use crate::options::one_of::{OneOf, one_of};
+use crate::study::Study;
 use crate::study::precision::{
-    CaseSubject, FormatCosts, FormatFamily, Goal, KnownRuns, PaperSystem, Precision, PrecisionSubject,
+    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, KnownRuns, PaperSystem, Precision,
+    PrecisionSubject,
 };
 
 const EXAMPLES: &str = "\
 Examples:
+  crossbar precision --expr 'sqrt(x*x + y*y)' --range x=-1..1 --range y=1e-3..1
+      bits of error of an expression in every format, the smallest that suffices, and the operation to blame
+  crossbar precision --fpcore fixtures/fpbench/hamming.fpcore --samples 100 --out out/hamming
+      all expressions of a file in FPCore
   crossbar precision docs/examples/highlight.toml
       the fewest bits, of floats and of fixed point, that draw every code to within one; which squaring decides
   crossbar precision docs/examples/highlight.toml --goal \"flip<=0.01\" --family fixed --out out/flip
@@ -29,18 +35,47 @@ Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures
 Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
 tables. docs/precision.md describes what is measured.
 
-Exit codes: 0 some format meets the goal, 1 none does, 2 the case or the goal cannot be used.";
+Exit codes: 0 some format meets the goal, 1 none does (of several expressions: for one of them), 2 the case, the \
+expressions or the goal cannot be used.";
 
-/// Find the fewest bits that meet a goal: for all instructions of a case's or a system's pixel programs, and for each
+/// Runs of a program at most.
+const BUDGET: u64 = 10_000;
+
+/// Find the fewest bits that meet a goal: for an expression, or for the pixel programs of a case or a system
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
     /// The case, a TOML file; or a shader in WGSL; or ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
-    #[arg(value_name = "CASE.toml|SHADER.wgsl|SYSTEM")]
-    case: PathBuf,
+    #[arg(value_name = "CASE.toml|SHADER.wgsl|SYSTEM", required_unless_present_any = ["expr", "fpcore"])]
+    case: Option<PathBuf>,
 
-    /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 where no target has integer
-    /// codes; of systems wrong<=0.001 for the Ray Engine, largest_relative<=0.01 for radiosity, largest_255ths<=1]
+    /// An expression, as `sqrt(x + 1) - sqrt(x)`, in place of a case
+    #[arg(long, value_name = "EXPRESSION", conflicts_with_all = ["case", "fpcore"], allow_hyphen_values = true)]
+    expr: Option<String>,
+
+    /// Expressions in FPCore, the language of FPBench and Herbie
+    #[arg(long, value_name = "FILE.fpcore", conflicts_with = "case")]
+    fpcore: Option<PathBuf>,
+
+    /// Bounds of a variable; may be given several times [default: all numbers]
+    #[arg(long, value_name = "NAME=LOW..HIGH")]
+    range: Vec<String>,
+
+    /// Inputs of an expression per format [default: 1000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    samples: Option<u32>,
+
+    /// Random seed of the inputs of an expression [default: 0]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+
+    /// Distribution of the inputs of an expression [default: floats]
+    #[arg(long, value_parser = draws())]
+    draw: Option<InputDraw>,
+
+    /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 for expressions and where no
+    /// target has integer codes; of systems wrong<=0.001 for the Ray Engine, largest_relative<=0.01 for radiosity,
+    /// largest_255ths<=1]
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 
@@ -61,13 +96,13 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME=X,Y,..", value_parser = uniform::parse)]
     uniform: Vec<Uniform>,
 
-    /// Which formats are tried
-    #[arg(long, default_value = "both", value_parser = families())]
-    family: Families,
+    /// Which formats are tried [default: both, or float for expressions]
+    #[arg(long, value_parser = families())]
+    family: Option<Families>,
 
-    /// Runs of the program after which the best so far is taken
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
-    budget: u64,
+    /// Runs of the program after which the best so far is taken [default: 10000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    budget: Option<u64>,
 
     /// Cost of a format by its bits, a CSV file [default: the bits]
     #[arg(long, value_name = "FILE.csv")]
@@ -94,17 +129,65 @@ fn families() -> OneOf<Families> {
     ])
 }
 
+fn draws() -> OneOf<InputDraw> {
+    one_of([
+        ("floats", "Every number of the format as likely as every other, as in Herbie", InputDraw::Floats),
+        ("reals", "Every real number of the range as likely as every other, then rounded", InputDraw::Reals),
+    ])
+}
+
 impl StudyArgs for Args {
-    type Study = Precision;
-    const QUICKER: &'static str = "`--family`, a smaller `--budget` or smaller targets";
+    type Study = Box<dyn Study>;
+    const QUICKER: &'static str = "`--family`, a smaller `--budget`, fewer `--samples` or smaller targets";
 
     fn files(&self) -> StudyFiles<'_> {
-        let case = Some(&self.case).filter(|_| self.system().is_none());
-        let inputs = case.into_iter().chain(&self.held_back).chain(&self.costs).map(PathBuf::as_path).collect();
+        let case = self.case.iter().filter(|_| self.system().is_none());
+        let inputs = case.chain(&self.fpcore).chain(&self.held_back).chain(&self.costs).map(PathBuf::as_path).collect();
         StudyFiles::new(Some(&self.out), Some(self.part), inputs)
     }
 
-    fn study(&self) -> miette::Result<Precision> {
+    fn study(&self) -> miette::Result<Box<dyn Study>> {
+        let Some(case) = &self.case else { return Ok(Box::new(self.expressions()?)) };
+        let of_expressions = [
+            ("--range", !self.range.is_empty()),
+            ("--samples", self.samples.is_some()),
+            ("--seed", self.seed.is_some()),
+            ("--draw", self.draw.is_some()),
+        ];
+        given::refuse(of_expressions, "expressions", "leave it out, or give `--expr` or `--fpcore`")?;
+        Ok(Box::new(self.precision(case)?))
+    }
+}
+
+impl Args {
+    /// The study of an expression, or of those of a file.
+    fn expressions(&self) -> miette::Result<ExpressionStudy> {
+        let of_cases = [
+            ("--held-back", self.held_back.is_some()),
+            ("--device", self.device.is_some()),
+            ("--switch", !self.switch.is_empty()),
+            ("--uniform", !self.uniform.is_empty()),
+            ("--budget", self.budget.is_some()),
+            ("--costs", self.costs.is_some()),
+            ("--part", self.part.is_given()),
+        ];
+        given::refuse(of_cases, "cases", "leave it out: an expression runs on no device")?;
+        let mut study = match (&self.expr, &self.fpcore) {
+            (None, Some(path)) => ExpressionStudy::of_file(path, &self.range)?,
+            // The parser of the command line demands one of them.
+            (text, _) => ExpressionStudy::of_formula(text.as_deref().unwrap_or_default(), &self.range)?,
+        };
+        study.goal.clone_from(&self.goal);
+        if let Some(Families(families)) = &self.family {
+            study.families.clone_from(families);
+        }
+        study.samples = self.samples.map_or(study.samples, |samples| samples as usize);
+        study.seed = self.seed.unwrap_or_default();
+        study.draw = self.draw.unwrap_or_default();
+        Ok(study)
+    }
+
+    fn precision(&self, case: &Path) -> miette::Result<Precision> {
         let costs = self.costs.as_deref().map(FormatCosts::load).transpose()?.unwrap_or_default();
         if let Some(system) = self.system() {
             let of_cases = [("--held-back", self.held_back.is_some()), ("--uniform", !self.uniform.is_empty())];
@@ -112,19 +195,17 @@ impl StudyArgs for Args {
             let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
             return Ok(self.of(system.subject(profile)?, costs));
         }
-        let mut subject = self.case(&self.case)?;
+        let mut subject = self.case(case)?;
         if let Some(path) = &self.held_back {
             let (other, _) = self.setup(path, &[])?;
             subject = subject.holding_back(&other, &path.display().to_string())?;
         }
         Ok(self.of(Box::new(subject), costs))
     }
-}
 
-impl Args {
     /// The system that is named in place of a case.
     fn system(&self) -> Option<PaperSystem> {
-        self.case.to_str()?.parse().ok()
+        self.case.as_ref()?.to_str()?.parse().ok()
     }
 
     fn case(&self, path: &Path) -> miette::Result<CaseSubject> {
@@ -143,11 +224,12 @@ impl Args {
 
     fn of(&self, subject: Box<dyn PrecisionSubject>, costs: FormatCosts) -> Precision {
         let known = KnownRuns::of_folder(&self.out);
+        let both = vec![FormatFamily::Float, FormatFamily::Fixed];
         Precision {
             subject,
             goal: self.goal.clone(),
-            families: self.family.0.clone(),
-            budget: self.budget,
+            families: self.family.clone().map_or(both, |Families(families)| families),
+            budget: self.budget.unwrap_or(BUDGET),
             costs,
             known,
         }

@@ -68,3 +68,35 @@ fn goals_and_costs_that_cannot_be_used_are_explained() {
     ];
     insta::assert_snapshot!(messages.join("\n"));
 }
+
+#[test]
+fn expressions_are_studied_listed_and_refused() {
+    let root = copy_of_the_repository();
+    let run =
+        |arguments: &[&str]| crossbar_in(root.path(), &[&["precision", "--samples", "60"], arguments].concat(), "");
+    let one = run(&["--expr", "-x/3 + x*x", "--range", "x=-1..1", "--json", "--out", "one"]);
+    assert_eq!(one.code, Some(0), "{}", one.transcript());
+    let document: serde_json::Value = serde_json::from_str(&one.stdout).expect("JSON");
+    assert_eq!(document["formats"][0]["format"], "e4m3", "{document}");
+    assert_eq!(document["provenance"]["seed"], 0, "{document}");
+    assert!(root.path().join("one/index.html").exists() && root.path().join("one/operations.csv").exists());
+    let all = run(&["--fpcore", "fixtures/fpbench/suite.fpcore", "--out", "all", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&all.stdout).expect("JSON");
+    assert_eq!(document["expressions"].as_array().map(Vec::len), Some(32), "{document}");
+    assert_eq!(document["not_studied"][0]["place"], "109:3", "{document}");
+    fs::write(root.path().join("none.fpcore"), "(FPCore (x) :pre (< x x) x)").expect("a file");
+    fs::write(root.path().join("open.fpcore"), "(FPCore (x) (+ x 1)").expect("a file");
+    let messages = [
+        run(&["--expr", "sqrt(x"]),
+        run(&["--expr", "x*y", "--range", "z=0..1"]),
+        run(&["--expr", "x", "--goal", "largest_codes<=1"]),
+        run(&["--expr", "x", "--device", "r200"]),
+        run(&["docs/examples/lerp.toml"]),
+        run(&["--fpcore", "missing.fpcore"]),
+        run(&["--fpcore", "none.fpcore"]),
+        run(&["--fpcore", "open.fpcore"]),
+        run(&[]),
+    ];
+    assert!(messages.iter().all(|message| message.code == Some(2)));
+    insta::assert_snapshot!(messages.map(|message| message.transcript()).join("\n"));
+}

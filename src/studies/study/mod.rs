@@ -44,3 +44,22 @@ pub trait Study {
         provenance
     }
 }
+
+/// A study of any kind.
+impl Study for Box<dyn Study> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        (**self).findings(progress)
+    }
+
+    fn findings_split(
+        &self,
+        split: &SplitRun,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Computed<Findings>, StudyError> {
+        (**self).findings_split(split, progress)
+    }
+
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        (**self).provenance(provenance)
+    }
+}

@@ -68,6 +68,7 @@ const COMMANDS: &[&str] = &[
     "measure nowhere.csv --device r200",
     "merge nowhere.part --out x",
     "precision nowhere.toml",
+    "precision --fpcore nowhere.fpcore",
     "radiosity nowhere.obj",
     "render nowhere.obj",
     "reproduce nowhere",

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 
 use super::bits::{FormatBits, FormatFamily};
 use super::goal::Goal;
-use super::runs::{RunError, Runs};
+use super::runs::RunError;
 use crate::report::words::counted;
 
 /// Bits that a curve is computed at first, as far as they are in its range; its ends are added.
@@ -115,21 +115,23 @@ impl Curve {
         Self { family, range: *family.range_bits().end(), scan: BitScan::default(), minimum: None, is_complete: false }
     }
 
-    /// Computes the points, as far as the budget allows.
-    pub(super) fn compute(&mut self, runs: &mut Runs<'_>) -> Result<(), RunError> {
-        let (family, goal) = (self.family, runs.goal);
-        runs.step(format!("{} formats", family.name()));
+    /// Computes the points, as far as the budget allows. `value` is that of the goal's measure in a format.
+    pub(super) fn compute(
+        &mut self,
+        goal: &Goal,
+        value: &mut impl FnMut(FormatBits) -> Result<f64, RunError>,
+    ) -> Result<(), RunError> {
+        let family = self.family;
         if family == FormatFamily::Fixed {
-            self.range = enough_integer_bits(runs)?;
+            self.range = enough_integer_bits(goal, value)?;
         }
         let range = self.range;
-        let value = |digits| runs.value(&runs.uniform(FormatBits { family, range, digits }));
-        self.scan.run(family.digit_bits(range), &FIRST, goal, value)?;
+        self.scan.run(family.digit_bits(range), &FIRST, goal, |digits| value(FormatBits { family, range, digits }))?;
         self.is_complete = true;
         let Some(digits) = self.scan.smallest else { return Ok(()) };
         let mut next = Some(FormatBits { family, range, digits });
         while let Some(bits) = next {
-            if !runs.meets(&runs.uniform(bits))? {
+            if !goal.met(value(bits)?) {
                 break;
             }
             self.minimum = Some(bits);
@@ -149,17 +151,20 @@ impl Curve {
 }
 
 /// Fewest integer bits with which 31 bits meet the goal, and [`SPARE`] more; without any, those with the best value.
-fn enough_integer_bits(runs: &mut Runs<'_>) -> Result<u8, RunError> {
+fn enough_integer_bits(
+    goal: &Goal,
+    value: &mut impl FnMut(FormatBits) -> Result<f64, RunError>,
+) -> Result<u8, RunError> {
     let family = FormatFamily::Fixed;
     let mut best = (0, f64::INFINITY);
     for range in family.range_bits() {
         let digits = *family.digit_bits(range).end();
-        let value = runs.value(&runs.uniform(FormatBits { family, range, digits }))?;
-        if runs.goal.met(value) {
+        let value = value(FormatBits { family, range, digits })?;
+        if goal.met(value) {
             return Ok((range + SPARE).min(*family.range_bits().end()));
         }
-        if runs.goal.badness(value) < best.1 {
-            best = (range, runs.goal.badness(value));
+        if goal.badness(value) < best.1 {
+            best = (range, goal.badness(value));
         }
     }
     Ok(best.0)

@@ -153,7 +153,7 @@ impl Precision {
         outcome.given = Some(runs.measure(runs.subject.profile())?.value(&runs.goal.measure));
         for &family in &self.families {
             let mut curve = Curve::empty(family);
-            let end = curve.compute(runs);
+            let end = compute_curve(&mut curve, runs);
             outcome.families.push(FamilyOutcome::new(curve, runs.count()));
             end?;
         }
@@ -178,6 +178,12 @@ impl Precision {
         let minimum = outcome.families.iter().find_map(|family| at_curve(&family.curve));
         sensitivity(minimum, runs, &mut outcome.switches)
     }
+}
+
+/// Computes a curve of runs with all instructions in one format.
+fn compute_curve(curve: &mut Curve, runs: &mut Runs<'_>) -> Result<(), RunError> {
+    runs.step(format!("{} formats", curve.family.name()));
+    curve.compute(runs.goal, &mut |bits| runs.value(&runs.uniform(bits)))
 }
 
 /// Value of the exact run, which meets the goal.
@@ -266,7 +272,7 @@ impl FamilyOutcome {
         costs: &FormatCosts,
         runs: &mut Runs<'_>,
     ) -> Result<(), RunError> {
-        self.curve.compute(runs)?;
+        compute_curve(&mut self.curve, runs)?;
         let Some(minimum) = self.curve.minimum else { return Ok(()) };
         let order = self.share_blame(minimum, runs)?;
         search((minimum, STARTS[number]), &order, costs, runs, &mut self.mixed)?;

@@ -2,6 +2,7 @@
 
 mod after_search;
 mod costs;
+mod expression;
 mod goal;
 mod needs;
 mod systems;

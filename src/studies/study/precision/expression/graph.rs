@@ -1,0 +1,170 @@
+//! Expressions as lists of operations, each behind its operands.
+
+use std::cmp::Ordering;
+use std::ops::Range;
+use std::sync::Arc;
+
+use num_bigint::BigInt;
+
+use super::real::{Constant, Function, Interval, Real, apply};
+use crate::report::SourceText;
+
+/// A comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Comparison {
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+}
+
+impl Comparison {
+    pub(super) fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "<" => Self::Less,
+            "<=" => Self::LessEqual,
+            ">" => Self::Greater,
+            ">=" => Self::GreaterEqual,
+            "==" => Self::Equal,
+            "!=" => Self::NotEqual,
+            _ => return None,
+        })
+    }
+
+    /// Whether it holds of two numbers in this order; of NaN, which has none, only that they differ.
+    pub(super) fn holds(self, order: Option<Ordering>) -> bool {
+        match (self, order) {
+            (Self::NotEqual, order) => order != Some(Ordering::Equal),
+            (_, None) => false,
+            (Self::Less, Some(order)) => order.is_lt(),
+            (Self::LessEqual, Some(order)) => order.is_le(),
+            (Self::Greater, Some(order)) => order.is_gt(),
+            (Self::GreaterEqual, Some(order)) => order.is_ge(),
+            (Self::Equal, Some(order)) => order.is_eq(),
+        }
+    }
+}
+
+/// What a node computes; operands are indices of earlier nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Operation {
+    Variable(usize),
+    /// Numerator and denominator.
+    Number(BigInt, BigInt),
+    Constant(Constant),
+    Apply(Function, Vec<usize>),
+    Truth(bool),
+    Compare(Comparison, [usize; 2]),
+    /// All of them, or any of them.
+    Connect {
+        all: bool,
+        operands: Vec<usize>,
+    },
+    Not(usize),
+    If([usize; 3]),
+}
+
+/// A node with its place in the text.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Node {
+    pub(super) operation: Operation,
+    /// `true` if it has a truth value.
+    pub(super) is_truth: bool,
+    pub(super) place: Range<usize>,
+}
+
+/// Nodes in an order of computation; the last is the result.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Graph(pub(super) Vec<Node>);
+
+/// An expression to study.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Expression {
+    pub(super) source: Arc<SourceText>,
+    pub(super) name: String,
+    pub(super) variables: Vec<String>,
+    pub(super) body: Graph,
+    /// What the result should be over the reals, if not the body.
+    pub(super) spec: Option<Graph>,
+    /// What inputs must meet, all of it.
+    pub(super) preconditions: Vec<Graph>,
+}
+
+impl Expression {
+    /// What the result should be over the reals.
+    pub(super) fn exact(&self) -> &Graph {
+        self.spec.as_ref().unwrap_or(&self.body)
+    }
+
+    /// Text of a node in one line, and its line and column from 1.
+    pub(super) fn text(&self, node: &Node) -> (String, usize, usize) {
+        let text = self.source.text().get(node.place.clone()).unwrap_or_default();
+        let (line, column) = (self.source.line_of(node.place.start), self.source.column_of(node.place.start));
+        (text.split_whitespace().collect::<Vec<_>>().join(" "), line + 1, column + 1)
+    }
+}
+
+impl Graph {
+    /// Computes all nodes over the reals, to about `bits` bits. `rounded` replaces the value of a node.
+    pub(super) fn reals(&self, inputs: &[Real], bits: u64, rounded: Option<(usize, &Real)>) -> Vec<Real> {
+        let mut values: Vec<Real> = Vec::with_capacity(self.0.len());
+        for (index, node) in self.0.iter().enumerate() {
+            let value = match rounded {
+                Some((replaced, value)) if replaced == index => value.clone(),
+                _ => real(&node.operation, inputs, &values, bits),
+            };
+            values.push(value);
+        }
+        values
+    }
+}
+
+fn real(operation: &Operation, inputs: &[Real], values: &[Real], bits: u64) -> Real {
+    let of = |operands: &[usize]| operands.iter().map(|&operand| values[operand].clone()).collect::<Vec<_>>();
+    match operation {
+        Operation::Variable(variable) => inputs[*variable].clone(),
+        Operation::Number(n, d) => Real::Range(Interval::ratio(n, d, bits)),
+        Operation::Constant(constant) => Real::Range(constant.value(bits)),
+        Operation::Apply(function, operands) => apply(*function, &of(operands), bits),
+        Operation::Truth(truth) => Real::Truth(*truth),
+        Operation::Compare(comparison, [x, y]) => match (&values[*x], &values[*y]) {
+            (Real::Undefined, _) | (_, Real::Undefined) => Real::Undefined,
+            (Real::Range(x), Real::Range(y)) => compare(*comparison, x, y).map_or(Real::Unknown, Real::Truth),
+            _ => Real::Unknown,
+        },
+        Operation::Connect { all, operands } => connect(*all, &of(operands)),
+        Operation::Not(operand) => match &values[*operand] {
+            Real::Truth(truth) => Real::Truth(!truth),
+            other => other.clone(),
+        },
+        Operation::If([condition, yes, no]) => match &values[*condition] {
+            Real::Truth(truth) => values[if *truth { *yes } else { *no }].clone(),
+            other => other.clone(),
+        },
+    }
+}
+
+/// A comparison of intervals, if it is the same for all of their numbers.
+fn compare(comparison: Comparison, x: &Interval, y: &Interval) -> Option<bool> {
+    if let Some(order) = x.order(y) {
+        return Some(comparison.holds(Some(order)));
+    }
+    match comparison {
+        Comparison::LessEqual if x.high <= y.low => Some(true),
+        Comparison::Greater if x.high <= y.low => Some(false),
+        Comparison::GreaterEqual if x.low >= y.high => Some(true),
+        Comparison::Less if x.low >= y.high => Some(false),
+        _ => None,
+    }
+}
+
+fn connect(all: bool, operands: &[Real]) -> Real {
+    let deciding = Real::Truth(!all);
+    match operands.iter().find(|operand| !matches!(operand, Real::Truth(_))) {
+        _ if operands.contains(&deciding) => deciding,
+        Some(unclear) => unclear.clone(),
+        None => Real::Truth(all),
+    }
+}

@@ -1,0 +1,144 @@
+//! Intervals: sums, products, quotients, roots.
+
+use std::cmp::Ordering;
+
+use num_bigint::BigInt;
+
+use super::dyadic::{Dyadic, End};
+
+/// Value of an expression over the reals, as far as a number of bits shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Real {
+    /// The value lies between the ends.
+    Range(Interval),
+    /// There is no real value: a division by zero, a root or a logarithm of a negative number.
+    Undefined,
+    /// These bits do not tell.
+    Unknown,
+    /// Truth value.
+    Truth(bool),
+}
+
+/// A closed interval of reals.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Interval {
+    pub(crate) low: End,
+    pub(crate) high: End,
+}
+
+impl Interval {
+    pub(crate) fn point(x: Dyadic) -> Self {
+        Self { low: End::At(x.clone()), high: End::At(x) }
+    }
+
+    pub(crate) fn integer(x: impl Into<BigInt>) -> Self {
+        Self::point(Dyadic::new(x, 0))
+    }
+
+    /// From `(middle - error) 2^exponent` to `(middle + error) 2^exponent`.
+    pub(super) fn around(middle: &BigInt, error: u64, exponent: i64) -> Self {
+        let at = |digits: BigInt, up| End::safe(Dyadic::new(digits, exponent), up);
+        Self { low: at(middle - error, false), high: at(middle + error, true) }
+    }
+
+    /// The rational `numerator / denominator`; the denominator is above 0.
+    pub(crate) fn ratio(numerator: &BigInt, denominator: &BigInt, bits: u64) -> Self {
+        let [n, d] = [numerator, denominator].map(|x| Dyadic::new(x.clone(), 0));
+        Self { low: End::At(n.over(&d, bits, false)), high: End::At(n.over(&d, bits, true)) }
+    }
+
+    /// The number, if the interval is one.
+    pub(crate) fn as_point(&self) -> Option<&Dyadic> {
+        match (&self.low, &self.high) {
+            (End::At(low), End::At(high)) if low == high => Some(low),
+            _ => None,
+        }
+    }
+
+    /// Returns `true` if all of the interval is below zero.
+    pub(super) fn is_negative(&self) -> bool {
+        self.high.is_negative()
+    }
+
+    /// Returns `true` if all of the interval is above zero.
+    pub(super) fn is_positive(&self) -> bool {
+        !self.low.is_negative() && !self.low.is_zero()
+    }
+
+    pub(super) fn has_zero(&self) -> bool {
+        !self.is_negative() && !self.is_positive()
+    }
+
+    /// How all of one interval compares with all of another; `None` where they overlap.
+    pub(crate) fn order(&self, other: &Self) -> Option<Ordering> {
+        match (self.as_point(), other.as_point()) {
+            (Some(x), Some(y)) if x == y => Some(Ordering::Equal),
+            _ if self.high < other.low => Some(Ordering::Less),
+            _ if self.low > other.high => Some(Ordering::Greater),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn negated(&self) -> Self {
+        Self { low: self.high.negated(), high: self.low.negated() }
+    }
+
+    pub(crate) fn abs(&self) -> Self {
+        match self {
+            _ if !self.low.is_negative() => self.clone(),
+            _ if self.is_negative() => self.negated(),
+            _ => Self { low: End::At(Dyadic::new(0, 0)), high: self.high.clone().max(self.low.negated()) },
+        }
+    }
+
+    pub(super) fn plus(&self, other: &Self, bits: u64) -> Self {
+        Self { low: self.low.plus(&other.low, bits, false), high: self.high.plus(&other.high, bits, true) }
+    }
+
+    pub(super) fn minus(&self, other: &Self, bits: u64) -> Self {
+        self.plus(&other.negated(), bits)
+    }
+
+    /// `x 2^places`.
+    pub(super) fn scaled(&self, places: i64) -> Self {
+        let at = |end: &End, up| match end {
+            End::At(x) => End::safe(x.scaled(places), up),
+            infinite => infinite.clone(),
+        };
+        Self { low: at(&self.low, false), high: at(&self.high, true) }
+    }
+
+    pub(super) fn times(&self, other: &Self, bits: u64) -> Self {
+        let ends = || [&self.low, &self.high].into_iter().flat_map(|a| [(a, &other.low), (a, &other.high)]);
+        let low = ends().map(|(a, b)| a.times(b, bits, false)).min();
+        let high = ends().map(|(a, b)| a.times(b, bits, true)).max();
+        Self { low: low.unwrap_or(End::Below), high: high.unwrap_or(End::Above) }
+    }
+
+    /// `x^2`, which is not negative.
+    pub(super) fn squared(&self, bits: u64) -> Self {
+        let x = self.abs();
+        Self { low: x.low.times(&x.low, bits, false), high: x.high.times(&x.high, bits, true) }
+    }
+
+    /// The quotient; `None` where the divisor may be zero, or both are without bound.
+    pub(super) fn over(&self, other: &Self, bits: u64) -> Option<Self> {
+        if other.has_zero() {
+            return None;
+        }
+        let ends = || [&self.low, &self.high].into_iter().flat_map(|a| [(a, &other.low), (a, &other.high)]);
+        let all = |up| ends().map(|(a, b)| a.over(b, bits, up)).collect::<Option<Vec<End>>>();
+        Some(Self { low: all(false)?.into_iter().min()?, high: all(true)?.into_iter().max()? })
+    }
+
+    /// The square root of what is not negative, or the cube root of what is on one side of zero.
+    pub(super) fn root(&self, degree: u32, bits: u64) -> Self {
+        let at = |end: &End, up: bool| match end {
+            End::At(x) if x.is_negative() => End::At(x.abs().root(degree, bits, !up).0.negated()),
+            End::At(x) if x.is_zero() => end.clone(),
+            End::At(x) => End::At(x.root(degree, bits, up).0),
+            infinite => infinite.clone(),
+        };
+        Self { low: at(&self.low, false), high: at(&self.high, true) }
+    }
+}

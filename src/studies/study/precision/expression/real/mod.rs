@@ -1,0 +1,17 @@
+//! Real numbers in intervals of dyadic numbers, as narrow as asked for, whose ends are on the safe side.
+//!
+//! Sums, products, quotients and roots are rounded outward to a number of bits. The elementary functions `exp`, `log`,
+//! `atan`, `sin` and `cos` are enclosed at a point by a series in integers with a bound on its error; all others are
+//! made of these. More bits give a narrower interval, so that a rounded result is found by asking for more bits until
+//! both ends round alike (Ziv's strategy). Nothing here depends on the host's floats.
+
+mod dyadic;
+mod functions;
+mod interval;
+mod operations;
+mod power;
+mod series;
+
+pub(super) use dyadic::{Dyadic, End};
+pub(super) use interval::{Interval, Real};
+pub(super) use operations::{Constant, Function, apply};

@@ -1,0 +1,106 @@
+//! Powers: those that are rational are exact, so that their rounding is decided.
+
+use num_traits::One;
+
+use super::dyadic::Dyadic;
+use super::interval::{Interval, Real};
+use super::{functions, series};
+
+/// Largest integer exponent of powers by multiplication, and of powers of two.
+const MAX_WHOLE: u64 = 1 << 12;
+/// Square roots that are taken out of an exponent such as 1.5.
+const MAX_ROOTS: u32 = 12;
+
+/// `2^x`
+pub(super) fn exp2(x: &Interval, bits: u64) -> Interval {
+    match small_integer(x) {
+        Some(whole) => Interval::point(Dyadic::new(1, 0)).scaled(whole),
+        None => functions::exp(&x.times(&series::ln_2(bits), bits), bits),
+    }
+}
+
+/// `log2 x` of what is above zero.
+pub(super) fn log2(x: &Interval, bits: u64) -> Option<Interval> {
+    if let Some(x) = x.as_point()
+        && let zeros = x.digits.trailing_zeros().unwrap_or_default()
+        && (&x.digits >> zeros).is_one()
+    {
+        return Some(Interval::integer(x.exponent + zeros.cast_signed()));
+    }
+    functions::log(x, bits).over(&series::ln_2(bits), bits)
+}
+
+/// `x^y`
+pub(super) fn pow(x: &Interval, y: &Interval, bits: u64) -> Real {
+    let zero = Interval::integer(0);
+    let is_zero = |x: &Interval| x.as_point().is_some_and(Dyadic::is_zero);
+    if is_zero(y) {
+        return Real::Range(Interval::integer(1));
+    }
+    if let Some(whole) = small_integer(y).filter(|whole| whole.unsigned_abs() <= MAX_WHOLE) {
+        let product = whole_power(x, whole.unsigned_abs(), bits);
+        return match (whole < 0, is_zero(&product)) {
+            (false, _) => Real::Range(product),
+            (true, true) => Real::Undefined,
+            (true, false) => Interval::integer(1).over(&product, bits).map_or(Real::Unknown, Real::Range),
+        };
+    }
+    if is_zero(x) {
+        return match y.order(&zero) {
+            Some(order) if order.is_gt() => Real::Range(zero),
+            Some(_) => Real::Undefined,
+            None => Real::Unknown,
+        };
+    }
+    let by_logarithm = |x: &Interval| functions::exp(&y.times(&functions::log(x, bits), bits), bits);
+    if x.is_positive() {
+        return Real::Range(rational_power(x, y, bits).unwrap_or_else(|| by_logarithm(x)));
+    }
+    // Of a negative number only integer powers are real.
+    let Some(exponent) = y.as_point().filter(|_| x.is_negative()) else { return Real::Unknown };
+    let is_whole = |scale: i64| exponent.exponent + scale >= 0 || exponent.scaled(scale).whole().is_some();
+    match (is_whole(0), is_whole(-1)) {
+        (false, _) => Real::Undefined,
+        (true, true) => Real::Range(by_logarithm(&x.negated())),
+        (true, false) => Real::Range(by_logarithm(&x.negated()).negated()),
+    }
+}
+
+/// `x^n` by squaring.
+fn whole_power(x: &Interval, n: u64, bits: u64) -> Interval {
+    let (mut power, mut rest, mut square) = (Interval::integer(1), n, x.clone());
+    // Even powers are those of the magnitude.
+    if n.is_multiple_of(2) {
+        square = square.abs();
+    }
+    while rest > 0 {
+        if rest % 2 == 1 {
+            power = power.times(&square, bits);
+        }
+        rest /= 2;
+        if rest > 0 {
+            square = square.squared(bits);
+        }
+    }
+    power
+}
+
+/// `x^(n/2^k)` of two numbers, if it is rational: `k` exact roots, then a power.
+fn rational_power(x: &Interval, y: &Interval, bits: u64) -> Option<Interval> {
+    let (mut base, exponent) = (x.as_point()?.clone(), y.as_point()?);
+    let zeros = exponent.digits.trailing_zeros().unwrap_or_default().cast_signed();
+    let roots = u32::try_from(-(exponent.exponent + zeros)).ok().filter(|roots| *roots <= MAX_ROOTS)?;
+    let whole = small_integer(&Interval::point(exponent.scaled(roots.into())))?;
+    for _ in 0..roots {
+        let (root, is_exact) = base.root(2, base.digits.bits() + 4, false);
+        base = is_exact.then_some(root)?;
+    }
+    let power = whole_power(&Interval::point(base), Some(whole.unsigned_abs()).filter(|n| *n <= MAX_WHOLE)?, bits);
+    if whole < 0 { Interval::integer(1).over(&power, bits) } else { Some(power) }
+}
+
+/// An integer that is a point, small enough to count with.
+fn small_integer(x: &Interval) -> Option<i64> {
+    let x = x.as_point()?;
+    i64::try_from(Some(x).filter(|x| x.top() < 60)?.whole()?).ok()
+}

@@ -1,0 +1,211 @@
+//! Enclosures of elementary functions at a dyadic point, by series in integers.
+//!
+//! Values are integers in units of `2^-places`; every division and shift truncates, so each step errs by less than two
+//! units. All functions work with [`GUARD`] places more than their result needs, and widen the result by `2^ERROR`
+//! units: a series has at most one term per place, places are below `2^14`, and a term errs by at most eight units.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use num_bigint::BigInt;
+use num_integer::Integer as _;
+use num_traits::{One, Zero};
+
+use super::dyadic::{Dyadic, End, LIMIT, shifted};
+use super::interval::Interval;
+
+/// Places beyond those of the result.
+const GUARD: i64 = 40;
+/// Bound on the error of a series, as a power of two in its units.
+const ERROR: u32 = 22;
+/// Largest magnitude of angles, as a power of two.
+const MAX_ANGLE: i64 = 1 << 15;
+
+thread_local! {
+    /// ln 2 and pi by places, rounded down, off by one unit at most.
+    static KNOWN: RefCell<BTreeMap<(bool, i64), BigInt>> = const { RefCell::new(BTreeMap::new()) };
+}
+
+/// `sum of coefficient * f(1/n)` with `f` the arc tangent, or the inverse hyperbolic tangent, in units of `2^-places`.
+fn machin(terms: [(i32, u32); 3], hyperbolic: bool, places: i64) -> BigInt {
+    let spare = 32;
+    let sum = terms.into_iter().fold(BigInt::zero(), |sum, (coefficient, n)| {
+        let mut power = (BigInt::one() << (places + spare).unsigned_abs()) / n;
+        let (mut series, mut k) = (power.clone(), 1u32);
+        while !power.is_zero() {
+            power = if hyperbolic { power / (n * n) } else { -power / (n * n) };
+            k += 2;
+            series += &power / k;
+        }
+        sum + series * coefficient
+    });
+    sum >> spare
+}
+
+fn known(is_pi: bool, wanted: i64) -> BigInt {
+    let places = (wanted + 63) & !63;
+    let kept = KNOWN.with_borrow(|known| known.get(&(is_pi, places)).cloned());
+    let value = kept.unwrap_or_else(|| {
+        let made = match is_pi {
+            true => machin([(16, 5), (-4, 239), (0, 1000)], false, places),
+            false => machin([(18, 26), (-2, 4801), (8, 8749)], true, places),
+        };
+        KNOWN.with_borrow_mut(|known| known.insert((is_pi, places), made.clone()));
+        made
+    });
+    value >> (places - wanted).unsigned_abs()
+}
+
+/// pi, to about `bits` bits.
+pub(super) fn pi(bits: u64) -> Interval {
+    let places = bits.cast_signed();
+    Interval::around(&known(true, places), 2, -places)
+}
+
+/// ln 2, to about `bits` bits.
+pub(super) fn ln_2(bits: u64) -> Interval {
+    let places = bits.cast_signed();
+    Interval::around(&known(false, places), 2, -places)
+}
+
+fn enclosed(sum: &BigInt, places: i64) -> Interval {
+    Interval::around(sum, 1 << ERROR, -places)
+}
+
+/// From `1 + low` to `1 + high`, where both are `digits * 2^exponent`.
+fn near_one(low: i32, high: i32, exponent: i64, bits: u64) -> Interval {
+    let at = |x: i32, up| End::At(Dyadic::new(1, 0).plus(&Dyadic::new(x, exponent), bits, up));
+    Interval { low: at(low, false), high: at(high, true) }
+}
+
+/// `e^x`.
+pub(super) fn exp(x: &Dyadic, bits: u64) -> Interval {
+    let top = x.top();
+    if x.is_zero() {
+        return Interval::integer(1);
+    }
+    if top > 58 {
+        let far = Dyadic::new(1, if x.is_negative() { -LIMIT } else { LIMIT });
+        return match x.is_negative() {
+            true => Interval { low: End::At(Dyadic::new(0, 0)), high: End::At(far) },
+            false => Interval { low: End::At(far), high: End::Above },
+        };
+    }
+    if top < -bits.cast_signed() - 2 {
+        // Of the sign of x, and below twice its magnitude.
+        return if x.is_negative() { near_one(-1, 0, top, bits) } else { near_one(0, 1, top + 1, bits) };
+    }
+    let places = bits.cast_signed() + GUARD;
+    // A multiple of ln 2 is off by as many units as the multiple has.
+    let wide = places + top.max(0);
+    let (whole, rest) = x.floor_at(wide).div_mod_floor(&known(false, wide));
+    let rest = rest >> (wide - places).unsigned_abs();
+    let (mut term, mut sum, mut k) = (BigInt::one() << places.unsigned_abs(), BigInt::zero(), 1u32);
+    while !term.is_zero() {
+        sum += &term;
+        term = ((term * &rest) >> places.unsigned_abs()) / k;
+        k += 1;
+    }
+    enclosed(&sum, places).scaled(i64::try_from(whole).unwrap_or(LIMIT))
+}
+
+/// `ln x` for `x` above zero.
+pub(super) fn log(x: &Dyadic, bits: u64) -> Interval {
+    // x = m 2^whole, with m between the roots of 1/2 and 2.
+    let length = x.digits.bits().cast_signed();
+    let is_small = (&x.digits * &x.digits).bits().cast_signed() < 2 * length;
+    let unit = length - i64::from(is_small);
+    let whole = x.exponent + unit;
+    let one = BigInt::one() << unit.unsigned_abs();
+    let less = &x.digits - &one;
+    if less.is_zero() && whole == 0 {
+        return Interval::integer(0);
+    }
+    let near = if whole == 0 { unit - less.bits().cast_signed() } else { 0 };
+    let places = bits.cast_signed() + GUARD + near;
+    let t: BigInt = (less << places.unsigned_abs()).div_floor(&(&x.digits + one));
+    let square: BigInt = (&t * &t) >> places.unsigned_abs();
+    let (mut power, mut sum, mut k) = (t, BigInt::zero(), 1u32);
+    while !power.is_zero() && power != -BigInt::one() {
+        sum += &power / k;
+        power = (power * &square) >> places.unsigned_abs();
+        k += 2;
+    }
+    // 64 more places for a multiple of ln 2 with a factor below 2^61.
+    let shift: BigInt = (known(false, places + 64) * whole) >> 64u32;
+    enclosed(&(sum * 2 + shift), places)
+}
+
+/// `atan x`.
+pub(super) fn atan(x: &Dyadic, bits: u64) -> Interval {
+    let (top, precision) = (x.top(), bits.cast_signed());
+    if x.is_zero() {
+        return Interval::integer(0);
+    }
+    if 2 * top < -precision - 4 {
+        return below(x, bits);
+    }
+    let is_large = top > 0;
+    let places = precision + GUARD + (-top).max(0);
+    let magnitude = x.abs();
+    let one = BigInt::one() << places.unsigned_abs();
+    let mut y = match is_large {
+        false => magnitude.floor_at(places),
+        true if places < magnitude.exponent => BigInt::zero(),
+        true => (BigInt::one() << (2 * places).unsigned_abs()) / magnitude.floor_at(places),
+    };
+    // atan y = 2 atan(y / (1 + sqrt(1 + y^2)))
+    for _ in 0..4 {
+        let root = ((BigInt::one() << (2 * places).unsigned_abs()) + &y * &y).sqrt();
+        y = (y << places.unsigned_abs()) / (&one + root);
+    }
+    let square: BigInt = (&y * &y) >> places.unsigned_abs();
+    let (mut power, mut sum, mut k) = (y, BigInt::zero(), 1u32);
+    while !power.is_zero() {
+        sum += &power / k;
+        power = -((power * &square) >> places.unsigned_abs());
+        k += 2;
+    }
+    let mut angle = sum << 4u32;
+    if is_large {
+        angle = (known(true, places) >> 1u32) - angle;
+    }
+    enclosed(&if x.is_negative() { -angle } else { angle }, places)
+}
+
+/// A function between `x (1 - x^2)` and `x`, for a small x.
+fn below(x: &Dyadic, bits: u64) -> Interval {
+    let less = near_one(-1, 0, 2 * x.top(), bits + 4);
+    Interval::point(x.clone()).times(&less, bits)
+}
+
+/// `sin x` or `cos x`.
+pub(super) fn circular(sine: bool, x: &Dyadic, bits: u64) -> Interval {
+    let (top, precision) = (x.top(), bits.cast_signed());
+    if x.is_zero() {
+        return Interval::integer(i32::from(!sine));
+    }
+    if top > MAX_ANGLE {
+        return Interval { low: End::At(Dyadic::new(-1, 0)), high: End::At(Dyadic::new(1, 0)) };
+    }
+    if 2 * top < -precision - 4 {
+        return if sine { below(x, bits) } else { near_one(-1, 0, 2 * top, bits) };
+    }
+    let places = precision + GUARD + if sine { (-top).max(0) } else { 0 };
+    // A multiple of pi/2 is off by as many units as the multiple has.
+    let wide = places + top.max(0) + 4;
+    let quarter = known(true, wide) >> 1u32;
+    let (turns, rest) = (x.floor_at(wide) + (&quarter >> 1u32)).div_mod_floor(&quarter);
+    let rest = shifted(&(rest - (&quarter >> 1u32)), places - wide);
+    let quadrant = (&turns & BigInt::from(3)).try_into().unwrap_or(0u32) + u32::from(!sine);
+    let square: BigInt = (&rest * &rest) >> places.unsigned_abs();
+    let is_odd = quadrant % 2 == 0;
+    let mut term = if is_odd { rest } else { BigInt::one() << places.unsigned_abs() };
+    let (mut sum, mut k) = (term.clone(), if is_odd { 2u32 } else { 1 });
+    while !term.is_zero() {
+        term = -((term * &square) >> places.unsigned_abs()) / (k * (k + 1));
+        sum += &term;
+        k += 2;
+    }
+    enclosed(&if quadrant % 4 >= 2 { -sum } else { sum }, places)
+}

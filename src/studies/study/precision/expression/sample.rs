@@ -1,0 +1,160 @@
+//! Sampled inputs, and the exact results there.
+
+use super::arithmetic::{Arithmetic, PRECISIONS};
+use super::graph::{Comparison, Expression, Graph, Operation};
+use super::real::Real;
+use crate::geom::random::CounterRng;
+
+/// Draws per input wanted, and those discarded, before the search for inputs ends.
+const DRAWS: usize = 1000;
+const DISCARDED: usize = 20;
+
+/// Distribution of inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InputDraw {
+    /// Every number of the format is as likely as every other, as in Herbie.
+    #[default]
+    Floats,
+    /// Every real number is as likely as every other, then rounded.
+    Reals,
+}
+
+/// An input, and the exact result in the format of the inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Sample {
+    pub(super) inputs: Vec<u64>,
+    /// The correctly rounded result, finite.
+    pub(super) exact: u64,
+    /// The result rounded to double precision.
+    pub(super) value: f64,
+}
+
+/// Sampled inputs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Samples {
+    pub(super) kept: Vec<Sample>,
+    /// Draws that met the precondition but have no finite result, or none that was decided.
+    pub(super) discarded: usize,
+}
+
+/// Draws `count` inputs that meet the precondition and have a finite result, or fewer if they are rare.
+pub(super) fn sample(
+    expression: &Expression,
+    arithmetic: Arithmetic,
+    count: usize,
+    draw: InputDraw,
+    seed: u64,
+) -> Samples {
+    let (spans, rng) = (spans(expression, arithmetic), CounterRng::new(seed));
+    let count = if expression.variables.is_empty() { 1 } else { count };
+    let mut samples = Samples::default();
+    for row in 0..DRAWS {
+        // Whole rows at once, each input by its number, so that threads change nothing.
+        let numbers: Vec<usize> = (row * count..(row + 1) * count).collect();
+        let drawn = parallel(&numbers, |&number| {
+            let bits = |variable: usize| rng.bits(number as u64, 0, variable as u64);
+            let inputs = spans.iter().enumerate().map(|(at, span)| arithmetic.drawn(*span, draw, bits(at)));
+            let inputs: Vec<u64> = inputs.collect();
+            let reals: Vec<Real> = inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
+            let is_met = expression.preconditions.iter().all(|graph| meets(graph, &reals));
+            is_met.then(|| exact(expression, arithmetic, inputs))
+        });
+        for sample in drawn.into_iter().flatten() {
+            match sample {
+                _ if samples.kept.len() == count => return samples,
+                Some(sample) => samples.kept.push(sample),
+                None => samples.discarded += 1,
+            }
+        }
+        if samples.kept.len() == count || samples.discarded > DISCARDED * count {
+            break;
+        }
+    }
+    samples
+}
+
+/// Results in order, computed by several threads.
+pub(super) fn parallel<T: Sync, U: Send>(items: &[T], of: impl Fn(&T) -> U + Sync + Send) -> Vec<U> {
+    use rayon::prelude::*;
+    items.par_iter().map(of).collect()
+}
+
+/// Whether an input meets a precondition over the reals.
+fn meets(precondition: &Graph, reals: &[Real]) -> bool {
+    let value = PRECISIONS.iter().map(|&bits| precondition.reals(reals, bits, None).pop());
+    value.into_iter().find(|value| *value != Some(Real::Unknown)).flatten() == Some(Real::Truth(true))
+}
+
+/// An input with its result, if that is finite and decided.
+pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>) -> Option<Sample> {
+    let reals: Vec<Real> = inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
+    let decide = |bits| match expression.exact().reals(&reals, bits, None).pop() {
+        Some(Real::Range(range)) => Some(Some((arithmetic.decided(&range)?, Arithmetic::Double.decided(&range)?))),
+        Some(Real::Undefined) => Some(None),
+        _ => None,
+    };
+    let (exact, double) = PRECISIONS.into_iter().find_map(decide)??;
+    let (value, finite) = (f64::from_bits(double), arithmetic.finite_ordinals());
+    // Fixed point has no infinity: its largest number stands for all beyond.
+    let [least, largest] = finite.map(|ordinal| arithmetic.value(arithmetic.at_ordinal(ordinal)));
+    let is_within = !arithmetic.is_fixed() || (least..=largest).contains(&value);
+    let is_finite = (finite[0]..=finite[1]).contains(&arithmetic.ordinal(exact));
+    (is_within && is_finite).then_some(Sample { inputs, exact, value })
+}
+
+impl Arithmetic {
+    /// A number between two positions.
+    fn drawn(self, [low, high]: [i64; 2], draw: InputDraw, random: u64) -> u64 {
+        if draw == InputDraw::Reals {
+            let [low, high] = [low, high].map(|ordinal| self.value(self.at_ordinal(ordinal)));
+            let share = (random >> 11) as f64 / (1u64 << 53) as f64;
+            return self.rounded(low * (1.0 - share) + high * share);
+        }
+        let last = low.abs_diff(high);
+        let offset = ((u128::from(random) * (u128::from(last) + 1)) >> 64) as u64;
+        self.at_ordinal(low.wrapping_add_unsigned(offset))
+    }
+}
+
+/// For each variable the positions of the numbers within the bounds that preconditions state by constants; what else
+/// they demand is tried input by input.
+fn spans(expression: &Expression, arithmetic: Arithmetic) -> Vec<[i64; 2]> {
+    let mut spans = vec![arithmetic.finite_ordinals(); expression.variables.len()];
+    expression.preconditions.iter().for_each(|graph| narrow(&mut spans, graph, arithmetic));
+    for [low, high] in &mut spans {
+        *high = (*high).max(*low);
+    }
+    spans
+}
+
+fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) {
+    let values = precondition.reals(&vec![Real::Unknown; spans.len()], PRECISIONS[0], None);
+    let ordinal = |end| arithmetic.ordinal(arithmetic.encode(end));
+    let mut demanded = vec![precondition.0.len() - 1];
+    while let Some(node) = demanded.pop() {
+        let (comparison, [left, right]) = match &precondition.0[node].operation {
+            Operation::Compare(comparison, operands) => (*comparison, *operands),
+            Operation::Connect { all: true, operands } => {
+                demanded.extend(operands);
+                continue;
+            }
+            _ => continue,
+        };
+        let (upper, lower) = match comparison {
+            Comparison::Less | Comparison::LessEqual => (true, false),
+            Comparison::Greater | Comparison::GreaterEqual => (false, true),
+            Comparison::Equal => (true, true),
+            Comparison::NotEqual => continue,
+        };
+        for (variable, bound, is_upper, is_lower) in [(left, right, upper, lower), (right, left, lower, upper)] {
+            if let (Operation::Variable(index), Real::Range(range)) =
+                (&precondition.0[variable].operation, &values[bound])
+            {
+                // One number beyond, in case the bound was rounded away from it.
+                let [low, high] = &mut spans[*index];
+                *high = if is_upper { (*high).min(ordinal(&range.high) + 1) } else { *high };
+                *low = if is_lower { (*low).max(ordinal(&range.low) - 1) } else { *low };
+            }
+        }
+    }
+}

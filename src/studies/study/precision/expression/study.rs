@@ -1,0 +1,221 @@
+//! Expressions, and what is found of them.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::super::bits::{FormatBits, FormatFamily};
+use super::super::curve::Curve;
+use super::super::goal::Goal;
+use super::super::runs::RunError;
+use super::arithmetic::Arithmetic;
+use super::blame::OperationError;
+use super::errors::Errors;
+use super::graph::Expression;
+use super::sample::{self, InputDraw, Samples};
+use super::syntax::{self, ExpressionError};
+use super::{blame, errors};
+use crate::io::read_limited;
+use crate::names::did_you_mean;
+use crate::report::SourceText;
+use crate::report::words::listed;
+use crate::study::StudyError;
+use crate::study::error::library_errors;
+use refsim::num::Format;
+
+/// Longest FPCore file, in bytes (1 MiB).
+const MAX_BYTES: u64 = 1 << 20;
+
+/// Expressions, and how they are studied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExpressionStudy {
+    /// What the expressions come from: a file, or the formula.
+    pub(super) title: String,
+    pub(super) expressions: Vec<Expression>,
+    /// Name, place and reason of those that are not taken.
+    pub(super) refused: Vec<ExpressionError>,
+    /// Goal that formats meet; the default is `mean_relative<=0.01`.
+    pub goal: Option<Goal>,
+    /// Families that are searched for the smallest format.
+    pub families: Vec<FormatFamily>,
+    /// Inputs per expression and format.
+    pub samples: usize,
+    /// Seed of the inputs.
+    pub seed: u64,
+    /// Distribution of the inputs.
+    pub draw: InputDraw,
+}
+
+/// Errors of one expression in one format.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FormatErrors {
+    pub(super) name: &'static str,
+    pub(super) arithmetic: Arithmetic,
+    pub(super) samples: Samples,
+    pub(super) errors: Errors,
+    /// Value of the goal's measure.
+    pub(super) value: f64,
+}
+
+/// What was found of one expression.
+#[derive(Debug)]
+pub(super) struct ExpressionOutcome {
+    pub(super) formats: Vec<FormatErrors>,
+    pub(super) curves: Vec<Curve>,
+    /// The format in which operations are blamed, and the blame.
+    pub(super) blamed: (String, Vec<OperationError>),
+}
+
+library_errors! {
+    ExpressionError;
+}
+
+impl ExpressionStudy {
+    /// A study of a formula in infix notation, or of an expression in FPCore.
+    ///
+    /// # Errors
+    /// If the text is no formula, with the place.
+    pub fn of_formula(text: &str, ranges: &[String]) -> Result<Self, ExpressionError> {
+        let source = Arc::new(SourceText::new("--expr", text));
+        if text.trim_start().starts_with("(FPCore") {
+            return Self::new(text.trim(), &source, ranges);
+        }
+        let mut expression = syntax::formula(&source)?;
+        expression.preconditions.extend(syntax::bounds(ranges, &expression.variables)?);
+        Ok(Self::with(text.trim().to_owned(), vec![expression], Vec::new()))
+    }
+
+    /// A study of all expressions of an FPCore file.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is no FPCore, or has no expression that can be taken.
+    pub fn of_file(path: &Path, ranges: &[String]) -> Result<Self, StudyError> {
+        let name = path.display().to_string();
+        let unreadable = |found: String| {
+            StudyError::new("crossbar::expression::file", found).with_help("name a text file in FPCore, up to 1 MiB")
+        };
+        let bytes = read_limited(path, MAX_BYTES)
+            .map_err(|error| unreadable(format!("cannot read {name}")).with_source(error))?
+            .ok_or_else(|| unreadable(format!("{name}: expected at most {MAX_BYTES} bytes, found more")))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|error| unreadable(format!("{name}: expected text in UTF-8")).with_source(error))?;
+        let source = Arc::new(SourceText::new(name.clone(), text));
+        Ok(Self::new(&name, &source, ranges)?)
+    }
+
+    fn new(title: &str, source: &Arc<SourceText>, ranges: &[String]) -> Result<Self, ExpressionError> {
+        let (mut expressions, mut refused) = (Vec::new(), Vec::new());
+        for core in syntax::cores(source)? {
+            match core {
+                Ok(mut expression) => {
+                    expression.preconditions.extend(syntax::bounds(ranges, &expression.variables)?);
+                    expressions.push(expression);
+                }
+                Err(error) => refused.push(error),
+            }
+        }
+        match refused.first() {
+            Some(error) if expressions.is_empty() => Err(error.clone()),
+            _ => Ok(Self::with(title.to_owned(), expressions, refused)),
+        }
+    }
+
+    fn with(title: String, expressions: Vec<Expression>, refused: Vec<ExpressionError>) -> Self {
+        let families = vec![FormatFamily::Float];
+        Self { title, expressions, refused, goal: None, families, samples: 1000, seed: 0, draw: InputDraw::Floats }
+    }
+
+    /// Names of the expressions, and the reasons for which the others are not taken.
+    pub fn taken(&self) -> (Vec<&str>, &[ExpressionError]) {
+        (self.expressions.iter().map(|expression| expression.name.as_str()).collect(), &self.refused)
+    }
+
+    /// Mean bits of error of each expression in a format, or in double precision, with their standard errors.
+    pub fn mean_bits(&self, format: Option<Format>) -> Vec<[f64; 2]> {
+        let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
+        let of = |expression: &Expression| {
+            let samples = sample::sample(expression, arithmetic, self.samples, self.draw, self.seed);
+            let errors = errors::errors(expression, arithmetic, &samples);
+            [errors.mean_bits, errors.standard_error]
+        };
+        self.expressions.iter().map(of).collect()
+    }
+
+    /// The correctly rounded and the computed result of an expression in a format, or in double precision, as patterns,
+    /// as the inputs are. `None` for an unknown name, or where no result is finite and decided.
+    pub fn results(&self, name: &str, format: Option<Format>, inputs: &[u64]) -> Option<[u64; 2]> {
+        let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
+        let expression = self.expressions.iter().find(|expression| expression.name == name)?;
+        let exact = sample::exact(expression, arithmetic, inputs.to_vec())?.exact;
+        let constants = arithmetic.constants(&expression.body);
+        Some([exact, arithmetic.values(&expression.body, inputs, &constants).pop()?])
+    }
+
+    pub(super) fn goal(&self) -> Result<Goal, StudyError> {
+        let default = "mean_relative<=0.01";
+        let Some(goal) = &self.goal else {
+            return default.parse().map_err(|error| StudyError::coded("crossbar::precision::goal", error));
+        };
+        if Errors::MEASURES.contains(&goal.measure.as_str()) {
+            return Ok(goal.clone());
+        }
+        let shown: String = goal.measure.chars().take(60).collect();
+        let found = format!("expected a goal for {}, found `{shown}`", listed(&Errors::MEASURES));
+        let help = format!("{}for example `--goal \"{default}\"`", did_you_mean(&shown, Errors::MEASURES));
+        Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
+    }
+
+    /// Formats whose errors are shown: double precision, and those of cards in the families.
+    fn formats(&self) -> Vec<(&'static str, Arithmetic)> {
+        let named = FormatBits::named().filter(|(_, bits)| self.families.contains(&bits.family));
+        let mut all: Vec<_> = named.map(|(name, bits)| (name, number(bits))).collect();
+        all.push(("fp64", Arithmetic::Double));
+        all
+    }
+
+    pub(super) fn outcome(&self, expression: &Expression, goal: &Goal) -> Result<ExpressionOutcome, StudyError> {
+        let single = Arithmetic::Number(Format::FP32);
+        let sampled = |arithmetic| sample::sample(expression, arithmetic, self.samples, self.draw, self.seed);
+        let reference = sampled(single);
+        if reference.kept.is_empty() {
+            let found = format!(
+                "{}: expected inputs in single precision that meet the precondition and have a finite result, found none \
+                 ({} without one)",
+                expression.name, reference.discarded
+            );
+            return Err(StudyError::new("crossbar::expression::inputs", found).with_help("narrow the ranges"));
+        }
+        let is_of_bits = goal.measure.ends_with("_bits");
+        let value = |arithmetic: Arithmetic, own: Option<&Errors>| match (is_of_bits, own) {
+            (true, Some(errors)) => errors.measure(&goal.measure),
+            (true, None) => errors::errors(expression, arithmetic, &sampled(arithmetic)).measure(&goal.measure),
+            (false, _) => errors::errors_of_rounded(expression, arithmetic, &reference, single).measure(&goal.measure),
+        };
+        let mut formats = Vec::new();
+        for (name, arithmetic) in self.formats() {
+            let samples = if arithmetic == single { reference.clone() } else { sampled(arithmetic) };
+            let errors = errors::errors(expression, arithmetic, &samples);
+            let value = value(arithmetic, Some(&errors));
+            formats.push(FormatErrors { name, arithmetic, samples, errors, value });
+        }
+        let mut curves = Vec::new();
+        for &family in &self.families {
+            let mut curve = Curve::empty(family);
+            let of = &mut |bits| Ok(value(number(bits), None));
+            match curve.compute(goal, of) {
+                Ok(()) | Err(RunError::Budget) => curves.push(curve),
+                Err(RunError::Study(error)) => return Err(error),
+            }
+        }
+        let minimum = curves.iter().find_map(|curve| curve.minimum);
+        let blamed = match minimum {
+            Some(bits) => (bits.to_string(), blame::blame(expression, number(bits), &sampled(number(bits)))),
+            None => ("e8m23".to_owned(), blame::blame(expression, single, &reference)),
+        };
+        Ok(ExpressionOutcome { formats, curves, blamed })
+    }
+}
+
+/// A format with the default rules.
+fn number(bits: FormatBits) -> Arithmetic {
+    Arithmetic::Number(bits.format(Format::FP32))
+}

@@ -1,0 +1,36 @@
+//! The error of expressions.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use miette::{Diagnostic, SourceSpan};
+
+use crate::report::SourceText;
+
+/// Text that is no expression, or one that cannot be taken: the reason, and the place.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
+#[error("{message}")]
+#[diagnostic(code(crossbar::expression), help("docs/precision.md lists what is taken"))]
+pub struct ExpressionError {
+    message: String,
+    #[source_code]
+    source_code: Arc<SourceText>,
+    #[label("here")]
+    span: SourceSpan,
+}
+
+impl ExpressionError {
+    pub(in crate::study::precision::expression) fn new(
+        source: &Arc<SourceText>,
+        message: impl Into<String>,
+        place: Range<usize>,
+    ) -> Self {
+        Self { message: message.into(), source_code: Arc::clone(source), span: place.into() }
+    }
+
+    /// Line and column of the place, from 1.
+    pub fn line_and_column(&self) -> (usize, usize) {
+        let at = self.span.offset();
+        (self.source_code.line_of(at) + 1, self.source_code.column_of(at) + 1)
+    }
+}

@@ -1,0 +1,182 @@
+//! Formulas in infix notation, as trees of FPCore.
+//!
+//! From loose to tight: `a ? b : c`, `||`, `&&`, comparisons, sums, products, signs, powers (`^`, from the right).
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::ExpressionError;
+use super::text::{MAX_DEPTH, Tree};
+use crate::report::SourceText;
+
+/// Binary operators by how tightly they bind, and the names of their operations.
+const OPERATORS: [(&str, u8, &str); 13] = [
+    ("||", 1, "or"),
+    ("&&", 2, "and"),
+    ("<=", 3, "<="),
+    (">=", 3, ">="),
+    ("==", 3, "=="),
+    ("!=", 3, "!="),
+    ("<", 3, "<"),
+    (">", 3, ">"),
+    ("+", 4, "+"),
+    ("-", 4, "-"),
+    ("*", 5, "*"),
+    ("/", 5, "/"),
+    ("^", 7, "pow"),
+];
+const SIGN: u8 = 6;
+
+/// Most operators in a formula.
+const MAX_OPERATORS: usize = 2000;
+
+/// Names that shading languages have for functions and constants of FPCore.
+const NAMES: [(&str, &str); 5] = [("abs", "fabs"), ("min", "fmin"), ("max", "fmax"), ("ln", "log"), ("pi", "PI")];
+
+/// Parses a formula.
+///
+/// # Errors
+/// Where something else is expected.
+pub(super) fn parse(source: &Arc<SourceText>) -> Result<Tree, ExpressionError> {
+    let mut parser = Parser { source, at: 0, depth: 0, operators: 0 };
+    let tree = parser.choice()?;
+    if parser.at < source.text().len() {
+        return Err(parser.expected("an operator"));
+    }
+    Ok(tree)
+}
+
+struct Parser<'a> {
+    source: &'a Arc<SourceText>,
+    at: usize,
+    depth: usize,
+    operators: usize,
+}
+
+impl Parser<'_> {
+    fn rest(&self) -> &str {
+        &self.source.text()[self.at..]
+    }
+
+    fn skip_blanks(&mut self) {
+        self.at += self.rest().len() - self.rest().trim_start().len();
+    }
+
+    fn take(&mut self, token: &str) -> bool {
+        self.skip_blanks();
+        let is_there = self.rest().starts_with(token);
+        self.at += if is_there { token.len() } else { 0 };
+        is_there
+    }
+
+    fn expected(&self, what: &str) -> ExpressionError {
+        let found = self.rest().chars().next();
+        let length = found.map_or(0, char::len_utf8);
+        let found = found.map_or("the end".to_owned(), |c| format!("`{c}`"));
+        ExpressionError::new(self.source, format!("expected {what}, found {found}"), self.at..self.at + length)
+    }
+
+    fn list(name: &str, operands: Vec<Tree>, place: Range<usize>) -> Tree {
+        let name = Tree::Atom(name.to_owned(), place.clone());
+        Tree::List(std::iter::once(name).chain(operands).collect(), place)
+    }
+
+    /// One level deeper.
+    fn enter(&mut self) -> Result<(), ExpressionError> {
+        self.skip_blanks();
+        self.depth += 1;
+        if self.depth > MAX_DEPTH { Err(self.expected(&format!("at most {MAX_DEPTH} nested parts"))) } else { Ok(()) }
+    }
+
+    fn choice(&mut self) -> Result<Tree, ExpressionError> {
+        self.enter()?;
+        let from = self.at;
+        let mut tree = self.operation(1)?;
+        if self.take("?") {
+            let yes = self.choice()?;
+            if !self.take(":") {
+                return Err(self.expected("`:`"));
+            }
+            let no = self.choice()?;
+            tree = Self::list("if", vec![tree, yes, no], from..self.at);
+        }
+        self.skip_blanks();
+        self.depth -= 1;
+        Ok(tree)
+    }
+
+    /// Operands joined by operators that bind at least so tightly.
+    fn operation(&mut self, least: u8) -> Result<Tree, ExpressionError> {
+        self.enter()?;
+        let from = self.at;
+        let mut left = if self.take("-") {
+            let operand = self.operation(SIGN)?;
+            Self::list("-", vec![operand], from..self.at)
+        } else if !self.rest().starts_with("!=") && self.take("!") {
+            let operand = self.operation(SIGN)?;
+            Self::list("not", vec![operand], from..self.at)
+        } else {
+            self.operand()?
+        };
+        loop {
+            self.skip_blanks();
+            let end = left.place().end.max(from);
+            let next = OPERATORS.iter().find(|(sign, tight, _)| *tight >= least && self.rest().starts_with(sign));
+            let Some((sign, tight, name)) = next else { break };
+            self.operators += 1;
+            if self.operators > MAX_OPERATORS {
+                return Err(self.expected(&format!("at most {MAX_OPERATORS} operators")));
+            }
+            self.at += sign.len();
+            // Powers join from the right.
+            let right = self.operation(if *name == "pow" { SIGN } else { tight + 1 })?;
+            let place = from..right.place().end.max(end);
+            left = Self::list(name, vec![left, right], place);
+        }
+        self.depth -= 1;
+        Ok(left)
+    }
+
+    /// A number, a variable, a call, or a formula in brackets.
+    fn operand(&mut self) -> Result<Tree, ExpressionError> {
+        let from = self.at;
+        if self.take("(") {
+            let inner = self.choice()?;
+            return if self.take(")") { Ok(inner) } else { Err(self.expected("`)`")) };
+        }
+        let length = self.word_length();
+        if length == 0 {
+            return Err(self.expected("a number, a name or `(`"));
+        }
+        self.at += length;
+        let word = self.source.text()[from..self.at].to_owned();
+        let name = NAMES.iter().find(|(ours, _)| *ours == word).map_or(word.as_str(), |(_, name)| name).to_owned();
+        if !self.take("(") {
+            return Ok(Tree::Atom(name, from..from + length));
+        }
+        let mut operands = Vec::new();
+        loop {
+            operands.push(self.choice()?);
+            if self.take(")") {
+                return Ok(Self::list(&name, operands, from..self.at));
+            }
+            if !self.take(",") {
+                return Err(self.expected("`,` or `)`"));
+            }
+        }
+    }
+
+    /// Bytes of the name or number here; the sign of an exponent belongs to its number.
+    fn word_length(&self) -> usize {
+        let is_number = self.rest().starts_with(|c: char| c.is_ascii_digit() || c == '.');
+        let is_hexadecimal = self.rest().starts_with("0x");
+        let mut before = ' ';
+        let end = self.rest().find(|c: char| {
+            let exponent = if is_hexadecimal { "pP" } else { "eE" };
+            let is_sign = is_number && exponent.contains(before) && "+-".contains(c);
+            before = c;
+            !(c.is_alphanumeric() || c == '_' || c == '.' || is_sign)
+        });
+        end.unwrap_or(self.rest().len())
+    }
+}

@@ -1,0 +1,37 @@
+//! From text to expressions: FPCore, and formulas in infix notation, both by way of one tree.
+
+mod error;
+mod infix;
+mod numbers;
+mod text;
+mod translate;
+
+pub use error::ExpressionError;
+pub(super) use translate::{bounds, formula};
+
+use std::sync::Arc;
+
+use self::text::Tree;
+use self::translate::core;
+use super::graph::Expression;
+use crate::report::SourceText;
+
+/// Expressions of an FPCore file in order, each with the reason if it cannot be taken.
+///
+/// # Errors
+/// If the text has no balanced brackets, or something outside of `(FPCore ...)`.
+pub(super) fn cores(source: &Arc<SourceText>) -> Result<Vec<Result<Expression, ExpressionError>>, ExpressionError> {
+    let trees = text::parse(source)?;
+    if trees.is_empty() {
+        return Err(ExpressionError::new(
+            source,
+            "expected `(FPCore ...)`, found no expression",
+            0..source.text().len(),
+        ));
+    }
+    let expect = |tree: &Tree| match tree.head() {
+        Some("FPCore") => Ok(core(tree, source)),
+        _ => Err(ExpressionError::new(source, "expected `(FPCore (ARGUMENTS) ... BODY)`", tree.place())),
+    };
+    trees.iter().map(expect).collect()
+}
