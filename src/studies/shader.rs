@@ -63,15 +63,15 @@ pub enum ShaderError {
         errors: Vec<SyntaxError>,
     },
     /// The text is WGSL that has no translation.
-    #[error("`{name}` cannot be translated")]
-    #[diagnostic(code("front::wgsl"))]
+    #[error("`{name}` cannot be translated: {reason}")]
+    #[diagnostic(code("front::wgsl"), help("{}", reason.help()))]
     Refused {
         name: String,
         #[source_code]
         source_code: Arc<SourceText>,
-        /// The reason, with its place.
-        #[related]
-        reasons: [Refusal; 1],
+        reason: Refusal,
+        #[label("here")]
+        span: Option<SourceSpan>,
     },
     /// The program breaks rules of its version or limits of the device.
     #[error("`{name}` is not a legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
@@ -191,7 +191,8 @@ impl ShaderText {
             return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {
                 name: self.name().to_owned(),
                 source_code: self.named_source(),
-                reasons: [reason],
+                span: reason.place().map(SourceSpan::from),
+                reason,
             });
         }
         asm::assemble(self.source.text()).map_err(|found| ShaderError::Syntax {

@@ -124,19 +124,49 @@ impl<'a> Translator<'a> {
             }
             Statement::Call { function, arguments, result } => {
                 let given = arguments.iter().map(|part| self.entry(frame, *part)).collect::<Result<Vec<_>>>()?;
-                let value = self.call(&self.module.functions[*function], &self.info[*function], given, depth)?;
+                let value = self.call_of(*function, given, span, depth)?;
                 if let Some(result) = result {
                     frame.values.insert(*result, Meaning::Value(value));
                 }
                 Ok(())
             }
-            _ => self.builder.refuse("this statement is not translated"),
+            _ => self.refuse_this(),
         }
+    }
+
+    /// A call by a text, in which no variable may have two names.
+    fn call_of(&mut self, callee: Handle<Function>, mut given: Vec<Meaning>, span: Span, depth: usize) -> Result<Value> {
+        let mut outer = std::mem::take(&mut self.accesses);
+        let mut paths = BTreeMap::new();
+        for meaning in &mut given {
+            if let Meaning::Pointer { path, .. } = meaning {
+                self.slots += 1;
+                paths.insert(self.slots, std::mem::replace(path, self.slots));
+            }
+        }
+        let value = self.call(&self.module.functions[callee], &self.info[callee], given, depth)?;
+        let inner = std::mem::take(&mut self.accesses);
+        for (slot, path, _) in inner.iter().filter(|(.., is_written)| *is_written) {
+            let of_parameter = |path: &usize| paths.contains_key(path);
+            let is_alias = |(other, way, _): &(usize, usize, bool)| {
+                other == slot && way != path && (of_parameter(way) || of_parameter(path))
+            };
+            if inner.iter().any(is_alias) {
+                let message = "expected pointers to different variables, found a variable that is written under one name \
+                               and used under another";
+                return Err(Refusal::new(message, place(span).unwrap_or_default())
+                    .with_help("WGSL forbids aliases: pass a copy, or return the value"));
+            }
+        }
+        outer.extend(inner.into_iter().map(|(slot, path, write)| (slot, *paths.get(&path).unwrap_or(&path), write)));
+        self.accesses = outer;
+        Ok(value)
     }
 
     fn store(&mut self, to: &Meaning, value: &[Component]) -> Result {
         let target = match to {
-            Meaning::Pointer { slot, offset, length } if *length == value.len() => {
+            Meaning::Pointer { slot, offset, length, path } if *length == value.len() => {
+                self.accesses.insert((*slot, *path, true));
                 self.variables.get_mut(slot).and_then(|whole| whole.get_mut(*offset..*offset + *length))
             }
             _ => None,
@@ -268,6 +298,7 @@ impl<'a> Translator<'a> {
     ) -> Result {
         let before = self.live;
         self.breaks.push(Exit::default());
+        self.builder.loops.push(self.builder.span);
         while self.live != Component::Bool(false) {
             self.step(place(span))?;
             self.continues.push(Exit::default());
@@ -297,6 +328,7 @@ impl<'a> Translator<'a> {
                 self.live = stay;
             }
         }
+        self.builder.loops.pop();
         let exit = self.breaks.pop().unwrap_or_default();
         self.resume(exit, before);
         Ok(())

@@ -20,9 +20,14 @@ pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
     source_line(place.program, place.at, runs)
 }
 
+/// The line of an instruction; of WGSL, whose lines have several, the expression alone.
 fn source_line(program: usize, instruction: usize, runs: &Runs<'_>) -> SourceLine {
     let studied = &runs.programs[program];
-    studied.text.line(studied.program.instructions[instruction].span)
+    let line = studied.text.line(studied.program.instructions[instruction].span);
+    match studied.program.instruction_text(instruction).filter(|_| studied.text.is_wgsl()) {
+        Some(text) => SourceLine { text, ..line },
+        None => line,
+    }
 }
 
 /// Line number and text of the instruction at a place; with the program's name if there are several.
@@ -34,10 +39,6 @@ pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
 /// As [`named_line`], by the indices of program and instruction.
 pub(super) fn line_cells(program: usize, instruction: usize, runs: &Runs<'_>) -> [Cell; 2] {
     let SourceLine { file, line, text, .. } = source_line(program, instruction, runs);
-    let studied = &runs.programs[program];
-    // A line of WGSL has several expressions.
-    let expression = studied.program.instruction_text(instruction).filter(|_| studied.text.is_wgsl());
-    let text = expression.unwrap_or(text);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }

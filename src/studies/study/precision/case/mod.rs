@@ -16,8 +16,9 @@ use super::subject::{
     ErrorMap, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
     RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
 };
-use crate::case::{Loaded, Setup, trace};
+use crate::case::{CaseError, Loaded, Setup, trace};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
+use crate::shader::ShaderText;
 use crate::study::StudyError;
 use drawn::{DrawnCase, codes};
 use errors::{CaseErrors, FLIP, LARGEST_CODES, MEASURES, SSIM};
@@ -112,23 +113,14 @@ impl PrecisionSubject for CaseSubject {
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let drawn = DrawnCase::new(&self.setup, self.executors.of(executor), profile)?;
-        let [width, height] = self.setup.size;
-        let errors = CaseErrors::new(&drawn, &self.exact, width as usize * height as usize);
-        let known = errors.values().into_iter().filter(|(name, _)| self.measures.iter().any(|m| m.name == *name));
-        let mut values: Vec<(&'static str, f64)> = known.collect();
-        if wanted.is_none_or(|wanted| [SSIM.name, FLIP.name].contains(&wanted)) {
-            let [ours, exact] = [drawn.screen(self.setup.size)?, self.exact.screen(self.setup.size)?];
-            values.extend(ssim(&ours, &exact).map(|ssim| (SSIM.name, ssim)));
-            values.extend(flip(&ours, &exact, DEFAULT_PPD).map(|flip| (FLIP.name, flip.mean)));
-        }
-        let is_shown = wanted.is_none();
-        Ok(Measured {
-            values,
-            worst: errors.worst.map(|worst| self.place(worst, &drawn)),
-            picture: is_shown.then(|| drawn.picture(self.setup.size)),
-            errors: is_shown.then(|| ErrorMap { width, unit: self.exact.unit(), values: errors.off }),
-        })
+        self.measured(&self.setup, profile, executor, wanted)
+    }
+
+    fn measure_text(&self, text: &ShaderText, wanted: &str) -> Result<Option<Measured>, StudyError> {
+        let profile = exact(&self.setup.profile, []);
+        let pixel = text.assemble().and_then(|program| text.check(program, &profile)).map_err(CaseError::from)?;
+        let setup = Setup { pixel, pixel_text: text.clone(), ..self.setup.clone() };
+        Ok(Some(self.measured(&setup, &profile, ExecutorKind::Batch, Some(wanted))?))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
@@ -167,6 +159,33 @@ impl PrecisionSubject for CaseSubject {
 }
 
 impl CaseSubject {
+    /// Draws a case of the same size and targets, and measures it against the exact run.
+    fn measured(
+        &self,
+        setup: &Setup,
+        profile: &Profile,
+        executor: ExecutorKind,
+        wanted: Option<&str>,
+    ) -> Result<Measured, StudyError> {
+        let drawn = DrawnCase::new(setup, self.executors.of(executor), profile)?;
+        let [width, height] = self.setup.size;
+        let errors = CaseErrors::new(&drawn, &self.exact, width as usize * height as usize);
+        let known = errors.values().into_iter().filter(|(name, _)| self.measures.iter().any(|m| m.name == *name));
+        let mut values: Vec<(&'static str, f64)> = known.collect();
+        if wanted.is_none_or(|wanted| [SSIM.name, FLIP.name].contains(&wanted)) {
+            let [ours, exact] = [drawn.screen(self.setup.size)?, self.exact.screen(self.setup.size)?];
+            values.extend(ssim(&ours, &exact).map(|ssim| (SSIM.name, ssim)));
+            values.extend(flip(&ours, &exact, DEFAULT_PPD).map(|flip| (FLIP.name, flip.mean)));
+        }
+        let is_shown = wanted.is_none();
+        Ok(Measured {
+            values,
+            worst: errors.worst.map(|worst| self.place(worst, &drawn)),
+            picture: is_shown.then(|| drawn.picture(self.setup.size)),
+            errors: is_shown.then(|| ErrorMap { width, unit: self.exact.unit(), values: errors.off }),
+        })
+    }
+
     /// Describes the place of a value with the exact one.
     fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> WorstPlace {
         let (ours, exact) = (&drawn.targets[target], &self.exact.targets[target]);
