@@ -172,6 +172,15 @@ impl ShaderText {
         }
     }
 
+    /// Line of an instruction; of WGSL, whose lines have several, with its expression alone.
+    pub fn instruction(&self, program: &Program, index: usize) -> Option<SourceLine> {
+        let line = self.line(program.instructions.get(index)?.span);
+        match program.instruction_text(index).filter(|_| self.is_wgsl()) {
+            Some(text) => Some(SourceLine { text, ..line }),
+            None => Some(line),
+        }
+    }
+
     /// Text with its name, as errors show it.
     pub fn named_source(&self) -> Arc<SourceText> {
         self.source.clone()

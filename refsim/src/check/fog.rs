@@ -16,8 +16,8 @@
 //! because of them is reported at the option. Programs that write no color are not fogged.
 
 use crate::isa::{
-    Destination, FIRST_NAMED, FogMode, FogOption, Instruction, Mask, Modifier, Opcode, Parameter,
-    ParameterSource, Program, Register, RegisterFile, Source, StateBinding, Swizzle,
+    Destination, FIRST_NAMED, FogMode, FogOption, Instruction, Mask, Modifier, Opcode, Parameter, ParameterSource,
+    Program, Register, RegisterFile, Source, StateBinding, Swizzle,
 };
 
 /// Replaces the program's fog option by instructions.

@@ -163,7 +163,8 @@ impl WgslOperation {
                 part = inside;
             }
             // A number beside a vector is one component.
-            let is_number = part.len() == 1 && own[part[0].start..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
+            let is_number =
+                part.len() == 1 && own[part[0].start..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
             let name = if is_number { "f32" } else { name };
             if let Form::CallOfF32 = form {
                 cast(part, format!("{name}("))?;
@@ -186,7 +187,8 @@ impl WgslOperation {
             // There and back again: a result in f16 is an operand in f16.
             let is_back = |last: &&&Cast| {
                 let name = cast.open.strip_suffix('(').filter(|name| !name.contains('('));
-                (last.start, last.end) == (cast.start, cast.end) && name.is_some_and(|name| last.open == half(name) + "(")
+                (last.start, last.end) == (cast.start, cast.end)
+                    && name.is_some_and(|name| last.open == half(name) + "(")
             };
             match kept.last().filter(is_back) {
                 Some(_) => drop(kept.pop()),

@@ -188,11 +188,13 @@ const ROWS: &[Row] = &[
 /// Holds every row for 256 operands: a from -4 to 4, b from 1/4 to 4, c from 0 to 1, d from -3 to 3.
 fn hold(kind: Kind, name: &str, bits: u32) {
     for (at, (expression, allowed)) in (0..).zip(ROWS) {
-        let texels = texels(at, bits, |[a, b, c, d]| [a * 8.0 - 4.0, b * 3.75 + 0.25, c, d * 6.0 - 3.0].map(|x| {
-            // Of as many bits as the type has.
-            let unit = kind.ulp(f64::from(x)) as f32;
-            (x / unit).round_ties_even() * unit
-        }));
+        let texels = texels(at, bits, |[a, b, c, d]| {
+            [a * 8.0 - 4.0, b * 3.75 + 0.25, c, d * 6.0 - 3.0].map(|x| {
+                // Of as many bits as the type has.
+                let unit = kind.ulp(f64::from(x)) as f32;
+                (x / unit).round_ties_even() * unit
+            })
+        });
         let own = expression.replace("V2", &format!("vec2<{name}>")).replace("V3", &format!("vec3<{name}>"));
         let own = own.replace('T', name);
         let text = format!(
@@ -206,7 +208,10 @@ fn hold(kind: Kind, name: &str, bits: u32) {
             let [low, high] = allowed(kind, texel.map(|x| [f64::from(x); 2]));
             let found = pixel[0];
             let refuses = low.is_nan() || high.is_nan();
-            assert!(refuses || (low..=high).contains(&found), "{expression} in {name} of {texel:?}: {found} is not in {low}..={high}");
+            assert!(
+                refuses || (low..=high).contains(&found),
+                "{expression} in {name} of {texel:?}: {found} is not in {low}..={high}"
+            );
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Shaders in WGSL: what they become, what they compute, and what is refused.
 
+mod accuracy;
 #[path = "../common/adapter.rs"]
 mod adapter;
-mod accuracy;
 mod builtins;
 mod drawn;
 mod half;

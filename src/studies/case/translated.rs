@@ -79,10 +79,12 @@ impl Binder<'_> {
             sources.find(|register| register.file == RegisterFile::Sampler).map(|register| usize::from(register.index))
         };
         let read = program.instructions.iter().filter_map(|instruction| Some((reads(instruction)?, instruction.span)));
-        let Some((slot, span)) = read.into_iter().find(|(slot, _)| text.is_wgsl() && !textures.contains_key(slot)) else {
+        let Some((slot, span)) = read.into_iter().find(|(slot, _)| text.is_wgsl() && !textures.contains_key(slot))
+        else {
             return Ok(());
         };
-        let of = if self.name == text.name() { "a shader alone has none: write a case with" } else { "add to the case" };
+        let of =
+            if self.name == text.name() { "a shader alone has none: write a case with" } else { "add to the case" };
         let help = format!(
             "{of} `[[texture]]`, `slot = {slot}`, `format = \"rgba8\"` and `file = \"picture.png\"` (docs/cases.md); \
              slots count the textures of the text from 0"

@@ -6,8 +6,8 @@ use naga::{
     Scalar, ScalarKind, TypeInner, UnaryOperator, VectorSize,
 };
 
-use super::super::half::{Form, WgslOperation};
 use super::super::Refusal;
+use super::super::half::{Form, WgslOperation};
 use super::translator::{Frame, Meaning, Translator, place};
 use super::values::{Component, Value, is_half, part, scalar};
 use super::with_arguments;
@@ -46,12 +46,7 @@ impl<'a> Translator<'a> {
         Ok(entry)
     }
 
-    fn computed(
-        &mut self,
-        frame: &mut Frame<'a>,
-        handle: Handle<Expression>,
-        span: Option<Span>,
-    ) -> Result<Meaning> {
+    fn computed(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>, span: Option<Span>) -> Result<Meaning> {
         let function = frame.function;
         let expression = &function.expressions[handle];
         let kind = scalar(self.type_of(frame, handle));

@@ -36,6 +36,10 @@ const STACK: usize = 1 << 28;
 type Translation = (Program, Vec<WgslOperation>);
 
 pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
+    // A page has no threads; its host ends a module whose stack is full.
+    if cfg!(target_family = "wasm") {
+        return translated(text);
+    }
     thread::scope(|scope| {
         let work = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || translated(text));
         match work.map(thread::ScopedJoinHandle::join) {
@@ -54,7 +58,7 @@ fn translated(text: &str) -> Result<Translation, Refusal> {
     let info = Validator::new(ValidationFlags::all(), CAPABILITIES).validate(&module);
     let info = info.map_err(|error| {
         let span = error.spans().next().and_then(|(span, _)| place(*span)).unwrap_or_default();
-        Refusal::new(causes(error.as_inner()), span).with_help("the text is no valid WGSL")
+        Refusal::new(first_cause(error.as_inner()), span).with_help("the text is no valid WGSL")
     })?;
     let fragments: Vec<usize> =
         (0..module.entry_points.len()).filter(|i| module.entry_points[*i].stage == ShaderStage::Fragment).collect();
@@ -82,7 +86,8 @@ fn parsed(text: &str) -> Result<Module, Refusal> {
     let options = Options { parse_doc_comments: false, capabilities: CAPABILITIES };
     Frontend::new_with_options(options).parse(text).map_err(|error| {
         let (span, label) = error.labels().next().map(|(span, label)| (place(span), label)).unwrap_or_default();
-        let notes: Vec<&str> = Some(label).filter(|label| !label.is_empty()).into_iter().chain(error.notes()).collect();
+        let is_news = |note: &&str| !note.is_empty() && *note != "see msg" && !error.message().contains(note);
+        let notes: Vec<&str> = std::iter::once(label).chain(error.notes()).filter(is_news).collect();
         let help = if notes.is_empty() { "the text is no valid WGSL".to_owned() } else { notes.join("; ") };
         Refusal::new(error.message(), span.unwrap_or_default()).with_help(help)
     })
@@ -99,10 +104,10 @@ fn with_arguments(text: &str, span: Span) -> Span {
     closes.map_or(span, |at| Span::new(span.start, span.end + at as u32 + 1))
 }
 
-/// A message with its causes.
-fn causes(error: &dyn std::error::Error) -> String {
-    let sources = std::iter::successors(error.source(), |source| source.source());
-    sources.fold(error.to_string(), |message, source| format!("{message}: {source}"))
+/// The first cause of an error, which says what is wrong; those before it number naga's parts.
+fn first_cause(error: &dyn std::error::Error) -> String {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    causes.last().map(ToString::to_string).unwrap_or_default()
 }
 
 impl Translator<'_> {

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use naga::valid::FunctionInfo;
-use naga::{Block, Expression, Function, Handle, Span, Statement, SwitchValue};
+use naga::{Block, Expression, Function, Handle, Literal, Span, Statement, SwitchValue};
 
 use super::super::Refusal;
 use super::translator::{Exit, Frame, Meaning, Translator, Variables, place};
@@ -27,6 +27,16 @@ impl<'a> Translator<'a> {
         depth: usize,
     ) -> Result<Value> {
         let mut frame = Frame { function, info, arguments, locals: BTreeMap::new(), values: BTreeMap::new() };
+        for handle in function.named_expressions.keys() {
+            // naga keeps a `let` of a number without a type at 64 bits.
+            if let Expression::Literal(Literal::AbstractInt(value)) = function.expressions[*handle]
+                && i32::try_from(value).is_err()
+            {
+                let span = place(function.expressions.get_span(*handle)).unwrap_or_default();
+                return Err(Refusal::new(format!("expected a number that an i32 holds, found {value}"), span)
+                    .with_help("write its type: `3000000000u`, `3e9`"));
+            }
+        }
         for (handle, local) in function.local_variables.iter() {
             let value = match local.init {
                 Some(init) => self.value(&mut frame, init)?,
@@ -135,7 +145,13 @@ impl<'a> Translator<'a> {
     }
 
     /// A call by a text, in which no variable may have two names.
-    fn call_of(&mut self, callee: Handle<Function>, mut given: Vec<Meaning>, span: Span, depth: usize) -> Result<Value> {
+    fn call_of(
+        &mut self,
+        callee: Handle<Function>,
+        mut given: Vec<Meaning>,
+        span: Span,
+        depth: usize,
+    ) -> Result<Value> {
         let mut outer = std::mem::take(&mut self.accesses);
         let mut paths = BTreeMap::new();
         for meaning in &mut given {

@@ -185,7 +185,8 @@ impl<'a> Translator<'a> {
     /// The place of a word in the text behind a place, if it is there.
     pub(super) fn word_behind(&self, start: usize, word: &str) -> Option<Span> {
         let is_part = |c: char| c.is_alphanumeric() || c == '_';
-        let mut found = self.text.get(start..)?.match_indices(word).map(|(at, _)| (start + at, start + at + word.len()));
+        let mut found =
+            self.text.get(start..)?.match_indices(word).map(|(at, _)| (start + at, start + at + word.len()));
         let is_whole = |(from, to): &(usize, usize)| {
             !self.text[..*from].ends_with(is_part) && !self.text[*to..].starts_with(is_part)
         };
@@ -253,7 +254,10 @@ impl<'a> Translator<'a> {
             Expression::Constant(constant) => return self.constant(module.constants[*constant].init),
             Expression::Override(handle) => match module.overrides[*handle].init {
                 Some(init) => return self.constant(init),
-                None => return self.builder.refuse("an override needs a value in the text"),
+                None => {
+                    let name = module.overrides[*handle].name.as_deref().unwrap_or_default();
+                    return self.builder.refuse(format!("`override {name}` has no value in the text"));
+                }
             },
             Expression::ZeroValue(ty) => return self.zeros(&module.types[*ty].inner),
             _ => return self.refuse_this(),

@@ -72,6 +72,7 @@ pub(super) fn rewritten(found: &[HalfExpression], runs: &Runs<'_>) -> Option<Sha
     let known = operations(studied.text);
     let chosen = found.iter().filter(|expression| expression.together);
     let chosen = chosen.flat_map(|expression| spans(expression.place, runs)).collect::<BTreeSet<_>>();
-    let text = WgslOperation::in_half(studied.text.named_source().text(), chosen.iter().filter_map(|span| known.get(span)));
+    let text =
+        WgslOperation::in_half(studied.text.named_source().text(), chosen.iter().filter_map(|span| known.get(span)));
     Some(ShaderText::new("half.wgsl", text))
 }

@@ -10,10 +10,8 @@ use crate::study::StudyError;
 /// Adds the table, the sentence at the top, and the rewritten shader.
 pub(super) fn report(found: &mut Findings, rows: &[HalfExpression], runs: &Runs<'_>) -> Result<(), StudyError> {
     let Some(text) = rewritten(rows, runs).filter(|_| !rows.is_empty()) else { return Ok(()) };
-    let mut table = Table::new(
-        "Half precision",
-        &["line", "expression", "alone", "may be f16", "refuted at column, row"],
-    );
+    let mut table =
+        Table::new("Half precision", &["line", "expression", "alone", "may be f16", "refuted at column, row"]);
     for row in rows {
         let may = match (row.together, runs.goal.met(row.alone)) {
             (true, _) => "yes",

@@ -1,5 +1,7 @@
 //! Tables of the study.
 
+use refsim::isa::Span;
+
 use super::bits::FormatBits;
 use super::instructions::InstructionNeeds;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
@@ -20,14 +22,10 @@ pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
     source_line(place.program, place.at, runs)
 }
 
-/// The line of an instruction; of WGSL, whose lines have several, the expression alone.
 fn source_line(program: usize, instruction: usize, runs: &Runs<'_>) -> SourceLine {
     let studied = &runs.programs[program];
-    let line = studied.text.line(studied.program.instructions[instruction].span);
-    match studied.program.instruction_text(instruction).filter(|_| studied.text.is_wgsl()) {
-        Some(text) => SourceLine { text, ..line },
-        None => line,
-    }
+    // Places of a study are instructions of its programs.
+    studied.text.instruction(studied.program, instruction).unwrap_or_else(|| studied.text.line(Span::default()))
 }
 
 /// Line number and text of the instruction at a place; with the program's name if there are several.

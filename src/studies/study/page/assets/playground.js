@@ -149,7 +149,7 @@ const playControls = ({ devices, examples }) => {
   names("play-device", "Device", []);
   names("play-other", "Compared with", [""]);
   example.onchange = () => {
-    choosePlayed({ ...examples[Number(example.value)], other: null });
+    choosePlayed(examples[Number(example.value)]);
     play();
   };
   let waiting = null;
@@ -186,7 +186,7 @@ const beginPlayground = async () => {
   if (!playground.ask) { return; }
   const begun = JSON.parse(await playground.ask({ text: "", device: "" }));
   playControls(begun);
-  choosePlayed(linkedRequest() ?? { ...begun.examples[0], other: { device: "r300" } });
+  choosePlayed(linkedRequest() ?? begun.examples[0]);
   await play();
   at("playground").parentElement.dataset.state = "ready";
 };

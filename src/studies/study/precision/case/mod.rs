@@ -3,9 +3,11 @@
 mod drawn;
 mod errors;
 
+use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use refsim::device::Profile;
+use refsim::isa::{Destination, Instruction, Register, RegisterFile};
 use refsim::machine::ExecutorKind;
 
 use super::executors::SubjectExecutors;
@@ -13,8 +15,8 @@ use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
 use super::steps::{first_results, step_results, with_rounded};
 use super::subject::{
-    ErrorMap, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
-    RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
+    ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
+    RefutingDevices, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
 };
 use crate::case::{CaseError, Loaded, Setup, trace};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
@@ -139,13 +141,16 @@ impl PrecisionSubject for CaseSubject {
     }
 
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let all = self.sampled(exact, |_| true)?;
+        let all = self.sampled(&self.setup, exact, |_| true)?;
         let of = |rounded: &RoundedInstruction| {
             let device = with_rounded(exact, &self.setup.pixel, *rounded);
-            let mut found = self.sampled(&device, |instruction| instruction == rounded.instruction)?;
+            let mut found = self.sampled(&self.setup, &device, |instruction| instruction == rounded.instruction)?;
             Ok(found.remove(&rounded.instruction).unwrap_or_default())
         };
-        let rounded = rounded.iter().map(of).collect::<Result<_, StudyError>>()?;
+        let rounded = match self.rounded_copies(exact, rounded)? {
+            Some(found) => found,
+            None => rounded.iter().map(of).collect::<Result<_, StudyError>>()?,
+        };
         Ok(SampledResults { exact: vec![all], rounded })
     }
 
@@ -204,14 +209,59 @@ impl CaseSubject {
         WorstPlace { text, pixel: Some([x as u32, y as u32]) }
     }
 
-    /// First results of the wanted instructions in the fragments of evenly spread pixels.
-    fn sampled(&self, device: &Profile, is_wanted: impl Fn(usize) -> bool) -> Result<InstructionResults, StudyError> {
-        let setup = self.setup.on_device(device.clone())?;
+    /// Results of rounded instructions of a translated shader, in one draw for each format: in front of each instruction
+    /// stands a copy that writes to a register that nothing reads. `None` if the program has no such register.
+    fn rounded_copies(
+        &self,
+        exact: &Profile,
+        rounded: &[RoundedInstruction],
+    ) -> Result<Option<Vec<FragmentResults>>, StudyError> {
+        let program = &self.setup.pixel;
+        let temporaries = program.instructions.iter().filter_map(|instruction| instruction.destination);
+        let temporaries = temporaries.map(|to| to.register).filter(|register| register.file == RegisterFile::Temp);
+        let Some(free) = temporaries.map(|register| register.index + 1).max() else { return Ok(None) };
+        let mut found = Vec::new();
+        for group in rounded.chunk_by(|a, b| a.format == b.format) {
+            let (mut copied, mut copies) = ((**program).clone(), BTreeMap::new());
+            copied.instructions.clear();
+            for (at, instruction) in program.instructions.iter().enumerate() {
+                let to = instruction.destination.filter(|to| to.register.file == RegisterFile::Temp);
+                if let Some(to) = to.filter(|_| group.iter().any(|rounded| rounded.instruction == at)) {
+                    copies.insert(at, copied.instructions.len());
+                    let destination = Some(Destination { register: Register { index: free, ..to.register }, ..to });
+                    copied.instructions.push(Instruction { destination, ..instruction.clone() });
+                }
+                copied.instructions.push(instruction.clone());
+            }
+            let Ok(pixel) = self.setup.pixel_text.check(copied, exact) else { return Ok(None) };
+            let is_complete = group.iter().all(|rounded| copies.contains_key(&rounded.instruction));
+            if !(self.setup.pixel_text.is_wgsl() && is_complete) {
+                return Ok(None);
+            }
+            let mut device = exact.clone();
+            device.set_instruction_formats(&pixel, copies.values().map(|at| (*at, group[0].format)).collect());
+            let setup = Setup { pixel, ..self.setup.clone() };
+            let mut results =
+                self.sampled(&setup, &device, |instruction| copies.values().any(|at| *at == instruction))?;
+            let of = |rounded: &RoundedInstruction| results.remove(&copies[&rounded.instruction]).unwrap_or_default();
+            found.extend(group.iter().map(of));
+        }
+        Ok(Some(found))
+    }
+
+    /// First results of the wanted instructions of a case in the fragments of evenly spread pixels.
+    fn sampled(
+        &self,
+        setup: &Setup,
+        device: &Profile,
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Result<InstructionResults, StudyError> {
+        let setup = setup.on_device(device.clone())?;
         let [width, height] = self.setup.size;
         let count = width as usize * height as usize;
         let step = count.div_ceil(TRACED).max(1);
         let pixels: Vec<(u32, u32)> = (0..count as u32).step_by(step).map(|at| (at % width, at / width)).collect();
         let traces = Loaded::new(&setup, &self.executors.batch)?.trace(&pixels)?;
-        Ok(first_results(device, &self.setup.pixel, (0, traces.iter().flatten()), is_wanted))
+        Ok(first_results(device, &setup.pixel, (0, traces.iter().flatten()), is_wanted))
     }
 }
