@@ -31,7 +31,7 @@ pub(crate) fn rewritten_texts_have_the_bits_of_formats() {
         assert!(operations.len() > 3, "{}: {operations:?}", row.name);
         let mut number = draw(seed, 24);
         // The first time all, except derivatives: `fwidth` rounds within, and WGSL has it in f32 alone.
-        for share in [1.0, 0.7, 0.3, 0.1] {
+        for share in [1.0, 0.4] {
             let is_chosen = |operation: &&WgslOperation| {
                 !text[operation.span.start as usize..].starts_with("fwidth") && number() < share
             };
@@ -81,7 +81,7 @@ pub(crate) fn straight_programs_compute_what_ieee_half_computes() {
         ("fma(A, B, 0.3h)", |a, b| ((a * b).value + to_half(0.3)).value),
     ];
     let mut compared = 0;
-    for seed in 0..40 {
+    for seed in 0..20 {
         let mut number = draw(seed, 20);
         let mut below = |count: usize| (number() * count as f32) as usize;
         let (mut lines, mut steps) = (String::new(), Vec::new());
@@ -111,5 +111,5 @@ pub(crate) fn straight_programs_compute_what_ieee_half_computes() {
             compared += 1;
         }
     }
-    assert!(compared > 5_000, "{compared} pixels are too few");
+    assert!(compared > 2_500, "{compared} pixels are too few");
 }
