@@ -6,7 +6,7 @@ use rustc_apfloat::ieee::{Half, Single};
 use rustc_apfloat::{Float, FloatConvert, Round};
 
 use super::drawn::{Inputs, draw, drawn_of, texels};
-use super::rows::{ROWS, SMALL};
+use super::rows::rows;
 use super::texts::EXAMPLES;
 
 /// The instructions of operations: moves between them compute nothing.
@@ -25,7 +25,7 @@ fn instructions(program: &Program, operations: &[&WgslOperation]) -> Vec<usize> 
 /// The rewritten text computes what the program computes with the same operations in a format of 5 and 10 bits.
 pub(crate) fn rewritten_texts_have_the_bits_of_formats() {
     let texels = texels(1, 24, |texel| texel);
-    for (seed, row) in (0..).zip(ROWS.iter().chain(SMALL)) {
+    for (seed, row) in (0..).zip(rows()) {
         let text = row.text();
         let operations = wgsl_operations(&text).expect("a translation");
         assert!(operations.len() > 3, "{}: {operations:?}", row.name);

@@ -15,7 +15,6 @@ mod texts;
 fn main() -> std::process::ExitCode {
     let mut trials = adapter::trials![
         on_host: builtins::functions_compute_their_formulas,
-        builtins::half_precision_rounds_each_step,
         builtins::control_flow_keeps_the_values_of_each_fragment,
         accuracy::functions_are_as_accurate_as_wgsl_demands_in_f32,
         accuracy::functions_are_as_accurate_as_wgsl_demands_in_f16,

@@ -6,7 +6,7 @@ use refsim::exec::gpu::Gpu;
 use refsim::machine::Executor;
 
 use super::drawn::{Inputs, SIDE, drawn_of, drawn_with, texels};
-use super::rows::{ROWS, Row, SMALL};
+use super::rows::{Row, rows};
 
 /// How far a component may be off. What WGSL allows differs by function and argument; of these shaders GGX, whose
 /// quotient of small numbers is bright, has the largest difference on lavapipe: 2e-5. Noise multiplies a sine, of which
@@ -61,12 +61,12 @@ fn native_text(row: &Row) -> String {
 pub(crate) fn shaders_compute_what_a_driver_computes(gpu: &Arc<Gpu>) {
     let texels = texels(2, 24, |texel| texel);
     let words: Vec<u32> = texels.iter().flatten().map(|x| x.to_bits()).collect();
-    for row in ROWS.iter().chain(SMALL) {
+    for row in rows() {
         let text = row.text();
         let inputs = Inputs { uniforms: row.uniforms, texels: &texels, half: &|_| Vec::new() };
         let emulated = drawn_of(&text, &inputs);
         assert_eq!(emulated, drawn_with(Executor::Gpu { gpu: gpu.clone() }, &text, &inputs), "{}", row.name);
-        let made = gpu.compute(&native_text(row), "run", &[&words], (SIDE * SIDE * 4) as usize, [1, 1, 1]);
+        let made = gpu.compute(&native_text(&row), "run", &[&words], (SIDE * SIDE * 4) as usize, [1, 1, 1]);
         let made = made.unwrap_or_else(|error| panic!("{}: {error}", row.name));
         let mut largest = 0_f64;
         for (ours, native) in emulated.iter().zip(made.chunks(4)) {

@@ -416,7 +416,7 @@ impl<'a> Translator<'a> {
             B::Greater => Opcode::Sgt,
             B::GreaterEqual => Opcode::Sge,
             B::Divide => return self.builder.divide(a, b),
-            B::Modulo => return self.builder.remainder(a, b),
+            B::Modulo => return self.builder.function("remainder", &[a.to_vec(), b.to_vec()]),
             _ => return self.builder.refuse("bit operations are not translated"),
         };
         self.builder.op(opcode, &[a, b])

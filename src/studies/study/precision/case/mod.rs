@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use refsim::device::Profile;
-use refsim::isa::{Destination, Instruction, Register, RegisterFile};
+use refsim::isa::{Destination, Instruction, Program, Register, RegisterFile};
 use refsim::machine::ExecutorKind;
 
 use super::executors::SubjectExecutors;
@@ -216,33 +216,29 @@ impl CaseSubject {
         exact: &Profile,
         rounded: &[RoundedInstruction],
     ) -> Result<Option<Vec<FragmentResults>>, StudyError> {
-        let program = &self.setup.pixel;
-        let temporaries = program.instructions.iter().filter_map(|instruction| instruction.destination);
-        let temporaries = temporaries.map(|to| to.register).filter(|register| register.file == RegisterFile::Temp);
-        let Some(free) = temporaries.map(|register| register.index + 1).max() else { return Ok(None) };
+        let (program, text) = (&self.setup.pixel, &self.setup.pixel_text);
+        let written = program.instructions.iter().filter_map(|instruction| Some(instruction.destination?.register));
+        let free =
+            written.filter(|register| register.file == RegisterFile::Temp).map(|register| register.index + 1).max();
+        let Some(index) = free.filter(|_| text.is_wgsl()) else { return Ok(None) };
         let mut found = Vec::new();
         for group in rounded.chunk_by(|a, b| a.format == b.format) {
-            let (mut copied, mut copies) = ((**program).clone(), BTreeMap::new());
-            copied.instructions.clear();
+            let (mut instructions, mut copies) = (Vec::new(), BTreeMap::new());
             for (at, instruction) in program.instructions.iter().enumerate() {
-                let to = instruction.destination.filter(|to| to.register.file == RegisterFile::Temp);
-                if let Some(to) = to.filter(|_| group.iter().any(|rounded| rounded.instruction == at)) {
-                    copies.insert(at, copied.instructions.len());
-                    let destination = Some(Destination { register: Register { index: free, ..to.register }, ..to });
-                    copied.instructions.push(Instruction { destination, ..instruction.clone() });
+                if group.iter().any(|rounded| rounded.instruction == at) {
+                    copies.insert(at, instructions.len());
+                    let register = Register::new(RegisterFile::Temp, index);
+                    let destination = instruction.destination.map(|to| Destination { register, ..to });
+                    instructions.push(Instruction { destination, ..instruction.clone() });
                 }
-                copied.instructions.push(instruction.clone());
+                instructions.push(instruction.clone());
             }
-            let Ok(pixel) = self.setup.pixel_text.check(copied, exact) else { return Ok(None) };
-            let is_complete = group.iter().all(|rounded| copies.contains_key(&rounded.instruction));
-            if !(self.setup.pixel_text.is_wgsl() && is_complete) {
-                return Ok(None);
-            }
+            let copied = Program { instructions, ..(**program).clone() };
+            let Ok(pixel) = text.check(copied, exact) else { return Ok(None) };
             let mut device = exact.clone();
             device.set_instruction_formats(&pixel, copies.values().map(|at| (*at, group[0].format)).collect());
             let setup = Setup { pixel, ..self.setup.clone() };
-            let mut results =
-                self.sampled(&setup, &device, |instruction| copies.values().any(|at| *at == instruction))?;
+            let mut results = self.sampled(&setup, &device, |at| copies.values().any(|copy| *copy == at))?;
             let of = |rounded: &RoundedInstruction| results.remove(&copies[&rounded.instruction]).unwrap_or_default();
             found.extend(group.iter().map(of));
         }
