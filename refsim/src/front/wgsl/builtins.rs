@@ -76,10 +76,12 @@ impl Formula<'_> {
     fn sum(&mut self) -> Result {
         let mut value = self.product()?;
         loop {
-            let opcode = match (self.accepts('+'), self.accepts('-')) {
-                (true, _) => Opcode::Add,
-                (_, true) => Opcode::Sub,
-                _ => return Ok(value),
+            let opcode = if self.accepts('+') {
+                Opcode::Add
+            } else if self.accepts('-') {
+                Opcode::Sub
+            } else {
+                return Ok(value);
             };
             let right = self.product()?;
             value = self.builder.op(opcode, &[&value, &right])?;
