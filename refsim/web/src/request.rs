@@ -1,11 +1,10 @@
 //! The request of the page, and the answer.
 
 use crossbar_base::compare::{TargetFormats, TraceSide, first_difference};
-use refsim::asm::{SyntaxError, assemble};
+use refsim::asm::assemble;
 use refsim::check::{Checked, check};
 use refsim::device::Profile;
 use refsim::exec::{Constants, ResolvedConstants};
-use refsim::front::translate_wgsl;
 use refsim::isa::{Program, Span};
 use refsim::machine::{ExecutorKind, FragmentTrace, MachineError};
 use refsim::num::{Format, FormatError};
@@ -129,19 +128,11 @@ impl Side {
             set.map_err(|error: FormatError| refused(&error, help))?;
         }
         profile.limits.set_step_budget(STEP_BUDGET);
-        let program = if text.contains("@fragment") {
-            translate_wgsl(text).map_err(|reason| {
-                vec![match reason.place() {
-                    Some(span) => Remark::new(text, span, reason.to_string(), reason.help().to_owned()),
-                    None => Remark::about_nothing(reason.to_string(), reason.help()),
-                }]
-            })?
-        } else {
-            assemble(text).map_err(|found| {
-                let remark = |error: &SyntaxError| Remark::new(text, error.span, error.to_string(), error.help.clone());
-                found.errors.iter().map(remark).collect::<Vec<_>>()
-            })?
-        };
+        let program = assemble(text).map_err(|found| {
+            let remark =
+                |error: &refsim::asm::SyntaxError| Remark::new(text, error.span, error.to_string(), error.help.clone());
+            found.errors.iter().map(remark).collect::<Vec<_>>()
+        })?;
         let program = check(program, &profile).map_err(|report| {
             let remark = |violation: &refsim::check::Violation| {
                 Remark::new(text, violation.span, violation.message.clone(), violation.help.clone())

@@ -36,10 +36,6 @@ const STACK: usize = 1 << 28;
 type Translation = (Program, Vec<WgslOperation>);
 
 pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
-    // A page has no threads; its host ends a module whose stack is full.
-    if cfg!(target_family = "wasm") {
-        return translated(text);
-    }
     thread::scope(|scope| {
         let work = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || translated(text));
         match work.map(thread::ScopedJoinHandle::join) {

@@ -215,23 +215,14 @@ fn playground(has_emulator: bool) -> Markup {
             h2 #playground { "Your own program" }
             @if has_emulator {
                 p {
-                    "The emulator itself runs in this page: write a program in a language of Direct3D or OpenGL, or a fragment \
-                     shader in WGSL, and choose a device and a pixel. Your GPU draws the shader, too. Texture coordinates 0 \
-                     go from (0, 0) to (1, 1), 1 from -1 to 1; samplers 0 to 3 hold a checkerboard, a gradient, normals \
-                     and a ramp. Uniforms are 0."
+                    "The emulator itself runs in this page: write a program in a language of Direct3D or OpenGL, choose a device \
+                     and a pixel. Texture coordinates 0 go from (0, 0) to (1, 1), 1 from -1 to 1; samplers 0 to 3 hold a \
+                     checkerboard, a gradient, normals and a ramp."
                 }
                 div.stand {
                     div.chooser {
-                        div {
-                            canvas #play-picture tabindex="0" role="application"
-                                aria-label="Picture: arrow keys choose a pixel" aria-describedby="play-said" {}
-                        }
-                        @for (id, caption) in [("play-other-picture", "on the other device"), ("play-own-picture", "on your GPU")] {
-                            figure hidden {
-                                canvas id=(id) {}
-                                figcaption { (caption) }
-                            }
-                        }
+                        canvas #play-picture tabindex="0" role="application" aria-label="Picture: arrow keys choose a pixel"
+                            aria-describedby="play-said" {}
                         form #play-controls aria-label="Device and program" {}
                         p { a #play-link href="#playground" { "Link to this program" } }
                     }

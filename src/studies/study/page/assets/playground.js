@@ -44,44 +44,7 @@ const playRequest = () => {
   return at("play-other").value ? { ...request, other: device("play-other") } : request;
 };
 
-const playground = { ask: null, pixel: [9, 9], state: "idle", device: null };
-
-// Red, green and blue of each pixel that the visitor's GPU draws of a fragment shader in WGSL; or a sentence on why it
-// draws none.
-const ownPicture = async (text, side) => {
-  const [, type] = text.match(/@location\(0\)\s*\w+\s*:\s*(f32|vec[234]f|vec[234]<f32>)/) ?? [];
-  if (!type || /var\s*<\s*uniform|texture_2d|@location\([1-9]\)\s*\w+\s*:/.test(text)) {
-    return "Your GPU draws here what reads @location(0) alone: write constants in place of uniforms.";
-  }
-  playground.device ??= await (await navigator.gpu?.requestAdapter())?.requestDevice();
-  const device = playground.device;
-  if (!device) { return "This browser has no WebGPU here, so your GPU draws nothing."; }
-  const value = { f: "at.x", 2: "at", 3: "vec3f(at, 0.0)", 4: "vec4f(at, 0.0, 1.0)" }[type === "f32" ? "f" : type[3]];
-  const corners = `struct Corner { @builtin(position) place: vec4f, @location(0) at: ${type} }
-    @vertex fn corner(@builtin(vertex_index) i: u32) -> Corner {
-      let at = vec2f(f32(i & 1u), f32(i >> 1u)) * 2.0;
-      return Corner(vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, 0.0, 1.0), ${value});
-    }`;
-  const [vertex, module] = [corners, text].map((code) => device.createShaderModule({ code }));
-  const wrong = (await module.getCompilationInfo()).messages.find(({ type: kind }) => kind === "error");
-  if (wrong) { return `Your browser refuses line ${wrong.lineNum}: ${wrong.message}`; }
-  const format = "rgba8unorm";
-  const pipeline = await device.createRenderPipelineAsync({
-    layout: "auto", vertex: { module: vertex }, fragment: { module, targets: [{ format }] },
-  });
-  const target = device.createTexture({ size: [side, side], format, usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
-  const bytesPerRow = 256 * Math.ceil(side / 64);
-  const buffer = storageOf(device, new Uint32Array(bytesPerRow * side / 4));
-  const encoder = device.createCommandEncoder();
-  const pass = encoder.beginRenderPass({ colorAttachments: [{ view: target.createView(), loadOp: "clear", storeOp: "store" }] });
-  pass.setPipeline(pipeline);
-  pass.draw(3);
-  pass.end();
-  encoder.copyTextureToBuffer({ texture: target }, { buffer, bytesPerRow }, [side, side]);
-  device.queue.submit([encoder.finish()]);
-  const bytes = new Uint8Array((await readBack(device, buffer, 0, bytesPerRow * side / 4)).buffer);
-  return Array.from({ length: side * side * 3 }, (_, k) => bytes[Math.floor(k / (3 * side)) * bytesPerRow + Math.floor((k / 3) % side) * 4 + (k % 3)]);
-};
+const playground = { ask: null, pixel: [9, 9], state: "idle" };
 
 const showRemarks = ({ errors, warnings }) => {
   const list = at("remarks");
@@ -102,16 +65,12 @@ const showRemarks = ({ errors, warnings }) => {
   at("program-text").setAttribute("aria-invalid", String(errors.length > 0));
 };
 
-// Sentence on how a picture differs from that of the device.
-const differs = (picture, other, where) => {
-  const off = Array.from({ length: picture.length / 3 }, (_, p) => Math.max(...[0, 1, 2].map((c) => Math.abs(picture[3 * p + c] - other[3 * p + c]))));
-  const [different, most] = [off.filter((codes) => codes > 0).length, off.reduce((a, b) => Math.max(a, b), 0)];
-  return `${counted(different, "pixel")} of the picture differ ${where}${most > 0 ? `, by up to ${most} of 255` : ""}.`;
-};
+const differentPixels = ({ drawn, other }) => (
+  drawn && other ? Array.from({ length: drawn.picture.length / 3 }, (_, p) => p).filter((p) => [0, 1, 2].some((c) => drawn.picture[3 * p + c] !== other.picture[3 * p + c])) : []
+);
 
-const showPicture = (id, { side }, drawn) => {
-  const canvas = at(id);
-  canvas.parentElement.hidden = !drawn && id !== "play-picture";
+const showPicture = ({ side, drawn }) => {
+  const canvas = at("play-picture");
   Object.assign(canvas, { width: side * PLAY_CELL, height: side * PLAY_CELL });
   const context = canvas.getContext("2d");
   for (let p = 0; drawn && p < side * side; p += 1) {
@@ -123,7 +82,7 @@ const showPicture = (id, { side }, drawn) => {
   context.strokeRect(x * PLAY_CELL, y * PLAY_CELL, PLAY_CELL, PLAY_CELL);
 };
 
-const showPlayTrace = ({ trace, difference, other, drawn }, own) => {
+const showPlayTrace = ({ trace, difference, other, drawn }) => {
   const body = at("play-trace");
   body.replaceChildren();
   const texts = at("program-text").value.split("\n");
@@ -140,12 +99,12 @@ const showPlayTrace = ({ trace, difference, other, drawn }, own) => {
   const [x, y] = playground.pixel;
   const words = [trace ? `Pixel (${x}, ${y}) in ${drawn.format}: ${trace.outcome}.` : ""];
   if (other) {
-    words.push(differs(drawn.picture, other.picture, `in ${other.format}`));
+    const different = differentPixels({ drawn, other }).length;
+    words.push(`${counted(different, "pixel")} of the picture differ in ${other.format}.`);
     words.push(difference
       ? `Here both first differ in ${difference.stage}${difference.line ? `, line ${difference.line}` : ""}: ${difference.values.map(({ name, left, right }) => `${name} is ${left} and ${right}`).join("; ")}.`
       : "Here both write the same at every step.");
   }
-  if (own) { words.push(typeof own === "string" ? own : differs(drawn.picture, own, "on your GPU")); }
   at("play-said").textContent = words.join(" ");
 };
 
@@ -159,12 +118,8 @@ const play = async () => {
       const text = await playground.ask(request);
       const found = JSON.parse(text);
       showRemarks(found);
-      showPicture("play-picture", found, found.drawn);
-      showPicture("play-other-picture", found, found.other);
-      const isShader = found.drawn && request.text.includes("@fragment");
-      const own = isShader ? await ownPicture(request.text, found.side).catch((error) => `Your GPU draws nothing: ${error}`) : null;
-      showPicture("play-own-picture", found, Array.isArray(own) ? { picture: own } : null);
-      showPlayTrace(found, own);
+      showPicture(found);
+      showPlayTrace(found);
       Object.assign(at("playground").parentElement.dataset, { request: JSON.stringify(request), answer: text });
     } catch (error) {
       at("play-said").textContent = `The emulator stopped: ${error}`;
@@ -194,7 +149,7 @@ const playControls = ({ devices, examples }) => {
   names("play-device", "Device", []);
   names("play-other", "Compared with", [""]);
   example.onchange = () => {
-    choosePlayed(examples[Number(example.value)]);
+    choosePlayed({ ...examples[Number(example.value)], other: null });
     play();
   };
   let waiting = null;
@@ -231,7 +186,7 @@ const beginPlayground = async () => {
   if (!playground.ask) { return; }
   const begun = JSON.parse(await playground.ask({ text: "", device: "" }));
   playControls(begun);
-  choosePlayed(linkedRequest() ?? begun.examples[0]);
+  choosePlayed(linkedRequest() ?? { ...begun.examples[0], other: { device: "r300" } });
   await play();
   at("playground").parentElement.dataset.state = "ready";
 };
