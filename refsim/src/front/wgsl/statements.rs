@@ -27,16 +27,10 @@ impl<'a> Translator<'a> {
         depth: usize,
     ) -> Result<Value> {
         let mut frame = Frame { function, info, arguments, locals: BTreeMap::new(), values: BTreeMap::new() };
-        for handle in function.named_expressions.keys() {
-            // naga keeps a `let` of a number without a type at 64 bits.
-            if let Expression::Literal(Literal::AbstractInt(value)) = function.expressions[*handle]
-                && i32::try_from(value).is_err()
-            {
-                let span = place(function.expressions.get_span(*handle)).unwrap_or_default();
-                return Err(Refusal::new(format!("expected a number that an i32 holds, found {value}"), span)
-                    .with_help("write its type: `3000000000u`, `3e9`"));
-            }
-        }
+        let names = function.named_expressions.iter().map(|(handle, name)| (*handle, name.as_str()));
+        let locals =
+            function.local_variables.iter().filter_map(|(_, local)| Some((local.init?, local.name.as_deref()?)));
+        names.chain(locals).try_for_each(|(init, name)| self.is_whole_number(function, init, name))?;
         for (handle, local) in function.local_variables.iter() {
             let value = match local.init {
                 Some(init) => self.value(&mut frame, init)?,
@@ -57,6 +51,20 @@ impl<'a> Translator<'a> {
         frame.locals.values().for_each(|slot| drop(self.variables.remove(slot)));
         self.live = before;
         Ok(self.variables.remove(&RESULT).unwrap_or_default())
+    }
+
+    /// Refuses a name without a type for a number that no i32 holds: naga finds another type for it.
+    fn is_whole_number(&self, function: &Function, init: Handle<Expression>, name: &str) -> Result {
+        let expression = &function.expressions[init];
+        let Some(span) = place(function.expressions.get_span(init)) else { return Ok(()) };
+        let (before, own) = (&self.text[..span.start as usize], &self.text[span.start as usize..span.end as usize]);
+        let has_no_type = || before.trim_end().strip_suffix('=').is_some_and(|rest| rest.trim_end().ends_with(name));
+        let is_other = matches!(expression, Expression::Literal(literal) if !matches!(literal, Literal::I32(_)));
+        if is_other && own.bytes().all(|byte| byte.is_ascii_digit()) && has_no_type() {
+            let message = format!("expected a number that an i32 holds, found {own}");
+            return Err(Refusal::new(message, span).with_help(format!("write its type: `{own}u`, `{own}.0`")));
+        }
+        Ok(())
     }
 
     pub(super) fn block(&mut self, frame: &mut Frame<'a>, block: &'a Block, depth: usize) -> Result {
