@@ -24,7 +24,7 @@ struct Cast {
 
 /// How the text of an operation looks.
 #[derive(Clone, Copy)]
-pub(super) enum Form {
+pub(super) enum OperationForm {
     /// A function of all operands.
     Call,
     /// A function that is there in f32 alone: its operands are rounded, and its result.
@@ -109,7 +109,7 @@ impl WgslOperation {
     pub(super) fn new(
         text: &str,
         span: Span,
-        form: Form,
+        form: OperationForm,
         operands: &[Option<String>],
         result: Option<&str>,
     ) -> Option<Self> {
@@ -125,7 +125,7 @@ impl WgslOperation {
         };
         let (mut removed, mut parts) = (None, Vec::new());
         let back = result.map(|name| format!("{name}("));
-        if let Form::Operator(mark) = form {
+        if let OperationForm::Operator(mark) = form {
             let at = tokens.iter().rposition(|token| token.depth == 0 && token.follows && is(token, mark));
             let assigns = format!("{mark}=");
             match tokens.iter().position(|token| token.depth == 0 && is(token, &assigns)) {
@@ -146,7 +146,7 @@ impl WgslOperation {
             }
         } else {
             back.into_iter().try_for_each(|open| cast(&tokens, open))?;
-            if let (Form::CallOfF32, Some(name)) = (form, result) {
+            if let (OperationForm::CallOfF32, Some(name)) = (form, result) {
                 cast(&tokens, format!("{}(", half(name)))?;
             }
             let inside = &tokens[tokens.iter().position(|token| is(token, "("))? + 1..tokens.len().checked_sub(1)?];
@@ -166,12 +166,12 @@ impl WgslOperation {
             let is_number =
                 part.len() == 1 && own[part[0].start..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
             let name = if is_number { "f32" } else { name };
-            if let Form::CallOfF32 = form {
+            if let OperationForm::CallOfF32 = form {
                 cast(part, format!("{name}("))?;
             }
             cast(part, format!("{}(", half(name)))?;
         }
-        let complete = matches!(form, Form::Operator(_)) || parts.len() == operands.len();
+        let complete = matches!(form, OperationForm::Operator(_)) || parts.len() == operands.len();
         complete.then_some(Self { span, casts, removed })
     }
 

@@ -7,7 +7,7 @@ use naga::{
 };
 
 use super::super::Refusal;
-use super::super::half::{Form, WgslOperation};
+use super::super::half::{OperationForm, WgslOperation};
 use super::translator::{Frame, Meaning, Translator, place};
 use super::values::{Component, Value, is_half, part, scalar};
 use super::with_arguments;
@@ -167,13 +167,13 @@ impl<'a> Translator<'a> {
     fn note(&mut self, frame: &Frame<'a>, handle: Handle<Expression>, span: Option<Span>) {
         let expressions = &frame.function.expressions;
         let (form, operands) = match &expressions[handle] {
-            Expression::Binary { op, left, right } => (Form::Operator(symbol(*op)), vec![*left, *right]),
+            Expression::Binary { op, left, right } => (OperationForm::Operator(symbol(*op)), vec![*left, *right]),
             Expression::Math { fun: MathFunction::QuantizeToF16 | MathFunction::Transpose, .. } => return,
             Expression::Math { arg, arg1, arg2, arg3, .. } => {
-                (Form::Call, [Some(*arg), *arg1, *arg2, *arg3].into_iter().flatten().collect())
+                (OperationForm::Call, [Some(*arg), *arg1, *arg2, *arg3].into_iter().flatten().collect())
             }
-            Expression::Derivative { expr, .. } => (Form::CallOfF32, vec![*expr]),
-            Expression::ImageSample { .. } => (Form::CallOfF32, Vec::new()),
+            Expression::Derivative { expr, .. } => (OperationForm::CallOfF32, vec![*expr]),
+            Expression::ImageSample { .. } => (OperationForm::CallOfF32, Vec::new()),
             _ => return,
         };
         let Some(span) = span.map(|span| with_arguments(self.text, span)) else { return };
