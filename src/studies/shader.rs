@@ -63,15 +63,15 @@ pub enum ShaderError {
         errors: Vec<SyntaxError>,
     },
     /// The text is WGSL that has no translation.
-    #[error("`{name}` cannot be translated")]
-    #[diagnostic(code("front::wgsl"))]
+    #[error("`{name}` cannot be translated: {reason}")]
+    #[diagnostic(code("front::wgsl"), help("{}", reason.help()))]
     Refused {
         name: String,
         #[source_code]
         source_code: Arc<SourceText>,
-        /// The reason, with its place.
-        #[related]
-        reasons: [Refusal; 1],
+        reason: Refusal,
+        #[label("here")]
+        span: Option<SourceSpan>,
     },
     /// The program breaks rules of its version or limits of the device.
     #[error("`{name}` is not a legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
@@ -169,6 +169,15 @@ impl ShaderText {
         }
     }
 
+    /// Line of an instruction; of WGSL, whose lines have several, with its expression alone.
+    pub fn instruction(&self, program: &Program, index: usize) -> Option<SourceLine> {
+        let line = self.line(program.instructions.get(index)?.span);
+        match program.instruction_text(index).filter(|_| self.is_wgsl()) {
+            Some(text) => Some(SourceLine { text, ..line }),
+            None => Some(line),
+        }
+    }
+
     /// Text with its name, as errors show it.
     pub fn named_source(&self) -> Arc<SourceText> {
         self.source.clone()
@@ -186,7 +195,8 @@ impl ShaderText {
             return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {
                 name: self.name().to_owned(),
                 source_code: self.named_source(),
-                reasons: [reason],
+                span: reason.place().map(SourceSpan::from),
+                reason,
             });
         }
         asm::assemble(self.source.text()).map_err(|found| ShaderError::Syntax {

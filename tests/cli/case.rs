@@ -381,3 +381,28 @@ fn a_program_that_runs_too_long_is_an_error() {
         assert_eq!(ran.code, Some(code), "{budget}: {}", ran.stderr);
     }
 }
+
+/// A shader in WGSL runs only with a number for each component and a texture for each read.
+#[cfg(feature = "wgsl")]
+#[test]
+fn inputs_of_shaders_are_complete() {
+    let root = crate::commands::copy_of_the_repository();
+    fs::write(root.path().join("docs/examples/wgsl/few.toml"), {
+        let case = fs::read_to_string(root.path().join("docs/examples/wgsl/skin.toml")).expect("a case");
+        case.replace("\"bones.first[1]\" = [0, 1, 0]", "\"bones.first[1]\" = [0, 1]")
+    })
+    .expect("a file");
+    for (arguments, expected) in [
+        ("fresnel.wgsl --uniform f0=0.04", "expected 3 numbers for `f0`, found 1"),
+        ("ggx.wgsl --uniform roughness=0.3,0.4", "expected 1 number for `roughness`, found 2"),
+        ("ggx.wgsl", "reads the uniform `roughness`, which has no value"),
+        ("few.toml", "expected 3 numbers for `bones.first[1]`, found 2"),
+        ("normal_map.wgsl --uniform light=1,0,0", "this reads the texture of slot 0, which the case does not have"),
+        ("missing.wgsl", "cannot be read"),
+    ] {
+        let all = format!("run docs/examples/wgsl/{arguments} --out out");
+        let found = crossbar_in(root.path(), &all.split(' ').collect::<Vec<_>>(), "");
+        assert_eq!(found.code, Some(2), "{}", found.transcript());
+        assert!(found.stderr.contains(expected) && !found.stderr.contains("full_screen"), "{}", found.transcript());
+    }
+}

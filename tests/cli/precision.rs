@@ -100,3 +100,26 @@ fn expressions_are_studied_listed_and_refused() {
     assert!(messages.iter().all(|message| message.code == Some(2)));
     insta::assert_snapshot!(messages.map(|message| message.transcript()).join("\n"));
 }
+
+/// The shader with expressions in f16 differs from the exact one as the study states: by one code.
+#[cfg(feature = "wgsl")]
+#[test]
+fn the_rewritten_shader_draws_what_the_study_states() {
+    let root = copy_of_the_repository();
+    let run = |arguments: &str| crossbar_in(root.path(), &arguments.split(' ').collect::<Vec<_>>(), "");
+    let given = "fresnel.wgsl --uniform f0=0.04,0.3,0.9";
+    let study = run(&format!("precision docs/examples/wgsl/{given} --family float --budget 75 --out out --json"));
+    let document: serde_json::Value = serde_json::from_str(&study.stdout).expect("JSON");
+    let rows = document["half"].as_array().cloned().unwrap_or_default();
+    let refuted: Vec<&serde_json::Value> = rows.iter().filter(|row| row["may_be_f16"] != "yes").collect();
+    assert_eq!(rows.len(), 13, "{}", study.transcript());
+    assert!(matches!(refuted[..], [row] if row["expression"] == "dot(xy, xy)"), "{refuted:?}");
+    assert_eq!(refuted[0]["refuted_at_column_row"], "26, 0: red 205, not 212");
+    assert_eq!(run(&format!("run docs/examples/wgsl/{given} --out exact")).code, Some(0));
+    fs::rename(root.path().join("out/half.wgsl"), root.path().join("fresnel.wgsl")).expect("a shader");
+    assert_eq!(run(&format!("run {given} --out half")).code, Some(0));
+    for (largest, code) in [("0.00393", Some(0)), ("0.0039", Some(1))] {
+        let diff = run(&format!("diff exact/target0.png half/target0.png --max-error {largest}"));
+        assert_eq!(diff.code, code, "{}", diff.transcript());
+    }
+}

@@ -167,15 +167,7 @@ impl<'a> Parser<'a> {
             Some((letters, span)) => mask(letters, span)?,
             None => Mask::ALL,
         };
-        Ok(Destination {
-            register: named.register,
-            mask,
-            shift: 0,
-            saturate: false,
-            partial_precision: false,
-            centroid: false,
-            span: Span::new(start.span.start, self.last_end()),
-        })
+        Ok(Destination::new(named.register, mask, Span::new(start.span.start, self.last_end())))
     }
 
     fn on_destination(&self, span: Span, found: &str) -> SyntaxError {

@@ -9,8 +9,8 @@ use super::lexer::{Dialect, Token, TokenKind};
 use super::limits::MAX_OPERANDS;
 use super::word;
 use crate::isa::{
-    ConstantDef, Declaration, Destination, DestinationRule, FragmentPart, Instruction, OpInfo, Predicate, Program,
-    ProgramText, Source, Span, Version,
+    ConstantDef, Declaration, Destination, DestinationRule, Instruction, OpInfo, Predicate, Program, ProgramText,
+    Source, Span, Version,
 };
 
 /// Parser of one text. A part that fails to parse returns its error; the statement records it, skips to a token where
@@ -248,15 +248,10 @@ impl<'a> Parser<'a> {
             destination.partial_precision = mnemonic.partial_precision;
         }
         self.instructions.push(Instruction {
-            opcode: mnemonic.opcode,
             comparison: mnemonic.comparison,
-            destination,
-            sources,
             coissue: prefix.coissue,
             predicate: prefix.predicate,
-            fragment: FragmentPart::default(),
-            format: None,
-            span,
+            ..Instruction::new(mnemonic.opcode, destination, sources, span)
         });
     }
 

@@ -16,8 +16,8 @@
 //! because of them is reported at the option. Programs that write no color are not fogged.
 
 use crate::isa::{
-    Destination, FIRST_NAMED, FogMode, FogOption, FragmentPart, Instruction, Mask, Modifier, Opcode, Parameter,
-    ParameterSource, Program, Register, RegisterFile, Source, StateBinding, Swizzle,
+    Destination, FIRST_NAMED, FogMode, FogOption, Instruction, Mask, Modifier, Opcode, Parameter, ParameterSource,
+    Program, Register, RegisterFile, Source, StateBinding, Swizzle,
 };
 
 /// Replaces the program's fog option by instructions.
@@ -55,7 +55,7 @@ fn parameter(program: &mut Program, binding: StateBinding, fog: FogOption) -> Re
     }
     // The assembler leaves two numbers free for these.
     let register = Register::new(RegisterFile::Constant, FIRST_NAMED + program.parameters.len() as u16);
-    program.parameters.push(Parameter { name: binding.to_string(), register, source, span: fog.span });
+    program.parameters.push(Parameter { name: binding.to_string(), register, source, width: 4, span: fog.span });
     register
 }
 
@@ -103,19 +103,7 @@ impl Writer {
         sources: Vec<Source>,
     ) -> Instruction {
         let span = self.fog.span;
-        let mask = Mask(mask);
-        let destination =
-            Destination { register, mask, shift: 0, saturate, partial_precision: false, centroid: false, span };
-        Instruction {
-            opcode,
-            comparison: None,
-            destination: Some(destination),
-            sources,
-            coissue: false,
-            predicate: None,
-            fragment: FragmentPart::default(),
-            format: None,
-            span,
-        }
+        let destination = Destination { saturate, ..Destination::new(register, Mask(mask), span) };
+        Instruction::new(opcode, Some(destination), sources, span)
     }
 }

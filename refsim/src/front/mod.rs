@@ -1,10 +1,13 @@
 //! Front ends: programs in languages of today, translated for ideal devices. docs/wgsl.md says what each construct of
 //! WGSL becomes.
 
+#[cfg_attr(not(feature = "wgsl"), expect(dead_code, reason = "operations are found by the translation"))]
+mod half;
 mod refusal;
 #[cfg(feature = "wgsl")]
 mod wgsl;
 
+pub use half::WgslOperation;
 pub use refusal::Refusal;
 
 use crate::isa::Program;
@@ -14,17 +17,25 @@ use crate::isa::Program;
 ///
 /// # Errors
 /// If the text is not WGSL or uses a construct without translation, with the place; always without the feature `wgsl`.
-#[cfg(feature = "wgsl")]
 pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
+    Ok(translated(text)?.0)
+}
+
+/// The operations on f32 that the fragment entry point executes, by their places in the text.
+///
+/// # Errors
+/// As [`translate_wgsl`].
+pub fn wgsl_operations(text: &str) -> Result<Vec<WgslOperation>, Refusal> {
+    Ok(translated(text)?.1)
+}
+
+#[cfg(feature = "wgsl")]
+fn translated(text: &str) -> Result<(Program, Vec<WgslOperation>), Refusal> {
     wgsl::translate(text)
 }
 
-/// Refuses: this build lacks the feature `wgsl`.
-///
-/// # Errors
-/// Always.
 #[cfg(not(feature = "wgsl"))]
-pub fn translate_wgsl(_text: &str) -> Result<Program, Refusal> {
+fn translated(_text: &str) -> Result<(Program, Vec<WgslOperation>), Refusal> {
     Err(Refusal::new("the feature `wgsl` is off, which reads shaders", Default::default())
-        .help("build with it: cargo build --release --features wgsl"))
+        .with_help("build with it: cargo build --release --features wgsl"))
 }

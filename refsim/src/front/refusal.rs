@@ -2,34 +2,35 @@
 
 use std::borrow::Cow;
 
-use miette::{Diagnostic, SourceSpan};
-
 use crate::isa::Span;
 
 /// A text that cannot be translated: reason, place, advice.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
-#[diagnostic(code("front::wgsl"), help("{help}"))]
 pub struct Refusal {
     message: String,
     help: Cow<'static, str>,
-    #[label("here")]
-    span: SourceSpan,
+    place: Option<Span>,
 }
 
 impl Refusal {
     pub(super) fn new(message: impl Into<String>, span: Span) -> Self {
         let help = "docs/wgsl.md lists what is translated".into();
-        Self { message: message.into(), help, span: span.into() }
+        Self { message: message.into(), help, place: Some(span).filter(|span| span.end > 0) }
     }
 
     #[must_use]
-    pub(super) fn help(self, help: impl Into<Cow<'static, str>>) -> Self {
+    pub(super) fn with_help(self, help: impl Into<Cow<'static, str>>) -> Self {
         Self { help: help.into(), ..self }
     }
 
-    /// First byte and length of the place in the text.
-    pub fn place(&self) -> (usize, usize) {
-        (self.span.offset(), self.span.len())
+    /// What to do.
+    pub fn help(&self) -> &str {
+        &self.help
+    }
+
+    /// The place in the text; `None` if the reason is not at one.
+    pub fn place(&self) -> Option<Span> {
+        self.place
     }
 }

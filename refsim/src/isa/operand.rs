@@ -119,6 +119,13 @@ pub struct Destination {
     pub span: Span,
 }
 
+impl Destination {
+    /// Components of a register, without modifiers.
+    pub(crate) const fn new(register: Register, mask: Mask, span: Span) -> Self {
+        Self { register, mask, shift: 0, saturate: false, partial_precision: false, centroid: false, span }
+    }
+}
+
 /// `(p0.x)` or `(!p0)` in front of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Predicate {

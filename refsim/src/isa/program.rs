@@ -149,6 +149,8 @@ pub struct Parameter {
     pub register: Register,
     /// Source of its value.
     pub source: ParameterSource,
+    /// Number of components of its value, 1 to 4. The others are not read.
+    pub width: usize,
     /// Location in the program text.
     pub span: Span,
 }
@@ -223,6 +225,22 @@ impl Program {
 }
 
 impl Instruction {
+    /// An instruction without comparison, predicate, co-issue, condition and format.
+    pub(crate) fn new(opcode: Opcode, destination: Option<Destination>, sources: Vec<Source>, span: Span) -> Self {
+        let fragment = FragmentPart::default();
+        Self {
+            opcode,
+            comparison: None,
+            destination,
+            sources,
+            coissue: false,
+            predicate: None,
+            fragment,
+            format: None,
+            span,
+        }
+    }
+
     /// The precision in which an arithmetic instruction of an OpenGL program computes: the suffix's, or else the
     /// destination's. Operands `f[TEX#]` and `f[FOGC]` force full precision.
     pub fn precision(&self) -> Precision {

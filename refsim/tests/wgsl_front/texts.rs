@@ -41,11 +41,33 @@ pub(crate) fn what_is_refused_says_where_and_why() {
         ("@fragment fn".to_owned(), "", "expected"),
         (main("let x = uv.x + 1;").replace("+ 1", "+ true"), "uv.x + true", "Operation Add can't work with"),
         (main("var list = array<f32, 3>(); let x = list[i32(uv.x)];"), "list[i32(uv.x)]", "index that is known"),
-        (main("var x = 0.0; while (x < uv.x) { x += 0.1; }"), "x", "a loop has no end that is known"),
+        (main("var x = 0.0; while (x < uv.x) { x += 0.1; }"), "while (x < uv.x)", "this loop has no end that is known"),
         (
             main("").replace("@location(0) uv", "@location(0) @interpolate(flat) uv"),
-            "",
+            "uv",
             "interpolated with perspective",
+        ),
+        (main("if (uv.x > 0.5) { return vec4f(dpdx(uv.y)); }"), "dpdx", "expected uniform control flow"),
+        (
+            "fn f(a: ptr<function, f32>, b: ptr<function, f32>) { *a = *b + 1.0; }\n".to_owned()
+                + &main("var x = uv.x; f(&x, &x);"),
+            "f(&x, &x)",
+            "expected pointers to different variables",
+        ),
+        (
+            "var<private> x: f32;\nfn f(a: ptr<private, f32>) { *a = x; }\n".to_owned() + &main("f(&x);"),
+            "f(&x)",
+            "expected pointers to different variables",
+        ),
+        (main("var list = array<f32, 5000>(); list[3] = uv.x;"), "", "at most 4096 numbers"),
+        (main("var i = -1; var list = array<f32, 3>(); let x = list[i];"), "list[i]", "index -1 lies outside"),
+        (main("let x = 3000000000;"), "3000000000", "3000000000"),
+        ("override n: f32;\n".to_owned() + &main("let x = uv.x * n;"), "", "`override n` has no value in the text"),
+        (
+            "@group(0) @binding(0) var data: texture_2d<f32>;\n".to_owned()
+                + &main("let x = textureLoad(data, vec2i(1, 2), 0);"),
+            "textureLoad",
+            "`textureLoad` is not translated",
         ),
         (main("let x = bitcast<u32>(uv.x);"), "bitcast<u32>", "bitcast is not translated"),
         (main("let x = atan2(uv.x, uv.y);"), "atan2", "`atan2` is not translated"),
@@ -68,9 +90,29 @@ pub(crate) fn what_is_refused_says_where_and_why() {
     for (text, place, reason) in rows {
         let refusal = translate_wgsl(&text).expect_err(&text);
         assert!(refusal.to_string().contains(reason), "{refusal}: {text}");
-        let (start, length) = refusal.place();
-        let quoted = &text[start..start + length];
+        let quoted = refusal.place().map_or("", |span| &text[span.start as usize..span.end as usize]);
         assert!(quoted.contains(place), "{quoted:?} of {text}");
+    }
+}
+
+/// What WGSL accepts although a condition is near.
+pub(crate) fn derivatives_in_uniform_control_flow_are_translated() {
+    let text = |before: &str, inside: &str| {
+        format!("{before} @fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {{ {inside} }}")
+    };
+    for text in [
+        text(
+            "@group(0) @binding(0) var<uniform> t: f32;",
+            "if (t > 0.5) { return vec4f(dpdx(uv.y)); } return vec4f();",
+        ),
+        text("", "if (uv.x > 0.5) { discard; } return vec4f(fwidth(uv.y));"),
+        text("", "for (var i = 0; i < 3; i++) { if (uv.x > f32(i)) { break; } } return vec4f(dpdy(uv.y));"),
+        text(
+            "diagnostic(off, derivative_uniformity);",
+            "var x = 0.0; if (uv.x > 0.5) { x = dpdx(uv.y); } return vec4f(x);",
+        ),
+    ] {
+        assert!(translate_wgsl(&text).is_ok(), "{text}");
     }
 }
 

@@ -71,12 +71,12 @@ impl ShownTrace<'_> {
     }
 
     fn steps(&self, fragment: &FragmentTrace) -> Table {
-        let headings = ["instruction", "line", "text", "register", "value", "bits", "flags"];
+        let headings = ["step", "line", "text", "register", "value", "bits", "flags"];
         let all = if self.0.knows_flags { 7 } else { 6 };
         let mut table = Table::new("Steps", &headings[..all]);
         for step in &fragment.shading.steps {
-            let Some(instruction) = self.0.setup.pixel.instructions.get(step.instruction) else { continue };
-            let line = self.0.setup.pixel_text.line(instruction.span);
+            let setup = self.0.setup;
+            let Some(line) = setup.pixel_text.instruction(&setup.pixel, step.instruction) else { continue };
             let flags = flag_names(step.flags).join(", ");
             let mut first: Vec<Cell> = vec![step.instruction.into(), line.line.into(), line.text.into()];
             let rows = self.0.written(step);

@@ -20,8 +20,8 @@ pub struct Overrides {
     /// Maximum number of instructions that a program may execute per pixel or vertex; replaces the settings of case and
     /// device.
     pub step_budget: Option<u32>,
-    /// Values of uniforms of the pixel program, as IEEE singles, in place of the case's.
-    pub uniforms: Vec<(String, [u32; 4])>,
+    /// Values of uniforms of the pixel program, as IEEE singles, in place of the case's: as many as the type has.
+    pub uniforms: Vec<(String, Vec<u32>)>,
 }
 
 impl Overrides {

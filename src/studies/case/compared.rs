@@ -149,7 +149,7 @@ impl ComparedSides<'_> {
 
     fn instruction_json(&self, index: usize) -> Value {
         let setup = self.setup();
-        let line = setup.pixel.instructions.get(index).map(|i| setup.pixel_text.line(i.span));
+        let line = setup.pixel_text.instruction(&setup.pixel, index);
         json!({ "index": index, "source": line })
     }
 }

@@ -14,13 +14,15 @@ use super::{
     value::{Constant, Number},
 };
 use crate::names::did_you_mean;
+use crate::report::words::counted;
 
 /// Destination of a constant.
 enum ConstantTarget {
     Float(usize),
     Int(usize),
     Bool(usize),
-    Named,
+    /// A constant with a name, of so many components.
+    Named(usize),
 }
 
 impl Binder<'_> {
@@ -38,10 +40,12 @@ impl Binder<'_> {
                 (ConstantTarget::Float(number), Constant::Vector(numbers)) => {
                     *place_at(&mut constants.float, number) = self.four(numbers, span)?;
                 }
-                (ConstantTarget::Named, Constant::Vector(numbers)) => {
-                    // A uniform has as many as its type; the rest is not read.
-                    let filled = numbers.iter().copied().chain([Number::Value(0.0); 3]).take(numbers.len().max(4));
-                    constants.named.insert(name.clone(), self.four(&filled.collect::<Vec<_>>(), span)?);
+                (ConstantTarget::Named(width), Constant::Vector(numbers)) => {
+                    let singles: Vec<u32> = numbers.iter().map(|number| number.single()).collect();
+                    let value = of_width(name, width, &singles);
+                    let help = "a scalar has one number, a vector as many as components, a matrix a vector per column";
+                    let value = value.map_err(|message| self.place.wrong(span, message, help))?;
+                    constants.named.insert(name.clone(), value);
                 }
                 (ConstantTarget::Int(number @ 0..16), Constant::Vector(numbers)) => match integers(numbers) {
                     Some(four) => *place_at(&mut constants.int, number) = four,
@@ -71,8 +75,8 @@ impl Binder<'_> {
         span: Range<usize>,
     ) -> Result<ConstantTarget, CaseError> {
         let declared = || program.parameters.iter().filter(|p| matches!(p.source, ParameterSource::Named(_)));
-        if declared().any(|p| p.name == *name) {
-            return Ok(ConstantTarget::Named);
+        if let Some(parameter) = declared().find(|p| p.name == *name) {
+            return Ok(ConstantTarget::Named(parameter.width));
         }
         let opengl = program.version.is_fragment_program();
         let number = register(name, 256);
@@ -102,6 +106,15 @@ impl Binder<'_> {
         };
         Err(self.place.wrong(span, message, help))
     }
+}
+
+/// The value of a constant with a name; refuses another count of numbers than its components.
+pub(super) fn of_width(name: &str, width: usize, numbers: &[u32]) -> Result<[u32; 4], String> {
+    if numbers.len() != width {
+        let expected = counted(width as u64, "number", "numbers");
+        return Err(format!("expected {expected} for `{name}`, found {}", numbers.len()));
+    }
+    Ok([0, 1, 2, 3].map(|lane| numbers.get(lane).copied().unwrap_or_default()))
 }
 
 /// Parses a constant that an OpenGL program refers to by number: `p[3]`, `program.local[3]`, `program.env[3]`.

@@ -116,6 +116,11 @@ impl CaseText {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }
 
+    /// Of another text, which a case names.
+    pub(super) fn of(source: Source) -> Self {
+        Self { source }
+    }
+
     /// Converts an error of the TOML reader, with its message and span.
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
         let message = error.message().trim_end().replace('\n', ", ");

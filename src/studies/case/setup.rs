@@ -96,6 +96,7 @@ impl Setup {
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
         let folder = path.parent().unwrap_or_else(|| Path::new(""));
         if is_wgsl(path) {
+            ShaderText::read(path)?;
             let case = translated::lone_shader(path);
             return Self::from_bytes_with(&path.display().to_string(), case.as_bytes(), folder, overrides);
         }
@@ -220,6 +221,7 @@ impl Binder<'_> {
                 return Err(self.place.wrong(texture.get_ref().slot.span(), format!("slot {slot} is taken"), help));
             }
         }
+        self.has_textures(&pixel, &pixel_text, &textures)?;
         let geometry = vertices::bind(self, &case.geometry, vertex.as_deref(), reads_fog(&pixel))?;
         let size = self.size(&case.target.size)?;
         let targets = state::targets(self, &case.target)?;

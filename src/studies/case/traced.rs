@@ -171,7 +171,8 @@ impl Traced<'_> {
         let mut out = Map::new();
         out.insert("instruction".to_owned(), step.instruction.into());
         if let Some(instruction) = self.setup.pixel.instructions.get(step.instruction) {
-            out.insert("source".to_owned(), json!(self.setup.pixel_text.line(instruction.span)));
+            let line = self.setup.pixel_text.instruction(&self.setup.pixel, step.instruction);
+            out.insert("source".to_owned(), json!(line));
             out.insert("register".to_owned(), instruction.destination.map(|d| d.register.to_string()).into());
         }
         out.insert("mask".to_owned(), letters(step.mask).into());

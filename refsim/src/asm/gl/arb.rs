@@ -184,17 +184,8 @@ impl<'a> Parser<'a> {
             self.comma()?;
             fragment.target = Some(operand::target(&mut self.cursor)?);
         }
-        Ok(Instruction {
-            opcode,
-            comparison: None,
-            destination,
-            sources,
-            coissue: false,
-            predicate: None,
-            fragment,
-            format: None,
-            span: Span::new(token.span.start, self.cursor.last_end()),
-        })
+        let span = Span::new(token.span.start, self.cursor.last_end());
+        Ok(Instruction { fragment, ..Instruction::new(opcode, destination, sources, span) })
     }
 
     fn comma(&mut self) -> Parsed<()> {

@@ -78,7 +78,7 @@ impl Build {
             ));
         }
         let register = Register::new(RegisterFile::Constant, FIRST_NAMED + count as u16);
-        self.parameters.push(Parameter { name, register, source, span });
+        self.parameters.push(Parameter { name, register, source, width: 4, span });
         Ok(register)
     }
 

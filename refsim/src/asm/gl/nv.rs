@@ -111,17 +111,8 @@ impl<'a> Parser<'a> {
             }
         }
         debug_assert_eq!(destination.is_some(), info.destination != DestinationRule::None);
-        Ok(Instruction {
-            opcode,
-            comparison: None,
-            destination,
-            sources,
-            coissue: false,
-            predicate: None,
-            fragment,
-            format: None,
-            span: Span::new(token.span.start, self.cursor.last_end()),
-        })
+        let span = Span::new(token.span.start, self.cursor.last_end());
+        Ok(Instruction { fragment, ..Instruction::new(opcode, destination, sources, span) })
     }
 
     /// `GT.x`

@@ -71,7 +71,7 @@ pub(super) fn destination(
         mask = Mask(0b0100);
     }
     let span = Span::new(start, cursor.last_end());
-    Ok(Destination { register, mask, shift: 0, saturate, partial_precision: false, centroid: false, span })
+    Ok(Destination { saturate, ..Destination::new(register, mask, span) })
 }
 
 /// Parses `.x` or `.xyzw` after a source; the identity by default.

@@ -1,6 +1,6 @@
 //! Writer of instructions on registers without number: each instruction writes a new one, with few exceptions.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::Refusal;
 use super::values::{Component, Value};
@@ -27,6 +27,11 @@ pub(super) struct Builder {
     gathered: BTreeMap<Value, (Register, Vec<u8>)>,
     /// The instruction that last set the condition codes.
     codes: Value,
+    codes_vary: bool,
+    /// Temporaries that differ between fragments.
+    varying: BTreeSet<u16>,
+    /// The loops that are being unrolled, from the outermost.
+    pub(super) loops: Vec<Span>,
     registers: u16,
 }
 
@@ -46,8 +51,28 @@ impl Builder {
 
     /// Refuses programs with too many steps.
     pub(super) fn too_long<T>(&self) -> Result<T, Refusal> {
-        let message = "the shader is too long with its loops unrolled, or a loop has no end that is known";
-        Err(Refusal::new(message, self.span).help("bound loops by constants: `for (var i = 0; i < 16; i++)`"))
+        let most = MAX_INSTRUCTIONS;
+        Err(match self.loops.last() {
+            Some(span) => Refusal::new(
+                format!("this loop has no end that is known, or is unrolled into more than {most} instructions"),
+                *span,
+            )
+            .with_help("bound loops by constants: `for (var i = 0; i < 16; i++)`"),
+            None => Refusal::new(format!("the shader becomes more than {most} instructions"), self.span)
+                .with_help("a function is put in line at each of its calls: call less, or compute less"),
+        })
+    }
+
+    /// Returns `true` if a component differs between fragments.
+    pub(super) fn varies(&self, component: Component) -> bool {
+        matches!(component, Component::Place(register, _) if self.is_varying(register))
+    }
+
+    fn is_varying(&self, register: Register) -> bool {
+        match register.file {
+            RegisterFile::Temp => self.varying.contains(&register.index),
+            file => matches!(file, RegisterFile::Texture | RegisterFile::WindowPosition),
+        }
     }
 
     fn new_register(&mut self) -> Register {
@@ -59,29 +84,19 @@ impl Builder {
         if self.instructions.len() >= MAX_INSTRUCTIONS {
             return self.too_long();
         }
-        let destination = to.map(|(register, mask)| Destination {
-            register,
-            mask: Mask(mask),
-            shift: 0,
-            saturate: false,
-            partial_precision: false,
-            centroid: false,
-            span: self.span,
-        });
-        let arithmetic = !matches!(opcode, Opcode::TexLd | Opcode::TexLdD | Opcode::Kil);
-        let precision = (self.half && arithmetic).then_some(Precision::Half);
-        let target = (!arithmetic && opcode != Opcode::Kil).then_some(TextureTarget::D2);
-        self.instructions.push(Instruction {
-            opcode,
-            comparison: None,
-            destination,
-            sources,
-            coissue: false,
-            predicate: None,
-            fragment: FragmentPart { precision, target, ..FragmentPart::default() },
-            format: None,
-            span: self.span,
-        });
+        let is_read = matches!(opcode, Opcode::TexLd | Opcode::TexLdD);
+        let varies = is_read || sources.iter().any(|source| self.is_varying(source.register));
+        match to {
+            Some((Register { file: RegisterFile::Temp, index, .. }, _)) if varies => drop(self.varying.insert(index)),
+            Some((Register { file: RegisterFile::Discard, .. }, _)) => self.codes_vary = varies,
+            _ => {}
+        }
+        let destination = to.map(|(register, mask)| Destination::new(register, Mask(mask), self.span));
+        let precision = (self.half && !is_read && opcode != Opcode::Kil).then_some(Precision::Half);
+        let target = is_read.then_some(TextureTarget::D2);
+        let fragment = FragmentPart { precision, target, ..FragmentPart::default() };
+        let instruction = Instruction::new(opcode, destination, sources, self.span);
+        self.instructions.push(Instruction { fragment, ..instruction });
         Ok(())
     }
 
@@ -161,7 +176,7 @@ impl Builder {
     /// Refuses a use of [`Component::Unknown`].
     pub(super) fn unknown<T>(&self) -> Result<T, Refusal> {
         let message = "expected a whole number that is known when the shader is translated, found one that is computed";
-        Err(Refusal::new(message, self.span).help("count with constants, and compute with f32 or f16"))
+        Err(Refusal::new(message, self.span).with_help("count with constants, and compute with f32 or f16"))
     }
 
     fn operand(&self, register: Register, swizzle: [u8; 4], modifier: Modifier) -> Source {
@@ -245,6 +260,8 @@ impl Builder {
 
     fn set_condition(&mut self, swizzle: [u8; 4]) {
         let condition = Condition { test: ConditionTest::Ne, swizzle: Swizzle(swizzle), span: self.span };
+        let written = self.instructions.last().and_then(|instruction| instruction.destination);
+        self.varying.extend(written.filter(|_| self.codes_vary).map(|destination| destination.register.index));
         self.last().into_iter().for_each(|fragment| fragment.condition = Some(condition));
     }
 

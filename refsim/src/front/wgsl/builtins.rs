@@ -10,75 +10,140 @@ use crate::isa::{Modifier, Opcode};
 
 type Result<T = Value> = std::result::Result<T, Refusal>;
 
-fn number(value: f32) -> Value {
-    vec![Component::Float(value.to_bits())]
+/// Functions that are one instruction.
+const OPERATIONS: [(&str, Opcode); 15] = [
+    ("min", Opcode::Min),
+    ("max", Opcode::Max),
+    ("floor", Opcode::Flr),
+    ("fract", Opcode::Frc),
+    ("sin", Opcode::Sin),
+    ("cos", Opcode::Cos),
+    ("exp2", Opcode::Exp),
+    ("log2", Opcode::Log),
+    ("inverseSqrt", Opcode::Rsq),
+    ("fma", Opcode::Mad),
+    ("less", Opcode::Slt),
+    ("greater", Opcode::Sgt),
+    ("equal", Opcode::Seq),
+    // `step(edge, x)` is 1 from the edge on.
+    ("step", Opcode::Sle),
+    ("rcp", Opcode::Rcp),
+];
+
+/// Functions by formulas of their arguments `a`, `b`, `c`, names before `=`, and other functions.
+const FORMULAS: [(&str, &str); 23] = [
+    ("remainder", "a - b * trunc(a / b)"),
+    ("clamp", "min(max(a, b), c)"),
+    ("saturate", "min(max(a, 0), 1)"),
+    ("ceil", "-floor(-a)"),
+    ("trunc", "m = floor(abs(a)); select(less(a, 0), -m, m)"),
+    // Of two nearest whole numbers the even one.
+    ("round", "n = floor(a); f = fract(a); select(max(greater(f, 0.5), min(equal(f, 0.5), fract(n * 0.5))), n + 1, n)"),
+    ("sign", "greater(a, 0) - less(a, 0)"),
+    ("mix", "a * (1 - c) + b * c"),
+    ("smoothStep", "t = clamp((c - a) / (b - a), 0, 1); t * t * (3 - t * 2)"),
+    ("sqrt", "rcp(inverseSqrt(a))"),
+    ("exp", "exp2(a * 1.442695040888963407)"),
+    ("log", "log2(a) * 0.693147180559945309"),
+    ("pow", "exp2(b * log2(a))"),
+    ("tan", "sin(a) / cos(a)"),
+    ("radians", "a * 0.017453292519943295474"),
+    ("degrees", "a * 57.295779513082322865"),
+    ("cross", "turn(a) * turn(turn(b)) - turn(turn(a)) * turn(b)"),
+    ("length", "sqrt(dot(a, a))"),
+    ("distance", "length(a - b)"),
+    ("normalize", "a * inverseSqrt(dot(a, a))"),
+    ("faceForward", "select(less(dot(c, b), 0), a, -a)"),
+    ("reflect", "a - dot(b, a) * 2 * b"),
+    ("refract", "d = dot(b, a); k = 1 - c * c * (1 - d * d); select(step(0, k), c * a - (c * d + sqrt(k)) * b, 0)"),
+];
+
+/// A formula that is being written as instructions, from its rest.
+struct Formula<'a> {
+    builder: &'a mut Builder,
+    rest: &'static str,
+    names: Vec<(&'static str, Value)>,
+}
+
+impl Formula<'_> {
+    /// Takes a mark, if it is next.
+    fn accepts(&mut self, mark: char) -> bool {
+        let rest = self.rest.trim_start().strip_prefix(mark);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
+    fn sum(&mut self) -> Result {
+        let mut value = self.product()?;
+        loop {
+            let opcode = if self.accepts('+') {
+                Opcode::Add
+            } else if self.accepts('-') {
+                Opcode::Sub
+            } else {
+                return Ok(value);
+            };
+            let right = self.product()?;
+            value = self.builder.op(opcode, &[&value, &right])?;
+        }
+    }
+
+    fn product(&mut self) -> Result {
+        let mut value = self.factor()?;
+        loop {
+            value = if self.accepts('*') {
+                let right = self.factor()?;
+                self.builder.mul(&value, &right)?
+            } else if self.accepts('/') {
+                let right = self.factor()?;
+                self.builder.divide(&value, &right)?
+            } else {
+                return Ok(value);
+            };
+        }
+    }
+
+    fn factor(&mut self) -> Result {
+        if self.accepts('-') {
+            let value = self.factor()?;
+            return self.builder.negate(&value);
+        }
+        if self.accepts('(') {
+            let value = self.sum()?;
+            self.accepts(')');
+            return Ok(value);
+        }
+        let rest = self.rest.trim_start();
+        let (word, rest) = rest.split_at(rest.find(|c: char| !(c.is_alphanumeric() || c == '.')).unwrap_or(rest.len()));
+        self.rest = rest;
+        if let Ok(number) = word.parse::<f32>() {
+            return Ok(vec![Component::Float(number.to_bits())]);
+        }
+        if !self.accepts('(') {
+            let known = self.names.iter().find(|(name, _)| *name == word);
+            return Ok(known.map(|(_, value)| value.clone()).unwrap_or_default());
+        }
+        let mut arguments = vec![self.sum()?];
+        while self.accepts(',') {
+            arguments.push(self.sum()?);
+        }
+        self.accepts(')');
+        self.builder.function(word, &arguments)
+    }
 }
 
 impl Builder {
-    fn add(&mut self, a: &[Component], b: &[Component]) -> Result {
-        self.op(Opcode::Add, &[a, b])
-    }
-
-    pub(super) fn sub(&mut self, a: &[Component], b: &[Component]) -> Result {
-        self.op(Opcode::Sub, &[a, b])
-    }
-
     pub(super) fn mul(&mut self, a: &[Component], b: &[Component]) -> Result {
         self.op(Opcode::Mul, &[a, b])
-    }
-
-    fn min(&mut self, a: &[Component], b: &[Component]) -> Result {
-        self.op(Opcode::Min, &[a, b])
-    }
-
-    fn max(&mut self, a: &[Component], b: &[Component]) -> Result {
-        self.op(Opcode::Max, &[a, b])
     }
 
     /// `a` times the reciprocal of `b`.
     pub(super) fn divide(&mut self, a: &[Component], b: &[Component]) -> Result {
         let reciprocal = self.op(Opcode::Rcp, &[b])?;
-        match *a == *number(1.0) {
-            true => Ok(reciprocal),
-            false => self.mul(a, &reciprocal),
+        match a {
+            [Component::Float(bits)] if f32::from_bits(*bits) == 1.0 => Ok(reciprocal),
+            _ => self.mul(a, &reciprocal),
         }
-    }
-
-    /// `a - b trunc(a / b)`
-    pub(super) fn remainder(&mut self, a: &[Component], b: &[Component]) -> Result {
-        let quotient = self.divide(a, b)?;
-        let whole = self.trunc(&quotient)?;
-        let product = self.mul(b, &whole)?;
-        self.sub(a, &product)
-    }
-
-    fn absolute(&mut self, a: &[Component]) -> Result {
-        self.modified(Opcode::Mov, &[(a, Modifier::Absolute)], a.len())
-    }
-
-    fn trunc(&mut self, a: &[Component]) -> Result {
-        let magnitude = self.modified(Opcode::Flr, &[(a, Modifier::Absolute)], a.len())?;
-        let negative = self.op(Opcode::Slt, &[a, &number(0.0)])?;
-        let below = self.negate(&magnitude)?;
-        self.select(&negative, &below, &magnitude)
-    }
-
-    fn ceil(&mut self, a: &[Component]) -> Result {
-        let below = self.modified(Opcode::Flr, &[(a, Modifier::Negate)], a.len())?;
-        self.negate(&below)
-    }
-
-    /// The nearest whole number, of two the even one.
-    fn round(&mut self, a: &[Component]) -> Result {
-        let (below, fraction) = (self.op(Opcode::Flr, &[a])?, self.op(Opcode::Frc, &[a])?);
-        let above = self.add(&below, &number(1.0))?;
-        let half_of = self.mul(&below, &number(0.5))?;
-        let odd = self.op(Opcode::Frc, &[&half_of])?;
-        let (more, tie) =
-            (self.op(Opcode::Sgt, &[&fraction, &number(0.5)])?, self.op(Opcode::Seq, &[&fraction, &number(0.5)])?);
-        let tie_up = self.op(Opcode::Min, &[&tie, &odd])?;
-        let up = self.max(&more, &tie_up)?;
-        self.select(&up, &above, &below)
     }
 
     pub(super) fn dot(&mut self, a: &[Component], b: &[Component]) -> Result {
@@ -87,88 +152,49 @@ impl Builder {
             4 => self.wide(Opcode::Dp4, &[a, b], 1),
             _ => {
                 let products = self.mul(a, b)?;
-                self.add(&products[..1], &products[products.len() - 1..])
+                self.op(Opcode::Add, &[&products[..1], &products[products.len() - 1..]])
             }
         }
     }
 
-    fn sqrt(&mut self, a: &[Component]) -> Result {
-        let inverse = self.op(Opcode::Rsq, &[a])?;
-        self.op(Opcode::Rcp, &[&inverse])
-    }
-
-    fn length(&mut self, a: &[Component]) -> Result {
-        if a.len() == 1 {
-            return self.absolute(a);
+    /// A function of numbers by its name.
+    pub(super) fn function(&mut self, name: &str, arguments: &[Value]) -> Result {
+        if let Some((_, opcode)) = OPERATIONS.iter().find(|(known, _)| *known == name) {
+            let operands: Vec<&[Component]> = arguments.iter().map(Vec::as_slice).collect();
+            return self.op(*opcode, &operands);
         }
-        let squared = self.dot(a, a)?;
-        self.sqrt(&squared)
-    }
-
-    fn cross(&mut self, a: &[Component], b: &[Component]) -> Result {
-        let turned = |v: &[Component], order: [usize; 3]| -> Value { order.map(|i| v[i]).to_vec() };
-        let (next, last) = ([1, 2, 0], [2, 0, 1]);
-        let plus = self.mul(&turned(a, next), &turned(b, last))?;
-        let minus = self.mul(&turned(a, last), &turned(b, next))?;
-        self.sub(&plus, &minus)
-    }
-
-    fn clamp(&mut self, a: &[Component], low: &[Component], high: &[Component]) -> Result {
-        let raised = self.max(a, low)?;
-        self.min(&raised, high)
-    }
-
-    fn mix(&mut self, a: &[Component], b: &[Component], t: &[Component]) -> Result {
-        let rest = self.sub(&number(1.0), t)?;
-        let (first, second) = (self.mul(a, &rest)?, self.mul(b, t)?);
-        self.add(&first, &second)
-    }
-
-    fn smoothstep(&mut self, low: &[Component], high: &[Component], x: &[Component]) -> Result {
-        let (above, range) = (self.sub(x, low)?, self.sub(high, low)?);
-        let ratio = self.divide(&above, &range)?;
-        let t = self.clamp(&ratio, &number(0.0), &number(1.0))?;
-        let twice = self.mul(&t, &number(2.0))?;
-        let rest = self.sub(&number(3.0), &twice)?;
-        let square = self.mul(&t, &t)?;
-        self.mul(&square, &rest)
-    }
-
-    fn pow(&mut self, x: &[Component], y: &[Component]) -> Result {
-        let log = self.op(Opcode::Log, &[x])?;
-        let product = self.mul(y, &log)?;
-        self.op(Opcode::Exp, &[&product])
-    }
-
-    fn sign(&mut self, a: &[Component]) -> Result {
-        let above = self.op(Opcode::Sgt, &[a, &number(0.0)])?;
-        let below = self.op(Opcode::Slt, &[a, &number(0.0)])?;
-        self.sub(&above, &below)
-    }
-
-    /// `a - 2 dot(n, a) n`
-    fn reflect(&mut self, a: &[Component], n: &[Component]) -> Result {
-        let projection = self.dot(n, a)?;
-        let twice = self.mul(&projection, &number(2.0))?;
-        let away = self.mul(&twice, n)?;
-        self.sub(a, &away)
-    }
-
-    /// `k = 1 - r r (1 - d d)` with `d = dot(n, a)`; where `k >= 0`, `r a - (r d + sqrt(k)) n`, elsewhere 0.
-    fn refract(&mut self, a: &[Component], n: &[Component], ratio: &[Component]) -> Result {
-        let d = self.dot(n, a)?;
-        let square = self.mul(&d, &d)?;
-        let sine = self.sub(&number(1.0), &square)?;
-        let ratio_square = self.mul(ratio, ratio)?;
-        let bent = self.mul(&ratio_square, &sine)?;
-        let k = self.sub(&number(1.0), &bent)?;
-        let root = self.sqrt(&k)?;
-        let along = self.mul(ratio, &d)?;
-        let sum = self.add(&along, &root)?;
-        let (first, second) = (self.mul(ratio, a)?, self.mul(&sum, n)?);
-        let bent = self.sub(&first, &second)?;
-        let passes = self.op(Opcode::Sge, &[&k, &number(0.0)])?;
-        self.select(&passes, &bent, &vec![Component::Float(0); a.len()])
+        match (name, arguments) {
+            ("dot", [a, b]) => self.dot(a, b),
+            ("turn", [a]) => Ok([1, 2, 0].map(|lane: usize| a[lane]).to_vec()),
+            ("select", [condition, accept, reject]) => {
+                let reject: Value = (0..accept.len()).map(|lane| reject[lane.min(reject.len() - 1)]).collect();
+                self.select(condition, accept, &reject)
+            }
+            ("length", [a]) | ("abs", [a]) if name == "abs" || a.len() == 1 => {
+                self.modified(Opcode::Mov, &[(a, Modifier::Absolute)], a.len())
+            }
+            ("quantizeToF16", [a]) => {
+                let half = std::mem::replace(&mut self.half, true);
+                let rounded = self.op(Opcode::Mov, &[a]);
+                self.half = half;
+                rounded
+            }
+            _ => {
+                let Some((_, text)) = FORMULAS.iter().find(|(known, _)| *known == name) else {
+                    return self.refuse(format!("`{name}` is not translated"));
+                };
+                let names = ["a", "b", "c"].into_iter().zip(arguments.iter().cloned()).collect();
+                let mut formula = Formula { builder: self, rest: "", names };
+                let mut value = Value::new();
+                for part in text.split("; ") {
+                    let (name, part) = part.split_once(" = ").unwrap_or(("", part));
+                    formula.rest = part;
+                    value = formula.sum()?;
+                    formula.names.push((name, value.clone()));
+                }
+                Ok(value)
+            }
+        }
     }
 
     /// A builtin function.
@@ -176,75 +202,13 @@ impl Builder {
         if let Some(known) = whole(function, arguments) {
             return Ok(known);
         }
+        // The name in the text, which differs from naga's in its first letter, as far as messages need it.
+        let mut name = format!("{function:?}");
+        name[..1].make_ascii_lowercase();
         if arguments.iter().flatten().any(|c| matches!(c, Component::Int(_) | Component::Unknown)) {
-            return self.refuse(format!("`{}` of whole numbers is not translated", name(function)));
+            return self.refuse(format!("`{name}` of whole numbers is not translated"));
         }
-        let scaled = |this: &mut Self, a: &Value, factor: f32| this.mul(a, &number(factor));
-        match (function, arguments) {
-            (F::Abs, [a]) => self.absolute(a),
-            (F::Min, [a, b]) => self.min(a, b),
-            (F::Max, [a, b]) => self.max(a, b),
-            (F::Clamp, [a, low, high]) => self.clamp(a, low, high),
-            (F::Saturate, [a]) => self.clamp(a, &number(0.0), &number(1.0)),
-            (F::Cos, [a]) => self.op(Opcode::Cos, &[a]),
-            (F::Sin, [a]) => self.op(Opcode::Sin, &[a]),
-            (F::Tan, [a]) => {
-                let (sine, cosine) = (self.op(Opcode::Sin, &[a])?, self.op(Opcode::Cos, &[a])?);
-                self.divide(&sine, &cosine)
-            }
-            (F::Radians, [a]) => scaled(self, a, std::f32::consts::PI / 180.0),
-            (F::Degrees, [a]) => scaled(self, a, 180.0 / std::f32::consts::PI),
-            (F::Ceil, [a]) => self.ceil(a),
-            (F::Floor, [a]) => self.op(Opcode::Flr, &[a]),
-            (F::Round, [a]) => self.round(a),
-            (F::Fract, [a]) => self.op(Opcode::Frc, &[a]),
-            (F::Trunc, [a]) => self.trunc(a),
-            (F::Exp, [a]) => {
-                let power = scaled(self, a, std::f32::consts::LOG2_E)?;
-                self.op(Opcode::Exp, &[&power])
-            }
-            (F::Exp2, [a]) => self.op(Opcode::Exp, &[a]),
-            (F::Log, [a]) => {
-                let log = self.op(Opcode::Log, &[a])?;
-                scaled(self, &log, std::f32::consts::LN_2)
-            }
-            (F::Log2, [a]) => self.op(Opcode::Log, &[a]),
-            (F::Pow, [x, y]) => self.pow(x, y),
-            (F::Dot, [a, b]) => self.dot(a, b),
-            (F::Cross, [a, b]) => self.cross(a, b),
-            (F::Distance, [a, b]) => {
-                let between = self.sub(a, b)?;
-                self.length(&between)
-            }
-            (F::Length, [a]) => self.length(a),
-            (F::Normalize, [a]) => {
-                let squared = self.dot(a, a)?;
-                let inverse = self.op(Opcode::Rsq, &[&squared])?;
-                self.mul(a, &inverse)
-            }
-            (F::FaceForward, [n, i, reference]) => {
-                let projection = self.dot(reference, i)?;
-                let against = self.op(Opcode::Slt, &[&projection, &number(0.0)])?;
-                let turned = self.negate(n)?;
-                self.select(&against, n, &turned)
-            }
-            (F::Reflect, [a, n]) => self.reflect(a, n),
-            (F::Refract, [a, n, ratio]) => self.refract(a, n, ratio),
-            (F::Sign, [a]) => self.sign(a),
-            (F::Fma, [a, b, c]) => self.op(Opcode::Mad, &[a, b, c]),
-            (F::Mix, [a, b, t]) => self.mix(a, b, t),
-            (F::Step, [edge, x]) => self.op(Opcode::Sge, &[x, edge]),
-            (F::SmoothStep, [low, high, x]) => self.smoothstep(low, high, x),
-            (F::Sqrt, [a]) => self.sqrt(a),
-            (F::InverseSqrt, [a]) => self.op(Opcode::Rsq, &[a]),
-            (F::QuantizeToF16, [a]) => {
-                let half = std::mem::replace(&mut self.half, true);
-                let rounded = self.op(Opcode::Mov, &[a]);
-                self.half = half;
-                rounded
-            }
-            _ => self.refuse(format!("`{}` is not translated", name(function))),
-        }
+        self.function(&name, arguments)
     }
 }
 
@@ -268,11 +232,4 @@ fn whole(function: F, arguments: &[Value]) -> Option<Value> {
         Some(Component::Int(value))
     };
     (0..arguments.first()?.len()).map(column).collect()
-}
-
-/// The name in the text, which differs from naga's in its first letter, as far as messages need it.
-fn name(function: F) -> String {
-    let mut name = format!("{function:?}");
-    name[..1].make_ascii_lowercase();
-    name
 }

@@ -1,14 +1,17 @@
 //! Expressions of a function.
 
+use naga::diagnostic_filter::{FilterableTriggeringRule, Severity, StandardFilterableTriggeringRule};
 use naga::{
-    BinaryOperator as B, DerivativeAxis, Expression, Handle, RelationalFunction, SampleLevel, Scalar, ScalarKind,
-    TypeInner, UnaryOperator, VectorSize,
+    BinaryOperator as B, DerivativeAxis, Expression, Function, Handle, MathFunction, RelationalFunction, SampleLevel,
+    Scalar, ScalarKind, TypeInner, UnaryOperator, VectorSize,
 };
 
 use super::super::Refusal;
+use super::super::half::{OperationForm, WgslOperation};
 use super::translator::{Frame, Meaning, Translator, place};
 use super::values::{Component, Value, is_half, part, scalar};
-use crate::isa::{Modifier, Opcode, RegisterFile};
+use super::with_arguments;
+use crate::isa::{Modifier, Opcode, RegisterFile, Span};
 
 type Result<T = Value> = std::result::Result<T, Refusal>;
 
@@ -37,16 +40,12 @@ impl<'a> Translator<'a> {
         let span = place(frame.function.expressions.get_span(handle));
         self.step(span)?;
         let entry = self.computed(frame, handle, span)?;
+        self.note(frame, handle, span);
         frame.values.insert(handle, entry.clone());
         Ok(entry)
     }
 
-    fn computed(
-        &mut self,
-        frame: &mut Frame<'a>,
-        handle: Handle<Expression>,
-        span: Option<crate::isa::Span>,
-    ) -> Result<Meaning> {
+    fn computed(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>, span: Option<Span>) -> Result<Meaning> {
         let function = frame.function;
         let expression = &function.expressions[handle];
         let kind = scalar(self.type_of(frame, handle));
@@ -67,15 +66,13 @@ impl<'a> Translator<'a> {
                 let vector = operand(self, *vector)?;
                 pattern[..*size as usize].iter().map(|component| vector[*component as usize]).collect()
             }
-            Expression::AccessIndex { base, index } => return self.access(frame, *base, *index as usize),
+            Expression::AccessIndex { base, index } => return self.access(frame, *base, (*index).into()),
             Expression::Access { base, index } => match operand(self, *index)?[..] {
-                [Component::Int(index)] => {
-                    return self.access(frame, *base, usize::try_from(index).unwrap_or(usize::MAX));
-                }
+                [Component::Int(index)] => return self.access(frame, *base, index),
                 _ => {
                     let message = "expected an index that is known when the shader is translated";
                     return Err(Refusal::new(message, self.builder.span)
-                        .help("index with constants or with the counters of loops, or select"));
+                        .with_help("index with constants or with the counters of loops, or select"));
                 }
             },
             Expression::FunctionArgument(index) => match frame.arguments.get(*index as usize) {
@@ -86,7 +83,7 @@ impl<'a> Translator<'a> {
             Expression::LocalVariable(local) => {
                 let slot = frame.locals[local];
                 let length = self.variables.get(&slot).map_or(0, Vec::len);
-                return Ok(Meaning::Pointer { slot, offset: 0, length });
+                return Ok(Meaning::Pointer { slot, offset: 0, length, path: 0 });
             }
             Expression::Load { pointer } => {
                 let pointer = self.entry(frame, *pointer)?;
@@ -115,6 +112,7 @@ impl<'a> Translator<'a> {
             }
             Expression::Derivative { axis, expr, .. } => {
                 let value = operand(self, *expr)?;
+                self.in_whole_quads(function)?;
                 self.derivative(*axis, &value)?
             }
             Expression::Relational { fun, argument } => {
@@ -122,7 +120,7 @@ impl<'a> Translator<'a> {
                 self.builder.half = false;
                 self.relation(*fun, &value)?
             }
-            Expression::Math { fun: naga::MathFunction::Transpose, arg, .. } => {
+            Expression::Math { fun: MathFunction::Transpose, arg, .. } => {
                 let value = operand(self, *arg)?;
                 let TypeInner::Matrix { columns, rows, .. } = self.type_of(frame, *arg) else {
                     return self.builder.refuse("only matrices are transposed");
@@ -146,30 +144,87 @@ impl<'a> Translator<'a> {
         Ok(Meaning::Value(value))
     }
 
-    fn access(&mut self, frame: &mut Frame<'a>, base: Handle<Expression>, index: usize) -> Result<Meaning> {
+    /// Refuses what differences of neighbors need where some of them may be elsewhere.
+    fn in_whole_quads(&self, function: &Function) -> Result<()> {
+        let filters = &self.module.diagnostic_filters;
+        let first = function.diagnostic_filter_leaf.map(|leaf| &filters[leaf]);
+        let mut nodes = std::iter::successors(first, |node| node.parent.map(|parent| &filters[parent]));
+        let rule = FilterableTriggeringRule::Standard(StandardFilterableTriggeringRule::DerivativeUniformity);
+        let of_rule = nodes.find(|node| node.inner.triggering_rule == rule);
+        if !self.builder.varies(self.live) || of_rule.is_some_and(|node| node.inner.new_severity != Severity::Error) {
+            return Ok(());
+        }
+        let message = "expected uniform control flow, found a condition that differs between fragments: neighbors of this \
+                       fragment may not get here";
+        Err(Refusal::new(message, self.builder.span).with_help(
+            "call it in front of the condition, or use textureSampleGrad or textureSampleLevel; the directive \
+             `diagnostic(off, derivative_uniformity);` lets it pass",
+        ))
+    }
+
+    /// Notes an operation on f32 that can be rewritten.
+    fn note(&mut self, frame: &Frame<'a>, handle: Handle<Expression>, span: Option<Span>) {
+        let expressions = &frame.function.expressions;
+        let (form, operands) = match &expressions[handle] {
+            Expression::Binary { op, left, right } => (OperationForm::Operator(symbol(*op)), vec![*left, *right]),
+            Expression::Math { fun: MathFunction::QuantizeToF16 | MathFunction::Transpose, .. } => return,
+            Expression::Math { arg, arg1, arg2, arg3, .. } => {
+                (OperationForm::Call, [Some(*arg), *arg1, *arg2, *arg3].into_iter().flatten().collect())
+            }
+            Expression::Derivative { expr, .. } => (OperationForm::CallOfF32, vec![*expr]),
+            Expression::ImageSample { .. } => (OperationForm::CallOfF32, Vec::new()),
+            _ => return,
+        };
+        let Some(span) = span.map(|span| with_arguments(self.text, span)) else { return };
+        let key = [span.start, span.end];
+        let types = operands.iter().map(|operand| {
+            // Of a scalar beside a vector the text has the scalar.
+            let whole = match &expressions[*operand] {
+                Expression::Splat { value, .. } => {
+                    let spans = [*operand, *value].map(|part| expressions.get_span(part).to_range());
+                    if spans[0] == spans[1] { *value } else { *operand }
+                }
+                _ => *operand,
+            };
+            self.type_of(frame, whole)
+        });
+        let types: Vec<&TypeInner> = types.collect();
+        let result = name(self.type_of(frame, handle));
+        let on_f32 = types.iter().any(|inner| name(inner).is_some()) || (types.is_empty() && result.is_some());
+        if !on_f32 || types.iter().any(|inner| is_half(scalar(inner))) || self.operations.contains_key(&key) {
+            return;
+        }
+        let names: Vec<Option<String>> = types.iter().map(|inner| name(inner)).collect();
+        let operation = WgslOperation::new(self.text, span, form, &names, result.as_deref());
+        self.operations.extend(operation.map(|operation| (key, operation)));
+    }
+
+    fn access(&mut self, frame: &mut Frame<'a>, base: Handle<Expression>, index: i64) -> Result<Meaning> {
         let inner = match self.type_of(frame, base) {
             TypeInner::Pointer { base, .. } => &self.module.types[*base].inner,
             other => other,
         };
         let whole = self.entry(frame, base)?;
-        let Some((start, count)) = part(self.module, inner, index) else {
+        let found = usize::try_from(index).ok().and_then(|index| part(self.module, inner, index));
+        let Some((start, count)) = found else {
             return self.builder.refuse(format!("index {index} lies outside"));
         };
         match whole {
             Meaning::Value(value) if start + count <= value.len() => {
                 Ok(Meaning::Value(value[start..start + count].to_vec()))
             }
-            Meaning::Pointer { slot, offset, length } if start + count <= length => {
-                Ok(Meaning::Pointer { slot, offset: offset + start, length: count })
+            Meaning::Pointer { slot, offset, length, path } if start + count <= length => {
+                Ok(Meaning::Pointer { slot, offset: offset + start, length: count, path })
             }
             _ => self.builder.refuse("this part of a value is not translated"),
         }
     }
 
     fn load(&mut self, pointer: &Meaning) -> Result {
-        let Meaning::Pointer { slot, offset, length } = pointer else {
+        let Meaning::Pointer { slot, offset, length, path } = pointer else {
             return self.builder.refuse("only variables are read");
         };
+        self.accesses.insert((*slot, *path, false));
         match self.variables.get(slot).and_then(|value| value.get(*offset..*offset + *length)) {
             Some(value) => Ok(value.to_vec()),
             None => self.builder.refuse("this variable is not translated"),
@@ -197,7 +252,10 @@ impl<'a> Translator<'a> {
         };
         let at = self.value(frame, *coordinate)?;
         let gradient = match level {
-            SampleLevel::Auto => None,
+            SampleLevel::Auto => {
+                self.in_whole_quads(function)?;
+                None
+            }
             SampleLevel::Zero => Some([(); 2].map(|()| vec![Component::Float(0); 2])),
             SampleLevel::Exact(level) => match self.value(frame, *level)?[..] {
                 [Component::Float(0)] => Some([(); 2].map(|()| vec![Component::Float(0); 2])),
@@ -357,7 +415,7 @@ impl<'a> Translator<'a> {
             B::Greater => Opcode::Sgt,
             B::GreaterEqual => Opcode::Sge,
             B::Divide => return self.builder.divide(a, b),
-            B::Modulo => return self.builder.remainder(a, b),
+            B::Modulo => return self.builder.function("remainder", &[a.to_vec(), b.to_vec()]),
             _ => return self.builder.refuse("bit operations are not translated"),
         };
         self.builder.op(opcode, &[a, b])
@@ -424,4 +482,33 @@ fn wrapped(value: i64, kind: ScalarKind) -> i64 {
         ScalarKind::Uint => (value as u32).into(),
         _ => (value as i32).into(),
     }
+}
+
+/// The operator in texts.
+fn symbol(operator: B) -> &'static str {
+    match operator {
+        B::Add => "+",
+        B::Subtract => "-",
+        B::Multiply => "*",
+        B::Divide => "/",
+        B::Modulo => "%",
+        B::Equal => "==",
+        B::NotEqual => "!=",
+        B::Less => "<",
+        B::LessEqual => "<=",
+        B::Greater => ">",
+        B::GreaterEqual => ">=",
+        // Of no numbers.
+        _ => "",
+    }
+}
+
+/// The name of a type of f32.
+fn name(inner: &TypeInner) -> Option<String> {
+    scalar(inner).filter(|scalar| *scalar == Scalar::F32)?;
+    Some(match inner {
+        TypeInner::Vector { size, .. } => format!("vec{}f", *size as u8),
+        TypeInner::Matrix { columns, rows, .. } => format!("mat{}x{}f", *columns as u8, *rows as u8),
+        _ => "f32".to_owned(),
+    })
 }

@@ -113,7 +113,7 @@ pub(super) fn numbered(instructions: &mut [Instruction]) -> Result<(), Refusal> 
 
 fn full(span: Span) -> Refusal {
     let message = format!("the shader keeps more numbers at a time than {TEMPORARIES} vectors hold");
-    Refusal::new(message, span).help("compute later what is used later, or draw in passes")
+    Refusal::new(message, span).with_help("compute later what is used later, or draw in passes")
 }
 
 /// The window of so many components in the fullest temporary that has room.

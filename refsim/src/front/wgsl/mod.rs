@@ -16,7 +16,7 @@ use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Binding, BuiltIn, EntryPoint, Interpolation, Module, ShaderStage, Type};
 
-use super::Refusal;
+use super::{Refusal, WgslOperation};
 use crate::isa::{
     ConstantDef, ConstantValue, FIRST_LITERAL, Program, ProgramText, Register, RegisterFile, Span, Version,
 };
@@ -32,7 +32,10 @@ const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16.union(Capabiliti
 /// Stack of the front end, in bytes: it calls itself for each term of an expression.
 const STACK: usize = 1 << 28;
 
-pub(super) fn translate(text: &str) -> Result<Program, Refusal> {
+/// A program, and what can be rewritten of its text.
+type Translation = (Program, Vec<WgslOperation>);
+
+pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
     thread::scope(|scope| {
         let work = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || translated(text));
         match work.map(thread::ScopedJoinHandle::join) {
@@ -43,7 +46,7 @@ pub(super) fn translate(text: &str) -> Result<Program, Refusal> {
     })
 }
 
-fn translated(text: &str) -> Result<Program, Refusal> {
+fn translated(text: &str) -> Result<Translation, Refusal> {
     if text.len() > MAX_TEXT {
         return Err(Refusal::new(format!("the shader is longer than {MAX_TEXT} bytes"), Span::default()));
     }
@@ -51,32 +54,38 @@ fn translated(text: &str) -> Result<Program, Refusal> {
     let info = Validator::new(ValidationFlags::all(), CAPABILITIES).validate(&module);
     let info = info.map_err(|error| {
         let span = error.spans().next().and_then(|(span, _)| place(*span)).unwrap_or_default();
-        Refusal::new(causes(error.as_inner()), span).help("the text is no valid WGSL")
+        Refusal::new(first_cause(error.as_inner()), span).with_help("the text is no valid WGSL")
     })?;
     let fragments: Vec<usize> =
         (0..module.entry_points.len()).filter(|i| module.entry_points[*i].stage == ShaderStage::Fragment).collect();
+    let mut translator = Translator::new(text, &module, &info);
+    let head = |index: usize| translator.word_behind(0, &module.entry_points[index].name).unwrap_or_default();
     let [index] = fragments[..] else {
         let message = format!("expected one function with @fragment, found {}", fragments.len());
-        return Err(Refusal::new(message, Span::default()).help("keep one fragment entry point in the text"));
+        let place = fragments.get(1).map(|second| head(*second)).unwrap_or_default();
+        return Err(Refusal::new(message, place).with_help("keep one fragment entry point in the text"));
     };
-    let entry = &module.entry_points[index];
-    let mut translator = Translator::new(&module, &info);
+    let (entry, head) = (&module.entry_points[index], head(index));
     translator.declare()?;
     let mut arguments = Vec::new();
     for argument in &entry.function.arguments {
+        let name = argument.name.as_deref().unwrap_or_default();
+        translator.builder.span = translator.word_behind(head.end as usize, name).unwrap_or(head);
         arguments.push(Meaning::Value(translator.input(argument.ty, argument.binding.as_ref())?));
     }
     let value = translator.call(&entry.function, info.get_entry_point(index), arguments, 0)?;
-    translator.finish(entry, &value, text)
+    let operations = std::mem::take(&mut translator.operations).into_values().collect();
+    Ok((translator.finish(entry, head, &value)?, operations))
 }
 
 fn parsed(text: &str) -> Result<Module, Refusal> {
     let options = Options { parse_doc_comments: false, capabilities: CAPABILITIES };
     Frontend::new_with_options(options).parse(text).map_err(|error| {
         let (span, label) = error.labels().next().map(|(span, label)| (place(span), label)).unwrap_or_default();
-        let notes: Vec<&str> = Some(label).filter(|label| !label.is_empty()).into_iter().chain(error.notes()).collect();
+        let is_news = |note: &&str| !note.is_empty() && *note != "see msg" && !error.message().contains(note);
+        let notes: Vec<&str> = std::iter::once(label).chain(error.notes()).filter(is_news).collect();
         let help = if notes.is_empty() { "the text is no valid WGSL".to_owned() } else { notes.join("; ") };
-        Refusal::new(error.message(), span.unwrap_or_default()).help(help)
+        Refusal::new(error.message(), span.unwrap_or_default()).with_help(help)
     })
 }
 
@@ -91,10 +100,10 @@ fn with_arguments(text: &str, span: Span) -> Span {
     closes.map_or(span, |at| Span::new(span.start, span.end + at as u32 + 1))
 }
 
-/// A message with its causes.
-fn causes(error: &dyn std::error::Error) -> String {
-    let sources = std::iter::successors(error.source(), |source| source.source());
-    sources.fold(error.to_string(), |message, source| format!("{message}: {source}"))
+/// The first cause of an error, which says what is wrong; those before it number naga's parts.
+fn first_cause(error: &dyn std::error::Error) -> String {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    causes.last().map(ToString::to_string).unwrap_or_default()
 }
 
 impl Translator<'_> {
@@ -105,7 +114,12 @@ impl Translator<'_> {
             let naga::TypeInner::Struct { members, .. } = inner else {
                 return self.builder.refuse("an input has no @location");
             };
-            let parts = members.iter().map(|member| self.input(member.ty, member.binding.as_ref()));
+            let start = place(self.module.types.get_span(ty)).unwrap_or_default().start as usize;
+            let parts = members.iter().map(|member| {
+                let name = member.name.as_deref().unwrap_or_default();
+                self.builder.span = self.word_behind(start, name).unwrap_or(self.builder.span);
+                self.input(member.ty, member.binding.as_ref())
+            });
             return Ok(parts.collect::<Result<Vec<_>, _>>()?.concat());
         };
         let register = match binding {
@@ -127,13 +141,15 @@ impl Translator<'_> {
     }
 
     /// Writes the outputs, and makes a program of the instructions.
-    fn finish(mut self, entry: &EntryPoint, value: &[Component], text: &str) -> Result<Program, Refusal> {
+    fn finish(mut self, entry: &EntryPoint, head: Span, value: &[Component]) -> Result<Program, Refusal> {
+        let text = self.text;
+        let refused = |message: &str| Err(Refusal::new(message, head));
         if self.killed != Component::Bool(false) {
             let killed = self.killed;
             self.builder.kill(killed)?;
         }
         let Some(result) = &entry.function.result else {
-            return self.builder.refuse("the entry point returns no color");
+            return refused("the entry point returns no color");
         };
         let mut outputs = Vec::new();
         match (&result.binding, &self.module.types[result.ty].inner) {
@@ -149,7 +165,7 @@ impl Translator<'_> {
         let mut rest = value;
         for (binding, length) in outputs {
             let Some((part, after)) = rest.split_at_checked(length).filter(|(part, _)| !part.is_empty()) else {
-                return self.builder.refuse("a path through the entry point returns no color");
+                return refused("a path through the entry point returns no color");
             };
             rest = after;
             match binding {
@@ -162,7 +178,7 @@ impl Translator<'_> {
                 Binding::BuiltIn(BuiltIn::FragDepth) => {
                     self.builder.output(Register::new(RegisterFile::DepthOut, 0), 0b0100, &part[..1])?;
                 }
-                _ => return self.builder.refuse("outputs are @location(0) and frag_depth"),
+                _ => return refused("outputs are @location(0) and frag_depth"),
             }
         }
         let mut instructions = finish::without_unused(self.builder.instructions);

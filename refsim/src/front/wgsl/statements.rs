@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use naga::valid::FunctionInfo;
-use naga::{Block, Expression, Function, Handle, Span, Statement, SwitchValue};
+use naga::{Block, Expression, Function, Handle, Literal, Span, Statement, SwitchValue};
 
 use super::super::Refusal;
 use super::translator::{Exit, Frame, Meaning, Translator, Variables, place};
@@ -27,6 +27,10 @@ impl<'a> Translator<'a> {
         depth: usize,
     ) -> Result<Value> {
         let mut frame = Frame { function, info, arguments, locals: BTreeMap::new(), values: BTreeMap::new() };
+        let names = function.named_expressions.iter().map(|(handle, name)| (*handle, name.as_str()));
+        let locals =
+            function.local_variables.iter().filter_map(|(_, local)| Some((local.init?, local.name.as_deref()?)));
+        names.chain(locals).try_for_each(|(init, name)| self.is_whole_number(function, init, name))?;
         for (handle, local) in function.local_variables.iter() {
             let value = match local.init {
                 Some(init) => self.value(&mut frame, init)?,
@@ -47,6 +51,20 @@ impl<'a> Translator<'a> {
         frame.locals.values().for_each(|slot| drop(self.variables.remove(slot)));
         self.live = before;
         Ok(self.variables.remove(&RESULT).unwrap_or_default())
+    }
+
+    /// Refuses a name without a type for a number that no i32 holds: naga finds another type for it.
+    fn is_whole_number(&self, function: &Function, init: Handle<Expression>, name: &str) -> Result {
+        let expression = &function.expressions[init];
+        let Some(span) = place(function.expressions.get_span(init)) else { return Ok(()) };
+        let (before, own) = (&self.text[..span.start as usize], &self.text[span.start as usize..span.end as usize]);
+        let has_no_type = || before.trim_end().strip_suffix('=').is_some_and(|rest| rest.trim_end().ends_with(name));
+        let is_other = matches!(expression, Expression::Literal(literal) if !matches!(literal, Literal::I32(_)));
+        if is_other && own.bytes().all(|byte| byte.is_ascii_digit()) && has_no_type() {
+            let message = format!("expected a number that an i32 holds, found {own}");
+            return Err(Refusal::new(message, span).with_help(format!("write its type: `{own}u`, `{own}.0`")));
+        }
+        Ok(())
     }
 
     pub(super) fn block(&mut self, frame: &mut Frame<'a>, block: &'a Block, depth: usize) -> Result {
@@ -124,19 +142,55 @@ impl<'a> Translator<'a> {
             }
             Statement::Call { function, arguments, result } => {
                 let given = arguments.iter().map(|part| self.entry(frame, *part)).collect::<Result<Vec<_>>>()?;
-                let value = self.call(&self.module.functions[*function], &self.info[*function], given, depth)?;
+                let value = self.call_of(*function, given, span, depth)?;
                 if let Some(result) = result {
                     frame.values.insert(*result, Meaning::Value(value));
                 }
                 Ok(())
             }
-            _ => self.builder.refuse("this statement is not translated"),
+            _ => self.refuse_this(),
         }
+    }
+
+    /// A call by a text, in which no variable may have two names.
+    fn call_of(
+        &mut self,
+        callee: Handle<Function>,
+        mut given: Vec<Meaning>,
+        span: Span,
+        depth: usize,
+    ) -> Result<Value> {
+        let mut outer = std::mem::take(&mut self.accesses);
+        let mut paths = BTreeMap::new();
+        for meaning in &mut given {
+            if let Meaning::Pointer { path, .. } = meaning {
+                self.slots += 1;
+                paths.insert(self.slots, std::mem::replace(path, self.slots));
+            }
+        }
+        let value = self.call(&self.module.functions[callee], &self.info[callee], given, depth)?;
+        let inner = std::mem::take(&mut self.accesses);
+        for (slot, path, _) in inner.iter().filter(|(.., is_written)| *is_written) {
+            let of_parameter = |path: &usize| paths.contains_key(path);
+            let is_alias = |(other, way, _): &(usize, usize, bool)| {
+                other == slot && way != path && (of_parameter(way) || of_parameter(path))
+            };
+            if inner.iter().any(is_alias) {
+                let message = "expected pointers to different variables, found a variable that is written under one name \
+                               and used under another";
+                return Err(Refusal::new(message, place(span).unwrap_or_default())
+                    .with_help("WGSL forbids aliases: pass a copy, or return the value"));
+            }
+        }
+        outer.extend(inner.into_iter().map(|(slot, path, write)| (slot, *paths.get(&path).unwrap_or(&path), write)));
+        self.accesses = outer;
+        Ok(value)
     }
 
     fn store(&mut self, to: &Meaning, value: &[Component]) -> Result {
         let target = match to {
-            Meaning::Pointer { slot, offset, length } if *length == value.len() => {
+            Meaning::Pointer { slot, offset, length, path } if *length == value.len() => {
+                self.accesses.insert((*slot, *path, true));
                 self.variables.get_mut(slot).and_then(|whole| whole.get_mut(*offset..*offset + *length))
             }
             _ => None,
@@ -269,6 +323,7 @@ impl<'a> Translator<'a> {
     ) -> Result {
         let before = self.live;
         self.breaks.push(Exit::default());
+        self.builder.loops.push(self.builder.span);
         while self.live != Component::Bool(false) {
             self.step(place(span))?;
             self.continues.push(Exit::default());
@@ -298,6 +353,7 @@ impl<'a> Translator<'a> {
                 self.live = stay;
             }
         }
+        self.builder.loops.pop();
         let exit = self.breaks.pop().unwrap_or_default();
         self.resume(exit, before);
         Ok(())

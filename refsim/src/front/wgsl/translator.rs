@@ -1,13 +1,13 @@
 //! State of a module's translation: variables, exits, parameters.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{AddressSpace, Expression, Function, GlobalVariable, Handle, LocalVariable, Module, ScalarKind, TypeInner};
 
-use super::super::Refusal;
+use super::super::{Refusal, WgslOperation};
 use super::builder::Builder;
-use super::values::{Component, Value, scalars};
+use super::values::{Component, MAX_SCALARS, Value, scalars};
 use crate::isa::{FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Register, RegisterFile, Span};
 
 /// Maximum number of statements and expressions that are walked over, loops unrolled.
@@ -24,6 +24,8 @@ pub(super) enum Meaning {
         slot: usize,
         offset: usize,
         length: usize,
+        /// The parameter that it came through, 0 if none.
+        path: usize,
     },
     /// Image unit.
     Texture(u16),
@@ -47,8 +49,13 @@ pub(super) type Variables = BTreeMap<usize, Value>;
 pub(super) struct Exit(pub(super) Option<(Component, Variables)>);
 
 pub(super) struct Translator<'a> {
+    pub(super) text: &'a str,
     pub(super) module: &'a Module,
     pub(super) info: &'a ModuleInfo,
+    /// What can be rewritten, by first and last byte.
+    pub(super) operations: BTreeMap<[u32; 2], WgslOperation>,
+    /// Slots that the current function has read and, `true`, written, each with the parameter that led there.
+    pub(super) accesses: BTreeSet<(usize, usize, bool)>,
     pub(super) builder: Builder,
     pub(super) parameters: Vec<Parameter>,
     pub(super) variables: Variables,
@@ -59,7 +66,7 @@ pub(super) struct Translator<'a> {
     pub(super) continues: Vec<Exit>,
     pub(super) returns: Vec<Exit>,
     pub(super) globals: BTreeMap<Handle<GlobalVariable>, Meaning>,
-    slots: usize,
+    pub(super) slots: usize,
     textures: u16,
     work: usize,
 }
@@ -70,10 +77,13 @@ pub(super) fn place(span: naga::Span) -> Option<Span> {
 }
 
 impl<'a> Translator<'a> {
-    pub(super) fn new(module: &'a Module, info: &'a ModuleInfo) -> Self {
+    pub(super) fn new(text: &'a str, module: &'a Module, info: &'a ModuleInfo) -> Self {
         Self {
+            text,
             module,
             info,
+            operations: BTreeMap::new(),
+            accesses: BTreeSet::new(),
             builder: Builder::default(),
             parameters: Vec::new(),
             variables: Variables::new(),
@@ -122,7 +132,7 @@ impl<'a> Translator<'a> {
                     let mut value = Value::new();
                     self.uniform(global.name.clone().unwrap_or_default(), inner, &mut value)?;
                     let (length, slot) = (value.len(), self.variable(value));
-                    Meaning::Pointer { slot, offset: 0, length }
+                    Meaning::Pointer { slot, offset: 0, length, path: 0 }
                 }
                 (AddressSpace::Private, _) => {
                     let value = match global.init {
@@ -130,7 +140,7 @@ impl<'a> Translator<'a> {
                         None => self.zeros(inner)?,
                     };
                     let (length, slot) = (value.len(), self.variable(value));
-                    Meaning::Pointer { slot, offset: 0, length }
+                    Meaning::Pointer { slot, offset: 0, length, path: 0 }
                 }
                 (AddressSpace::Handle, TypeInner::Sampler { comparison: false }) => Meaning::Sampler,
                 (
@@ -155,8 +165,32 @@ impl<'a> Translator<'a> {
     pub(super) fn zeros(&self, inner: &TypeInner) -> Result<Value, Refusal> {
         match scalars(self.module, inner) {
             Some(list) => Ok(list.iter().map(super::values::zero).collect()),
-            None => self.builder.refuse("values of this type are not translated"),
+            None => self.builder.refuse(match inner {
+                TypeInner::Array { .. } | TypeInner::Struct { .. } => {
+                    format!("expected a variable of at most {MAX_SCALARS} numbers, found a larger one")
+                }
+                _ => "values of this type are not translated".to_owned(),
+            }),
         }
+    }
+
+    /// Refuses what the text has at the current place.
+    pub(super) fn refuse_this<T>(&self) -> Result<T, Refusal> {
+        let Span { start, end } = self.builder.span;
+        let quoted = self.text.get(start as usize..end as usize).unwrap_or_default();
+        let name: String = quoted.split(['(', '\n']).next().unwrap_or_default().chars().take(40).collect();
+        self.builder.refuse(format!("`{}` is not translated", name.trim_end()))
+    }
+
+    /// The place of a word in the text behind a place, if it is there.
+    pub(super) fn word_behind(&self, start: usize, word: &str) -> Option<Span> {
+        let is_part = |c: char| c.is_alphanumeric() || c == '_';
+        let mut found =
+            self.text.get(start..)?.match_indices(word).map(|(at, _)| (start + at, start + at + word.len()));
+        let is_whole = |(from, to): &(usize, usize)| {
+            !self.text[..*from].ends_with(is_part) && !self.text[*to..].starts_with(is_part)
+        };
+        found.find(is_whole).map(|(from, to)| Span::new(from as u32, to as u32))
     }
 
     /// Declares the parameters of a uniform, one for each scalar, vector and column of a matrix.
@@ -190,7 +224,7 @@ impl<'a> Translator<'a> {
         }
         let register = Register::new(RegisterFile::Constant, FIRST_NAMED + count as u16);
         let (source, span) = (ParameterSource::Named([0; 4]), self.builder.span);
-        self.parameters.push(Parameter { name, register, source, span });
+        self.parameters.push(Parameter { name, register, source, width, span });
         value.extend((0..width as u8).map(|lane| Component::Place(register, lane)));
         Ok(())
     }
@@ -220,10 +254,13 @@ impl<'a> Translator<'a> {
             Expression::Constant(constant) => return self.constant(module.constants[*constant].init),
             Expression::Override(handle) => match module.overrides[*handle].init {
                 Some(init) => return self.constant(init),
-                None => return self.builder.refuse("an override needs a value in the text"),
+                None => {
+                    let name = module.overrides[*handle].name.as_deref().unwrap_or_default();
+                    return self.builder.refuse(format!("`override {name}` has no value in the text"));
+                }
             },
             Expression::ZeroValue(ty) => return self.zeros(&module.types[*ty].inner),
-            _ => return self.builder.refuse("this expression is not translated"),
+            _ => return self.refuse_this(),
         };
         Ok(vec![match *literal {
             L::F32(value) => Component::Float(value.to_bits()),

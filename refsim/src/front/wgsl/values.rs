@@ -23,7 +23,7 @@ pub(super) enum Component {
 pub(super) type Value = Vec<Component>;
 
 /// Maximum number of scalars in one value.
-const MAX_SCALARS: usize = 4096;
+pub(super) const MAX_SCALARS: usize = 4096;
 
 /// The scalars of a type in order; `None` for other types, and for very large ones.
 pub(super) fn scalars(module: &Module, inner: &TypeInner) -> Option<Vec<Scalar>> {

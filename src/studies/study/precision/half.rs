@@ -1,13 +1,19 @@
 //! Finds the expressions of a WGSL shader that may be f16.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use refsim::front::{WgslOperation, wgsl_operations};
+
 use super::bits::{Assignment, FormatBits};
 use super::runs::{RunError, Runs};
+use super::subject::WorstPlace;
+use crate::shader::ShaderText;
 
 /// The format of f16.
 const HALF: FormatBits = FormatBits::float(5, 10);
 
 /// Expression in half precision.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct HalfExpression {
     /// Index of its place.
     pub(super) place: usize,
@@ -15,27 +21,58 @@ pub(super) struct HalfExpression {
     pub(super) alone: f64,
     /// `true` if it is f16 in the largest set that was found to meet the goal.
     pub(super) together: bool,
+    /// Place of the largest error of the run that refuted it.
+    pub(super) worst: Option<WorstPlace>,
+}
+
+/// The operations of a text, by their places in it; none if it is not WGSL.
+fn operations(text: &ShaderText) -> BTreeMap<[u32; 2], WgslOperation> {
+    let found = if text.is_wgsl() { wgsl_operations(text.named_source().text()) } else { Ok(Vec::new()) };
+    found.into_iter().flatten().map(|operation| ([operation.span.start, operation.span.end], operation)).collect()
+}
+
+/// Places in the text of the instructions of a place.
+fn spans(place: usize, runs: &Runs<'_>) -> impl Iterator<Item = [u32; 2]> {
+    let place = &runs.places[place];
+    let program = runs.programs[place.program].program;
+    place.instructions().map(|at| program.instructions[at].span).map(|span| [span.start, span.end])
 }
 
 /// Tries each expression alone; then adds one after the other, the harmless first, as long as the goal is met.
 pub(super) fn half_expressions(runs: &mut Runs<'_>, found: &mut Vec<HalfExpression>) -> Result<(), RunError> {
-    if !runs.programs.iter().all(|studied| studied.text.is_wgsl()) {
-        return Ok(());
-    }
+    let [studied] = runs.programs[..] else { return Ok(()) };
+    let known = operations(studied.text);
     runs.step("half precision");
     for place in 0..runs.count() {
-        let alone = runs.value(&runs.alone(place, HALF))?;
-        found.push(HalfExpression { place, alone, together: false });
+        if spans(place, runs).all(|span| known.contains_key(&span)) {
+            let assignment = runs.alone(place, HALF);
+            let alone = runs.value(&assignment)?;
+            let worst = runs.made_before(&assignment).and_then(|(_, worst)| worst);
+            found.push(HalfExpression { place, alone, together: false, worst });
+        }
     }
     let mut order: Vec<usize> = (0..found.len()).filter(|at| runs.goal.met(found[*at].alone)).collect();
     order.sort_by(|a, b| found[*a].alone.total_cmp(&found[*b].alone));
     let mut together: Assignment = vec![None; runs.count()];
     for at in order {
-        together[found[at].place] = Some(HALF);
-        found[at].together = runs.meets(&together)?;
-        if !found[at].together {
-            together[found[at].place] = None;
+        let expression = &mut found[at];
+        together[expression.place] = Some(HALF);
+        expression.together = runs.meets(&together)?;
+        if !expression.together {
+            expression.worst = runs.made_before(&together).and_then(|(_, worst)| worst);
+            together[expression.place] = None;
         }
     }
     Ok(())
+}
+
+/// The text with the expressions in f16 that may be so together.
+pub(super) fn rewritten(found: &[HalfExpression], runs: &Runs<'_>) -> Option<ShaderText> {
+    let [studied] = runs.programs[..] else { return None };
+    let known = operations(studied.text);
+    let chosen = found.iter().filter(|expression| expression.together);
+    let chosen = chosen.flat_map(|expression| spans(expression.place, runs)).collect::<BTreeSet<_>>();
+    let text =
+        WgslOperation::in_half(studied.text.named_source().text(), chosen.iter().filter_map(|span| known.get(span)));
+    Some(ShaderText::new("half.wgsl", text))
 }

@@ -27,7 +27,7 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     found.heading("Formats for all instructions");
     found.table(FoundTable::from(tables::named(outcome, runs)).csv("formats").field("formats"));
     found.table(FoundTable::from(tables::curves(outcome, runs)).csv("curve").field("curve").unprinted());
-    half_report::report(&mut found, &outcome.half, runs);
+    half_report::report(&mut found, &outcome.half, runs)?;
     for family in &outcome.families {
         family_report::per_instruction(&mut found, study, family, outcome, runs);
     }

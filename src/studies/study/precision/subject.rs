@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use refsim::device::{Profile, takes_format};
-use refsim::isa::Program;
+use refsim::isa::{Instruction, Opcode, Program};
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 use serde::{Deserialize, Serialize};
@@ -175,6 +175,16 @@ pub trait PrecisionSubject {
     /// device cannot run the programs.
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
+    /// Runs another text of the only pixel program on the device of the exact run, and measures; `None` if the subject
+    /// has several.
+    ///
+    /// # Errors
+    /// If the text is no program of the device.
+    fn measure_text(&self, text: &ShaderText, wanted: &str) -> Result<Option<Measured>, StudyError> {
+        let _ = (text, wanted);
+        Ok(None)
+    }
+
     /// Returns `true` if the exact run on this device, which differs in a switch, draws with pixel programs that are
     /// none of the subject's. Fails if the device cannot run the programs.
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
@@ -231,11 +241,15 @@ impl InstructionPlace {
 
 /// Instructions that can have a format of their own, in the order of the texts.
 pub(super) fn places(programs: &[StudiedProgram<'_>]) -> Vec<InstructionPlace> {
-    programs.iter().enumerate().flat_map(|(program, studied)| places_of(program, studied.program)).collect()
+    programs.iter().enumerate().flat_map(|(program, studied)| places_of(program, *studied)).collect()
 }
 
-fn places_of(program: usize, studied: &Program) -> Vec<InstructionPlace> {
-    let takes = |at: &usize| takes_format(&studied.instructions[*at]);
+fn places_of(program: usize, StudiedProgram { program: studied, text }: StudiedProgram<'_>) -> Vec<InstructionPlace> {
+    // Moves of a translated shader bring components together: no operation of the text.
+    let is_move = |instruction: &Instruction| {
+        text.is_wgsl() && instruction.opcode == Opcode::Mov && instruction.fragment.precision.is_none()
+    };
+    let takes = |at: &usize| takes_format(&studied.instructions[*at]) && !is_move(&studied.instructions[*at]);
     // By text, and by place in the text: an expression of a translated shader may be several instructions.
     let mut by_text: BTreeMap<String, BTreeMap<[u32; 2], Vec<usize>>> = BTreeMap::new();
     for at in (0..studied.instructions.len()).filter(takes) {

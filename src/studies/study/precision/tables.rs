@@ -1,5 +1,7 @@
 //! Tables of the study.
 
+use refsim::isa::Span;
+
 use super::bits::FormatBits;
 use super::instructions::InstructionNeeds;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
@@ -22,7 +24,8 @@ pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
 
 fn source_line(program: usize, instruction: usize, runs: &Runs<'_>) -> SourceLine {
     let studied = &runs.programs[program];
-    studied.text.line(studied.program.instructions[instruction].span)
+    // Places of a study are instructions of its programs.
+    studied.text.instruction(studied.program, instruction).unwrap_or_else(|| studied.text.line(Span::default()))
 }
 
 /// Line number and text of the instruction at a place; with the program's name if there are several.
@@ -34,10 +37,6 @@ pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
 /// As [`named_line`], by the indices of program and instruction.
 pub(super) fn line_cells(program: usize, instruction: usize, runs: &Runs<'_>) -> [Cell; 2] {
     let SourceLine { file, line, text, .. } = source_line(program, instruction, runs);
-    let studied = &runs.programs[program];
-    // A line of WGSL has several expressions.
-    let expression = studied.program.instruction_text(instruction).filter(|_| studied.text.is_wgsl());
-    let text = expression.unwrap_or(text);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }

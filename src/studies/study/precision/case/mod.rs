@@ -3,9 +3,11 @@
 mod drawn;
 mod errors;
 
+use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use refsim::device::Profile;
+use refsim::isa::{Destination, Instruction, Program, Register, RegisterFile};
 use refsim::machine::ExecutorKind;
 
 use super::executors::SubjectExecutors;
@@ -13,11 +15,12 @@ use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
 use super::steps::{first_results, step_results, with_rounded};
 use super::subject::{
-    ErrorMap, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
-    RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
+    ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
+    RefutingDevices, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
 };
-use crate::case::{Loaded, Setup, trace};
+use crate::case::{CaseError, Loaded, Setup, trace};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
+use crate::shader::ShaderText;
 use crate::study::StudyError;
 use drawn::{DrawnCase, codes};
 use errors::{CaseErrors, FLIP, LARGEST_CODES, MEASURES, SSIM};
@@ -108,23 +111,14 @@ impl PrecisionSubject for CaseSubject {
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let drawn = DrawnCase::new(&self.setup, self.executors.of(executor), profile)?;
-        let [width, height] = self.setup.size;
-        let errors = CaseErrors::new(&drawn, &self.exact, width as usize * height as usize);
-        let known = errors.values().into_iter().filter(|(name, _)| self.measures.iter().any(|m| m.name == *name));
-        let mut values: Vec<(&'static str, f64)> = known.collect();
-        if wanted.is_none_or(|wanted| [SSIM.name, FLIP.name].contains(&wanted)) {
-            let [ours, exact] = [drawn.screen(self.setup.size)?, self.exact.screen(self.setup.size)?];
-            values.extend(ssim(&ours, &exact).map(|ssim| (SSIM.name, ssim)));
-            values.extend(flip(&ours, &exact, DEFAULT_PPD).map(|flip| (FLIP.name, flip.mean)));
-        }
-        let is_shown = wanted.is_none();
-        Ok(Measured {
-            values,
-            worst: errors.worst.map(|worst| self.place(worst, &drawn)),
-            picture: is_shown.then(|| drawn.picture(self.setup.size)),
-            errors: is_shown.then(|| ErrorMap { width, unit: self.exact.unit(), values: errors.off }),
-        })
+        self.measured(&self.setup, profile, executor, wanted)
+    }
+
+    fn measure_text(&self, text: &ShaderText, wanted: &str) -> Result<Option<Measured>, StudyError> {
+        let profile = exact(&self.setup.profile, []);
+        let pixel = text.assemble().and_then(|program| text.check(program, &profile)).map_err(CaseError::from)?;
+        let setup = Setup { pixel, pixel_text: text.clone(), ..self.setup.clone() };
+        Ok(Some(self.measured(&setup, &profile, ExecutorKind::Batch, Some(wanted))?))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
@@ -143,13 +137,16 @@ impl PrecisionSubject for CaseSubject {
     }
 
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let all = self.sampled(exact, |_| true)?;
+        let all = self.sampled(&self.setup, exact, |_| true)?;
         let of = |rounded: &RoundedInstruction| {
             let device = with_rounded(exact, &self.setup.pixel, *rounded);
-            let mut found = self.sampled(&device, |instruction| instruction == rounded.instruction)?;
+            let mut found = self.sampled(&self.setup, &device, |instruction| instruction == rounded.instruction)?;
             Ok(found.remove(&rounded.instruction).unwrap_or_default())
         };
-        let rounded = rounded.iter().map(of).collect::<Result<_, StudyError>>()?;
+        let rounded = match self.rounded_copies(exact, rounded)? {
+            Some(found) => found,
+            None => rounded.iter().map(of).collect::<Result<_, StudyError>>()?,
+        };
         Ok(SampledResults { exact: vec![all], rounded })
     }
 
@@ -163,6 +160,33 @@ impl PrecisionSubject for CaseSubject {
 }
 
 impl CaseSubject {
+    /// Draws a case of the same size and targets, and measures it against the exact run.
+    fn measured(
+        &self,
+        setup: &Setup,
+        profile: &Profile,
+        executor: ExecutorKind,
+        wanted: Option<&str>,
+    ) -> Result<Measured, StudyError> {
+        let drawn = DrawnCase::new(setup, self.executors.of(executor), profile)?;
+        let [width, height] = self.setup.size;
+        let errors = CaseErrors::new(&drawn, &self.exact, width as usize * height as usize);
+        let known = errors.values().into_iter().filter(|(name, _)| self.measures.iter().any(|m| m.name == *name));
+        let mut values: Vec<(&'static str, f64)> = known.collect();
+        if wanted.is_none_or(|wanted| [SSIM.name, FLIP.name].contains(&wanted)) {
+            let [ours, exact] = [drawn.screen(self.setup.size)?, self.exact.screen(self.setup.size)?];
+            values.extend(ssim(&ours, &exact).map(|ssim| (SSIM.name, ssim)));
+            values.extend(flip(&ours, &exact, DEFAULT_PPD).map(|flip| (FLIP.name, flip.mean)));
+        }
+        let is_shown = wanted.is_none();
+        Ok(Measured {
+            values,
+            worst: errors.worst.map(|worst| self.place(worst, &drawn)),
+            picture: is_shown.then(|| drawn.picture(self.setup.size)),
+            errors: is_shown.then(|| ErrorMap { width, unit: self.exact.unit(), values: errors.off }),
+        })
+    }
+
     /// Describes the place of a value with the exact one.
     fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> WorstPlace {
         let (ours, exact) = (&drawn.targets[target], &self.exact.targets[target]);
@@ -181,14 +205,55 @@ impl CaseSubject {
         WorstPlace { text, pixel: Some([x as u32, y as u32]) }
     }
 
-    /// First results of the wanted instructions in the fragments of evenly spread pixels.
-    fn sampled(&self, device: &Profile, is_wanted: impl Fn(usize) -> bool) -> Result<InstructionResults, StudyError> {
-        let setup = self.setup.on_device(device.clone())?;
+    /// Results of rounded instructions of a translated shader, in one draw for each format: in front of each instruction
+    /// stands a copy that writes to a register that nothing reads. `None` if the program has no such register.
+    fn rounded_copies(
+        &self,
+        exact: &Profile,
+        rounded: &[RoundedInstruction],
+    ) -> Result<Option<Vec<FragmentResults>>, StudyError> {
+        let (program, text) = (&self.setup.pixel, &self.setup.pixel_text);
+        let written = program.instructions.iter().filter_map(|instruction| Some(instruction.destination?.register));
+        let free =
+            written.filter(|register| register.file == RegisterFile::Temp).map(|register| register.index + 1).max();
+        let Some(index) = free.filter(|_| text.is_wgsl()) else { return Ok(None) };
+        let mut found = Vec::new();
+        for group in rounded.chunk_by(|a, b| a.format == b.format) {
+            let (mut instructions, mut copies) = (Vec::new(), BTreeMap::new());
+            for (at, instruction) in program.instructions.iter().enumerate() {
+                if group.iter().any(|rounded| rounded.instruction == at) {
+                    copies.insert(at, instructions.len());
+                    let register = Register::new(RegisterFile::Temp, index);
+                    let destination = instruction.destination.map(|to| Destination { register, ..to });
+                    instructions.push(Instruction { destination, ..instruction.clone() });
+                }
+                instructions.push(instruction.clone());
+            }
+            let copied = Program { instructions, ..(**program).clone() };
+            let Ok(pixel) = text.check(copied, exact) else { return Ok(None) };
+            let mut device = exact.clone();
+            device.set_instruction_formats(&pixel, copies.values().map(|at| (*at, group[0].format)).collect());
+            let setup = Setup { pixel, ..self.setup.clone() };
+            let mut results = self.sampled(&setup, &device, |at| copies.values().any(|copy| *copy == at))?;
+            let of = |rounded: &RoundedInstruction| results.remove(&copies[&rounded.instruction]).unwrap_or_default();
+            found.extend(group.iter().map(of));
+        }
+        Ok(Some(found))
+    }
+
+    /// First results of the wanted instructions of a case in the fragments of evenly spread pixels.
+    fn sampled(
+        &self,
+        setup: &Setup,
+        device: &Profile,
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Result<InstructionResults, StudyError> {
+        let setup = setup.on_device(device.clone())?;
         let [width, height] = self.setup.size;
         let count = width as usize * height as usize;
         let step = count.div_ceil(TRACED).max(1);
         let pixels: Vec<(u32, u32)> = (0..count as u32).step_by(step).map(|at| (at % width, at / width)).collect();
         let traces = Loaded::new(&setup, &self.executors.batch)?.trace(&pixels)?;
-        Ok(first_results(device, &self.setup.pixel, (0, traces.iter().flatten()), is_wanted))
+        Ok(first_results(device, &setup.pixel, (0, traces.iter().flatten()), is_wanted))
     }
 }

@@ -1,0 +1,216 @@
+//! Operations of a text in WGSL, and the text with some of them in f16.
+
+use std::cmp::Reverse;
+
+use crate::isa::Span;
+
+/// An operation of a shader on f32 that can be one on f16: its operands are converted, and its result back.
+#[derive(Clone, Debug)]
+pub struct WgslOperation {
+    /// Its place in the text.
+    pub span: Span,
+    casts: Vec<Cast>,
+    /// The operator of a compound assignment, which goes.
+    removed: Option<usize>,
+}
+
+/// `vec3h(` or the like in front of a part of the text, and a bracket behind it.
+#[derive(Clone, Debug)]
+struct Cast {
+    start: usize,
+    end: usize,
+    open: String,
+}
+
+/// How the text of an operation looks.
+#[derive(Clone, Copy)]
+pub(super) enum OperationForm {
+    /// A function of all operands.
+    Call,
+    /// A function that is there in f32 alone: its operands are rounded, and its result.
+    CallOfF32,
+    /// An operator between two operands, or one that also assigns.
+    Operator(&'static str),
+}
+
+/// A word or mark of a text.
+#[derive(Clone, Copy)]
+struct Token {
+    start: usize,
+    end: usize,
+    /// Number of brackets around it.
+    depth: usize,
+    /// `true` if an operand ends before it.
+    follows: bool,
+}
+
+/// The f16 type for the name of an f32 type.
+fn half(name: &str) -> String {
+    let columns = name.strip_suffix('f').filter(|_| name != "f32");
+    columns.map_or_else(|| "f16".to_owned(), |columns| format!("{columns}h"))
+}
+
+/// Length of the word at the start of a text, with the types in `<>` behind it.
+fn word(text: &str) -> usize {
+    let is_number = !text.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    let is_hexadecimal = text.starts_with("0x") || text.starts_with("0X");
+    let (mut before, signed) = (' ', if is_hexadecimal { ['p', 'P'] } else { ['e', 'E'] });
+    let end = text.find(|c: char| {
+        let sign = is_number && (c == '+' || c == '-') && signed.contains(&before);
+        before = c;
+        !(c.is_alphanumeric() || c == '_' || c == '.' || sign)
+    });
+    let end = end.unwrap_or(text.len());
+    let takes_types = matches!(&text[..end], "vec2" | "vec3" | "vec4" | "array" | "bitcast" | "ptr")
+        || (end == 6 && text.starts_with("mat"));
+    if !takes_types || !text[end..].starts_with('<') {
+        return end;
+    }
+    let mut open = 0;
+    let closes = text[end..].find(|c: char| {
+        open += i32::from(c == '<') - i32::from(c == '>');
+        open == 0
+    });
+    closes.map_or(end, |at| end + at + 1)
+}
+
+/// Words and marks of a text without its comments.
+fn tokens(text: &str) -> Vec<Token> {
+    const PAIRS: [&str; 15] =
+        ["<<", "<=", ">>", ">=", "==", "!=", "&&", "||", "+=", "-=", "*=", "/=", "%=", "->", "::"];
+    let mut found = Vec::new();
+    let (mut start, mut depth, mut follows) = (0, 0_usize, false);
+    while let Some(first) = text[start..].chars().next() {
+        let rest = &text[start..];
+        let is_word = first.is_alphanumeric() || first == '_' || first == '.';
+        let length = match first {
+            _ if first.is_whitespace() => first.len_utf8(),
+            '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
+            '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |at| at + 2),
+            _ if is_word => word(rest),
+            _ => PAIRS.iter().find(|pair| rest.starts_with(**pair)).map_or(first.len_utf8(), |pair| pair.len()),
+        };
+        let end = start + length;
+        if !(first.is_whitespace() || rest.starts_with("//") || rest.starts_with("/*")) {
+            let closes = first == ')' || first == ']';
+            depth -= usize::from(closes && depth > 0);
+            found.push(Token { start, end, depth, follows });
+            depth += usize::from(first == '(' || first == '[');
+            follows = is_word || closes;
+        }
+        start = end;
+    }
+    found
+}
+
+impl WgslOperation {
+    /// The operation at a place, with the names of its operands' types, in the order of the text, and of its result's;
+    /// `None` for those that are not numbers. `None` if the text looks otherwise.
+    pub(super) fn new(
+        text: &str,
+        span: Span,
+        form: OperationForm,
+        operands: &[Option<String>],
+        result: Option<&str>,
+    ) -> Option<Self> {
+        let first = span.start as usize;
+        let own = text.get(first..span.end as usize)?;
+        let tokens = tokens(own);
+        let is = |token: &Token, mark: &str| &own[token.start..token.end] == mark;
+        let mut casts = Vec::new();
+        let mut cast = |range: &[Token], open: String| {
+            let (start, end) = (range.first()?.start + first, range.last()?.end + first);
+            casts.push(Cast { start, end, open });
+            Some(())
+        };
+        let (mut removed, mut parts) = (None, Vec::new());
+        let back = result.map(|name| format!("{name}("));
+        if let OperationForm::Operator(mark) = form {
+            let at = tokens.iter().rposition(|token| token.depth == 0 && token.follows && is(token, mark));
+            let assigns = format!("{mark}=");
+            match tokens.iter().position(|token| token.depth == 0 && is(token, &assigns)) {
+                Some(at) => {
+                    let target = &own[tokens.first()?.start..tokens.get(at.checked_sub(1)?)?.end];
+                    let target = match operands.first()? {
+                        Some(name) => format!("{}({target})", half(name)),
+                        None => target.to_owned(),
+                    };
+                    cast(&tokens[at + 1..], format!("{}{target} {mark} ", back?))?;
+                    removed = Some(first + tokens[at].start);
+                    parts.push((&tokens[at + 1..], operands.get(1)?));
+                }
+                None => {
+                    back.into_iter().try_for_each(|open| cast(&tokens, open))?;
+                    parts.extend([&tokens[..at?], &tokens[at? + 1..]].into_iter().zip(operands));
+                }
+            }
+        } else {
+            back.into_iter().try_for_each(|open| cast(&tokens, open))?;
+            if let (OperationForm::CallOfF32, Some(name)) = (form, result) {
+                cast(&tokens, format!("{}(", half(name)))?;
+            }
+            let inside = &tokens[tokens.iter().position(|token| is(token, "("))? + 1..tokens.len().checked_sub(1)?];
+            let arguments = inside.split(|token| token.depth == 1 && is(token, ","));
+            parts.extend(arguments.filter(|part| !part.is_empty()).zip(operands));
+        }
+        for (part, name) in &parts {
+            let Some(name) = name else { continue };
+            let mut part = *part;
+            while let [open, inside @ .., _] = part
+                && is(open, "(")
+                && inside.iter().all(|token| token.depth > open.depth)
+            {
+                part = inside;
+            }
+            // A number beside a vector is one component.
+            let is_number =
+                part.len() == 1 && own[part[0].start..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
+            let name = if is_number { "f32" } else { name };
+            if let OperationForm::CallOfF32 = form {
+                cast(part, format!("{name}("))?;
+            }
+            cast(part, format!("{}(", half(name)))?;
+        }
+        let complete = matches!(form, OperationForm::Operator(_)) || parts.len() == operands.len();
+        complete.then_some(Self { span, casts, removed })
+    }
+
+    /// The text with these operations in f16.
+    pub fn in_half<'o>(text: &str, operations: impl IntoIterator<Item = &'o Self>) -> String {
+        let mut operations: Vec<&Self> = operations.into_iter().collect();
+        // Those around others first, so that casts of one part are in order.
+        operations.sort_by_key(|operation| Reverse(operation.span.end - operation.span.start));
+        let mut casts: Vec<&Cast> = operations.iter().flat_map(|operation| &operation.casts).collect();
+        casts.sort_by_key(|cast| (cast.start, Reverse(cast.end)));
+        let mut kept: Vec<&Cast> = Vec::new();
+        for cast in casts {
+            // There and back again: a result in f16 is an operand in f16.
+            let is_back = |last: &&&Cast| {
+                let name = cast.open.strip_suffix('(').filter(|name| !name.contains('('));
+                (last.start, last.end) == (cast.start, cast.end)
+                    && name.is_some_and(|name| last.open == half(name) + "(")
+            };
+            match kept.last().filter(is_back) {
+                Some(_) => drop(kept.pop()),
+                None => kept.push(cast),
+            }
+        }
+        let removed = |at: usize| operations.iter().any(|operation| operation.removed == Some(at));
+        let is_enabled = text.lines().any(|line| line.trim_start().starts_with("enable f16"));
+        let mut made = if is_enabled { String::new() } else { "enable f16;\n".to_owned() };
+        let (mut kept, mut ends) = (kept.into_iter().peekable(), Vec::new());
+        for (at, c) in text.char_indices() {
+            while ends.last() == Some(&at) {
+                ends.pop();
+                made.push(')');
+            }
+            while let Some(cast) = kept.next_if(|cast| cast.start == at) {
+                made.push_str(&cast.open);
+                ends.push(cast.end);
+            }
+            made.extend(Some(c).filter(|_| !removed(at)));
+        }
+        ends.iter().for_each(|_| made.push(')'));
+        made
+    }
+}
