@@ -13,7 +13,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar atlas docs/examples/teapot.obj --side 256
       how evenly the faces share the texels, how connected and compact clusters are
-  crossbar atlas stand-in-bunny --side 512 --out out/bunny
+  crossbar atlas stanford-bunny --side 512 --out out/bunny
       pictures of atlas and mesh, colored by face and by clusters of some levels; the mesh with texture coordinates
 
 The side is a power of two, up to 8192; every face needs a texel.
@@ -26,7 +26,7 @@ coordinates), faces.csv (each face's rectangle). docs/atlas.md explains all of i
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
-    /// of the paper: stand-in-bunny, stand-in-dolphin, stand-in-head
+    /// of the paper: stanford-bunny, stand-in-dolphin, stand-in-head
     #[arg(value_name = "MODEL")]
     model: PathBuf,
 

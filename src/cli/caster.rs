@@ -24,6 +24,8 @@ pub(super) enum CasterArg {
     Host,
     /// The Ray Engine on `--device`, by `--executor`
     Engine,
+    /// The same for all but eye rays, which the device draws; one sample per pixel, front faces
+    Hybrid,
 }
 
 /// A caster with its options, not yet built.

@@ -114,6 +114,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 fn choose(args: &Args) -> miette::Result<HitSource> {
     let device = args.device.as_deref();
     if let Some(caster) = args.caster {
+        if caster == CasterArg::Hybrid {
+            let help = "name `--caster engine`, which casts all rays";
+            return Err(Problem::usage("rays of a file go through no pixels that could be drawn", help).into());
+        }
         return caster.choose(device, args.executor).map(HitSource::Caster);
     }
     let profile = Box::new(device_named(device.unwrap_or(view::DEFAULT_DEVICE))?);

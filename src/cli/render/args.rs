@@ -32,8 +32,8 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
-    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene of the project: cornell-box, office,
-    /// office-floor, teapot-room, white-box
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene of the project: cornell-box, harbour,
+    /// office, office-floor, teapot-room, white-box
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
 
@@ -44,7 +44,7 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
+    /// The card; `exact` arithmetic and the host caster need none, environment maps do [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
@@ -68,6 +68,8 @@ pub(super) enum Renderer {
     Eye,
     /// Point lights, hard shadows, mirrors, glass
     Whitted,
+    /// The same, but mirrors show a cube map of what is around them, drawn by `--device`
+    Environment,
     /// Soft shadows, gloss, depth of field; no light between diffuse surfaces
     Distributed,
     /// All light, by random walks, unbiased
@@ -82,6 +84,7 @@ impl Renderer {
         match self {
             Self::Eye => "Eye rays with a lamp at the eye",
             Self::Whitted => "Ray tracing after Whitted",
+            Self::Environment => "Ray tracing after Whitted with an environment map",
             Self::Distributed => "Distributed ray tracing",
             Self::Path => "Path tracing",
             Self::Photon => "Photon mapping",
@@ -96,7 +99,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_enum, value_name = "R")]
     pub(super) renderer: Option<Renderer>,
 
-    /// Samples per pixel [default: 1 for eye, 4 for whitted, else 16]
+    /// Samples per pixel [default: 1 for eye, environment and `--caster hybrid`, 4 for whitted, else 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
@@ -145,8 +148,18 @@ impl LightArgs {
         let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];
         let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
         given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
+        let is_mapped = renderer == Some(Renderer::Environment);
+        let is_one = is_mapped || self.caster == Some(CasterArg::Hybrid);
+        let jittered =
+            [("--lens", self.lens.is_some()), ("--samples", self.samples.is_some_and(|samples| samples > 1))];
+        let jittered = jittered.map(|(option, given)| (option, given && is_one));
+        given::refuse(
+            jittered,
+            "rays beside the centers of pixels",
+            "leave it out, or draw neither eye rays nor mirrors",
+        )?;
         let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
-        let depth = [("--depth", self.depth.is_some() && is_eye)];
+        let depth = [("--depth", self.depth.is_some() && (is_eye || is_mapped))];
         given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
         let of_light =
             [("--seed", self.seed.is_some()), ("--exposure", self.exposure.is_some()), ("--lens", self.lens.is_some())];

@@ -3,17 +3,22 @@
 use std::time::Instant;
 
 use miette::IntoDiagnostic as _;
+use refsim::device::Profile;
 use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
 use super::args::{Args, Renderer};
 use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
+use crate::card::RasterizedEyes;
+use crate::case::device_named;
 use crate::cli::caster::{self, CasterArg};
+use crate::cli::executor::Decider;
 use crate::cli::{CommandLine, Out, Problem, ProgressBar, scene_name, study, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
+use crate::renderer::environment::{self, EnvironmentCard};
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
 use crate::report::digits::count;
@@ -29,15 +34,27 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     args.light.refuse_others(Some(renderer))?;
     check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
-    let device =
-        (caster == CasterArg::Engine).then(|| args.device.clone().unwrap_or_else(|| view::DEFAULT_DEVICE.to_owned()));
-    let caster = caster.choose(args.device.as_deref(), args.executor)?;
+    let is_mapped = renderer == Renderer::Environment;
+    let card = (is_mapped || caster != CasterArg::Host)
+        .then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE)))
+        .transpose()?;
+    // The device of an environment map is not the caster's.
+    let (device, executor) =
+        if is_mapped && caster == CasterArg::Host { (None, None) } else { (args.device.as_deref(), args.executor) };
+    let caster = caster.choose(device, executor)?;
     let camera = camera(args, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut caster = caster.build(asked.scene.mesh(), Sides::Both)?;
-    let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
-    let engine = caster.counts();
+    let mut open = caster.build(asked.scene.mesh(), Sides::Both)?;
+    let eyes = card.as_ref().filter(|_| args.light.caster == Some(CasterArg::Hybrid));
+    let picture = match eyes {
+        None => trace(renderer, args, &asked.scene, (&camera, card.as_ref()), rounding, open.caster())?,
+        Some(profile) => {
+            let mut eyes = RasterizedEyes::new(profile, asked.scene.mesh(), camera, open.caster()).into_diagnostic()?;
+            trace(renderer, args, &asked.scene, (&camera, card.as_ref()), rounding, &mut eyes)?
+        }
+    };
+    let engine = open.counts();
     let numbers = layers(&picture, &asked.scene, &camera)?;
     let exposure = args.light.exposure.unwrap_or(1.0);
     let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
@@ -45,7 +62,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     findings.table(FoundTable::from(rays(&picture)).unprinted());
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     provenance.seed = Some(args.light.seed.unwrap_or(SEED));
-    provenance.profiles.extend(device);
+    provenance.profiles.extend(card.map(|card| card.name));
     report(args, &picture, engine.as_ref(), &mut findings);
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
     study::show(&findings, out)
@@ -81,7 +98,7 @@ fn check_lights(renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
     let (points, emitters) = (!scene.point_lights.is_empty(), !scene.emitters().is_empty());
     let dark = match renderer {
         Renderer::Eye => false,
-        Renderer::Whitted => !points,
+        Renderer::Whitted | Renderer::Environment => !points,
         _ => !points && !emitters,
     };
     let help = match emitters {
@@ -95,13 +112,14 @@ fn trace(
     renderer: Renderer,
     args: &Args,
     scene: &Scene,
-    camera: &Camera,
+    (camera, card): (&Camera, Option<&Profile>),
     rounding: f64,
     caster: &mut dyn Caster,
 ) -> miette::Result<RenderedPicture> {
     let light = &args.light;
     let usual = match renderer {
-        Renderer::Eye => 1,
+        Renderer::Eye | Renderer::Environment => 1,
+        _ if light.caster == Some(CasterArg::Hybrid) => 1,
         Renderer::Whitted => 4,
         _ => 16,
     };
@@ -127,6 +145,14 @@ fn trace(
     let picture = match renderer {
         Renderer::Eye => eye::render(scene, camera, &settings, caster, watch),
         Renderer::Whitted => whitted::render(scene, camera, &settings, caster, watch),
+        Renderer::Environment => {
+            let executor = args.executor.unwrap_or(Decider::Batch).open()?;
+            let help = "name `--executor scalar`, `batch` or `wgpu`";
+            let executor = executor.ok_or_else(|| Problem::usage("a card does not draw in exact arithmetic", help))?;
+            let profile = card.ok_or_else(|| Problem::usage("an environment map needs a card", "name a `--device`"))?;
+            let card = EnvironmentCard { profile, executor: &executor };
+            environment::render(scene, camera, &settings, card, caster, watch)
+        }
         Renderer::Distributed => distributed::render(scene, camera, &settings, caster, watch),
         Renderer::Path => path::render(scene, camera, &settings, path::Direct::Both, caster, watch),
         Renderer::Photon => photon::render(scene, camera, &settings, &photons, caster, watch),

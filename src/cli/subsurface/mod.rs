@@ -40,7 +40,7 @@ const ETA: f64 = 1.3;
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
-    /// of the paper: stand-in-bunny, stand-in-dolphin, stand-in-head
+    /// of the paper: stanford-bunny, stand-in-dolphin, stand-in-head
     #[arg(value_name = "MODEL")]
     model: PathBuf,
 

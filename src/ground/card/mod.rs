@@ -6,7 +6,8 @@
 //! - [`Levels`]: a pyramid of targets, each filled from the one before;
 //! - [`NearestTarget`]: a color target that keeps the nearest fragment;
 //! - [`Attribute`], [`by_register`], [`vertex_streams`]: what vertices hold;
-//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: what pixels show by a device's raster;
+//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: what pixels show by a device's raster, in place
+//!   of eye rays [`RasterizedEyes`];
 //! - [`frame_time`](mod@frame_time): how long a frame takes beside the host's work;
 //! - [`CardError`]: why a card does not do it.
 //!
@@ -36,5 +37,5 @@ pub use nearest::NearestTarget;
 use nearest::ViewTarget;
 pub use pass::{BILINEAR, FullScreenPass, PingPong, ReadTexture, constants, nearest};
 pub use refsim::raster::full_screen_quad;
-pub use seen::{SeenPixel, seen_pixels};
+pub use seen::{RasterizedEyes, SeenPixel, seen_pixels};
 pub use texels::{Texels, new_target, new_texture};

@@ -1,12 +1,16 @@
 //! The triangle at each pixel by a device's rasterization, for comparisons in which only arithmetic differs.
 
+use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind};
 use refsim::output::WriteMask;
 
 use super::kernels::{FLOAT_COLOR, SHADE};
 use super::{Attribute, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, attribute};
+use crate::geom::vector::wide;
+use crate::geom::{Hit, Mesh, Ray};
 use crate::scene::Camera;
+use crate::tracer::{CastError, Caster};
 
 /// A triangle's vertices with barycentric weights that sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,4 +65,54 @@ pub fn seen_pixels(
         Some(SeenPixel { triangle, corners, weights: [first, second, 1.0 - first - second] })
     };
     Ok(texels.texels.iter().map(seen).collect())
+}
+
+/// A caster whose eye rays are drawn, as the Ray Engine is meant to augment a renderer that rasterizes (section 1): a
+/// ray through the center of a camera's pixel finds the front face that a device's raster shows there. The caster
+/// behind it traces all other rays.
+pub struct RasterizedEyes<'a> {
+    camera: Camera,
+    seen: Vec<Option<Hit>>,
+    behind: &'a mut dyn Caster,
+    /// Number of rays that were found in the raster.
+    pub drawn: u64,
+}
+
+impl<'a> RasterizedEyes<'a> {
+    /// Draws the mesh.
+    ///
+    /// # Errors
+    /// As [`seen_pixels`].
+    pub fn new(profile: &Profile, mesh: &Mesh, camera: Camera, behind: &'a mut dyn Caster) -> Result<Self, CardError> {
+        let hit = |seen: SeenPixel| {
+            let corners = seen.corners.map(|corner| wide(mesh.positions()[corner as usize]));
+            let point = corners.iter().zip(seen.weights).map(|(corner, weight)| weight * corner).sum::<DVec3>();
+            // The component of a camera's rays along the view is 1.
+            Hit { triangle: seen.triangle, t: (point - wide(camera.eye())).dot(camera.forward()) as f32 }
+        };
+        let seen = seen_pixels(profile, (mesh.positions(), mesh.triangles()), &camera)?;
+        Ok(Self { camera, seen: seen.into_iter().map(|seen| seen.map(hit)).collect(), behind, drawn: 0 })
+    }
+
+    /// Pixel whose ray this is.
+    fn pixel(&self, ray: &Ray) -> Option<usize> {
+        let (camera, direction) = (&self.camera, wide(ray.direction()));
+        let across = |axis: DVec3| direction.dot(axis) / axis.dot(axis);
+        let x = 0.5 * (1.0 + across(camera.right())) * f64::from(camera.width());
+        let y = 0.5 * (1.0 - across(camera.up())) * f64::from(camera.height());
+        let is_inside = x >= 0.0 && y >= 0.0 && x < f64::from(camera.width()) && y < f64::from(camera.height());
+        let (x, y) = (x as u32, y as u32);
+        (is_inside && ray.origin() == camera.eye() && camera.ray(x, y) == *ray)
+            .then_some(y as usize * camera.width() as usize + x as usize)
+    }
+}
+
+impl Caster for RasterizedEyes<'_> {
+    fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
+        let pixels: Vec<Option<usize>> = rays.iter().map(|ray| self.pixel(ray)).collect();
+        let others: Vec<Ray> = rays.iter().zip(&pixels).filter(|(_, at)| at.is_none()).map(|(ray, _)| *ray).collect();
+        self.drawn += (rays.len() - others.len()) as u64;
+        let mut traced = self.behind.cast(&others)?.into_iter();
+        Ok(pixels.into_iter().map(|at| at.map_or_else(|| traced.next().flatten(), |at| self.seen[at])).collect())
+    }
 }

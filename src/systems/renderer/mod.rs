@@ -3,6 +3,7 @@
 //!
 //! - [`eye`]: eye rays alone, shaded by a light at the eye;
 //! - [`whitted`]: point lights with hard shadows, mirrors, glass (Whitted 1980);
+//! - [`environment`]: the same with cube maps in place of reflected rays, drawn by a card (Blinn and Newell 1976);
 //! - [`distributed`]: soft shadows, gloss, depth of field (Cook, Porter and Carpenter 1984);
 //! - [`path`]: path tracing, unbiased (Kajiya 1986; Veach 1997);
 //! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth;
@@ -15,6 +16,7 @@
 
 mod counting;
 pub mod distributed;
+pub mod environment;
 pub mod eye;
 mod film;
 pub mod form_factor;

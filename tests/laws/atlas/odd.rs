@@ -120,7 +120,7 @@ fn repeated_vertices_are_one_place() {
 
 #[test]
 fn stand_ins_have_the_papers_counts() {
-    let counts = ["stand-in-head", "stand-in-dolphin", "stand-in-bunny"].map(|name| {
+    let counts = ["stand-in-head", "stand-in-dolphin", "stanford-bunny"].map(|name| {
         let mesh = meshes::build(name).expect("a stand-in");
         assert_eq!((mesh.degenerate_count(), mesh.orientation_conflicts()), (0, 0), "{name}");
         // Fronts look outwards: six times the enclosed volume, from a point inside.

@@ -3,6 +3,7 @@
 mod agreement;
 mod bits;
 mod direct;
+mod drawn;
 mod form_factors;
 mod furnace;
 mod photons;

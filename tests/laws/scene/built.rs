@@ -12,8 +12,14 @@ fn scene(name: &str) -> Scene {
 
 #[test]
 fn counts_are_those_of_the_paper() {
-    let counts =
-        [("teapot-room", 2_650), ("office", 34_000), ("office-floor", 11_052), ("cornell-box", 42), ("white-box", 12)];
+    let counts = [
+        ("teapot-room", 2_650),
+        ("office", 34_000),
+        ("office-floor", 11_052),
+        ("cornell-box", 42),
+        ("harbour", 19_130),
+        ("white-box", 12),
+    ];
     for (name, triangles) in counts {
         assert_eq!(scene(name).mesh().len(), triangles, "{name}");
     }

@@ -1,22 +1,31 @@
-//! The Stanford bunny, with as many vertices as a paper prints.
+//! The Stanford bunny: as scanned, and closed with as many vertices as a paper prints.
 
 use glam::DVec3;
 
 use super::resample::ClosedSurface;
 
-/// The model in a binary little-endian file: three floats per vertex, and a byte before
-/// the three corners of a triangle in two bytes each.
+/// The scan `bun_zipper`, y up, in metres, as a binary little-endian file: three floats per vertex, and a byte before
+/// the three corners of a triangle in two bytes each. The model and its terms: `src/ground/LICENSE-BUNNY`.
 const FILE: &[u8] = include_bytes!("bunny.ply");
 /// Its numbers of vertices and triangles.
-const COUNTS: [usize; 2] = [1_839, 3_674];
+const COUNTS: [usize; 2] = [35_947, 69_451];
 /// Bytes of a vertex and of a triangle.
 const BYTES: [usize; 2] = [12, 7];
 /// Longest edge of the box around it.
 const SIZE: f64 = 2.5;
 
-/// The bunny with `vertices` vertices around the origin, closed: refined, or coarsened.
+/// The bunny with `vertices` vertices around the origin: its five holes are filled, then it is refined or coarsened.
 pub(super) fn bunny(vertices: usize) -> ClosedSurface {
-    let surface = scanned().resampled(vertices);
+    placed(read().closed().resampled(vertices))
+}
+
+/// The scan around the origin, with its holes and without the vertices that no triangle has.
+pub(super) fn scanned() -> ClosedSurface {
+    placed(read())
+}
+
+/// Scales a surface, and moves it to the origin.
+fn placed(surface: ClosedSurface) -> ClosedSurface {
     let fold =
         |start: f64, best: fn(DVec3, DVec3) -> DVec3| surface.positions.iter().copied().fold(DVec3::splat(start), best);
     let [low, high] = [fold(f64::INFINITY, DVec3::min), fold(f64::NEG_INFINITY, DVec3::max)];
@@ -25,15 +34,13 @@ pub(super) fn bunny(vertices: usize) -> ClosedSurface {
     ClosedSurface { positions, ..surface }
 }
 
-/// The model as it is in the file.
-fn scanned() -> ClosedSurface {
+/// The model of the file, turned so that z is up.
+fn read() -> ClosedSurface {
     let body = FILE.len() - COUNTS[0] * BYTES[0] - COUNTS[1] * BYTES[1];
     let (vertices, triangles) = FILE[body..].split_at(COUNTS[0] * BYTES[0]);
     let number = |bytes: &[u8], at: usize| f64::from(f32::from_le_bytes([0, 1, 2, 3].map(|byte| bytes[at + byte])));
-    let vertex = |bytes: &[u8]| DVec3::from([0, 4, 8].map(|at| number(bytes, at)));
+    let vertex = |bytes: &[u8]| DVec3::new(number(bytes, 0), -number(bytes, 8), number(bytes, 4));
     let triangle = |bytes: &[u8]| [1, 3, 5].map(|at| u32::from(u16::from_le_bytes([bytes[at], bytes[at + 1]])));
-    ClosedSurface {
-        positions: vertices.chunks_exact(BYTES[0]).map(vertex).collect(),
-        triangles: triangles.chunks_exact(BYTES[1]).map(triangle).collect(),
-    }
+    let positions: Vec<DVec3> = vertices.chunks_exact(BYTES[0]).map(vertex).collect();
+    ClosedSurface::renumbered(&positions, triangles.chunks_exact(BYTES[1]).map(triangle))
 }

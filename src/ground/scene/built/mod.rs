@@ -21,6 +21,7 @@ mod desktop;
 pub mod flat_models;
 mod furniture;
 pub mod ground;
+mod harbour;
 mod isosurface;
 pub mod meshes;
 mod office;
@@ -38,6 +39,7 @@ mod white_box;
 use super::Scene;
 
 use cornell_box::cornell_box;
+use harbour::harbour;
 use office::office;
 use office_floor::office_floor;
 use teapot_room::teapot_room;
@@ -56,6 +58,7 @@ const SCENES: &[(&str, &str, Builder)] = &[
     ("cornell-room-blocks", "the same with its two blocks", || {
         rooms::cornell(rooms::CornellBox { blocks: true, open: false })
     }),
+    ("harbour", "a boat in wavy water that reflects: Figure 1 of the Ray Engine", harbour),
     ("office", "an office with eight desks and much on them: Figure 6 c of the Ray Engine", office),
     (
         "office-floor",

@@ -14,7 +14,7 @@ use crate::geom::vector::{area_vector, unit};
 /// Cosine of the angle by which a triangle's normal may turn when an edge is drawn together.
 const TURN: f64 = 0.3;
 
-/// Closed triangle mesh in double precision, fronts outwards.
+/// Triangle mesh in double precision, fronts outwards: closed, but for a scan before [`ClosedSurface::closed`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ClosedSurface {
     pub(super) positions: Vec<DVec3>,
@@ -65,8 +65,29 @@ impl ClosedSurface {
         Self::renumbered(&self.positions, kept)
     }
 
-    /// A surface of these triangles, in this order, with vertices in the order of first use and without unused ones.
-    fn renumbered(positions: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> Self {
+    /// Fills each hole with triangles around the mean of its rim.
+    pub(super) fn closed(mut self) -> Self {
+        let all: BTreeSet<[u32; 2]> = self.triangles.iter().flat_map(|&triangle| edges(triangle)).collect();
+        let open = all.iter().filter(|[a, b]| !all.contains(&[*b, *a]));
+        // Along a rim in the direction of the triangles that are missing.
+        let mut next: BTreeMap<u32, u32> = open.map(|&[a, b]| (b, a)).collect();
+        while let Some((first, mut at)) = next.pop_first() {
+            let mut rim = vec![first];
+            while at != first {
+                rim.push(at);
+                at = next.remove(&at).unwrap_or(first);
+            }
+            let middle = self.positions.len() as u32;
+            let sum: DVec3 = rim.iter().map(|&vertex| self.positions[vertex as usize]).sum();
+            self.positions.push(sum / rim.len() as f64);
+            let following = rim.iter().cycle().skip(1);
+            self.triangles.extend(rim.iter().zip(following).map(|(&from, &to)| [from, to, middle]));
+        }
+        self
+    }
+
+    /// The same triangles in the same order, with vertices in the order of first use and without unused ones.
+    pub(super) fn renumbered(positions: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> Self {
         let mut found = Self::default();
         let mut number = vec![u32::MAX; positions.len()];
         for triangle in triangles {

@@ -114,11 +114,15 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
     let loses = |row: &TeapotRow| percent(row.tally.leak_share());
+    let card = &worst.configuration.profile.name;
+    let as_is = is_row(worst, card, EdgeRule::Paper, false);
     let relief = [
-        (related(rows, worst, EdgeRule::Paper, true), "rounded to nearest it loses"),
-        (related(rows, worst, EdgeRule::SharedEdges, false), "with each edge evaluated once"),
+        (EdgeRule::Paper, true, "rounded to nearest it loses"),
+        (EdgeRule::SharedEdges, false, "with each edge evaluated once"),
     ];
-    let relief = relief.into_iter().filter_map(|(row, words)| Some(format!("; {words} {}", loses(row?))));
+    let relief = relief.into_iter().filter(|_| as_is).filter_map(|(edges, nearest, words)| {
+        rows.iter().find(|row| is_row(row, card, edges, nearest)).map(|row| format!("; {words} {}", loses(row)))
+    });
     Some(format!(
         "{} loses {} of the surface's {more}: {} of {} leak{}.",
         arithmetic(worst),
@@ -129,15 +133,10 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     ))
 }
 
-/// The row of the same card with another rule for edges, or rounded to nearest.
-fn related<'a>(rows: &'a [TeapotRow], of: &TeapotRow, edges: EdgeRule, nearest: bool) -> Option<&'a TeapotRow> {
-    let switch = nearest.then(|| ("rounding".to_owned(), "rne".to_owned()));
-    (of.configuration.switch.is_none() && of.edge_rule == EdgeRule::Paper).then_some(())?;
-    rows.iter().find(|row| {
-        row.edge_rule == edges
-            && row.configuration.profile.name == of.configuration.profile.name
-            && row.configuration.switch == switch
-    })
+/// Returns `true` for the row of a card with a rule for edges, rounded to nearest or as the card rounds.
+pub(super) fn is_row(row: &TeapotRow, card: &str, edges: EdgeRule, nearest: bool) -> bool {
+    let switch = row.configuration.switch.as_ref().map(|(name, value)| (name.as_str(), value.as_str()));
+    row.edge_rule == edges && row.configuration.profile.name == card && switch == nearest.then_some(("rounding", "rne"))
 }
 
 /// Name of a row in words: its card, what was changed, and how it evaluates edges.

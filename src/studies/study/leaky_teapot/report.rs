@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use serde_json::{Map, Value, json};
 
-use super::conclusion::{MAX_NAMES, conclude, name};
+use super::conclusion::{MAX_NAMES, conclude, is_row, name};
 use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
 use crate::error::InputError;
 use crate::picture::{ChannelUnit, Picture, Samples};
@@ -251,15 +251,9 @@ fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
         groups.iter().position(|group| std::iter::once(&group.row).chain(&group.same).any(|row| wanted(row)))
     };
     let cured = find(&|row| row.edge_rule == EdgeRule::SharedEdges && row.configuration.switch.is_none())?;
-    let device = &groups[cured].row.configuration.profile.name;
-    let paper = |switch: Option<(&str, &str)>| {
-        find(&|row| {
-            let TeapotRow { configuration, edge_rule, .. } = row;
-            let turned = configuration.switch.as_ref().map(|(name, value)| (name.as_str(), value.as_str()));
-            *edge_rule == EdgeRule::Paper && configuration.profile.name == *device && turned == switch
-        })
-    };
-    let three = [paper(None)?, paper(Some(("rounding", "rne")))?, cured];
+    let card = &groups[cured].row.configuration.profile.name;
+    let paper = |nearest| find(&|row| is_row(row, card, EdgeRule::Paper, nearest));
+    let three = [paper(false)?, paper(true)?, cured];
     let differ = three[0] != three[1] && three[0] != three[2] && three[1] != three[2];
     differ.then_some(three)
 }

@@ -17,9 +17,19 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         ray_engine::vertex_variant::findings,
     ),
     RayEngine.entry(
+        "ray-engine-block-shapes",
+        "Misses of the texture cache by the shape of a block of rays (Ray Engine, section 5.3)",
+        ray_engine::block_shapes::findings,
+    ),
+    RayEngine.entry(
         "ray-engine-equation-11",
         "Fill rate, read-back and their worked numbers (Ray Engine, section 6.1)",
         ray_engine::equation_11::findings,
+    ),
+    RayEngine.entry(
+        "ray-engine-figure-1",
+        "Reflections by an environment map and by rays (Ray Engine, figure 1)",
+        ray_engine::figure_1::findings,
     ),
     RayEngine.entry(
         "ray-engine-figure-7",
@@ -176,11 +186,9 @@ pub const ENTRIES: &[ReproduceEntry] = &[
             bi_scale::table_1::findings,
         )
         .recorded(include_str!("../../records/bi-scale-table-1.toml")),
-    BiScale.entry(
-        "bi-scale-table-2",
-        "Biclusters of bunnies (bi-scale transfer, table II)",
-        bi_scale::table_2::findings,
-    ),
+    BiScale
+        .entry("bi-scale-table-2", "Biclusters of bunnies (bi-scale transfer, table II)", bi_scale::table_2::findings)
+        .recorded(include_str!("../../records/bi-scale-table-2.toml")),
     BiScale
         .entry(
             "bi-scale-figure-6",

@@ -43,7 +43,6 @@ use paper::{equations, row as paper_row, value as printed_value};
 pub use paper::{figures, printed};
 pub use papers::Paper;
 use prose::{number, paragraph};
-pub use ray_engine::{DUAL_TEXTURED, screen_quad};
 pub use record::{EntryRecord, RecordMade, RecordStatus, recorded};
 pub use row::{
     Bound, Contradiction, Dependence, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure,

@@ -190,7 +190,8 @@ const PRINTED: usize = 3;
 pub fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
     overview(&mut all, found);
-    all.summary_lines(summary_lines(found));
+    let lines = summary_lines(found);
+    all.summary_lines(lines.clone());
     let how = paragraph(HOW, [number(100.0 * Bound::SHARE, 0)]);
     all.keep_table(FoundTable::from(tally_table(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
@@ -222,7 +223,7 @@ pub fn findings(found: &Reproduced) -> Findings {
     if is_short {
         questions(found).into_iter().for_each(|(entry, question)| all.print(format!("open ({entry}): {question}")));
     } else {
-        summary_lines(found).iter().for_each(|line| all.print(line.to_string()));
+        lines.iter().for_each(|line| all.print(line.to_string()));
         all.print(
             "The page has every row, with its bound and what is open; rows.csv has them for programs.".to_owned(),
         );

@@ -33,7 +33,7 @@ const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 /// Figure that shaped a stand-in.
 const SHAPED: &str = "omega-buddha";
 
-const HOW: &str = "The teapot, the Stanford bunny refined or coarsened, and stand-ins of {} to {} vertices for the other models, with the paper's two reflectances in the textbooks' form, are \
+const HOW: &str = "The teapot, the Stanford bunny coarsened, and stand-ins of {} to {} vertices for the other models, with the paper's two reflectances in the textbooks' form, are \
     compressed by clusters of {} vertices and {} representatives, which are added one by one, and coded in {} bits: {} of the segments, a quarter of a face at the side, \
     above and below, which stand for the others by the vertices that hold them. Omega and the ground are of all segments. Sizes are those of representatives and weights; squared errors are those of decoded transfer, as a share of its squares.";
 const GROUND: &str = "A ground plane is \"in all examples\", and the performance of Table 1 is without it, by one paragraph of section 7: rows are of models by \

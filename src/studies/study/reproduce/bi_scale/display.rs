@@ -5,7 +5,7 @@ use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
-use super::{HOST, RunResult, StudyError};
+use super::{HOST, ModelSize, RunResult, StudyError};
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates};
@@ -28,6 +28,14 @@ pub(super) struct DisplayRun {
     pub(super) counts: DisplayCounts,
     pub(super) time: FrameTime,
     pub(super) pixels: u64,
+}
+
+/// Width and height of pictures in which views are timed; small for a run that judges nothing.
+pub(super) const fn picture(models: ModelSize) -> [u32; 2] {
+    match models {
+        ModelSize::Printed => [640, 480],
+        ModelSize::Reduced => [64, 48],
+    }
 }
 
 /// Draws a mesh with `side` local directions along an edge into a picture of `width` x `height` pixels.

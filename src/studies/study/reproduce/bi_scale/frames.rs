@@ -1,11 +1,11 @@
 //! Frame rates of both tables: with only the view changing, and with changing light too.
 
-use super::display::{CARD, DisplayRun, display};
+use super::display::{CARD, DisplayRun, display, picture};
 use super::models::{BUNNY, ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, number,
-    paper_row, paragraph, printed_value, solved,
+    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperRow, RunResult, Shared, StudyError, TimedWork,
+    number, paper_row, paragraph, printed_value, solved,
 };
 use crate::report::{Cell, Table};
 use crate::transfer::{Tangents, Vertices};
@@ -15,7 +15,7 @@ const HOW: &str = "What light costs is the difference of a scene's two rates. On
     our bunny in {} x {} pixels, {} passes of {} directions, {} texture reads and {} other instructions in each pixel of a pass. Its time is modelled by clocks and takes \
     texture reads to be as fast as the units can be; the paper names cache misses as what decides.";
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large models stand in the pictures; how many reads of textures missed the caches.";
-const PICTURE: [u32; 2] = [640, 480];
+const PICTURE: [u32; 2] = picture(ModelSize::Printed);
 
 /// Printed rates of a scene in a table.
 struct PrintedFrames {

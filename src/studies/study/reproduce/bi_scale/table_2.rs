@@ -1,46 +1,75 @@
-//! Table II on the Stanford bunny, refined to the smallest of the printed vertex counts.
+//! Table II: the Stanford bunny, coarsened or refined to the three printed vertex counts.
 
-use super::models::{BUNNY, ClusteredModel, LOG2_SAMPLES, ModelVisibility};
+use super::display::{CARD, display, picture};
+use super::models::{ClusteredModel, LOG2_SAMPLES, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
-use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, solved};
+use super::{
+    Dependence, EntryFindings, Method, ModelSize, PaperRow, Shared, StudyError, number, paper_row, paragraph, solved,
+};
+use crate::elementary::ln;
 use crate::report::{Cell, Table};
+use crate::scene::built::transfer_models::TransferModel::{self, BiScaleBunny, BiScaleBunnyFine, BiScaleBunnyMiddle};
 use crate::transfer::visibility::Horizon;
 
-const HOW: &str = "The Stanford bunny, closed and refined to the printed numbers, with {} x {} local directions of {} x {} visibility \
-    samples per light texel. A vertex sees what triangles leave free; without what lies below the plane of its normal there are fewer values by {} %. \
-    Which share of operations is left depends on how smooth a model is: the scan that was refined has no finer detail.";
-const QUESTION: &str = "how the paper's bunnies were made of the scan; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties.";
+const HOW: &str = "The scan of the Stanford bunny with its holes filled, coarsened or refined to the printed numbers, with {} x {} local directions of {} x {} visibility \
+    samples per light texel. A vertex sees what triangles leave free; without what lies below the plane of its normal the smallest has fewer values by {} %. \
+    Views are drawn on the emulated card in {} x {} pixels.";
+const QUESTION: &str = "how the paper's bunnies were made of the scan; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties; \
+    how large models stand in the pictures.";
+/// Scenes by size: their numbers in [`SCENES`], and models.
+const BUNNIES: [(usize, TransferModel); 3] = [(0, BiScaleBunny), (4, BiScaleBunnyMiddle), (5, BiScaleBunnyFine)];
+/// Edge length of reduced models, relative to full ones.
+const COARSER: u32 = 6;
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
+    let coarser = if shared.models == ModelSize::Reduced { COARSER } else { 1 };
     let mut table = Table::of(
         "Biclusters of the bunnies",
         "scene vertices nonzeros_M_printed nonzeros_M biclusters rows_of_biclusters columns_of_biclusters \
          operations_left_%_printed operations_left_% MB_printed MB by_rows_3_bytes_MB",
     );
-    let (scene, found) = (&SCENES[0], shared.get::<ClusteredModel>(BUNNY)?);
-    let above = ModelVisibility::new(&BUNNY.mesh(1), Horizon::Normal)?.matrix(scene.side)?;
-    let fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
-    table.push(line(scene, found)?);
-    let side = scene.side as f64;
-    let samples = f64::from(1_u32 << LOG2_SAMPLES);
-    let values = [number(side, 0), number(side, 0), number(samples, 0), number(samples, 0), number(fewer, 1)];
-    Ok(EntryFindings::new([paragraph(HOW, values)], rows(found)?, [QUESTION], [table]))
+    let (mut rows, mut ends, mut fewer) = (Vec::new(), Vec::new(), f64::NAN);
+    for (at, model) in BUNNIES {
+        let (scene, mesh) = (&SCENES[at], model.mesh(coarser));
+        let seen = ModelVisibility::new(&mesh, Horizon::Geometry)?;
+        let (vertices, found) = (seen.vertices.len(), seen.clustered(scene.side)?);
+        if at == 0 {
+            let above = ModelVisibility::new(&mesh, Horizon::Normal)?.matrix(scene.side)?;
+            fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
+        } else {
+            let run = display((&seen.mesh, &seen.vertices), scene.side, picture(shared.models))?;
+            let rate = (run.time.per_second(), Dependence::Predicted { from: "" });
+            rows.push(paper_row(&format!("{}-2", scene.figure("view")), (CARD, Method::Pipeline), rate)?);
+        }
+        rows.extend(scene_rows(scene, &found)?);
+        ends.push((vertices as f64, found.biclusters.cost() as f64, found.operations_left()));
+        table.push(line(scene, vertices, &found)?);
+    }
+    if let [first, .., last] = ends[..] {
+        rows.push(solved("left-steady", last.2 / first.2)?);
+        rows.push(solved("operations-power", ln(last.1 / first.1) / ln(last.0 / first.0))?);
+    }
+    let (side, samples) = (SCENES[0].side as f64, f64::from(1_u32 << LOG2_SAMPLES));
+    let [width, height] = picture(shared.models).map(f64::from);
+    let values = [(side, 0), (side, 0), (samples, 0), (samples, 0), (fewer, 1), (width, 0), (height, 0)];
+    let values = values.map(|(value, decimals)| number(value, decimals));
+    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table]))
 }
 
-/// Rows of the small bunny. The rows of the larger ones are those of sizes.
-fn rows(found: &ClusteredModel) -> Result<Vec<PaperRow>, StudyError> {
-    Ok(vec![
-        solved("nonzeros-bunny", 1e-6 * found.nonzeros as f64)?,
-        solved("left-bunny", found.operations_left())?,
-        solved("biclusters-bunny", found.megabytes())?,
+fn scene_rows(scene: &PrintedScene, found: &ClusteredModel) -> Result<[PaperRow; 3], StudyError> {
+    let row = |what: &str, ours| solved(&format!("{what}-{}", scene.id), ours);
+    Ok([
+        row("nonzeros", 1e-6 * found.nonzeros as f64)?,
+        row("left", found.operations_left())?,
+        row("biclusters", found.megabytes())?,
     ])
 }
 
-fn line(scene: &PrintedScene, found: &ClusteredModel) -> Result<Vec<Cell>, StudyError> {
+fn line(scene: &PrintedScene, vertices: usize, found: &ClusteredModel) -> Result<Vec<Cell>, StudyError> {
     let printed = |what: &str| Ok::<_, StudyError>(scene.printed(what)?.cell());
     Ok(vec![
         scene.name.into(),
-        scene.vertices()?.into(),
+        vertices.into(),
         printed("nonzeros")?,
         Cell::decimals(1e-6 * found.nonzeros as f64, 2),
         found.biclusters.len().into(),

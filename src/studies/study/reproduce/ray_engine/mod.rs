@@ -7,8 +7,10 @@
 //! choices is swept: the octree of the host alone ([`sweeps::host_leaf`]), the costs of commands
 //! ([`sweeps::commands`]), and the definition of a ray on the card ([`shares`]).
 
+pub(super) mod block_shapes;
 mod engine_run;
 pub(super) mod equation_11;
+pub(super) mod figure_1;
 pub(super) mod figure_7;
 mod pipeline;
 pub(super) mod radeon_8500;
@@ -23,8 +25,6 @@ pub(super) mod table_5;
 mod teapot;
 pub(super) mod vertex_variant;
 mod workload;
-
-pub use pipeline::{DUAL_TEXTURED, screen_quad};
 
 use stated::{QUESTION, RATE, commands, how, speed_up};
 

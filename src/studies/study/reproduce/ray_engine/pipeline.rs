@@ -21,7 +21,7 @@ const SIDE: u32 = 256;
 const QUADS: usize = 64;
 /// Program with two textures per pixel, as for ray origins and directions, and as much arithmetic as a ps_1_1 card can
 /// execute in one clock.
-pub const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
+const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
 /// Draw with its cost.
 pub(super) struct TimedDraw {
@@ -126,7 +126,7 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, StudyError> {
 }
 
 /// Quad over the whole screen, at depth 0.5; coordinate sets 0 and 1 go from 0 to 1 over it, with row 0 at the top.
-pub fn screen_quad() -> [Vertex; 4] {
+fn screen_quad() -> [Vertex; 4] {
     [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
         let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
         for set in 0..2 {

@@ -57,7 +57,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
 }
 
 fn kernels() -> Result<([PaperRow; 2], [Table; 2]), StudyError> {
-    let mesh = mesh()?;
+    let mesh = mesh(TRIANGLES)?;
     let (eye, moved) = (eye_rays(SIDE)?, moved_rays(SIDE)?);
     let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
     let in_bytes = card.clone().byte_rays();
@@ -118,7 +118,7 @@ fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
 /// Time of the intersections of each card's program for rays of any origin: that of two textures of bytes, and in
 /// float.
 pub(in crate::study::reproduce) fn timed_tests() -> Result<Vec<TimedWork>, StudyError> {
-    let (mesh, rays) = (mesh()?, moved_rays(SIDE)?);
+    let (mesh, rays) = (mesh(TRIANGLES)?, moved_rays(SIDE)?);
     let on = |device| {
         let card = Crossbar::new(Profile::named(device)?, ExecutorKind::Batch).all_pairs(true);
         let card = if device == DEVICE { card.byte_rays() } else { card };
@@ -134,16 +134,16 @@ fn eye_rays(side: u32) -> Result<RayBatch, StudyError> {
 }
 
 /// Eye rays that each start a little further on, so that they have no common origin.
-fn moved_rays(side: u32) -> Result<RayBatch, StudyError> {
+pub(super) fn moved_rays(side: u32) -> Result<RayBatch, StudyError> {
     let eye = eye_rays(side)?;
     let moved = eye.rays().iter().enumerate().map(|(i, ray)| moved(ray, 1e-3 * (i % 64) as f32));
     RayBatch::new(side, side, moved.collect::<Result<_, _>>()?).on(DEVICE)
 }
 
 /// Builds a part of the teapot.
-fn mesh() -> Result<Mesh, StudyError> {
+pub(super) fn mesh(triangles: usize) -> Result<Mesh, StudyError> {
     let whole = teapot(8).on(DEVICE)?;
-    let triangles = whole.triangles().iter().take(TRIANGLES).copied().collect();
+    let triangles = whole.triangles().iter().take(triangles).copied().collect();
     Mesh::new(whole.positions().to_vec(), triangles).on(DEVICE)
 }
 

@@ -12,7 +12,7 @@ use crate::scene::built::meshes;
 
 /// Models of Table 1: names, faces, and our stand-ins.
 pub(super) const MODELS: [(&str, u32, &str); 3] =
-    [("head", 7232, "stand-in-head"), ("dolphin", 21_952, "stand-in-dolphin"), ("bunny", 69_451, "stand-in-bunny")];
+    [("head", 7232, "stand-in-head"), ("dolphin", 21_952, "stand-in-dolphin"), ("bunny", 69_451, "stanford-bunny")];
 /// Bytes per texel of links: four half floats.
 const LINK_BYTES: f64 = 8.0;
 

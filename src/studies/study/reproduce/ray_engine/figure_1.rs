@@ -1,0 +1,85 @@
+//! Figure 1: a boat in wavy water, by an environment map and by rays.
+
+use refsim::device::Profile;
+use refsim::machine::{Executor, ExecutorKind};
+
+use super::{EntryFindings, RunResult, Shared, StudyError, number, paragraph};
+use crate::card::RasterizedEyes;
+use crate::geom::exact::Sides;
+use crate::ray_engine::engine::{EngineParameters, RayEngine};
+use crate::renderer::environment::{self, EnvironmentCard};
+use crate::renderer::{RenderedPicture, Settings, whitted};
+use crate::report::{Cell, Table};
+use crate::scene::built;
+use crate::tracer::HostTracer;
+
+/// Card of the map and of eye rays, and those of the engine. The paper's card cuts off low bits.
+const DRAWS: &str = "r200";
+const ENGINES: [&str; 2] = ["r300", "ideal-fp32"];
+/// Size of the pictures.
+const SIZE: [u32; 2] = [160, 120];
+/// Difference that an 8-bit display shows.
+const STEP: f64 = 1.0 / 255.0;
+
+const HOW: &str = "Our own scene in {} x {} pixels, one ray per pixel: a boat, posts and houses in water of three waves, a mirror. The picture by rays of the host is the reference. \
+    The environment map is drawn by a {}: the view is reflected at vertices, and looked up in a cube of bytes. In the hybrid pictures that card draws what the eye sees, and the engine \
+    casts reflected rays and shadow rays: a renderer that rasterizes, augmented by the engine. Differences are of linear color, over the pixels of water. The paper prints no figure.";
+
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
+    let scene = built::build("harbour").ok_or("no scene `harbour`").on(DRAWS)?;
+    let view = scene.views.first().ok_or("no view").on(DRAWS)?;
+    let camera = view.camera(SIZE[0], SIZE[1]).on(DRAWS)?;
+    let (settings, profile) = (Settings::default(), Profile::named(DRAWS)?);
+    let mut host = HostTracer::new(scene.mesh(), Sides::Both);
+    let traced = whitted::render(&scene, &camera, &settings, &mut host, &mut |_| {}).on(DRAWS)?;
+    let card = EnvironmentCard { profile: &profile, executor: &Executor::from(ExecutorKind::Batch) };
+    let mapped = environment::render(&scene, &camera, &settings, card, &mut host, &mut |_| {}).on(DRAWS)?;
+    let is_water = |pixel: &usize| traced.first[*pixel].is_some_and(|hit| scene.material(hit.triangle).name == "water");
+    let water: Vec<usize> = (0..traced.color.len()).filter(is_water).collect();
+    let mut table = Table::of(
+        "Reflections in water by rays, by an environment map, and by both ways of drawing together",
+        "picture rays drawn_eye_rays rays_on_card_% rms_255ths largest_255ths pixels_that_differ_%",
+    );
+    let mut push = |name: String, picture: &RenderedPicture, engine: [Cell; 2]| {
+        let [rms, largest, differ] = difference(&traced, picture, &water);
+        let [drawn, share] = engine;
+        let rays = Cell::from(picture.counts.rays());
+        table.push([
+            name.into(),
+            rays,
+            drawn,
+            share,
+            Cell::measured(rms),
+            Cell::measured(largest),
+            Cell::decimals(differ, 1),
+        ]);
+    };
+    push("rays, host".to_owned(), &traced, [Cell::from(0_u64), Cell::from("")]);
+    push(format!("environment map, {DRAWS}"), &mapped, [Cell::from(0_u64), Cell::from("")]);
+    for device in ENGINES {
+        let parameters = EngineParameters { sides: Sides::Both, ..EngineParameters::default() };
+        let engine = RayEngine::new(scene.mesh(), Profile::named(device)?, ExecutorKind::Batch, parameters);
+        let mut engine = engine.on(device)?;
+        let mut eyes = RasterizedEyes::new(&profile, scene.mesh(), camera, &mut engine).on(DRAWS)?;
+        let hybrid = whitted::render(&scene, &camera, &settings, &mut eyes, &mut |_| {}).on(device)?;
+        let drawn = Cell::from(eyes.drawn);
+        let share = Cell::decimals(100.0 * engine.counts().share_on_card(), 1);
+        push(format!("hybrid, engine on {device}"), &hybrid, [drawn, share]);
+    }
+    let [width, height] = SIZE.map(|side| number(f64::from(side), 0));
+    Ok(EntryFindings::new([paragraph(HOW, [width, height, DRAWS.to_owned()])], [], [], [table]))
+}
+
+/// Root mean square and largest difference of a channel over some pixels, in 255ths, and the percentage of the pixels
+/// that differ by more than one.
+fn difference(one: &RenderedPicture, other: &RenderedPicture, pixels: &[usize]) -> [f64; 3] {
+    let of = |&pixel: &usize| {
+        let (a, b) = (one.color[pixel], other.color[pixel]);
+        [0, 1, 2].map(|channel| (a[channel].min(1.0) - b[channel].min(1.0)).abs() / STEP)
+    };
+    let all: Vec<[f64; 3]> = pixels.iter().map(of).collect();
+    let squares: f64 = all.iter().flatten().map(|off| off * off).sum();
+    let largest = all.iter().flatten().fold(0.0_f64, |most, off| most.max(*off));
+    let differ = all.iter().filter(|off| off.iter().any(|off| *off > 1.0)).count();
+    [(squares / (3 * pixels.len()) as f64).sqrt(), largest, 100.0 * differ as f64 / pixels.len() as f64]
+}
