@@ -58,11 +58,15 @@ fn casting_is_timed_apart_from_building() {
 fn casters_refuse_what_is_not_for_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
-    let cases: [(&str, &[&str]); 5] = [
+    let cases: [(&str, &[&str]); 9] = [
         ("device_of_the_host", &["--caster", "host", "--device", "r300"]),
         ("executor_of_the_host", &["--caster", "host", "--executor", "batch"]),
         ("engine_in_exact_arithmetic", &["--caster", "engine", "--executor", "exact"]),
-        ("engine_without_programs", &["--caster", "engine", "--device", "nv25"]),
+        ("engine_without_programs", &["--caster", "engine", "--caster-device", "nv25"]),
+        ("passes_of_the_host", &["--caster", "host", "--pass-rays", "8"]),
+        ("two_formats", &["--caster", "engine", "--caster-format", "fp16", "--caster-format", "fp24"]),
+        ("no_triangles", &["--caster", "engine", "--pass-triangles", "9,8"]),
+        ("unknown_mode", &["--caster", "engine", "--readback", "async"]),
         ("unknown_caster", &["--caster", "card"]),
     ];
     let said = listed(cases.map(|(name, more)| {

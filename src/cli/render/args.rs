@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use crate::cli::caster::CasterArg;
 use crate::cli::executor::Decider;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::{Problem, given};
 use crate::options::Size;
 use crate::options::number;
 use crate::renderer::Lens;
+use crate::study::caster::CasterOptions;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -21,7 +21,7 @@ Examples:
       the same on a Radeon 8500
   crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out out/room
       a scene of the project by path tracing: also colour, normals and albedo in layers.exr
-  crossbar render teapot-room --caster engine --device r300 --executor batch
+  crossbar render teapot-room --caster engine --caster-device r300
       after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
 
 /// Render a mesh or a scene: picture.png, and depth and triangle of each pixel
@@ -44,7 +44,7 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
+    /// The card of a mesh without `--renderer`; `exact` arithmetic needs none [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
@@ -56,9 +56,12 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     pub(super) out: PathBuf,
 
-    // Last, because its heading goes on to what follows.
+    // Last, because headings go on to what follows.
     #[command(flatten)]
     pub(super) light: LightArgs,
+
+    #[command(flatten)]
+    pub(super) caster: CasterOptions,
 }
 
 /// How light is found.
@@ -127,16 +130,12 @@ pub(super) struct LightArgs {
     /// Gather rays per hit in photon mapping; 0 shows the map itself [default: 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
     pub(super) gather: Option<u32>,
-
-    /// Ray caster that finds first hits [default: host]
-    #[arg(long, value_enum, value_name = "C")]
-    pub(super) caster: Option<CasterArg>,
 }
 
 impl LightArgs {
     /// Returns `true` if an option was given that needs a lit scene.
     pub(super) fn asked(&self) -> bool {
-        self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
+        self.renderer.is_some() || self.samples.is_some() || self.view.is_some()
     }
 
     /// Refuses what a renderer has no use for; `None` is a mesh that is shaded without light.

@@ -9,16 +9,16 @@ use serde_json::json;
 use super::args::{Args, Renderer};
 use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
-use crate::cli::caster::{self, CasterArg};
-use crate::cli::{CommandLine, Out, Problem, ProgressBar, scene_name, study, view};
+use crate::cli::executor::engine_executor;
+use crate::cli::{CommandLine, Out, Problem, ProgressBar, given, scene_name, study, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
-use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
 use crate::report::digits::count;
 use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
+use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
 
 /// The random seed where none is given.
@@ -28,16 +28,17 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     args.light.refuse_others(Some(renderer))?;
     check_lights(renderer, &asked.scene)?;
-    let caster = args.light.caster.unwrap_or(CasterArg::Host);
-    let device =
-        (caster == CasterArg::Engine).then(|| args.device.clone().unwrap_or_else(|| view::DEFAULT_DEVICE.to_owned()));
-    let caster = caster.choose(args.device.as_deref(), args.executor)?;
+    let no_card =
+        [("--device", args.device.is_some()), ("--executor", args.executor.is_some() && !args.caster.is_engine())];
+    let help = "add `--caster engine` and name its card by `--caster-device`, or leave it out";
+    given::refuse(no_card, "the eye rays of a mesh", help)?;
+    let caster = args.caster.choose(engine_executor(&args.caster, args.executor)?)?;
     let camera = camera(args, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut caster = caster.build(asked.scene.mesh(), Sides::Both)?;
-    let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
-    let engine = caster.counts();
+    let mut open = caster.open(asked.scene.mesh(), Sides::Both)?;
+    let picture = trace(renderer, args, &asked.scene, &camera, rounding, &mut open)?;
+    let engine = open.record();
     let numbers = layers(&picture, &asked.scene, &camera)?;
     let exposure = args.light.exposure.unwrap_or(1.0);
     let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
@@ -45,7 +46,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     findings.table(FoundTable::from(rays(&picture)).unprinted());
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     provenance.seed = Some(args.light.seed.unwrap_or(SEED));
-    provenance.profiles.extend(device);
+    provenance.profiles.extend(caster.profile().map(|_| caster.label().to_owned()));
     report(args, &picture, engine.as_ref(), &mut findings);
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
     study::show(&findings, out)
@@ -134,7 +135,7 @@ fn trace(
     picture.into_diagnostic()
 }
 
-fn report(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, found: &mut Findings) {
+fn report(args: &Args, picture: &RenderedPicture, engine: Option<&CastRecord>, found: &mut Findings) {
     let (pixels, hits) = (picture.first.len(), picture.first.iter().flatten().count());
     let counts = picture.counts;
     let kinds: serde_json::Map<_, _> =
@@ -147,7 +148,7 @@ fn report(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>,
     let [rays, bundles] = [counts.rays(), counts.bundles].map(count);
     found.print(format!("{rays} rays in {bundles} bundles: {}", kinds.join(", ")));
     if let Some(engine) = engine {
-        caster::report(engine, found);
+        engine.report(found);
     }
     if picture.not_finite > 0 {
         found.print(format!("{} samples were not finite and count as black", count(picture.not_finite)));

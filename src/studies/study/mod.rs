@@ -3,6 +3,7 @@
 //! docs/command_line.md describes how to add a study.
 
 pub mod atlas;
+pub mod caster;
 pub mod configuration;
 mod error;
 pub mod framing;
@@ -18,6 +19,7 @@ pub mod reproduce;
 pub mod shade;
 pub mod subsurface;
 pub mod timeline_trace;
+pub mod tour;
 
 use crate::report::{Findings, Provenance};
 use crate::split::{Computed, SplitRun};

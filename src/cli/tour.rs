@@ -1,0 +1,41 @@
+//! `crossbar tour`: one room through four systems.
+
+use std::path::PathBuf;
+
+use super::study::{StudyArgs, StudyFiles};
+use crate::options::Size;
+use crate::study::tour::Parameters;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar tour
+      a room lit by matrix radiosity, whose form factors the Ray Engine's rays gave; in it a glossy bunny and a statue of marble
+
+Written to --out: index.html (self-contained), room.png, clock.csv and timeline.json (the modelled time of every step, a trace \
+for https://ui.perfetto.dev or chrome://tracing), formats.csv (what each number format costs each system).";
+
+/// Take one room through four systems: rays, radiosity, radiance transfer, subsurface scattering
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Pixels of the picture
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
+    size: Size,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/tour")]
+    out: PathBuf,
+}
+
+impl StudyArgs for Args {
+    type Study = Parameters;
+    const QUICKER: &'static str = "a smaller `--size`";
+
+    fn files(&self) -> StudyFiles<'_> {
+        StudyFiles::new(Some(&self.out), None, Vec::new())
+    }
+
+    fn study(&self) -> miette::Result<Parameters> {
+        Ok(Parameters { size: self.size })
+    }
+}

@@ -1,0 +1,120 @@
+//! One room through four systems: rays of the Ray Engine give form factors, matrix radiosity lights the room, and
+//! probes in it light a glossy bunny by clustered principal components and a statue of marble by subsurface scattering.
+
+mod clock;
+mod formats;
+mod light;
+mod models;
+mod scene;
+
+use refsim::device::Profile;
+use refsim::machine::{Executor, ExecutorKind};
+use refsim::texture::TexelFormat;
+
+use crate::card::{MeshView, seen_pixels};
+use crate::cpca::on_card::PrtCardOptions;
+use crate::options::Size;
+use crate::radiosity::{Patches, Subdivision, System};
+use crate::report::{Findings, NamedPicture, Provenance};
+use crate::study::caster::CasterChoice;
+use crate::study::configuration::Configuration;
+use crate::study::prt::{light_picture, linear_picture, of_texels};
+use crate::study::{ProgressFn, Study, StudyError, radiosity};
+use crate::subsurface::on_card::FloatTexels;
+use crate::transfer::light::CubeLight;
+use crate::transfer::{Tangents, Vertices};
+use clock::Clock;
+use formats::FormatSubject;
+use models::{GlossyBunny, MarbleStatue, ORDER, transfer};
+use scene::{TourScene, middle};
+
+/// Patches of the room, at most.
+const PATCHES: usize = 600;
+/// The card that rays are cast and the bunny drawn on, and that of radiosity and marble.
+const RADEON: &str = "r300";
+const GEFORCE: &str = "nv35";
+
+/// Parameters of the tour.
+#[derive(Debug)]
+pub struct Parameters {
+    /// Pixels of the picture.
+    pub size: Size,
+}
+
+impl Study for Parameters {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let executor = Executor::from(ExecutorKind::Batch);
+        let [radeon, geforce] = [Profile::named(RADEON)?, Profile::named(GEFORCE)?];
+        let engine = CasterChoice::engine(Configuration::of(&radeon), executor.clone());
+        let scene = TourScene::new(self.size.width, self.size.height)?;
+        let (camera, mut clock) = (scene.camera, Clock::default());
+
+        let patches = Patches::new(&scene.room, Subdivision::AtMost(PATCHES))?;
+        let (factors, cast) = light::factors(&patches, &engine, progress)?;
+        clock.rays("rays of form factors", &radeon, cast);
+        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
+        progress("radiosity", 0, 1);
+        let (radiosity, iterations, time) = light::radiosity(&system, &geforce, &executor)?;
+        clock.step("radiosity", &geforce, format!("{iterations} iterations"), time);
+        let exposure = radiosity::exposure(&patches, system.emittance(), &radiosity);
+        let probe = |model| light::probe(&patches, &radiosity, &scene.walls, middle(model), &engine);
+        let (by_bunny, cast) = probe(&scene.bunny)?;
+        clock.rays("rays of the bunny's probe", &radeon, cast);
+        let (by_statue, cast) = probe(&scene.statue)?;
+        clock.rays("rays of the statue's probe", &radeon, cast);
+        let vertices = Vertices::new(&scene.bunny, Tangents::Any)?;
+        let (computed, cast) = transfer(&scene.bunny, &vertices, &engine, progress)?;
+        clock.rays("rays of the bunny's transfer", &radeon, cast);
+        progress("clusters of the bunny", 0, 1);
+        let bunny = GlossyBunny::new(vertices, computed, light::harmonic(&by_bunny, ORDER)?);
+        let (statue, cast) = MarbleStatue::new(&scene.statue, &by_statue, &engine, progress)?;
+        clock.rays("shadow rays of the statue", &radeon, cast);
+
+        progress("pictures", 0, 1);
+        let view = MeshView { camera, exposure, format: TexelFormat::Bgra8 };
+        let maps = PrtCardOptions { map_format: TexelFormat::Rgba16Snorm, ..PrtCardOptions::default() };
+        let (glossy, time) = bunny.draw(&radeon, &executor, &view, &maps)?;
+        clock.step("the bunny", &radeon, "a frame".to_owned(), time);
+        let floats = MeshView { format: TexelFormat::Rgba32f, ..view };
+        let (marble, time) = statue.draw(&geforce, &executor, floats, FloatTexels::Fp16)?;
+        clock.step("the statue", &geforce, "light and a frame".to_owned(), time);
+        let mut colors = light::picture(&patches, &radiosity, (&geforce, &executor), &camera, exposure)?;
+        for (mesh, drawn) in [(&scene.bunny, glossy), (&scene.statue, marble)] {
+            let seen = seen_pixels(&geforce, (mesh.positions(), mesh.triangles()), &camera)?;
+            let shown = colors.iter_mut().zip(drawn).zip(&seen).filter(|(_, seen)| seen.is_some());
+            shown.for_each(|((color, drawn), _)| *color = drawn);
+        }
+
+        let subject = FormatSubject { scene: &scene, patches: &patches, bunny: &bunny, statue: &statue, view: floats };
+        let rows = subject.rows(&executor, progress)?;
+        let mut found = Findings::new("One room through four systems");
+        clock.conclude(&mut found);
+        formats::conclude(&rows, &mut found);
+        let room = linear_picture(&camera, &colors).display(1.0)?;
+        found.pictures(vec![NamedPicture::new("room", room, ROOM)]);
+        found.paragraph(ABOUT);
+        found.heading("The light that the models see");
+        let probe = |name: &str, what: &str, light: &CubeLight| light_picture(name, what, of_texels(light.texels()));
+        found.pictures(vec![
+            probe("bunny-light", "at the bunny", &by_bunny)?,
+            probe("statue-light", "at the statue", &by_statue)?,
+        ]);
+        clock.report(&mut found)?;
+        formats::report(&rows, &mut found);
+        Ok(found)
+    }
+
+    fn provenance(&self, mut provenance: Provenance) -> Provenance {
+        provenance.profiles.extend([RADEON, GEFORCE].map(str::to_owned));
+        provenance
+    }
+}
+
+const ROOM: &str = "The room by matrix radiosity, the bunny by clustered principal components, the statue by subsurface \
+    scattering: each drawn by its card.";
+
+const ABOUT: &str = "1. The Ray Engine on a Radeon 9700 casts the rays between the patches of the room. 2. A GeForce FX \
+    5900 Ultra solves for radiosity. Coarse bodies stand in the room for the models: they reflect light and cast shadows. \
+    3. A probe at each model asks by rays which patch it sees in each direction. 4. The bunny's transfer, by rays again, \
+    turns its probe's light into the picture of a glossy surface; the statue of marble scatters its probe's light below the \
+    surface.";
