@@ -191,7 +191,7 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--eye-rays=5x4 --mesh=square.obj --device=nv20 --timing=rates --readback=async --double-buffer --cache \
                   --sensitivity --perfetto=trace.json --model-up=y@0,1 --strict@0,1",
     },
-    Tried { bases: &["tour --size 8x8 --out OUT"], options: "--size=9x7 --out=other" },
+    Tried { bases: &["tour --size 8x8 --coarser 8 --out OUT"], options: "--size=9x7 --coarser=7 --out=other" },
     Tried {
         bases: &[
             "cpca precompute docs/examples/room.obj --order 2 --degree 18 --out OUT.npz",

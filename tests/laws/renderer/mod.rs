@@ -3,7 +3,6 @@
 mod agreement;
 mod bits;
 mod direct;
-mod form_factors;
 mod furnace;
 mod photons;
 mod points;

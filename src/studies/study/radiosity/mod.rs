@@ -118,7 +118,7 @@ fn run(
     }
     let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
     let reference = direct.map(|s| s.radiosity.clone());
-    let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
+    let brightness = |s: &solve::Solved| exposure(&patches, system.emittance(), &s.radiosity);
     let exposure = direct.or(solved.first()).map_or(1.0, brightness);
     let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
     let frames = studio.frames(&solved)?;

@@ -2,9 +2,8 @@
 
 use refsim::machine::Executor;
 
-use super::light;
-use super::models::{Drawn, GlossyBunny, MarbleStatue, transfer};
 use super::scene::TourScene;
+use super::{BUNNY, light};
 use crate::card::{MeshView, seen_pixels};
 use crate::cpca::on_card::PrtCardOptions;
 use crate::geom::Mesh;
@@ -13,8 +12,11 @@ use crate::radiosity::solve::{Options, Solver};
 use crate::radiosity::{FormFactors, Patches, System};
 use crate::report::words::percent;
 use crate::report::{Cell, Findings, FoundTable, Table};
+use crate::sphere::HarmonicLight;
 use crate::study::caster::CasterChoice;
 use crate::study::configuration::Configuration;
+use crate::study::glossy_model::GlossyModel;
+use crate::study::marble_model::MarbleModel;
 use crate::study::radiosity::SolutionError;
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::on_card::FloatTexels;
@@ -28,8 +30,9 @@ const FORMATS: [&str; 4] = ["fp32", "fp24", "fp16", "s3.12"];
 pub(super) struct FormatSubject<'a> {
     pub(super) scene: &'a TourScene,
     pub(super) patches: &'a Patches,
-    pub(super) bunny: &'a GlossyBunny,
-    pub(super) statue: &'a MarbleStatue,
+    pub(super) bunny: (&'a GlossyModel, &'a HarmonicLight),
+    /// With what enters each texel of its atlas.
+    pub(super) statue: (&'a MarbleModel, &'a [[f64; 3]]),
     pub(super) view: MeshView,
 }
 
@@ -55,7 +58,7 @@ impl FormatSubject<'_> {
         executor: &Executor,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Vec<FormatRow>, StudyError> {
-        let Self { scene, patches, bunny, statue, view } = self;
+        let Self { scene, patches, bunny, statue, view } = *self;
         let system = |factors: FormFactors| System::new(factors, patches.reflectances(), patches.emittances());
         let direct = |system: &System| -> Result<Vec<[f64; 3]>, StudyError> {
             Ok(system.solve(Solver::Direct, &Options::default(), None)?.radiosity())
@@ -64,7 +67,7 @@ impl FormatSubject<'_> {
         let reference = direct(&host)?;
         let error = |found: &[[f64; 3]]| SolutionError::between(found, &reference, host.emittance());
         let vertices = Vertices::new(&scene.bunny, Tangents::Any)?;
-        let by_host = transfer(&scene.bunny, &vertices, &CasterChoice::Host, progress)?.0;
+        let by_host = BUNNY.precompute((&scene.bunny, &vertices), &CasterChoice::Host, progress)?.0;
         let maps = PrtCardOptions { map_format: TexelFormat::Rgba32f, ..PrtCardOptions::default() };
         let (mut rows, mut first) = (Vec::new(), None);
         for format in FORMATS {
@@ -73,13 +76,11 @@ impl FormatSubject<'_> {
             let (factors, cast) = light::factors(patches, &engine, progress)?;
             let differing =
                 cast.map_or(0.0, |cast| cast.differing.unwrap_or(0) as f64 / cast.counts.rays.max(1) as f64);
-            let computed = transfer(&scene.bunny, &vertices, &engine, progress)?.0;
+            let computed = BUNNY.precompute((&scene.bunny, &vertices), &engine, progress)?.0;
             progress(&format!("pictures in {format}"), 0, 1);
-            let profile = &card.profile;
-            let drawn = [
-                bunny.draw(profile, executor, view, &maps).ok(),
-                statue.draw(profile, executor, *view, FloatTexels::Fp32).ok(),
-            ];
+            let on = (&card.profile, executor);
+            let marble = statue.0.draw(|card| card.irradiate(statue.1), on, view, FloatTexels::Fp32);
+            let drawn = [bunny.0.draw(bunny.1, on, &view, &maps).ok(), marble.ok().map(|drawn| drawn.0)];
             let first = &*first.get_or_insert_with(|| drawn.clone());
             let off = |at: usize, mesh: &Mesh| -> Result<Option<f64>, StudyError> {
                 let Some((found, expected)) = drawn[at].as_ref().zip(first[at].as_ref()) else { return Ok(None) };
@@ -89,7 +90,7 @@ impl FormatSubject<'_> {
                 format,
                 differing,
                 by_rays: error(&direct(&system(factors)?)?),
-                by_sums: light::radiosity(&host, profile, executor).ok().map(|(found, ..)| error(&found)),
+                by_sums: light::radiosity(&host, on.0, executor).ok().map(|(found, ..)| error(&found)),
                 transfer: computed.off(&by_host).1,
                 pictures: [off(0, &scene.bunny)?, off(1, &scene.statue)?],
             });
@@ -98,7 +99,7 @@ impl FormatSubject<'_> {
     }
 
     /// Root mean square error of the pixels that show a model, in 255ths.
-    fn off(&self, mesh: &Mesh, (found, _): &Drawn, (expected, _): &Drawn) -> Result<f64, StudyError> {
+    fn off(&self, mesh: &Mesh, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Result<f64, StudyError> {
         let ideal = Configuration::format(FORMATS[0])?.profile;
         let seen = seen_pixels(&ideal, (mesh.positions(), mesh.triangles()), &self.view.camera)?;
         let mut sums = ErrorSums::default();

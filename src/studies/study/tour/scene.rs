@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, wide};
+use crate::options::Size;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::scene::{Camera, Material, Scene};
@@ -12,7 +13,7 @@ use crate::scene::{Camera, Material, Scene};
 /// How much smaller than its model a coarse body in the room is, so that the model hides it.
 const WITHIN: f64 = 0.93;
 
-/// A Cornell box, a bunny on its short block, and a statue on its floor.
+/// A Cornell box, a bunny on its short block, and a suit of armor on its floor.
 #[derive(Debug)]
 pub(super) struct TourScene {
     /// Walls and blocks, then coarse bodies in place of the models, which reflect light and cast shadows.
@@ -25,25 +26,25 @@ pub(super) struct TourScene {
 }
 
 impl TourScene {
-    pub(super) fn new(width: u32, height: u32) -> Result<Self, InputError> {
+    pub(super) fn new(size: Size, coarser: u32) -> Result<Self, InputError> {
         let empty = cornell(CornellBox { blocks: true, open: true });
-        let camera = empty.views.first().expect("a view of the box").camera(width, height)?;
-        let (bunny, statue) = (TransferModel::BiScaleBunny, TransferModel::Buddha);
-        let places = [(bunny, 1.5, DVec3::new(1.86, 1.69, 1.651)), (statue, 2.0, DVec3::new(4.2, 1.25, 0.001))];
+        let camera = empty.views.first().expect("a view of the box").camera(size.width, size.height)?;
+        // Models, their coarse bodies, heights, and the points that they stand on.
+        let places = [
+            (TransferModel::BiScaleBunny, [coarser, 10], 1.5, DVec3::new(1.86, 1.69, 1.651)),
+            (TransferModel::BiScaleArmor, [2 * coarser, 16], 2.2, DVec3::new(4.2, 1.25, 0.001)),
+        ];
         let (mut positions, mut triangles) = (empty.mesh().positions().to_vec(), empty.mesh().triangles().to_vec());
         let (mut materials, mut material_of) = (empty.materials().to_vec(), empty.material_of().to_vec());
         materials.push(Material::diffuse("models", [0.6; 3]));
-        for (model, height, foot) in places {
-            let body = placed(&model.mesh(if model == bunny { 6 } else { 22 }), WITHIN * height, foot)?;
+        for (model, [_, body], height, foot) in places {
+            let body = placed(&model.mesh(body), WITHIN * height, foot)?;
             let first = positions.len() as u32;
             triangles.extend(body.triangles().iter().map(|triangle| triangle.map(|corner| first + corner)));
             positions.extend(body.positions());
             material_of.resize(triangles.len(), materials.len() as u32 - 1);
         }
-        let [bunny, statue] = [(0, 1), (1, 4)].map(|(at, coarser)| {
-            let (model, height, foot) = places[at];
-            placed(&model.mesh(coarser), height, foot)
-        });
+        let [bunny, statue] = places.map(|(model, [fine, _], height, foot)| placed(&model.mesh(fine), height, foot));
         Ok(Self {
             room: Scene::new(Mesh::new(positions, triangles)?, materials, material_of, Vec::new())?,
             walls: empty.mesh().clone(),
