@@ -84,10 +84,10 @@ fn short_formats_leak_into_the_room() {
     let ran = crossbar_in(folder.path(), &line.split_whitespace().collect::<Vec<_>>(), "");
     let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let cell = |row: usize, name: &str| report["casters"][row][name].as_f64().expect("a number");
-    for name in ["differing", "factors_%", "largest_relative", "mean_relative"] {
+    for name in ["differing", "factors_percent", "largest_relative", "mean_relative"] {
         assert!(cell(0, name) == 0.0 && cell(1, name) > 0.0, "{name}: {report}");
     }
-    assert!(cell(0, "rays") == cell(1, "rays") && cell(0, "on_card_%") > 50.0, "{report}");
+    assert!(cell(0, "rays") == cell(1, "rays") && cell(0, "on_card_percent") > 50.0, "{report}");
 }
 
 #[test]

@@ -38,7 +38,8 @@ use scene::{TourScene, middle};
 const PATCHES: usize = 800;
 /// Faces of the room and of the bodies in it.
 const LEAST_PATCHES: usize = 200;
-/// The card that rays are cast and the bunny drawn on, and that of radiosity and marble.
+/// The card that draws the bunny, and that of rays, radiosity and marble. Rays start so near to a surface that only
+/// single precision sees them leave it.
 const RADEON: &str = "r300";
 const GEFORCE: &str = "nv35";
 
@@ -70,14 +71,14 @@ impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let executor = Executor::from(ExecutorKind::Batch);
         let [radeon, geforce] = [Profile::named(RADEON)?, Profile::named(GEFORCE)?];
-        let engine = CasterChoice::engine(Configuration::of(&radeon), executor.clone());
+        let engine = CasterChoice::engine(Configuration::of(&geforce), executor.clone());
         let scene = TourScene::new(self.size, self.coarser)?;
         let (camera, mut clock) = (scene.camera, Clock::default());
 
         let patches =
             Patches::new(&scene.room, Subdivision::AtMost((PATCHES / self.coarser as usize).max(LEAST_PATCHES)))?;
         let (factors, cast) = light::factors(&patches, &engine, progress)?;
-        clock.rays("rays of form factors", &radeon, cast);
+        clock.rays("rays of form factors", &geforce, cast);
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
         progress("radiosity", 0, 1);
         let (radiosity, iterations, time) = light::radiosity(&system, &geforce, &executor)?;
@@ -85,12 +86,12 @@ impl Study for Parameters {
         let exposure = radiosity::exposure(&patches, system.emittance(), &radiosity);
         let probe = |model| light::probe(&patches, &radiosity, &scene.walls, middle(model), &engine);
         let (by_bunny, cast) = probe(&scene.bunny)?;
-        clock.rays("rays of the bunny's probe", &radeon, cast);
+        clock.rays("rays of the bunny's probe", &geforce, cast);
         let (by_statue, cast) = probe(&scene.statue)?;
-        clock.rays("rays of the statue's probe", &radeon, cast);
+        clock.rays("rays of the statue's probe", &geforce, cast);
         let vertices = Vertices::new(&scene.bunny, Tangents::Any)?;
         let (computed, cast) = BUNNY.precompute((&scene.bunny, &vertices), &engine, progress)?;
-        clock.rays("rays of the bunny's transfer", &radeon, cast);
+        clock.rays("rays of the bunny's transfer", &geforce, cast);
         progress("clusters of the bunny", 0, 1);
         let (bunny, bunny_light) = (BUNNY.model(vertices, computed), light::harmonic(&by_bunny, BUNNY.order)?);
         progress("links of the statue", 0, 1);
@@ -101,7 +102,7 @@ impl Study for Parameters {
         let mut caster = engine.open_judged(&scene.statue, Sides::Both)?;
         let beams = environment::sources(&by_statue, SHADOW_GROUP);
         let irradiance = distant_irradiance(&atlas, &beams, statue.eta, &mut caster).map_err(InputError::from)?;
-        clock.rays("shadow rays of the statue", &radeon, caster.record());
+        clock.rays("shadow rays of the statue", &geforce, caster.record());
 
         progress("pictures", 0, 1);
         let view = MeshView { camera, exposure, format: TexelFormat::Bgra8 };
@@ -153,8 +154,8 @@ impl Study for Parameters {
 const ROOM: &str = "The room by matrix radiosity, the bunny by clustered principal components, the statue by subsurface \
     scattering: each drawn by its card.";
 
-const ABOUT: &str = "1. The Ray Engine on a Radeon 9700 casts the rays between the patches of the room. 2. A GeForce FX \
-    5900 Ultra solves for radiosity. Coarse bodies stand in the room for the models: they reflect light and cast shadows. \
-    3. A probe at each model asks by rays which patch it sees in each direction. 4. The bunny's transfer, by rays again, \
-    turns its probe's light into the picture of a glossy surface; the statue, a suit of armor of marble, scatters its probe's light below the \
-    surface.";
+const ABOUT: &str = "1. The Ray Engine on a GeForce FX 5900 Ultra casts the rays between the patches of the room, and the card \
+    solves for radiosity. Coarse bodies stand in the room for the models: they reflect light and cast shadows. 2. A probe at \
+    each model asks by rays which patch it sees in each direction. 3. The bunny's transfer, by rays again, turns its probe's \
+    light into the picture of a glossy surface on a Radeon 9700. 4. The statue, a suit of armor of marble, scatters its \
+    probe's light below the surface.";
