@@ -61,7 +61,7 @@ impl Clock {
 
     /// Adds the table and the trace.
     pub(super) fn report(&self, found: &mut Findings) -> Result<(), StudyError> {
-        let mut table = Table::of("One clock", "step card work starts_ms takes_ms");
+        let mut table = Table::of("Steps", "step card work starts_ms takes_ms");
         let (mut start, mut slices) = (Picoseconds::ZERO, Vec::new());
         for Step { what, card, work, time, .. } in &self.0 {
             let [starts, takes] = [start, *time].map(|time| Cell::measured(1e3 * time.seconds()));

@@ -114,24 +114,24 @@ impl FormatSubject<'_> {
 pub(super) fn conclude(rows: &[FormatRow], found: &mut Findings) {
     for FormatRow { format, differing, by_rays, .. } in rows.iter().filter(|row| row.format == "s3.12") {
         found.conclusion(format!(
-            "In {format} {} of the rays differ from exact arithmetic, and a patch is off by up to {}.",
+            "In {format} {} of the rays differ from exact arithmetic, and the room is {} brighter than by the host's rays.",
             percent(*differing),
-            percent(by_rays.relative_unlit),
+            percent(by_rays.bias),
         ));
     }
 }
 
 /// Adds the table.
 pub(super) fn report(rows: &[FormatRow], found: &mut Findings) {
-    let columns = "format rays_differing_% patch_by_rays_% patch_by_sums_% transfer_% bunny_255ths statue_255ths";
-    let mut table = Table::of("What each number format costs", columns);
+    let columns = "format rays_differing_% room_by_rays_% room_by_sums_% transfer_% bunny_255ths statue_255ths";
+    let mut table = Table::of("Errors by format", columns);
     let ran = |cell: Option<Cell>| cell.unwrap_or_else(|| "cannot run".into());
     for row in rows {
         table.push([
             row.format.into(),
             Cell::percent(100.0 * row.differing),
-            Cell::percent(100.0 * row.by_rays.relative_unlit),
-            ran(row.by_sums.map(|error| Cell::percent(100.0 * error.relative_unlit))),
+            Cell::percent(100.0 * row.by_rays.bias),
+            ran(row.by_sums.map(|error| Cell::percent(100.0 * error.bias))),
             Cell::percent(100.0 * row.transfer),
             ran(row.pictures[0].map(Cell::measured)),
             ran(row.pictures[1].map(Cell::measured)),
@@ -142,7 +142,7 @@ pub(super) fn report(rows: &[FormatRow], found: &mut Findings) {
 }
 
 const EXPLAINED: &str = "Each system on a card without limits that computes in the format. rays_differing: rays of the \
-    form factors that hit another triangle than in exact arithmetic, or none. patch_by_rays: the largest relative error of a \
-    patch that does not emit, from the form factors of these rays; patch_by_sums: the same from the host's form factors and \
+    form factors that hit another triangle than in exact arithmetic, or none. room_by_rays: the mean error of patches \
+    that do not emit, from the form factors of these rays; room_by_sums: the same from the host's form factors and \
     iterations in the format. transfer: coefficients of the bunny by these rays, root mean square, relative. The last two \
     columns are root mean squares of the models' pixels in 255ths of white, against fp32.";

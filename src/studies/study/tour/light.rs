@@ -53,7 +53,7 @@ pub(super) fn radiosity(
     let solver = CardSolver::new(profile.clone(), executor.clone(), system, Packing::Rgb, Storage::Fp32);
     let mut solver = solver.map_err(no_card)?;
     solver.record(true);
-    let options = CardOptions { tolerance: 1e-4, most_iterations: ITERATIONS, check_every: 1 };
+    let options = CardOptions { tolerance: 1e-6, most_iterations: ITERATIONS, check_every: 1 };
     let solution = solver.solve(system, &options, &mut |_| ()).map_err(no_card)?;
     Ok((to_f64(&solution.radiosity), solution.iterations(), modelled(profile, &solver.take_log())?))
 }

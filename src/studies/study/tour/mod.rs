@@ -54,7 +54,7 @@ const BUNNY: GlossyTransfer = GlossyTransfer {
 };
 /// Texels along a side of the statue's atlas, with 16 links each, and millimeters per unit of the room.
 const SIDE: u32 = 128;
-const MM_PER_UNIT: f64 = 10.0;
+const MM_PER_UNIT: f64 = 40.0;
 /// Texels of the light along a side of the square that a shadow ray on the statue represents.
 const SHADOW_GROUP: usize = 8;
 

@@ -11,7 +11,7 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::scene::{Camera, Material, Scene};
 
 /// How much smaller than its model a coarse body in the room is, so that the model hides it.
-const WITHIN: f64 = 0.93;
+const WITHIN: f64 = 0.86;
 
 /// A Cornell box, a bunny on its short block, and a suit of armor on its floor.
 #[derive(Debug)]
